@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+#include "wheatstone/progress.h"
+
+namespace wheatstone::cli {
+
+/// What every command shares; filled from the command line before a command runs.
+struct Session {
+  bool json = false;        ///< print one JSON object on standard output instead of text
+  bool verbose = false;
+  int threads = 0;          ///< 0: as many as the machine has
+  std::uint64_t seed = 1;
+  Progress progress;        ///< draws the bar and throws Error{interrupted} after Ctrl-C
+};
+
+// Each adds its command to the program. A command throws wheatstone::Error; main turns that into one line and the
+// exit code. The session outlives the commands and is filled when their callbacks run.
+void add_match_command(CLI::App& program, const Session& session);
+void add_paint_command(CLI::App& program, const Session& session);
+void add_measure_command(CLI::App& program, const Session& session);
+void add_synth_command(CLI::App& program, const Session& session);
+void add_info_command(CLI::App& program, const Session& session);
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "command.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/describe_image.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/painting/painting_file.h"
+
+namespace wheatstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// The smallest and largest of the known disparities seen.
+struct DisparityRange {
+  float nearest = -std::numeric_limits<float>::infinity();
+  float farthest = std::numeric_limits<float>::infinity();
+  std::size_t known = 0;
+
+  void add(float disparity) {
+    if (std::isnan(disparity)) return;
+    nearest = std::max(nearest, disparity);
+    farthest = std::min(farthest, disparity);
+    ++known;
+  }
+};
+
+void put_range(ordered_json& facts, const DisparityRange& range) {
+  if (range.known == 0) return;
+  facts["farthest_disparity_px"] = range.farthest;
+  facts["nearest_disparity_px"] = range.nearest;
+}
+
+ordered_json facts_of_disparity(const fs::path& path, std::optional<float> scale) {
+  const Image<float> disparity = read_disparity(path, scale);
+  DisparityRange range;
+  for (const float value : disparity.pixels()) range.add(value);
+  ordered_json facts = {{"kind", "disparity"}, {"width", disparity.width()}, {"height", disparity.height()}};
+  facts["known_share"] = static_cast<double>(range.known) / static_cast<double>(disparity.pixels().size());
+  put_range(facts, range);
+  return facts;
+}
+
+ordered_json facts_of_painting(const fs::path& path) {
+  const Painting painting = read_painting(path);
+  DisparityRange range;
+  ordered_json layers = ordered_json::array();
+  std::size_t strokes = 0;
+  for (const Layer& layer : painting.layers) {
+    for (const ControlPoint& point : layer.points) range.add(point.disparity);
+    strokes += layer.strokes.size();
+    layers.push_back(
+        {{"radius_px", layer.radius_px}, {"strokes", layer.strokes.size()}, {"points", layer.points.size()}});
+  }
+  ordered_json facts = {{"kind", "painting"}, {"width", painting.width}, {"height", painting.height}};
+  facts["strokes"] = strokes;
+  put_range(facts, range);
+  facts["layers"] = std::move(layers);
+  return facts;
+}
+
+ordered_json facts_of_picture(const ImageDescription& picture) {
+  ordered_json facts = {{"kind", "picture"}, {"format", picture.format}};
+  facts["width"] = picture.width;
+  facts["height"] = picture.height;
+  facts["channels"] = picture.channels;
+  facts["has_alpha"] = picture.has_alpha;
+  facts["bits"] = picture.bits;
+  facts["is_float"] = picture.is_float;
+  facts["exif_orientation"] = picture.orientation;
+  return facts;
+}
+
+ordered_json facts_of(const fs::path& path, std::optional<float> scale) {
+  if (path.extension() == ".wst") return facts_of_painting(path);
+  if (scale) return facts_of_disparity(path, scale);
+  const ImageDescription picture = describe_image(path);
+  // One channel of floats is no photograph.
+  if (picture.is_float && picture.channels == 1) return facts_of_disparity(path, {});
+  return facts_of_picture(picture);
+}
+
+std::string as_text(const ordered_json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void print_as_text(const ordered_json& facts) {
+  for (const auto& [name, value] : facts.items()) {
+    std::string label = name;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    if (!value.is_array()) {
+      fmt::print("{}: {}\n", label, as_text(value));
+      continue;
+    }
+    fmt::print("{}:\n", label);
+    for (const ordered_json& entry : value) {
+      std::string line;
+      for (const auto& [key, part] : entry.items()) line += fmt::format("  {} {}", key, as_text(part));
+      fmt::print("{}\n", line);
+    }
+  }
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program, const Session& session) {
+  struct Arguments {
+    std::string file;
+    std::optional<float> scale;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("info", "Tell what is in a picture, a disparity file or a painting");
+  command
+      ->add_option("FILE", arguments->file, "Picture, disparity (.pfm, .exr, or any with --scale) or painting (.wst)")
+      ->required();
+  command->add_option("--scale", arguments->scale, "Read the picture as disparities: value / SCALE pixels")
+      ->check(CLI::PositiveNumber);
+  command->footer("Example:\n  wheatstone info left.png");
+  command->callback([arguments, &session] {
+    const ordered_json facts = facts_of(arguments->file, arguments->scale);
+    if (session.json) {
+      fmt::print("{}\n", facts.dump(2));
+    } else {
+      print_as_text(facts);
+    }
+  });
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,70 @@
+#include "program.h"
+
+#include <string>
+
+namespace wheatstone::cli {
+namespace {
+
+/// A command's help, which also tells of the options that all commands share.
+class CommandHelp : public CLI::Formatter {
+ public:
+  std::string make_footer(const CLI::App* app) const override {
+    const CLI::App* program = app->get_parent();
+    if (program == nullptr) return CLI::Formatter::make_footer(app);
+    const auto shared = program->get_options([](const CLI::Option* option) {
+      return option->nonpositional() && option->get_group() == "Options" && !option->check_lname("help");
+    });
+    return make_group("Options of every command", false, shared).substr(1) + "\n" + CLI::Formatter::make_footer(app);
+  }
+};
+
+void add_shared_options(CLI::App& program, SharedOptions& options) {
+  Session& session = options.session;
+  program.add_flag("--json", session.json, "Print one JSON object instead of text");
+  program.add_option("--threads", session.threads, "Threads to use; 0 for as many as the machine has")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  program.add_option("--seed", session.seed, "Seed of everything random: the same seed gives the same bytes")
+      ->capture_default_str();
+  CLI::Option* verbose = program.add_flag("-v,--verbose", session.verbose, "Tell more");
+  program.add_flag("--quiet", options.quiet, "Tell nothing but errors and results")->excludes(verbose);
+  program
+      .set_config("--config", "", "TOML file with values for any of these options, and for a command's in [COMMAND]")
+      ->type_name("FILE.toml");
+  program.allow_config_extras(CLI::config_extras_mode::error);
+  program.set_version_flag("--version", "wheatstone " WHEATSTONE_VERSION);
+}
+
+}  // namespace
+
+std::unique_ptr<CLI::App> make_program(SharedOptions& options) {
+  auto program = std::make_unique<CLI::App>("Pictures for two eyes, and for forty-five.", "wheatstone");
+  program->formatter(std::make_shared<CommandHelp>());
+  // Taken over by every command: what all share may stand before or behind the command's name.
+  program->fallthrough();
+  program->require_subcommand(1);
+  program->get_formatter()->label("SUBCOMMAND", "COMMAND");
+  program->footer(
+      "'wheatstone COMMAND --help' tells more. Exit codes: 0 done, 2 wrong usage, 3 bad input,\n"
+      "4 cannot read or write, 5 interrupted.");
+  add_shared_options(*program, options);
+
+  const Session& session = options.session;
+#ifdef WHEATSTONE_HAS_MATCH
+  add_match_command(*program, session);
+#endif
+#ifdef WHEATSTONE_HAS_PAINT
+  add_paint_command(*program, session);
+#endif
+#ifdef WHEATSTONE_HAS_MEASURE
+  add_measure_command(*program, session);
+#endif
+#ifdef WHEATSTONE_HAS_SYNTH
+  add_synth_command(*program, session);
+#endif
+  add_info_command(*program, session);
+  for (CLI::App* command : program->get_subcommands({})) command->group("Commands");
+  return program;
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,35 @@
+# A room is one folder of src/wheatstone, one static library and one test program.
+#
+#   wheatstone_room(stereo
+#     SOURCES match.cpp ...          compiled into the library
+#     ABOVE image depth              the rooms that it may include
+#     LIBRARIES opencv_calib3d ...   bought libraries that only its .cpp files see
+#     TESTS match_test.cpp ...)      compiled into wheatstone_stereo_test
+add_library(wheatstone_warnings INTERFACE)
+target_compile_options(wheatstone_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+
+function(wheatstone_room room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ABOVE;LIBRARIES;TESTS" ${ARGN})
+  set(target wheatstone_${room})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(Wheatstone::${room} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:wheatstone_warnings> ${ARG_LIBRARIES})
+  foreach(above IN LISTS ARG_ABOVE)
+    target_link_libraries(${target} PUBLIC wheatstone_${above})
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY WHEATSTONE_ROOMS ${target})
+
+  if(WHEATSTONE_TESTS AND ARG_TESTS)
+    add_executable(${target}_test ${ARG_TESTS})
+    target_link_libraries(${target}_test PRIVATE ${target} wheatstone_warnings GTest::gmock GTest::gtest_main ${ARG_LIBRARIES})
+    target_include_directories(${target}_test PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_compile_definitions(${target}_test PRIVATE
+      WHEATSTONE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
+    gtest_discover_tests(${target}_test DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  endif()
+endfunction()

@@ -1,0 +1,28 @@
+#include "wheatstone/depth/convergence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace wheatstone {
+
+float depth_from_disparity(float disparity_px, float scale) {
+  if (disparity_px == 0) return std::numeric_limits<float>::infinity();
+  return disparity_px > 0 ? scale / disparity_px : std::numeric_limits<float>::quiet_NaN();
+}
+
+float disparity_from_depth(float depth, float scale) { return scale / depth; }
+
+float disparity_percentile(ImageView<const float> disparity, double share) {
+  std::vector<float> known;
+  known.reserve(static_cast<std::size_t>(disparity.width()) * disparity.height());
+  for (int y = 0; y < disparity.height(); ++y)
+    std::ranges::copy_if(disparity.row(y), std::back_inserter(known), [](float d) { return std::isfinite(d); });
+  if (known.empty()) return std::numeric_limits<float>::quiet_NaN();
+  const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(known.size() - 1));
+  std::ranges::nth_element(known, known.begin() + index);
+  return known[static_cast<std::size_t>(index)];
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+namespace wheatstone {
+
+/// A file that appears only when it is whole: write to `path()`, then `commit()` renames it to its real name.
+/// Destroyed without commit it is removed. The temporary name lies in the same folder and keeps the extension.
+/// What exists and is no plain file (a pipe, a device) is written to directly: there `path()` is the real name.
+class TemporaryFile {
+ public:
+  /// Creates the temporary file, empty. Throws Error{cannot_read_write} where the folder of `final_path` does not exist
+  /// or cannot be written, or where `final_path` is itself a folder.
+  explicit TemporaryFile(std::filesystem::path final_path);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::filesystem::path& path() const { return temporary_path_; }
+
+  /// Gives the file its real name, in place of what had it. Throws Error{cannot_read_write}.
+  void commit();
+
+ private:
+  std::filesystem::path final_path_;
+  std::filesystem::path temporary_path_;
+  bool pending_ = false;  ///< a temporary file exists that is to be renamed or removed
+};
+
+}  // namespace wheatstone

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace wheatstone {
+
+/// All bytes of a file. Throws Error{bad_input} where it cannot be read or is longer than `most_bytes`.
+std::string read_whole_file(const std::filesystem::path& path, std::size_t most_bytes);
+
+/// Writes a file under a temporary name and renames it when it is whole. Throws Error{cannot_read_write}.
+void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace wheatstone

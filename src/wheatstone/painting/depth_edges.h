@@ -1,0 +1,16 @@
+#pragma once
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// 255 for every pixel whose (2R+1)² window holds a disparity that differs from its own by more than `threshold_px`:
+/// a brush of radius R set down there would spill paint onto another surface (Stavrakis & Gelautz 2005, sec. 3.2).
+Image<std::uint8_t> near_depth_edge(ImageView<const float> disparity, float radius_px, float threshold_px);
+
+/// 255 for every pixel that has a surface nearer than its own by more than `threshold_px` within `reach_px`. A camera
+/// mixes the two surfaces' colours there, and disparity maps are least to be trusted: a stroke of that colour would
+/// carry a rim of the near object away with the far one.
+Image<std::uint8_t> behind_depth_edge(ImageView<const float> disparity, float reach_px, float threshold_px);
+
+}  // namespace wheatstone

@@ -1,0 +1,39 @@
+#include "wheatstone/painting/layer_order.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheatstone/painting/random.h"
+
+namespace wheatstone {
+
+void append_strokes(const Layer& part, Layer& whole) {
+  const auto offset = static_cast<std::uint32_t>(whole.points.size());
+  whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+  whole.strokes.reserve(whole.strokes.size() + part.strokes.size());
+  for (Stroke stroke : part.strokes) {
+    stroke.first_point += offset;
+    whole.strokes.push_back(stroke);
+  }
+}
+
+void sort_far_to_near(Layer& layer, std::uint64_t seed) {
+  struct Place {
+    std::int32_t depth;
+    std::uint32_t stroke;
+    std::uint64_t random;
+  };
+  std::vector<Place> places(layer.strokes.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i)
+    places[i] = {static_cast<std::int32_t>(std::lround(layer.strokes[i].disparity)), i, hash({seed, i})};
+  std::ranges::sort(places, [](const Place& a, const Place& b) {
+    if (a.depth != b.depth) return a.depth < b.depth;
+    return a.random != b.random ? a.random < b.random : a.stroke < b.stroke;
+  });
+  std::vector<Stroke> sorted;
+  sorted.reserve(places.size());
+  for (const Place& place : places) sorted.push_back(layer.strokes[place.stroke]);
+  layer.strokes = std::move(sorted);
+}
+
+}  // namespace wheatstone

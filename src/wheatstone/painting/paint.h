@@ -1,0 +1,44 @@
+#pragma once
+
+#include "wheatstone/painting/painting.h"
+#include "wheatstone/painting/style.h"
+#include "wheatstone/progress.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone {
+
+/// Where the time of a painting went, in seconds, over all eyes and layers. Planning includes drawing the coarser
+/// layers, against which the finer ones are planned; rasterising is drawing the finished pictures.
+struct PaintingTimes {
+  double planning_s = 0;
+  double rasterising_s = 0;
+};
+
+/// A painting of both eyes and its two pictures. With Propagation::raster the right picture is made from pixels and is
+/// not what `draw` makes of the marks.
+struct PaintedPair {
+  Painting painting;
+  StereoPair pictures;
+  double left_bare_share = 0;   ///< of the pixels, 0..1, that no stroke covers
+  double right_bare_share = 0;
+  PaintingTimes times;
+};
+
+/// Paints a rectified pair so that its strokes fuse. The geometry must have the pair's size and no unknown disparity.
+/// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not fit.
+PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                  const Progress& progress = {});
+
+/// One eye, painted alone.
+struct PaintedView {
+  Painting painting;
+  Image<Rgb8> picture;
+  double bare_share = 0;
+  PaintingTimes times;
+};
+
+/// Paints one view from its photograph and disparity, for itself alone.
+PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
+                       const Style& style, const Progress& progress = {});
+
+}  // namespace wheatstone

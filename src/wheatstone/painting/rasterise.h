@@ -1,0 +1,24 @@
+#pragma once
+
+#include "wheatstone/painting/canvas.h"
+#include "wheatstone/painting/painting.h"
+
+namespace wheatstone {
+
+/// Draws one layer's strokes over a canvas, in their order, as the view position `view` sees them: what the next layer
+/// is planned against. Antialiased; a stroke's cover is the largest of its dabs', so that where it crosses itself it is
+/// not darker. Parallel over bands of rows; the same bytes on any number of threads.
+void rasterise(const Layer& layer, float view, Canvas& canvas);
+
+/// A painting as one view sees it.
+struct DrawnView {
+  Image<Rgb8> picture;
+  double bare_share = 0;  ///< share of the pixels, 0..1, of which strokes cover less than half
+};
+
+/// Draws a whole painting for one view over `background`, which has the painting's size, or over the painting's canvas
+/// colour where `background` is empty. Works from the nearest stroke to the farthest and leaves out what is hidden; the
+/// picture is that of `rasterise`, layer by layer, within rounding.
+DrawnView draw(const Painting& painting, float view, ImageView<const Rgb8> background = {});
+
+}  // namespace wheatstone

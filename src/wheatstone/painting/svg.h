@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "wheatstone/painting/painting.h"
+
+namespace wheatstone {
+
+/// A painting as one view sees it, as an SVG document over the canvas colour: every stroke a path with round ends, its
+/// B-spline written as the Bézier curves that are equal to it. The brush's soft rim becomes a hard edge at half cover.
+std::string svg_of(const Painting& painting, float view);
+
+/// Throws Error{cannot_read_write}.
+void write_svg(const std::filesystem::path& path, const Painting& painting, float view);
+
+}  // namespace wheatstone

@@ -1,0 +1,210 @@
+#include "wheatstone/stereo/match.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/ximgproc/disparity_filter.hpp>
+
+#include "wheatstone/error.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/stereo/match_internal.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr std::array<std::string_view, 3> names{"sgbm", "bm", "dp"};
+constexpr int least_side_px = 16;
+constexpr double most_pixels = 12e6;
+constexpr int most_disparities = 512;
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+void check(const StereoPair& pair, const MatchOptions& options) {
+  if (!same_size(pair.left, pair.right))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the right picture is {}x{} pixels, expected the left one's {}x{}", pair.right.width(),
+                            pair.right.height(), pair.left.width(), pair.left.height()));
+  if (pair.left.width() < least_side_px || pair.left.height() < least_side_px)
+    throw Error(ErrorKind::bad_input, fmt::format("the pictures are {}x{} pixels, expected at least {}x{}",
+                                                  pair.left.width(), pair.left.height(), least_side_px, least_side_px));
+  if (options.block_px < 1 || options.block_px > 51 || options.block_px % 2 == 0)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("the matching block is {} pixels wide, expected an odd number, 1 to 51", options.block_px));
+  if (options.range && (options.range->least >= options.range->largest ||
+                        std::max(std::abs(options.range->least), std::abs(options.range->largest)) >= pair.left.width()))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("the disparity range is {}:{}, expected least:largest within the width of {} pixels",
+                            options.range->least, options.range->largest, pair.left.width()));
+}
+
+Image<float> match_one_way(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,
+                           const MatchOptions& options) {
+  if (options.matcher != Matcher::dp) return match_with_opencv(own, other, range, options);
+  cv::Mat own_luminance, other_luminance;
+  cv::cvtColor(own, own_luminance, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(other, other_luminance, cv::COLOR_RGB2GRAY);
+  return match_scan_lines(own_luminance, other_luminance, range);
+}
+
+/// The right eye's disparity is the left eye's of the pair seen in a mirror.
+Image<float> match_right(const cv::Mat& left, const cv::Mat& right, const DisparityRange& range,
+                         const MatchOptions& options) {
+  cv::Mat mirrored_left, mirrored_right;
+  cv::flip(left, mirrored_left, 1);
+  cv::flip(right, mirrored_right, 1);
+  Image<float> disparity = match_one_way(mirrored_right, mirrored_left, range, options);
+  cv::Mat matrix = as_mat(disparity);
+  cv::flip(matrix, matrix, 1);
+  return disparity;
+}
+
+/// Drops what the other view's disparity does not confirm.
+Image<float> confirmed(const Image<float>& own, const Image<float>& other, float sign, float tolerance_px) {
+  Image<float> result(own.width(), own.height(), unknown);
+  tbb::parallel_for(0, own.height(), [&](int y) {
+    const auto from = own.row(y), into = other.row(y);
+    const auto to = result.row(y);
+    for (int x = 0; x < own.width(); ++x) {
+      const float target = std::floor(static_cast<float>(x) + 0.5f + sign * from[x]);
+      if (!(target >= 0 && target < static_cast<float>(own.width()))) continue;
+      if (std::abs(into[static_cast<int>(target)] - from[x]) <= tolerance_px) to[x] = from[x];
+    }
+  });
+  return result;
+}
+
+constexpr int unknown_sixteenths = -32768;
+
+cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
+  cv::Mat sixteenths(disparity.height(), disparity.width(), CV_16S);
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x)
+      sixteenths.at<std::int16_t>(y, x) =
+          std::isfinite(disparity(x, y))
+              ? static_cast<std::int16_t>(std::lround(sign * disparity(x, y) * sixteenths_a_px))
+              : static_cast<std::int16_t>(unknown_sixteenths);
+  return sixteenths;
+}
+
+void remove_speckles(Image<float>& disparity, int least_surface_px) {
+  cv::Mat sixteenths = in_sixteenths(disparity, 1);
+  constexpr int same_surface = 2 * sixteenths_a_px;
+  cv::filterSpeckles(sixteenths, unknown_sixteenths, least_surface_px, same_surface);
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x)
+      if (sixteenths.at<std::int16_t>(y, x) == unknown_sixteenths) disparity(x, y) = unknown;
+}
+
+/// Weighted least squares, led by the picture's edges and by what both views agree on.
+Image<float> refined(const Image<float>& left, const Image<float>& right, const cv::Mat& left_picture,
+                     const MatchOptions& options) {
+  const auto filter = cv::ximgproc::createDisparityWLSFilterGeneric(true);
+  filter->setLambda(options.wls_lambda);
+  filter->setSigmaColor(options.wls_sigma);
+  filter->setLRCthresh(static_cast<int>(options.check_tolerance_px * sixteenths_a_px));
+  filter->setDepthDiscontinuityRadius(options.block_px);
+  cv::Mat result;
+  filter->filter(in_sixteenths(left, 1), left_picture, result, in_sixteenths(right, -1));
+  Image<float> disparity(left.width(), left.height());
+  cv::Mat target = as_mat(disparity);
+  result.convertTo(target, CV_32F, 1.0 / sixteenths_a_px);
+  return disparity;
+}
+
+double finite_share(const Image<float>& disparity) {
+  const auto known = std::ranges::count_if(disparity.pixels(), [](float d) { return std::isfinite(d); });
+  return static_cast<double>(known) / static_cast<double>(disparity.pixels().size());
+}
+
+MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options) {
+  const cv::Mat left_picture = as_mat(pair.left), right_picture = as_mat(pair.right);
+  Image<float> left, right;
+  tbb::parallel_invoke([&] { left = match_one_way(left_picture, right_picture, range, options); },
+                       [&] { right = match_right(left_picture, right_picture, range, options); });
+  if (options.left_right_check) {
+    Image<float> left_confirmed = confirmed(left, right, -1, options.check_tolerance_px);
+    right = confirmed(right, left, 1, options.check_tolerance_px);
+    left = std::move(left_confirmed);
+  }
+  remove_speckles(left, options.least_surface_px);
+  remove_speckles(right, options.least_surface_px);
+
+  MatchedPair matched;
+  matched.range = range;
+  matched.left_found_share = finite_share(left);
+  matched.right_found_share = finite_share(right);
+  if (matched.left_found_share == 0)
+    throw Error(ErrorKind::bad_input, fmt::format("no pixel of the two pictures matches between disparities {} and {}",
+                                                  range.least, range.largest));
+  fill_from_farther_side(left);
+  fill_from_farther_side(right);
+  if (options.wls) left = refined(left, right, left_picture, options);
+  // Filling goes scan line by scan line; a median across them takes the streaks out and keeps the edges.
+  cv::Mat matrix = as_mat(left);
+  cv::medianBlur(matrix, matrix, 5);
+  matched.geometry = geometry_from_left(std::move(left));
+  return matched;
+}
+
+/// Smaller by this factor when a pair is too large, or its disparities too many, to be matched as it is.
+double reduction_for(const StereoPair& pair, const DisparityRange& range) {
+  const double pixels = static_cast<double>(pair.left.width()) * pair.left.height();
+  return std::min({1.0, std::sqrt(most_pixels / pixels),
+                   static_cast<double>(most_disparities) / (range.largest - range.least + 1)});
+}
+
+Image<Rgb8> resized(const Image<Rgb8>& picture, double scale) {
+  Image<Rgb8> result(std::max(static_cast<int>(picture.width() * scale), least_side_px),
+                     std::max(static_cast<int>(picture.height() * scale), least_side_px));
+  cv::Mat target = as_mat(result);
+  cv::resize(as_mat(picture), target, target.size(), 0, 0, cv::INTER_AREA);
+  return result;
+}
+
+Image<float> enlarged(const Image<float>& disparity, int width, int height) {
+  Image<float> result(width, height);
+  cv::Mat target = as_mat(result);
+  cv::resize(as_mat(disparity), target, target.size(), 0, 0, cv::INTER_NEAREST);
+  target *= static_cast<double>(width) / disparity.width();
+  return result;
+}
+
+}  // namespace
+
+std::span<const std::string_view> matcher_names() { return names; }
+
+std::optional<Matcher> matcher_by_name(std::string_view name) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return static_cast<Matcher>(i);
+  return {};
+}
+
+MatchedPair match(const StereoPair& pair, const MatchOptions& options, const Progress& progress) {
+  check(pair, options);
+  report(progress, "matching", 0);
+  const DisparityRange range = options.range ? *options.range : find_disparity_range(pair);
+  report(progress, "matching", 0.2);
+  const double scale = reduction_for(pair, range);
+  MatchedPair matched;
+  if (scale == 1) {
+    matched = match_at_this_size(pair, range, options);
+  } else {
+    const StereoPair small{resized(pair.left, scale), resized(pair.right, scale)};
+    const DisparityRange small_range{static_cast<int>(std::floor(range.least * scale)),
+                                     static_cast<int>(std::ceil(range.largest * scale))};
+    matched = match_at_this_size(small, small_range, options);
+    matched.range = range;
+    matched.geometry =
+        geometry_from_left(enlarged(matched.geometry.left_disparity, pair.left.width(), pair.left.height()));
+  }
+  report(progress, "matching", 1);
+  return matched;
+}
+
+}  // namespace wheatstone

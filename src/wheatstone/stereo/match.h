@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "wheatstone/progress.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone {
+
+/// How corresponding pixels are found.
+enum class Matcher {
+  sgbm,  ///< semi-global matching (OpenCV, MODE_SGBM_3WAY)
+  bm,    ///< block matching (OpenCV)
+  dp,    ///< dynamic programming along scan lines (Birchfield & Tomasi 1998), one of the two of Stavrakis & Gelautz 2005
+};
+
+std::span<const std::string_view> matcher_names();
+std::optional<Matcher> matcher_by_name(std::string_view name);
+
+/// Disparities looked for, in whole pixels, both ends included; either may be negative.
+struct DisparityRange {
+  int least = 0;
+  int largest = 64;
+};
+
+struct MatchOptions {
+  Matcher matcher = Matcher::sgbm;
+  std::optional<DisparityRange> range;  ///< none: from sparse matches
+  int block_px = 5;                     ///< side of the compared windows; odd. bm takes at least 11
+  bool left_right_check = true;         ///< drop what the other view does not confirm
+  float check_tolerance_px = 1;
+  int least_surface_px = 100;           ///< smaller connected patches of like disparity are dropped as speckles
+  bool wls = false;                     ///< edge-aware refinement (OpenCV ximgproc, weighted least squares)
+  double wls_lambda = 2000;
+  double wls_sigma = 1;
+};
+
+/// A matched pair. The shares are of the pixels, 0..1, whose disparity was found and not filled.
+struct MatchedPair {
+  StereoGeometry geometry;
+  DisparityRange range;
+  double left_found_share = 0;
+  double right_found_share = 0;
+};
+
+/// Finds the disparity of every pixel of a rectified pair, in both geometries, and both occlusion masks. Unknown places
+/// are filled from their farther neighbours. Pairs of more than about 12 megapixels, or with more than 512 disparities,
+/// are matched at a reduced size. The same result on every run and any number of threads.
+/// Throws Error{bad_input}: sizes differ, fewer than 16 pixels a side, nothing matches; Error{wrong_usage}: a range or
+/// block that makes no sense.
+MatchedPair match(const StereoPair& pair, const MatchOptions& options = {}, const Progress& progress = {});
+
+/// The range of disparities in a pair, from matched corners (ORB), with some room at either end.
+DisparityRange find_disparity_range(const StereoPair& pair);
+
+}  // namespace wheatstone

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "wheatstone/stereo/match.h"
+
+namespace wheatstone {
+
+/// OpenCV's matchers count disparities in sixteenths of a pixel.
+inline constexpr int sixteenths_a_px = 16;
+
+/// Disparity of the first of two 8-bit RGB pictures, in pixels, NaN where nothing was found. One way, unchecked.
+Image<float> match_with_opencv(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,
+                               const MatchOptions& options);
+
+/// The same by dynamic programming, for two luminance pictures: CV_8UC1.
+Image<float> match_scan_lines(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range);
+
+}  // namespace wheatstone

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// Which view a disparity belongs to, and is warped from.
+enum class Eye { left, right };
+
+/// The disparity of one eye carried forward into the other eye's geometry; nearest wins. Surfaces that the warp
+/// stretches stay whole: neighbours on a scan line whose disparities differ by at most a pixel are joined. Pixels that
+/// nothing lands on are NaN. Unknown disparities are passed over.
+Image<float> warp_disparity(ImageView<const float> disparity, Eye from);
+
+/// A picture carried into the other eye, and 255 for the pixels that something landed on.
+struct WarpedPicture {
+  Image<Rgb8> picture;
+  Image<std::uint8_t> covered;
+};
+
+/// Carries a picture forward along its disparity, under the same rules; colours are interpolated along the scan line.
+WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float> disparity, Eye from);
+
+/// Puts a warped picture over another of its size, where it is covered.
+void lay_over(const WarpedPicture& warped, Image<Rgb8>& picture);
+
+}  // namespace wheatstone
