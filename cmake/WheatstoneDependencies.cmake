@@ -1,13 +1,12 @@
 # What Wheatstone buys instead of writing; all of it is packaged by Debian 12 (scripts/install-deps).
-find_package(OpenCV REQUIRED COMPONENTS core imgproc calib3d features2d ximgproc)
-find_package(OpenImageIO REQUIRED)
-find_package(TBB REQUIRED)
-find_package(fmt REQUIRED)
-find_package(nlohmann_json REQUIRED)
+
+# As if from find_package(Wheatstone REQUIRED): a missing library ends the configuration.
+set(CMAKE_FIND_PACKAGE_NAME Wheatstone)
+set(Wheatstone_FIND_REQUIRED TRUE)
+include(${CMAKE_CURRENT_LIST_DIR}/WheatstoneLibraries.cmake)
+unset(CMAKE_FIND_PACKAGE_NAME)
+
+# Only while building: the command line's parser and the compiler of the painting file's schema.
 find_package(CLI11 REQUIRED)
-find_package(tomlplusplus REQUIRED)
-find_package(ZLIB REQUIRED)
 find_package(FlatBuffers REQUIRED)
 find_program(FLATC_PROGRAM flatc REQUIRED)
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)

@@ -1,0 +1,24 @@
+# What find_package(Wheatstone) finds: Wheatstone::wheatstone, all rooms in one. And the program.
+include(CMakePackageConfigHelpers)
+
+get_property(rooms GLOBAL PROPERTY WHEATSTONE_ROOMS)
+add_library(wheatstone INTERFACE)
+add_library(Wheatstone::wheatstone ALIAS wheatstone)
+target_link_libraries(wheatstone INTERFACE ${rooms})
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Wheatstone)
+install(TARGETS wheatstone ${rooms} EXPORT WheatstoneTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT WheatstoneTargets NAMESPACE Wheatstone:: DESTINATION ${package_folder})
+install(TARGETS wheatstone_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wheatstone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/WheatstoneConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/WheatstoneConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/WheatstoneConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/WheatstoneConfig.cmake
+  ${PROJECT_BINARY_DIR}/WheatstoneConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/WheatstoneLibraries.cmake
+  DESTINATION ${package_folder})

@@ -7,7 +7,9 @@
 #     TESTS match_test.cpp ...)      compiled into wheatstone_stereo_test
 add_library(wheatstone_warnings INTERFACE)
 target_compile_options(wheatstone_warnings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  # Options are structs with defaults: naming only those that differ is how they are meant to be filled.
+  -Wno-missing-field-initializers)
 
 function(wheatstone_room room)
   cmake_parse_arguments(ARG "" "" "SOURCES;ABOVE;LIBRARIES;TESTS" ${ARGN})

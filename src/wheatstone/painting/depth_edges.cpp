@@ -49,6 +49,15 @@ Image<std::uint8_t> near_depth_edge(ImageView<const float> disparity, float radi
   });
 }
 
+Image<float> distance_to_depth_edge(ImageView<const float> disparity, float threshold_px) {
+  const Image<std::uint8_t> edges = near_depth_edge(disparity, 1, threshold_px);
+  Image<float> distance(disparity.width(), disparity.height());
+  cv::Mat target = as_mat(distance);
+  cv::distanceTransform(as_mat(edges) == 0, target, cv::DIST_L2, 3);
+  target += 0.5;
+  return distance;
+}
+
 Image<std::uint8_t> behind_depth_edge(ImageView<const float> disparity, float reach_px, float threshold_px) {
   return mark_by_window(disparity, reach_px,
                         [=](float own, float nearest, float) { return nearest - own > threshold_px; });

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "wheatstone/error.h"
 #include "wheatstone/painting/canvas.h"
@@ -60,30 +61,41 @@ struct Easel {
   Canvas canvas;
 };
 
+/// What the depth test of one layer looks at.
+struct DepthTest {
+  DepthTest(const Easel& easel, float radius_px, float threshold_px, bool finest)
+      : edges(near_depth_edge(easel.disparity, radius_px, threshold_px)) {
+    if (!finest) return;
+    distance = distance_to_depth_edge(easel.disparity, threshold_px);
+    mixed_colours = behind_depth_edge(easel.disparity, radius_px / 2, threshold_px);
+  }
+  Image<std::uint8_t> edges, mixed_colours;
+  Image<float> distance;
+};
+
 Layer plan(const Easel& easel, const Style& style, const ScaledStyle& scaled, int layer,
            ImageView<const std::uint8_t> seeds = {}) {
   const float radius = scaled.radii_px[layer];
-  ReferencePicture reference;
-  Image<std::uint8_t> depth_edges, mixed_colours;
   const bool finest = layer + 1 == static_cast<int>(scaled.radii_px.size());
+  ReferencePicture reference;
+  std::optional<DepthTest> depth;
   tbb::parallel_invoke([&] { reference = make_reference(easel.photograph, radius, style); },
                        [&] {
-                         if (!style.depth_test) return;
-                         depth_edges = near_depth_edge(easel.disparity, radius, scaled.depth_threshold_px);
-                         if (finest)
-                           mixed_colours = behind_depth_edge(easel.disparity, radius / 2, scaled.depth_threshold_px);
+                         if (style.depth_test) depth.emplace(easel, radius, scaled.depth_threshold_px, finest);
                        });
-  const LayerPlan plan{.reference = reference,
-                       .canvas = easel.canvas,
-                       .disparity = easel.disparity,
-                       .depth_edges = depth_edges,
-                       .mixed_colours = mixed_colours,
-                       .seeds = seeds,
-                       .view = easel.view,
-                       .radius_px = radius,
-                       .depth_threshold_px = scaled.depth_threshold_px,
-                       .layer = layer,
-                       .finest = finest};
+  LayerPlan plan{.reference = reference,
+                 .canvas = easel.canvas,
+                 .disparity = easel.disparity,
+                 .seeds = seeds,
+                 .view = easel.view,
+                 .radius_px = radius,
+                 .layer = layer,
+                 .depth_threshold_px = scaled.depth_threshold_px};
+  if (depth) {
+    plan.depth_edges = depth->edges;
+    plan.edge_distance = depth->distance;
+    plan.mixed_colours = depth->mixed_colours;
+  }
   return plan_layer(plan, style);
 }
 

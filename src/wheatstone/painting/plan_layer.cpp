@@ -14,10 +14,13 @@
 namespace wheatstone {
 namespace {
 
-/// A grid of cells f_g·R wide; the last row and column may be cut off by the picture's edge.
+/// A grid of cells f_g·R wide, half that beside depth edges; the last row and column may be cut off by the picture's
+/// edge.
 struct Grid {
-  Grid(const LayerPlan& plan, const Style& style)
-      : cell_px(std::max(style.grid * plan.radius_px, 1.f)), width(plan.canvas.width), height(plan.canvas.height) {}
+  Grid(const LayerPlan& plan, const Style& style, Place place)
+      : cell_px(std::max(style.grid * plan.radius_px * (place == Place::open ? 1.f : 0.5f), 1.f)),
+        width(plan.canvas.width),
+        height(plan.canvas.height) {}
 
   int columns() const { return static_cast<int>(std::ceil(static_cast<float>(width) / cell_px)); }
   int rows() const { return static_cast<int>(std::ceil(static_cast<float>(height) / cell_px)); }
@@ -28,54 +31,62 @@ struct Grid {
   int width, height;
 };
 
-/// The best pixel found in a cell so far.
-struct Seed {
-  float error = -1;
-  int x = 0, y = 0;
-};
-
 /// Where on a bare cell a stroke would begin: the jitter of the grid.
 struct Target {
   float x, y;
 };
 
-bool may_begin(const LayerPlan& plan, int x, int y) {
+bool may_begin(const LayerPlan& plan, Place place, int x, int y) {
   if (!plan.seeds.empty() && plan.seeds(x, y) == 0) return false;
-  if (!plan.mixed_colours.empty() && plan.mixed_colours(x, y) != 0) return false;
-  return plan.finest || plan.depth_edges.empty() || plan.depth_edges(x, y) == 0;
+  if (plan.depth_edges.empty()) return place == Place::open;
+  if ((plan.depth_edges(x, y) != 0) != (place == Place::beside_edge)) return false;
+  return plan.mixed_colours.empty() || plan.mixed_colours(x, y) == 0;
 }
 
-/// Looks through one row of one cell for a pixel with a larger error than the seed's. Among bare pixels, which are all
-/// infinitely wrong, the one nearest to the cell's target wins.
-void improve_seed(const LayerPlan& plan, const float* errors, int begin, int end, int y, const Target& target,
-                  Seed& seed) {
+/// How much a stroke is wanted at a pixel; negative: not at all. Among bare pixels, which are all infinitely wrong, the
+/// one nearest to the cell's target is wanted most. A pixel right on a depth edge mixes two surfaces' colours: it is
+/// taken only where nothing else in the cell is bare.
+float desire(const LayerPlan& plan, Place place, float error, int x, int y, const Target& target) {
+  const bool on_edge = place == Place::beside_edge && plan.edge_distance(x, y) < 1;
+  if (error < bare_error) return on_edge ? -1 : error;
+  if (on_edge) return bare_error / 4;
+  const float dx = static_cast<float>(x) - target.x, dy = static_cast<float>(y) - target.y;
+  return bare_error - std::min(dx * dx + dy * dy, bare_error / 2);
+}
+
+/// Looks through one row of one cell for a better pixel than the seed's.
+void improve_seed(const LayerPlan& plan, Place place, const float* errors, int begin, int end, int y,
+                  const Target& target, Seed& seed) {
   for (int x = begin; x < end; ++x) {
-    float error = errors[x];
-    if (error >= bare_error) {
-      const float dx = static_cast<float>(x) - target.x, dy = static_cast<float>(y) - target.y;
-      error = bare_error - std::min(dx * dx + dy * dy, bare_error / 2);
-    }
-    if (error > seed.error && may_begin(plan, x, y)) seed = {error, x, y};
+    if (!may_begin(plan, place, x, y)) continue;
+    const float error = desire(plan, place, errors[x], x, y, target);
+    if (error > seed.error) seed = {error, x, y};
   }
 }
 
-bool has_seeds(const LayerPlan& plan, int y) {
-  if (plan.seeds.empty()) return true;
-  const auto row = plan.seeds.row(y);
-  return std::ranges::any_of(row, [](std::uint8_t seed) { return seed != 0; });
+bool has_seeds(const LayerPlan& plan, Place place, int y) {
+  const auto any = [](std::span<const std::uint8_t> row) {
+    return std::ranges::any_of(row, [](std::uint8_t value) { return value != 0; });
+  };
+  if (place == Place::beside_edge && !any(plan.depth_edges.row(y))) return false;
+  return plan.seeds.empty() || any(plan.seeds.row(y));
 }
 
-std::uint64_t cell_hash(const LayerPlan& plan, const Style& style, int column, int row, std::uint64_t purpose) {
-  return hash({style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(column),
-               static_cast<std::uint64_t>(row), plan.view < 0 ? 0ull : 1ull, purpose});
+/// What a random number decides.
+enum Purpose : std::uint64_t { jitter_x, jitter_y, stroke_choices };
+
+std::uint64_t cell_hash(const LayerPlan& plan, const Style& style, Place place, int column, int row, Purpose purpose) {
+  return hash({style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(place),
+               static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), purpose});
 }
 
-void add_stroke(const LayerPlan& plan, const Style& style, const Seed& seed, std::uint64_t random, Layer& layer) {
+void add_stroke(const LayerPlan& plan, const Style& style, Place place, const Seed& seed, std::uint64_t random,
+                Layer& layer) {
   Stroke stroke;
   stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
-  trace_stroke(plan, style, seed.x, seed.y, (random & 1) != 0, layer.points);
+  stroke.radius_px = stroke_radius(plan, place, seed);
+  trace_stroke(plan, style, seed, stroke.radius_px, (random & 1) != 0, layer.points);
   stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
-  stroke.radius_px = plan.radius_px;
   stroke.opacity = style.opacity;
   const ReferencePicture& reference = plan.reference;
   stroke.colour = jittered({reference.red(seed.x, seed.y), reference.green(seed.x, seed.y),
@@ -87,40 +98,51 @@ void add_stroke(const LayerPlan& plan, const Style& style, const Seed& seed, std
 }
 
 /// The strokes that begin in one row of cells.
-Layer plan_cells(const LayerPlan& plan, const Style& style, const Grid& grid, int row) {
-  enum Purpose : std::uint64_t { jitter_x, jitter_y, stroke_choices };
+Layer plan_cells(const LayerPlan& plan, const Style& style, Place place, const Grid& grid, int row) {
   std::vector<Seed> seeds(grid.columns());
   std::vector<Target> targets(grid.columns());
   for (int column = 0; column < grid.columns(); ++column) {
-    const float u = unit_float(cell_hash(plan, style, column, row, jitter_x));
-    const float v = unit_float(cell_hash(plan, style, column, row, jitter_y));
+    const float u = unit_float(cell_hash(plan, style, place, column, row, jitter_x));
+    const float v = unit_float(cell_hash(plan, style, place, column, row, jitter_y));
     targets[column] = {(static_cast<float>(column) + u) * grid.cell_px, (static_cast<float>(row) + v) * grid.cell_px};
   }
   std::vector<float> errors(plan.canvas.red.width());
   for (int y = grid.top(row); y < grid.top(row + 1); ++y) {
-    if (!has_seeds(plan, y)) continue;
+    if (!has_seeds(plan, place, y)) continue;
     squared_errors(plan.reference, plan.canvas, y, errors.data());
     for (int column = 0; column < grid.columns(); ++column)
-      improve_seed(plan, errors.data(), grid.left(column), grid.left(column + 1), y, targets[column], seeds[column]);
+      improve_seed(plan, place, errors.data(), grid.left(column), grid.left(column + 1), y, targets[column],
+                   seeds[column]);
   }
   Layer layer;
   const float squared_threshold = style.threshold * style.threshold;
   for (int column = 0; column < grid.columns(); ++column) {
     if (seeds[column].error > squared_threshold)
-      add_stroke(plan, style, seeds[column], cell_hash(plan, style, column, row, stroke_choices), layer);
+      add_stroke(plan, style, place, seeds[column], cell_hash(plan, style, place, column, row, stroke_choices), layer);
   }
   return layer;
 }
 
+void plan_place(const LayerPlan& plan, const Style& style, Place place, Layer& layer) {
+  const Grid grid(plan, style, place);
+  std::vector<Layer> rows(grid.rows());
+  tbb::parallel_for(0, grid.rows(), [&](int row) { rows[row] = plan_cells(plan, style, place, grid, row); });
+  for (const Layer& row : rows) append_strokes(row, layer);
+}
+
 }  // namespace
 
+float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed) {
+  if (place == Place::open) return plan.radius_px;
+  const float least_px = std::min(0.75f, plan.radius_px);
+  return std::clamp(plan.edge_distance(seed.x, seed.y), least_px, plan.radius_px);
+}
+
 Layer plan_layer(const LayerPlan& plan, const Style& style) {
-  const Grid grid(plan, style);
-  std::vector<Layer> rows(grid.rows());
-  tbb::parallel_for(0, grid.rows(), [&](int row) { rows[row] = plan_cells(plan, style, grid, row); });
   Layer layer;
   layer.radius_px = plan.radius_px;
-  for (const Layer& row : rows) append_strokes(row, layer);
+  plan_place(plan, style, Place::open, layer);
+  if (!plan.edge_distance.empty()) plan_place(plan, style, Place::beside_edge, layer);
   return layer;
 }
 

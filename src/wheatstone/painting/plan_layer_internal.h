@@ -4,6 +4,18 @@
 
 namespace wheatstone {
 
+/// Strokes away from depth edges, or those beside them.
+enum class Place { open, beside_edge };
+
+/// Where one stroke is set down, and how wide it is.
+struct Seed {
+  float error = -1;
+  int x = 0, y = 0;
+};
+
+/// The radius of a stroke that begins at a seed: the layer's, or beside a depth edge what fits.
+float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed);
+
 /// Error of a bare pixel: above every squared RGB distance (at most 3·255²), with room below it for a preference.
 inline constexpr float bare_error = 1e6f;
 

@@ -64,27 +64,31 @@ bool crosses_depth_edge(const LayerPlan& plan, const ControlPoint& from, const C
   return std::abs(to.disparity - from.disparity) > plan.depth_threshold_px;
 }
 
-/// Criterion (d): paint would spill onto another surface, around the next point or on the way to it. A stroke that had
-/// to begin beside an edge spills by its radius anyway; it may go on beside the edge, not across.
-bool would_spill(const LayerPlan& plan, bool began_at_edge, const ControlPoint& from, const ControlPoint& to) {
+/// Criterion (d): paint would spill onto another surface, around the next point or on the way to it. A stroke that was
+/// set down edgeways, narrower than the layer's brush, needs no more room than its own radius.
+bool would_spill(const LayerPlan& plan, float radius_px, bool edgeways, const ControlPoint& from,
+                 const ControlPoint& to) {
   if (plan.depth_edges.empty()) return false;
-  if (!began_at_edge && plan.depth_edges(static_cast<int>(to.x), static_cast<int>(to.y)) != 0) return true;
+  const int x = static_cast<int>(to.x), y = static_cast<int>(to.y);
+  if (!edgeways && plan.depth_edges(x, y) != 0) return true;
+  constexpr float rounding_px = 0.5f;
+  if (edgeways && plan.edge_distance(x, y) < radius_px - rounding_px) return true;
   return crosses_depth_edge(plan, from, to);
 }
 
 }  // namespace
 
-void trace_stroke(const LayerPlan& plan, const Style& style, int seed_x, int seed_y, bool backwards,
+void trace_stroke(const LayerPlan& plan, const Style& style, const Seed& seed, float radius_px, bool backwards,
                   std::vector<ControlPoint>& points) {
-  const Rgb colour = reference_at(plan.reference, seed_x, seed_y);
+  const Rgb colour = reference_at(plan.reference, seed.x, seed.y);
   const auto width = static_cast<float>(plan.canvas.width), height = static_cast<float>(plan.canvas.height);
-  ControlPoint point{static_cast<float>(seed_x) + 0.5f, static_cast<float>(seed_y) + 0.5f,
-                     plan.disparity(seed_x, seed_y)};
+  ControlPoint point{static_cast<float>(seed.x) + 0.5f, static_cast<float>(seed.y) + 0.5f,
+                     plan.disparity(seed.x, seed.y)};
   points.push_back(point);
-  const bool began_at_edge =
-      style.follow_depth_edges && !plan.depth_edges.empty() && plan.depth_edges(seed_x, seed_y) != 0;
+  const bool edgeways = !plan.depth_edges.empty() && plan.depth_edges(seed.x, seed.y) != 0;
+  const int longest = edgeways && !style.follow_depth_edges ? 1 : style.max_length;
   std::optional<Direction> last;
-  for (int length = 1; length < style.max_length; ++length) {
+  for (int length = 1; length < longest; ++length) {
     const int x = static_cast<int>(point.x), y = static_cast<int>(point.y);
 
     // (b) the canvas is already nearer to the picture than the stroke's colour would be
@@ -109,7 +113,7 @@ void trace_stroke(const LayerPlan& plan, const Style& style, int seed_x, int see
     ControlPoint next{point.x + plan.radius_px * direction->x, point.y + plan.radius_px * direction->y, 0};
     if (!(next.x >= 0 && next.y >= 0 && next.x < width && next.y < height)) return;
     next.disparity = plan.disparity(static_cast<int>(next.x), static_cast<int>(next.y));
-    if (would_spill(plan, began_at_edge, point, next)) return;
+    if (would_spill(plan, radius_px, edgeways, point, next)) return;
     points.push_back(next);
     point = next;
   }

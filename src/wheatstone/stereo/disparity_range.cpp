@@ -70,7 +70,7 @@ DisparityRange find_disparity_range(const StereoPair& pair) {
   // Without enough to go by: what a pair made for viewing keeps to.
   if (disparities.size() < least_matches) return {-width / 32, std::max(width / 8, 16)};
   const double least = disparities.front() / scale, largest = disparities.back() / scale;
-  const double room = std::max(0.1 * (largest - least), 4.0);
+  const double room = std::max(0.2 * (largest - least), 8.0);
   const int limit = width - 1;
   return {std::max(static_cast<int>(std::floor(least - room)), -limit),
           std::min(static_cast<int>(std::ceil(largest + room)), limit)};

@@ -101,9 +101,10 @@ void remove_speckles(Image<float>& disparity, int least_surface_px) {
       if (sixteenths.at<std::int16_t>(y, x) == unknown_sixteenths) disparity(x, y) = unknown;
 }
 
-/// Weighted least squares, led by the picture's edges and by what both views agree on.
+/// Weighted least squares, led by the picture's edges and by what both views agree on. Where the views agree on nothing
+/// far and wide the filter returns numbers without meaning; there the disparity stays as it was.
 Image<float> refined(const Image<float>& left, const Image<float>& right, const cv::Mat& left_picture,
-                     const MatchOptions& options) {
+                     const DisparityRange& range, const MatchOptions& options) {
   const auto filter = cv::ximgproc::createDisparityWLSFilterGeneric(true);
   filter->setLambda(options.wls_lambda);
   filter->setSigmaColor(options.wls_sigma);
@@ -111,9 +112,13 @@ Image<float> refined(const Image<float>& left, const Image<float>& right, const 
   filter->setDepthDiscontinuityRadius(options.block_px);
   cv::Mat result;
   filter->filter(in_sixteenths(left, 1), left_picture, result, in_sixteenths(right, -1));
-  Image<float> disparity(left.width(), left.height());
-  cv::Mat target = as_mat(disparity);
-  result.convertTo(target, CV_32F, 1.0 / sixteenths_a_px);
+  Image<float> disparity = left;
+  for (int y = 0; y < left.height(); ++y) {
+    for (int x = 0; x < left.width(); ++x) {
+      const float value = static_cast<float>(result.at<std::int16_t>(y, x)) / sixteenths_a_px;
+      if (value >= static_cast<float>(range.least) && value <= static_cast<float>(range.largest)) disparity(x, y) = value;
+    }
+  }
   return disparity;
 }
 
@@ -144,7 +149,7 @@ MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& ran
                                                   range.least, range.largest));
   fill_from_farther_side(left);
   fill_from_farther_side(right);
-  if (options.wls) left = refined(left, right, left_picture, options);
+  if (options.wls) left = refined(left, right, left_picture, range, options);
   // Filling goes scan line by scan line; a median across them takes the streaks out and keeps the edges.
   cv::Mat matrix = as_mat(left);
   cv::medianBlur(matrix, matrix, 5);

@@ -28,7 +28,7 @@ struct DisparityRange {
 struct MatchOptions {
   Matcher matcher = Matcher::sgbm;
   std::optional<DisparityRange> range;  ///< none: from sparse matches
-  int block_px = 5;                     ///< side of the compared windows; odd. bm takes at least 11
+  int block_px = 3;                     ///< side of the compared windows; odd. bm takes at least 11
   bool left_right_check = true;         ///< drop what the other view does not confirm
   float check_tolerance_px = 1;
   int least_surface_px = 100;           ///< smaller connected patches of like disparity are dropped as speckles

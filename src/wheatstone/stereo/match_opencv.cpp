@@ -30,39 +30,46 @@ cv::Ptr<cv::StereoMatcher> make_bm(const DisparityRange& range, int block_px) {
   return matcher;
 }
 
-}  // namespace
-
-Image<float> match_with_opencv(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,
-                               const MatchOptions& options) {
-  // OpenCV finds nothing in the columns whose counterparts may lie outside, and is neither safe nor repeatable where
-  // they are most of the picture. Repeated edge pixels on both sides keep all of ours clear of them.
-  const int reach = std::max(std::abs(range.least), std::abs(range.least + disparity_count(range)));
-  const int margin = reach + 2 * options.block_px;
-  cv::Mat wide_own, wide_other;
+/// Runs a matcher and reads its result. OpenCV finds nothing in the columns whose counterparts may lie outside, and is
+/// neither safe nor repeatable where they are most of the picture. Repeated edge pixels on both sides keep all of ours
+/// clear of them.
+Image<float> run(cv::StereoMatcher& matcher, const cv::Mat& own, const cv::Mat& other) {
+  const int least = matcher.getMinDisparity(), largest = least + matcher.getNumDisparities();
+  const int margin = std::max(std::abs(least), std::abs(largest)) + 2 * matcher.getBlockSize();
+  cv::Mat wide_own, wide_other, sixteenths;
   cv::copyMakeBorder(own, wide_own, 0, 0, margin, margin, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(other, wide_other, 0, 0, margin, margin, cv::BORDER_REPLICATE);
-
-  cv::Ptr<cv::StereoMatcher> matcher;
-  if (options.matcher == Matcher::bm) {
-    matcher = make_bm(range, options.block_px);
-    cv::cvtColor(wide_own, wide_own, cv::COLOR_RGB2GRAY);
-    cv::cvtColor(wide_other, wide_other, cv::COLOR_RGB2GRAY);
-  } else {
-    matcher = make_sgbm(range, options.block_px);
-  }
-  cv::Mat sixteenths;
-  matcher->compute(wide_own, wide_other, sixteenths);
+  matcher.compute(wide_own, wide_other, sixteenths);
 
   Image<float> disparity(own.cols, own.rows);
-  const int least = range.least * sixteenths_a_px;
   for (int y = 0; y < own.rows; ++y) {
     const auto* from = sixteenths.ptr<std::int16_t>(y) + margin;
     const auto to = disparity.row(y);
     for (int x = 0; x < own.cols; ++x)
-      to[x] = from[x] < least ? std::numeric_limits<float>::quiet_NaN()
-                              : static_cast<float>(from[x]) / sixteenths_a_px;
+      to[x] = from[x] < least * sixteenths_a_px ? std::numeric_limits<float>::quiet_NaN()
+                                                : static_cast<float>(from[x]) / sixteenths_a_px;
   }
   return disparity;
+}
+
+}  // namespace
+
+Image<float> match_with_opencv(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,
+                               const MatchOptions& options) {
+  if (options.matcher == Matcher::sgbm) return run(*make_sgbm(range, options.block_px), own, other);
+  cv::Mat own_luminance, other_luminance;
+  cv::cvtColor(own, own_luminance, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(other, other_luminance, cv::COLOR_RGB2GRAY);
+  return run(*make_bm(range, options.block_px), own_luminance, other_luminance);
+}
+
+Image<float> match_plain_sgbm(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range) {
+  constexpr int block_px = 5, area = 3 * block_px * block_px;
+  constexpr int left_right_px = 1, pre_filter_cap = 63, uniqueness_percent = 10, speckle_px = 100, speckle_range = 2;
+  const auto matcher = cv::StereoSGBM::create(range.least, disparity_count(range), block_px, 8 * area, 32 * area,
+                                              left_right_px, pre_filter_cap, uniqueness_percent, speckle_px,
+                                              speckle_range, cv::StereoSGBM::MODE_SGBM_3WAY);
+  return run(*matcher, own, other);
 }
 
 }  // namespace wheatstone

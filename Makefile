@@ -1,0 +1,24 @@
+# The short ways in. Each sees to its packages and its build first; what is already there is left alone.
+.PHONY: build test demo bench format lint
+
+build:
+	@scripts/install-deps
+	@test -f build/release/build.ninja || cmake --preset release
+	@cmake --build --preset release
+
+test: build
+	@ctest --preset release
+
+demo: build
+	@scripts/demo
+
+bench: build
+	@scripts/bench
+
+format:
+	@scripts/install-deps lint
+	@scripts/format
+
+lint: build
+	@scripts/install-deps lint
+	@scripts/lint

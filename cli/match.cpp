@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "match_options.h"
+#include "stereo_arguments.h"
+#include "wheatstone/app/output_folder.h"
+#include "wheatstone/display/disparity_picture.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/image/write_image.h"
+
+namespace wheatstone::cli {
+namespace {
+
+struct Arguments {
+  std::string left, right;
+  std::string folder = "matched";
+  MatchArguments matching;
+};
+
+void write(const std::filesystem::path& folder, const StereoGeometry& geometry) {
+  OutputFolder output(folder);
+  write_disparity(output.file("left_disparity.pfm"), geometry.left_disparity);
+  write_disparity(output.file("right_disparity.pfm"), geometry.right_disparity);
+  write_image(output.file("left_disparity.png"), disparity_picture(geometry.left_disparity));
+  write_image(output.file("right_disparity.png"), disparity_picture(geometry.right_disparity));
+  write_image(output.file("left_occlusion.png"), geometry.left_occlusion);
+  write_image(output.file("right_occlusion.png"), geometry.right_occlusion);
+  output.commit();
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  const StereoPair pair = read_pair(arguments.left, arguments.right);
+  const MatchedPair matched = match(pair, match_options_from(arguments.matching), session.progress);
+  write(arguments.folder, matched.geometry);
+  if (session.json) {
+    const nlohmann::ordered_json facts{{"folder", arguments.folder},
+                                       {"least_disparity_px", matched.range.least},
+                                       {"largest_disparity_px", matched.range.largest},
+                                       {"left_found_share", matched.left_found_share},
+                                       {"right_found_share", matched.right_found_share}};
+    fmt::print("{}\n", facts.dump(2));
+    return;
+  }
+  fmt::print("disparities looked for   {} to {} px\n", matched.range.least, matched.range.largest);
+  fmt::print("found, not filled        {:.1f} % of the left view, {:.1f} % of the right\n",
+             100 * matched.left_found_share, 100 * matched.right_found_share);
+  fmt::print("written to               {}\n", arguments.folder);
+}
+
+}  // namespace
+
+void add_match_command(CLI::App& program, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = *program.add_subcommand("match", "Disparity and occlusion of a rectified stereo pair");
+  command.add_option("LEFT", arguments->left, "Left photograph")->required();
+  command.add_option("RIGHT", arguments->right, "Right photograph, of the same size")->required();
+  command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
+  add_match_options(command, arguments->matching);
+  command.footer(
+      "Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is red),\n"
+      "and the occlusion masks (white: the other eye does not see it).\n\n"
+      "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

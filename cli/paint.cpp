@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <memory>
+#include <optional>
+
+#include "command.h"
+#include "disparity_argument.h"
+#include "match_options.h"
+#include "stereo_arguments.h"
+#include "style_options.h"
+#include "wheatstone/app/redraw.h"
+#include "wheatstone/app/write_results.h"
+#include "wheatstone/error.h"
+#include "wheatstone/painting/painting_file.h"
+#include "wheatstone/painting/style_parameters.h"
+
+namespace wheatstone::cli {
+namespace {
+
+struct Arguments {
+  std::string left, right;
+  std::string folder = "painted";
+  std::string print_style;
+  std::string disparity, right_disparity;
+  std::string zero_parallax = "nearest";
+  std::string zero_parallax_at;
+  double scale = 1;
+  bool measure = false;
+  bool html = false;
+  MatchArguments matching;
+  StyleArguments style;
+};
+
+ZeroParallax parse_zero_parallax(const Arguments& arguments) {
+  ZeroParallax wanted;
+  if (!arguments.zero_parallax_at.empty()) {
+    const std::string& text = arguments.zero_parallax_at;
+    const char* end = text.data() + text.size();
+    int x = 0, y = 0;
+    const auto first = std::from_chars(text.data(), end, x);
+    const bool comma = first.ec == std::errc{} && first.ptr != end && *first.ptr == ',';
+    const auto second = comma ? std::from_chars(first.ptr + 1, end, y) : first;
+    if (!comma || second.ec != std::errc{} || second.ptr != end)
+      throw Error(ErrorKind::wrong_usage, fmt::format("--zero-parallax-at: is '{}', expected X,Y", text));
+    wanted.at = {x, y};
+  } else if (arguments.zero_parallax != "nearest") {
+    const std::string& text = arguments.zero_parallax;
+    float disparity = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), disparity);
+    if (error != std::errc{} || stop != text.data() + text.size())
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("--zero-parallax: is '{}', expected 'nearest' or a disparity in pixels", text));
+    wanted.disparity_px = disparity;
+  }
+  return wanted;
+}
+
+void print_summary(const PaintedPhotograph& result, const PaintingMeasures* measures, const Arguments& arguments) {
+  const PaintedPair& painted = result.painted;
+  std::size_t strokes = 0;
+  for (const Layer& layer : painted.painting.layers) strokes += layer.strokes.size();
+  fmt::print("painted          {} strokes in {} layers, {:.2f} s\n", strokes, painted.painting.layers.size(),
+             painted.times.planning_s + painted.times.rasterising_s);
+  fmt::print("left bare        {:.2f} % of the left eye, {:.2f} % of the right\n", 100 * painted.left_bare_share,
+             100 * painted.right_bare_share);
+  fmt::print("zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
+  if (measures != nullptr) {
+    fmt::print("left - right     {:.2f} of 255 (photographs {:.2f})\n", measures->painting.difference.mean_absolute,
+               measures->photographs.difference.mean_absolute);
+    fmt::print("depth lost       {:.1f} % off by over 2 px (photographs {:.1f} %)\n",
+               100 * measures->painting.survival.bad_2, 100 * measures->photographs.survival.bad_2);
+  }
+  fmt::print("written to       {}\n", arguments.folder);
+}
+
+void paint_photographs(const Arguments& arguments, const Session& session) {
+  PaintPhotographOptions options;
+  options.style = style_from(arguments.style, session.seed);
+  options.matching = match_options_from(arguments.matching);
+  options.zero_parallax = parse_zero_parallax(arguments);
+  if (arguments.disparity.empty() && !arguments.right_disparity.empty())
+    throw Error(ErrorKind::wrong_usage, "--right-disparity needs --disparity, the left eye's");
+  if (!arguments.disparity.empty() && !arguments.matching.range.empty())
+    throw Error(ErrorKind::wrong_usage, "--range says how to match, but --disparity gives the disparity: choose one");
+  const StereoPair photographs = read_pair(arguments.left, arguments.right);
+  std::optional<Image<float>> truth;
+  if (!arguments.disparity.empty()) {
+    truth = read_disparity_argument(arguments.disparity);
+    options.left_disparity = truth;
+  }
+  if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
+
+  const PaintedPhotograph result = paint_photograph(photographs, options, session.progress);
+  std::optional<PaintingMeasures> measures;
+  if (arguments.measure)
+    measures = measure_painting(photographs, result, truth ? *truth : result.geometry.left_disparity);
+  const PaintingMeasures* measured = measures ? &*measures : nullptr;
+  write_results(arguments.folder, photographs, result, options.style, measured, {.html = arguments.html},
+                session.progress);
+  if (session.json) {
+    fmt::print("{}", report_json(result, options.style, measured));
+  } else {
+    print_summary(result, measured, arguments);
+  }
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  if (!arguments.print_style.empty()) {
+    fmt::print("{}", style_to_toml(read_style(arguments.print_style)));
+    return;
+  }
+  if (arguments.left.empty()) throw Error(ErrorKind::wrong_usage, "paint needs two photographs, LEFT and RIGHT");
+  if (!arguments.right.empty()) return paint_photographs(arguments, session);
+  if (!arguments.left.ends_with(".wst"))
+    throw Error(ErrorKind::wrong_usage, "paint needs two photographs, or one painting (.wst) to draw again");
+  draw_again(read_painting(arguments.left), arguments.scale, arguments.folder);
+  if (session.json) {
+    fmt::print("{{\"folder\": \"{}\"}}\n", arguments.folder);
+  } else {
+    fmt::print("written to       {}\n", arguments.folder);
+  }
+}
+
+}  // namespace
+
+void add_paint_command(CLI::App& program, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = *program.add_subcommand("paint", "A stereo painting from a rectified pair of photographs");
+  command.add_option("LEFT", arguments->left, "Left photograph; or a painting.wst, to draw it again");
+  command.add_option("RIGHT", arguments->right, "Right photograph, of the same size");
+  command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
+  command.add_option("--print-style", arguments->print_style, "Print a style as a file to change, and do nothing else");
+  command.add_option("--disparity", arguments->disparity,
+                     "Left view's disparity instead of matching: PNG, PFM or EXR, FILE[:SCALE], value / SCALE = pixels");
+  command.add_option("--right-disparity", arguments->right_disparity, "The right view's own, if there is one");
+  auto* plane = command.add_option("--zero-parallax", arguments->zero_parallax,
+                                   "What lies on the screen plane: 'nearest', or a disparity in pixels");
+  plane->capture_default_str();
+  command.add_option("--zero-parallax-at", arguments->zero_parallax_at, "... or this pixel X,Y of the left photograph")
+      ->excludes(plane);
+  command.add_option("--scale", arguments->scale, "Draw a painting.wst this many times as large")
+      ->check(CLI::Range(0.01, 32.0))
+      ->capture_default_str();
+  command.add_flag("--report", arguments->measure, "Measure how well the painting's two eyes fit together");
+  command.add_flag("--html", arguments->html, "Also write index.html, which shows the pictures");
+  add_style_options(command, arguments->style);
+  add_match_options(command, arguments->matching);
+  command.footer(
+      "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, painting.wst\n"
+      "(the strokes), SVG for each eye, disparity, occlusion, and report.json.\n\n"
+      "Example:\n  wheatstone synth still -o still\n"
+      "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

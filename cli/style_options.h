@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+#include "wheatstone/painting/style.h"
+
+namespace wheatstone::cli {
+
+/// A style as it is typed: a preset or file, and parameters that change it.
+struct StyleArguments {
+  std::string style = "impressionist";
+  std::map<std::string, std::string> changes;  ///< by parameter name
+};
+
+void add_style_options(CLI::App& command, StyleArguments& arguments);
+
+/// Throws Error{wrong_usage}, or bad_input for a style file.
+Style style_from(const StyleArguments& arguments, std::uint64_t seed);
+
+}  // namespace wheatstone::cli

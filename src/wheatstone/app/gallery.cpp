@@ -1,0 +1,65 @@
+#include "wheatstone/app/gallery.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace wheatstone {
+namespace {
+
+struct Shown {
+  std::string_view file, caption;
+};
+
+constexpr std::array<Shown, 10> pictures{{
+    {"left_photograph.png", "Photograph, left eye"},
+    {"right_photograph.png", "Photograph, right eye"},
+    {"left.png", "Painting, left eye"},
+    {"right.png", "Painting, right eye"},
+    {"anaglyph.png", "Anaglyph, for red–cyan glasses"},
+    {"side_by_side.png", "Side by side, for parallel viewing"},
+    {"disparity.png", "Disparity: near is red, far is blue"},
+    {"left.svg", "Painting as vectors, left eye"},
+    {"left_occlusion.png", "Seen by the left eye only"},
+    {"right_occlusion.png", "Seen by the right eye only"},
+}};
+
+constexpr std::string_view head = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>A painting for two eyes</title>
+<style>
+  body { font: 16px/1.4 sans-serif; margin: 2rem auto; max-width: 80rem; padding: 0 1rem; background: #f6f3ee; color: #222; }
+  main { display: grid; grid-template-columns: repeat(auto-fit, minmax(28rem, 1fr)); gap: 1.5rem; }
+  figure { margin: 0; } img { width: 100%; display: block; background: #ddd; } figcaption { padding: .4rem 0; }
+  pre { background: #fff; padding: 1rem; overflow: auto; }
+</style></head><body>
+<h1>A painting for two eyes</h1>
+<main>
+)";
+
+/// Text that HTML shows as it is.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&') {
+      result += "&amp;";
+    } else if (c == '<') {
+      result += "&lt;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string gallery_html(std::string_view report_json) {
+  std::string page(head);
+  for (const Shown& picture : pictures)
+    page += fmt::format("<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
+                        picture.file, picture.caption);
+  page += fmt::format("</main>\n<h2>Numbers</h2>\n<pre>{}</pre>\n</body></html>\n", escaped(report_json));
+  return page;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace wheatstone {
+
+/// A page that shows the pictures of a result folder, by their names there, and the report's numbers below them.
+std::string gallery_html(std::string_view report_json);
+
+}  // namespace wheatstone

@@ -1,0 +1,69 @@
+#include "wheatstone/app/paint_photograph.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/error.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
+
+namespace wheatstone {
+namespace {
+
+void check_size(const Image<float>& disparity, const StereoPair& photographs, std::string_view name) {
+  if (!same_size(disparity, photographs.left))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the {} disparity is {}x{} pixels, expected the photographs' {}x{}", name, disparity.width(),
+                            disparity.height(), photographs.left.width(), photographs.left.height()));
+}
+
+StereoGeometry given_geometry(const StereoPair& photographs, const PaintPhotographOptions& options) {
+  check_size(*options.left_disparity, photographs, "left");
+  if (!options.right_disparity) return geometry_from_left(*options.left_disparity);
+  check_size(*options.right_disparity, photographs, "right");
+  return geometry_from_both(*options.left_disparity, *options.right_disparity);
+}
+
+float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometry) {
+  if (wanted.disparity_px) return *wanted.disparity_px;
+  if (wanted.at) {
+    const auto [x, y] = *wanted.at;
+    if (!geometry.left_disparity.contains(x, y))
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("the zero-parallax point {},{} lies outside the {}x{} pixels of the picture", x, y,
+                              geometry.left_disparity.width(), geometry.left_disparity.height()));
+    return geometry.left_disparity(x, y);
+  }
+  constexpr double nearest_share = 0.995;
+  return disparity_percentile(geometry.left_disparity, nearest_share);
+}
+
+}  // namespace
+
+PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
+                                   const Progress& progress) {
+  check_style(options.style);
+  if (!same_size(photographs.left, photographs.right))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the right photograph is {}x{} pixels, expected the left one's {}x{}",
+                            photographs.right.width(), photographs.right.height(), photographs.left.width(),
+                            photographs.left.height()));
+  PaintedPhotograph result;
+  if (options.left_disparity) {
+    result.geometry = given_geometry(photographs, options);
+  } else {
+    result.matched = match(photographs, options.matching, progress);
+    result.geometry = std::exchange(result.matched->geometry, {});
+  }
+  result.painted = paint(photographs, result.geometry, options.style, progress);
+  result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
+  return result;
+}
+
+PairMeasures measure_pair(const StereoPair& pair, ImageView<const float> left_disparity) {
+  return {measure_left_right_difference(pair, left_disparity), measure_depth_survival(pair, left_disparity),
+          gradient_energy(pair.left), gradient_energy(pair.right)};
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/stroke_measures.h"
+#include "wheatstone/stereo/consistency.h"
+#include "wheatstone/stereo/depth_survival.h"
+#include "wheatstone/stereo/match.h"
+
+namespace wheatstone {
+
+/// Which disparity lies on the screen plane.
+struct ZeroParallax {
+  std::optional<float> disparity_px;          ///< this one
+  std::optional<std::pair<int, int>> at;      ///< that of this pixel (x, y) of the left photograph
+                                              ///< neither: that of the nearest point, but for outliers
+};
+
+struct PaintPhotographOptions {
+  Style style;
+  MatchOptions matching;
+  std::optional<Image<float>> left_disparity;   ///< ready-made; none: the photographs are matched
+  std::optional<Image<float>> right_disparity;  ///< only together with the left one
+  ZeroParallax zero_parallax;
+};
+
+/// A stereo photograph painted, and what it was painted from.
+struct PaintedPhotograph {
+  StereoGeometry geometry;
+  std::optional<MatchedPair> matched;  ///< without its geometry, which is above; none where disparity was given
+  PaintedPair painted;
+  float zero_parallax_px = 0;
+};
+
+/// Photographs to painting in one call: match, or take the disparity that is given; paint; choose the screen plane.
+/// Throws Error: bad_input where pictures or disparity do not fit together, wrong_usage for options that do not.
+PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
+                                   const Progress& progress = {});
+
+/// How consistent one pair of pictures is, by the measures that need no strokes.
+struct PairMeasures {
+  LeftRightDifference difference;
+  DepthSurvival survival;
+  double left_gradient_energy = 0;
+  double right_gradient_energy = 0;
+};
+
+/// `left_disparity` is the truth, or what is taken for it; NaN where unknown.
+PairMeasures measure_pair(const StereoPair& pair, ImageView<const float> left_disparity);
+
+}  // namespace wheatstone

@@ -1,0 +1,68 @@
+#include "wheatstone/app/redraw.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "wheatstone/app/output_folder.h"
+#include "wheatstone/display/anaglyph.h"
+#include "wheatstone/display/arrange.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/painting/rasterise.h"
+#include "wheatstone/painting/svg.h"
+
+namespace wheatstone {
+namespace {
+
+float nearest_stroke_disparity(const Painting& painting) {
+  std::vector<float> disparities;
+  for (const Layer& layer : painting.layers)
+    for (const Stroke& stroke : layer.strokes) disparities.push_back(stroke.disparity);
+  if (disparities.empty()) return 0;
+  constexpr double nearest_share = 0.995;
+  const auto index = static_cast<std::ptrdiff_t>(nearest_share * static_cast<double>(disparities.size() - 1));
+  std::ranges::nth_element(disparities, disparities.begin() + index);
+  return disparities[static_cast<std::size_t>(index)];
+}
+
+}  // namespace
+
+Painting scaled(Painting painting, double scale) {
+  constexpr double largest_side_px = 65535;
+  const double width = std::round(painting.width * scale), height = std::round(painting.height * scale);
+  if (!(width >= 1 && height >= 1 && width <= largest_side_px && height <= largest_side_px))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--scale {} makes {}x{} pixels, expected 1 to {} a side", scale, width, height,
+                            largest_side_px));
+  const auto factor = static_cast<float>(scale);
+  painting.width = static_cast<int>(width);
+  painting.height = static_cast<int>(height);
+  for (Layer& layer : painting.layers) {
+    layer.radius_px *= factor;
+    for (ControlPoint& point : layer.points) point = {point.x * factor, point.y * factor, point.disparity * factor};
+    for (Stroke& stroke : layer.strokes) {
+      stroke.radius_px *= factor;
+      stroke.disparity *= factor;
+    }
+  }
+  return painting;
+}
+
+void draw_again(const Painting& painting, double scale, const std::filesystem::path& folder) {
+  const Painting sized = scaled(painting, scale);
+  const StereoPair pictures{draw(sized, left_eye).picture, draw(sized, right_eye).picture};
+  const StereoPair presented = translated(pictures, nearest_stroke_disparity(sized));
+  OutputFolder output(folder);
+  write_image(output.file("left.png"), pictures.left);
+  write_image(output.file("right.png"), pictures.right);
+  write_image(output.file("side_by_side.png"), side_by_side(presented));
+  write_image(output.file("anaglyph.png"), anaglyph(presented));
+  write_svg(output.file("left.svg"), sized, left_eye);
+  write_svg(output.file("right.svg"), sized, right_eye);
+  output.commit();
+}
+
+}  // namespace wheatstone

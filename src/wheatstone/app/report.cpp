@@ -1,0 +1,84 @@
+#include "wheatstone/app/report.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace wheatstone {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Enough digits to compare by, few enough to read.
+double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+
+Json to_json(const PairMeasures& m) {
+  return {{"left_right_mean_absolute", rounded(m.difference.mean_absolute)},
+          {"left_right_rmse", rounded(m.difference.rmse)},
+          {"compared_share", rounded(m.difference.compared_share)},
+          {"survival_density", rounded(m.survival.density)},
+          {"survival_end_point_error_px", rounded(m.survival.end_point_error)},
+          {"survival_bad_1", rounded(m.survival.bad_1)},
+          {"survival_bad_2", rounded(m.survival.bad_2)},
+          {"left_gradient_energy", rounded(m.left_gradient_energy)},
+          {"right_gradient_energy", rounded(m.right_gradient_energy)}};
+}
+
+Json to_json(const StrokeMeasures& m) {
+  return {{"strokes", m.strokes},
+          {"visible_to_both", m.visible_to_both},
+          {"paired_share", rounded(m.paired_share)},
+          {"shape_differs_share", rounded(m.shape_differs_share)}};
+}
+
+Json layers_json(const Painting& painting) {
+  Json layers = Json::array();
+  for (const Layer& layer : painting.layers)
+    layers.push_back({{"radius_px", rounded(layer.radius_px)}, {"strokes", layer.strokes.size()}});
+  return layers;
+}
+
+double occluded_share(const Image<std::uint8_t>& occlusion) {
+  const auto occluded = std::ranges::count_if(occlusion.pixels(), [](std::uint8_t value) { return value != 0; });
+  return rounded(static_cast<double>(occluded) / static_cast<double>(occlusion.pixels().size()));
+}
+
+}  // namespace
+
+PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPhotograph& result,
+                                  ImageView<const float> left_disparity) {
+  return {measure_pair(result.painted.pictures, left_disparity), measure_pair(photographs, left_disparity),
+          measure_strokes(result.painted.painting, result.geometry)};
+}
+
+std::string pair_measures_json(const PairMeasures& measures) { return to_json(measures).dump(2); }
+
+std::string report_json(const PaintedPhotograph& result, const Style& style, const PaintingMeasures* measures) {
+  const Painting& painting = result.painted.painting;
+  Json report{{"width", painting.width},
+              {"height", painting.height},
+              {"style", style.name},
+              {"propagation", name_of(style.propagation)},
+              {"seed", style.seed},
+              {"layers", layers_json(painting)},
+              {"zero_parallax_px", rounded(result.zero_parallax_px)},
+              {"left_occluded_share", occluded_share(result.geometry.left_occlusion)},
+              {"right_occluded_share", occluded_share(result.geometry.right_occlusion)},
+              {"left_bare_share", rounded(result.painted.left_bare_share)},
+              {"right_bare_share", rounded(result.painted.right_bare_share)},
+              {"planning_s", rounded(result.painted.times.planning_s)},
+              {"rasterising_s", rounded(result.painted.times.rasterising_s)}};
+  if (result.matched) {
+    report["matched"] = {{"least_disparity_px", result.matched->range.least},
+                         {"largest_disparity_px", result.matched->range.largest},
+                         {"left_found_share", rounded(result.matched->left_found_share)},
+                         {"right_found_share", rounded(result.matched->right_found_share)}};
+  }
+  if (measures != nullptr) {
+    report["measures"] = {{"painting", to_json(measures->painting)},
+                          {"photographs", to_json(measures->photographs)},
+                          {"strokes", to_json(measures->strokes)}};
+  }
+  return report.dump(2) + "\n";
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,72 @@
+#include "wheatstone/app/write_results.h"
+
+#include <tbb/parallel_for.h>
+
+#include <functional>
+#include <mutex>
+
+#include "wheatstone/app/gallery.h"
+#include "wheatstone/app/output_folder.h"
+#include "wheatstone/display/anaglyph.h"
+#include "wheatstone/display/arrange.h"
+#include "wheatstone/display/disparity_picture.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/image/whole_file.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/painting/painting_file.h"
+#include "wheatstone/painting/svg.h"
+
+namespace wheatstone {
+
+std::vector<std::string> write_results(const std::filesystem::path& folder, const StereoPair& photographs,
+                                       const PaintedPhotograph& result, const Style& style,
+                                       const PaintingMeasures* measures, const ResultOptions& options,
+                                       const Progress& progress) {
+  using Path = std::filesystem::path;
+  struct Output {
+    std::string name;
+    std::function<void(const Path&)> write;
+  };
+  const StereoPair& pictures = result.painted.pictures;
+  const StereoGeometry& geometry = result.geometry;
+  const Painting& painting = result.painted.painting;
+  const StereoPair presented = translated(pictures, result.zero_parallax_px);
+  std::vector<Output> outputs{
+      {"left.png", [&](const Path& path) { write_image(path, pictures.left); }},
+      {"right.png", [&](const Path& path) { write_image(path, pictures.right); }},
+      {"side_by_side.png", [&](const Path& path) { write_image(path, side_by_side(presented)); }},
+      {"anaglyph.png", [&](const Path& path) { write_image(path, anaglyph(presented)); }},
+      {"disparity.png", [&](const Path& path) { write_image(path, disparity_picture(geometry.left_disparity)); }},
+      {"left_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
+      {"right_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.right_disparity); }},
+      {"left_occlusion.png", [&](const Path& path) { write_image(path, geometry.left_occlusion); }},
+      {"right_occlusion.png", [&](const Path& path) { write_image(path, geometry.right_occlusion); }},
+      {"painting.wst", [&](const Path& path) { write_painting(path, painting); }},
+      {"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }},
+      {"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }},
+      {"report.json", [&](const Path& path) { write_whole_file(path, report_json(result, style, measures)); }},
+  };
+  if (options.html) {
+    outputs.push_back({"left_photograph.png", [&](const Path& path) { write_image(path, photographs.left); }});
+    outputs.push_back({"right_photograph.png", [&](const Path& path) { write_image(path, photographs.right); }});
+    outputs.push_back({"index.html", [&](const Path& path) {
+                         write_whole_file(path, gallery_html(report_json(result, style, measures)));
+                       }});
+  }
+
+  OutputFolder target(folder);
+  std::mutex reporting;
+  std::size_t written = 0;
+  report(progress, "writing", 0);
+  tbb::parallel_for(std::size_t{0}, outputs.size(), [&](std::size_t i) {
+    outputs[i].write(target.file(outputs[i].name));
+    const std::scoped_lock lock(reporting);
+    report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
+  });
+  target.commit();
+  std::vector<std::string> names;
+  for (const Output& output : outputs) names.push_back(output.name);
+  return names;
+}
+
+}  // namespace wheatstone

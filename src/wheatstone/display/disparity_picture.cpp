@@ -1,0 +1,30 @@
+#include "wheatstone/display/disparity_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/image/opencv_internal.h"
+
+namespace wheatstone {
+
+Image<Rgb8> disparity_picture(ImageView<const float> disparity) {
+  const float far = disparity_percentile(disparity, 0.005), near = disparity_percentile(disparity, 0.995);
+  const float range = std::max(near - far, 1e-6f);
+  Image<std::uint8_t> levels(disparity.width(), disparity.height());
+  for (int y = 0; y < levels.height(); ++y)
+    for (int x = 0; x < levels.width(); ++x)
+      levels(x, y) = static_cast<std::uint8_t>(255 * std::clamp((disparity(x, y) - far) / range, 0.f, 1.f));
+  cv::Mat coloured;
+  cv::applyColorMap(as_mat(levels), coloured, cv::COLORMAP_TURBO);
+  Image<Rgb8> picture(disparity.width(), disparity.height());
+  cv::Mat target = as_mat(picture);
+  cv::cvtColor(coloured, target, cv::COLOR_BGR2RGB);
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x)
+      if (!std::isfinite(disparity(x, y))) picture(x, y) = {};
+  return picture;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// Disparities in false colours for looking at: near is red, far is blue (Turbo), unknown is black. The range is the
+/// picture's own, from its 0.5th to its 99.5th percentile.
+Image<Rgb8> disparity_picture(ImageView<const float> disparity);
+
+}  // namespace wheatstone

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// Reads a grey Portable Float Map ("Pf"), of either byte order; row 0 of the result is the top one, which the format
+/// stores last. `name` stands for the file in messages. Throws Error{bad_input}.
+Image<float> decode_pfm(std::string_view bytes, std::string_view name);
+
+/// The picture as a little-endian grey Portable Float Map.
+std::string encode_pfm(ImageView<const float> image);
+
+}  // namespace wheatstone

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+
+#include "wheatstone/painting/painting.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone {
+
+/// How well the strokes of the two eyes belong together.
+struct StrokeMeasures {
+  std::size_t strokes = 0;
+  std::size_t visible_to_both = 0;  ///< no control point lies on an occluded pixel of the stroke's own view
+  double paired_share = 0;          ///< of those visible to both, 0..1, the ones that appear in both eyes
+  double shape_differs_share = 0;   ///< of those in both eyes, the ones whose length differs by over a tenth and a pixel
+};
+
+StrokeMeasures measure_strokes(const Painting& painting, const StereoGeometry& geometry);
+
+/// How far paint of one layer runs over depth edges, in the view in which its strokes were planned: the share of its
+/// strokes, 0..1, with a point of their centre line on the other side of a jump in disparity above `threshold_px`,
+/// farther from where it crossed than the stroke's radius.
+double spilling_share(const Layer& layer, const StereoGeometry& geometry, float threshold_px);
+
+}  // namespace wheatstone

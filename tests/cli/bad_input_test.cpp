@@ -1,0 +1,58 @@
+// Bad input gets one clear line and exit code 3, and leaves no output. Each command that reads pictures adds a line to
+// `readers`.
+
+#include <gtest/gtest.h>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/write_image.h"
+
+namespace wheatstone {
+namespace {
+
+/// The arguments that make a command read this file, and what else they need.
+std::vector<std::vector<std::string>> readers(const std::string& file) { return {{"info", file}}; }
+
+Image<Rgb8> ramp() {
+  Image<Rgb8> image(64, 48);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) image(x, y) = {static_cast<std::uint8_t>(4 * x), static_cast<std::uint8_t>(5 * y), 9};
+  }
+  return image;
+}
+
+void expect_every_reader_refuses(const TemporaryFolder& folder, const std::string& file) {
+  write_image(folder / "good.png", ramp());
+  for (const std::vector<std::string>& line : readers(file)) expect_refused(folder, line, 3, file + ": ");
+}
+
+TEST(BadInput, MissingFileIsRefused) { expect_every_reader_refuses(TemporaryFolder(), "missing.png"); }
+
+TEST(BadInput, TruncatedPictureIsRefused) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"cut.png", "cut.jpg"}) {
+    write_image(folder / name, ramp());
+    const std::string bytes = bytes_of(folder / name);
+    put_bytes(folder / name, bytes.substr(0, bytes.size() * 2 / 3));
+    expect_every_reader_refuses(folder, name);
+  }
+}
+
+TEST(BadInput, WhatIsNoPictureIsRefused) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "letter.png", "Dear Sir, this is a letter.\n");
+  put_bytes(folder / "empty.png", "");
+  std::filesystem::create_directory(folder / "folder.png");
+  for (const std::string name : {"letter.png", "empty.png", "folder.png"}) expect_every_reader_refuses(folder, name);
+}
+
+TEST(BadInput, DamagedPaintingIsRefused) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "letter.wst", "Dear Sir, this is a letter, not a painting.\n");
+  put_bytes(folder / "empty.wst", "");
+  for (const std::string name : {"letter.wst", "empty.wst", "missing.wst"}) {
+    expect_refused(folder, {"info", name}, 3, name + ": ");
+  }
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,79 @@
+// What holds of every command: help, shared options, usage errors, output that cannot be written.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/write_image.h"
+
+namespace wheatstone {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+TEST(CommandLine, ListsItsCommands) { EXPECT_THAT(commands(), Contains("info")); }
+
+TEST(CommandLine, EveryCommandsHelpHasAnExampleAndTheSharedOptions) {
+  for (const std::string& command : commands()) {
+    const ProgramResult result = run_program({command, "--help"});
+    EXPECT_EQ(result.exit_code, 0) << command;
+    EXPECT_EQ(result.errors, "") << command;
+    EXPECT_THAT(result.output, HasSubstr("\n  wheatstone " + command)) << command;
+    EXPECT_THAT(result.output, HasSubstr("--threads")) << command;
+  }
+}
+
+TEST(CommandLine, TellsItsVersion) {
+  EXPECT_THAT(run_program({"--version"}).output, testing::StartsWith("wheatstone "));
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  expect_refused(folder, {}, 2, "no command given; see 'wheatstone --help'");
+  expect_refused(folder, {"pant"}, 2, "pant: no such command; see 'wheatstone --help'");
+  expect_refused(folder, {"pant", "--json"}, 2, "pant: no such command");
+  for (const std::string& command : commands()) {
+    expect_refused(folder, {command, "--no-such-option"}, 2, "see 'wheatstone " + command + " --help'");
+  }
+  expect_refused(folder, {"--threads", "many", "info", "a.png"}, 2, "--threads");
+  expect_refused(folder, {"info", "a.png", "--threads", "-1"}, 2, "--threads");
+  expect_refused(folder, {"info", "a.png", "--verbose", "--quiet"}, 2, "excludes");
+}
+
+TEST(CommandLine, TakesSharedOptionsBeforeAndBehindTheCommand) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.png", Image<Rgb8>(4, 3));
+  const std::string file = folder / "a.png";
+  const std::string before = run_program({"--json", "--threads", "1", "info", file}).output;
+  const std::string behind = run_program({"info", file, "--threads", "1", "--json"}).output;
+  EXPECT_THAT(before, testing::StartsWith("{"));
+  EXPECT_EQ(before, behind);
+}
+
+TEST(CommandLine, ReadsOptionsFromAFileAndRefusesUnknownOnes) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.png", Image<Rgb8>(4, 3));
+  put_bytes(folder / "good.toml", "json = true\nthreads = 1\n");
+  put_bytes(folder / "bad.toml", "jsn = true\n");
+  put_bytes(folder / "bad_section.toml", "[info]\ncolour = true\n");
+  const ProgramRun here = {.folder = folder / ""};
+  EXPECT_THAT(run_program({"info", "a.png", "--config", "good.toml"}, here).output, testing::StartsWith("{"));
+  expect_refused(folder, {"info", "a.png", "--config", "bad.toml"}, 2, "unknown option 'jsn'");
+  expect_refused(folder, {"info", "a.png", "--config", "bad_section.toml"}, 2, "unknown option 'info.colour'");
+  expect_refused(folder, {"info", "a.png", "--config", "missing.toml"}, 3, "missing.toml");
+}
+
+TEST(CommandLine, SaysThatItsOutputCannotBeWritten) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.png", Image<Rgb8>(4, 3));
+  const std::vector<std::vector<std::string>> lines = {{"info", folder / "a.png"}, {"--help"}};
+  for (const std::vector<std::string>& line : lines) {
+    const ProgramResult result = run_program(line, {.standard_output = "/dev/full"});
+    EXPECT_EQ(result.exit_code, 4) << line.front();
+    EXPECT_EQ(result.errors, "wheatstone: standard output: cannot write\n");
+  }
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,71 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/painting/painting_file.h"
+
+namespace wheatstone {
+namespace {
+
+nlohmann::json facts_of(const std::filesystem::path& path) {
+  const ProgramResult result = run_program({"info", path, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  return nlohmann::json::parse(result.output);
+}
+
+TEST(Info, TellsOfAPicture) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.jpg", Image<Rgb8>(7, 5));
+  const nlohmann::json facts = facts_of(folder / "a.jpg");
+  EXPECT_EQ(facts["kind"], "picture");
+  EXPECT_EQ(facts["format"], "jpeg");
+  EXPECT_EQ(facts["width"], 7);
+  EXPECT_EQ(facts["height"], 5);
+  EXPECT_EQ(facts["channels"], 3);
+  EXPECT_EQ(facts["bits"], 8);
+  EXPECT_EQ(facts["exif_orientation"], 1);
+}
+
+TEST(Info, TellsOfADisparityFile) {
+  const TemporaryFolder folder;
+  Image<float> disparity(4, 2, 10.0f);
+  disparity(0, 0) = std::numeric_limits<float>::quiet_NaN();
+  disparity(1, 0) = -3.5f;
+  write_disparity(folder / "d.pfm", disparity);
+  const nlohmann::json facts = facts_of(folder / "d.pfm");
+  EXPECT_EQ(facts["kind"], "disparity");
+  EXPECT_EQ(facts["width"], 4);
+  EXPECT_DOUBLE_EQ(facts["known_share"], 7.0 / 8.0);
+  EXPECT_EQ(facts["farthest_disparity_px"], -3.5);
+  EXPECT_EQ(facts["nearest_disparity_px"], 10);
+}
+
+TEST(Info, TellsOfAPainting) {
+  const TemporaryFolder folder;
+  Painting painting{.width = 40, .height = 30};
+  Layer layer{.radius_px = 4};
+  layer.points = {{1, 2, 3}, {5, 6, 7}};
+  layer.strokes = {{.point_count = 2, .radius_px = 4}};
+  painting.layers = {layer};
+  write_painting(folder / "p.wst", painting);
+  const nlohmann::json facts = facts_of(folder / "p.wst");
+  EXPECT_EQ(facts["kind"], "painting");
+  EXPECT_EQ(facts["width"], 40);
+  EXPECT_EQ(facts["strokes"], 1);
+  EXPECT_EQ(facts["nearest_disparity_px"], 7);
+  EXPECT_EQ(facts["layers"].size(), 1u);
+}
+
+TEST(Info, SpeaksInLinesWithoutJson) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.png", Image<Rgb8>(7, 5));
+  EXPECT_THAT(run_program({"info", folder / "a.png"}).output, testing::HasSubstr("width: 7\nheight: 5\n"));
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,92 @@
+#include "cli/run_program.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+void redirect(int descriptor, const fs::path& path, int flags) {
+  const int file = ::open(path.c_str(), flags, 0600);
+  if (file < 0 || ::dup2(file, descriptor) < 0) ::_exit(127);
+  ::close(file);
+}
+
+[[noreturn]] void become_program(std::vector<std::string> words, const fs::path& folder, const fs::path& output,
+                                 const fs::path& errors) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  // A test runner may ignore what the program is to notice.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(number, SIG_DFL);
+  redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
+  redirect(STDOUT_FILENO, output, O_WRONLY | O_CREAT);
+  redirect(STDERR_FILENO, errors, O_WRONLY | O_CREAT);
+  if (::chdir(folder.c_str()) == 0) ::execv(arguments.front(), arguments.data());
+  ::_exit(127);
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramRun& run) {
+  const TemporaryFolder scratch;
+  std::vector<std::string> words = {WHEATSTONE_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const fs::path output = run.standard_output.empty() ? scratch / "output" : run.standard_output;
+
+  const pid_t process = ::fork();
+  if (process == 0) become_program(words, run.folder, output, scratch / "errors");
+  if (process > 0 && run.while_running) run.while_running(process);
+  int status = 0;
+  if (process < 0 || ::waitpid(process, &status, 0) != process) throw std::runtime_error("cannot run the program");
+  ProgramResult result;
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.errors = bytes_of(scratch / "errors");
+  if (run.standard_output.empty()) result.output = bytes_of(output);
+  return result;
+}
+
+std::set<std::string> files_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    names.insert(fs::relative(entry.path(), folder).string());
+  }
+  return names;
+}
+
+void expect_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,
+                    const std::string& part) {
+  std::string line = "wheatstone";
+  for (const std::string& argument : arguments) line += " " + argument;
+  SCOPED_TRACE(line);
+  const std::set<std::string> before = files_in(folder / "");
+  const ProgramResult result = run_program(arguments, {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, exit_code) << result.errors;
+  EXPECT_THAT(result.errors, testing::StartsWith("wheatstone: "));
+  EXPECT_THAT(result.errors, testing::HasSubstr(part));
+  EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+  EXPECT_EQ(result.output, "");
+  EXPECT_EQ(files_in(folder / ""), before);
+}
+
+std::vector<std::string> commands() {
+  std::istringstream help(run_program({"--help"}).output);
+  std::vector<std::string> names;
+  std::string line;
+  while (std::getline(help, line) && line != "Commands:") continue;
+  while (std::getline(help, line) && line.starts_with("  ")) {
+    // A name stands two columns in; a description's next line stands further in.
+    if (line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  }
+  return names;
+}
+
+}  // namespace wheatstone

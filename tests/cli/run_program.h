@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "temporary_folder.h"
+
+namespace wheatstone {
+
+/// What a run of the program left to its caller.
+struct ProgramResult {
+  int exit_code = 0;  ///< 128 + the signal where one ended the program
+  std::string output;
+  std::string errors;
+};
+
+/// Runs `wheatstone ARGUMENTS` in a folder and waits for it. `standard_output` takes the output instead of the result
+/// where it is given; `while_running` is called with the process id once the program has started.
+struct ProgramRun {
+  std::filesystem::path folder = ".";
+  std::filesystem::path standard_output;
+  std::function<void(int process)> while_running;
+};
+ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramRun& run = {});
+
+/// The names of all files in a folder and below it.
+std::set<std::string> files_in(const std::filesystem::path& folder);
+
+/// Runs the program in `folder` and expects that it ends with `exit_code`, writes exactly one line on standard error,
+/// "wheatstone: …" with `part` in it, writes nothing on standard output, and leaves no file that was not there before.
+void expect_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,
+                    const std::string& part);
+
+/// The commands that `wheatstone --help` lists.
+std::vector<std::string> commands();
+
+}  // namespace wheatstone

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# A room includes only what stands above it, and an installed header only the standard library and our own headers.
+# The order is the list of rooms in CMakeLists.txt of the folder given.
+#
+#   room_order.sh src/wheatstone
+set -euo pipefail
+cd "$1"
+
+mapfile -t rooms < <(sed -n 's/^add_subdirectory(\([a-z]*\)).*/\1/p' CMakeLists.txt)
+if ((${#rooms[@]} == 0)); then
+  echo "room_order: no rooms in $1/CMakeLists.txt" >&2
+  exit 1
+fi
+
+find . -name '*.h' -o -name '*.cpp' | sort | xargs awk -v rooms="${rooms[*]}" '
+  BEGIN {
+    count = split(rooms, names, " ")
+    for (i = 1; i <= count; i++) floor[names[i]] = i
+  }
+  function complain(why) {
+    printf "%s:%d: %s\n", FILENAME, FNR, why
+    failed = 1
+  }
+  # Files of no room (errors, progress) stand above all rooms.
+  function floor_of(path, parts, depth) {
+    depth = split(path, parts, "/")
+    if (depth == 1) return 0
+    return parts[1] in floor ? floor[parts[1]] : -1
+  }
+  FNR == 1 {
+    file = substr(FILENAME, 3)
+    here = floor_of(file)
+    if (here < 0) complain("is in a folder that is no room")
+    installed = file ~ /\.h$/ && file !~ /_internal\.h$/
+  }
+  match($0, /^[ \t]*#[ \t]*include[ \t]*"wheatstone\/[^"]*"/) {
+    path = $0
+    sub(/^[^"]*"wheatstone\//, "", path)
+    sub(/".*/, "", path)
+    there = floor_of(path)
+    if (there < 0) complain("includes " path ", which is in no room")
+    if (there > here) complain("includes " path ", which stands below it")
+    if (installed && path ~ /_internal\.h$/) complain("is installed, but includes " path)
+    next
+  }
+  installed && match($0, /^[ \t]*#[ \t]*include[ \t]*[<"]/) && $0 !~ /<[a-z_]+>/ {
+    complain("is installed, but includes what is neither ours nor the standard library'\''s: " $0)
+  }
+  END { exit failed }
+'
