@@ -9,8 +9,9 @@ namespace {
 class CommandHelp : public CLI::Formatter {
  public:
   std::string make_footer(const CLI::App* app) const override {
-    const CLI::App* program = app->get_parent();
-    if (program == nullptr) return CLI::Formatter::make_footer(app);
+    if (app->get_parent() == nullptr) return CLI::Formatter::make_footer(app);
+    const CLI::App* program = app;
+    while (program->get_parent() != nullptr) program = program->get_parent();
     const auto shared = program->get_options([](const CLI::Option* option) {
       return option->nonpositional() && option->get_group() == "Options" && !option->check_lname("help");
     });

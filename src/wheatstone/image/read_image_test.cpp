@@ -195,8 +195,11 @@ TEST_P(ReadImageCutShort, IsRefusedOrWhole) {
   const std::string bytes = bytes_of(path);
   const Image<Rgb8> whole = read_image(path);
   std::size_t refused = 0;
-  for (std::size_t length = 0; length < bytes.size(); ++length) {
+  std::size_t tried = 0;
+  // Every length that may end within a header, and a sample of the others.
+  for (std::size_t length = 0; length < bytes.size(); length += length < 300 ? 1 : 17) {
     put_bytes(path, std::string_view(bytes).substr(0, length));
+    ++tried;
     try {
       ASSERT_EQ(read_image(path), whole) << "cut to " << length << " of " << bytes.size() << " bytes";
     } catch (const Error& error) {
@@ -205,7 +208,7 @@ TEST_P(ReadImageCutShort, IsRefusedOrWhole) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, bytes.size() * 3 / 4);
+  EXPECT_GT(refused, tried * 3 / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, ReadImageCutShort, testing::Values("png", "jpg", "tif", "webp", "ppm", "bmp"),

@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <vector>
 
 #include "painting_generated.h"
 #include "wheatstone/error.h"
@@ -100,7 +101,6 @@ std::string encode_painting(const Painting& painting) {
                                             painting.canvas_colour.g, painting.canvas_colour.b, &layers));
 
   flatbuffers::FlatBufferBuilder builder;
-  builder.ForceVectorAlignment(payload.GetSize(), 1, 8);
   const auto bytes = builder.CreateVector(payload.GetBufferPointer(), payload.GetSize());
   file::FinishPaintingFileBuffer(
       builder, file::CreatePaintingFile(builder, current_version,
@@ -110,11 +110,13 @@ std::string encode_painting(const Painting& painting) {
 
 Painting decode_painting(std::string_view bytes, std::string_view name) {
   const Checker checker(name);
-  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   constexpr std::size_t smallest = 2 * sizeof(flatbuffers::uoffset_t);
-  checker.expect(bytes.size() >= smallest && bytes.size() <= most_bytes && file::PaintingFileBufferHasIdentifier(data),
+  checker.expect(bytes.size() >= smallest && bytes.size() <= most_bytes &&
+                     file::PaintingFileBufferHasIdentifier(bytes.data()),
                  "is not a painting, expected a .wst file");
-  flatbuffers::Verifier verifier(data, bytes.size());
+  const std::vector<std::uint8_t> aligned(bytes.begin(), bytes.end());
+  const std::uint8_t* data = aligned.data();
+  flatbuffers::Verifier verifier(data, aligned.size());
   checker.expect(file::VerifyPaintingFileBuffer(verifier), "the painting is damaged or truncated");
   const file::PaintingFile& file = *file::GetPaintingFile(data);
   checker.expect(file.version() == current_version,
@@ -122,7 +124,12 @@ Painting decode_painting(std::string_view bytes, std::string_view name) {
   checker.expect(checksum(file.payload()->data(), file.payload()->size()) == file.checksum(),
                  "the painting is damaged: its checksum does not fit");
 
-  const file::Painting& from = *file.payload_nested_root();
+  // FlatBuffers reads numbers where they lie; a copy puts them on even addresses whatever the file says.
+  const std::vector<std::uint8_t> payload(file.payload()->begin(), file.payload()->end());
+  flatbuffers::Verifier payload_verifier(payload.data(), payload.size());
+  checker.expect(payload.size() >= smallest && payload_verifier.VerifyBuffer<file::Painting>(nullptr),
+                 "the painting is damaged");
+  const file::Painting& from = *flatbuffers::GetRoot<file::Painting>(payload.data());
   checker.expect(from.width() >= 1 && from.height() >= 1 && from.width() <= largest_side_px &&
                      from.height() <= largest_side_px,
                  fmt::format("the painting is {}x{} pixels, expected 1 to {} a side", from.width(), from.height(),

@@ -1,31 +1,49 @@
 #include "wheatstone/stereo/consistency.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
+#include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/stereo/warp.h"
+#include "wheatstone/stereo/consistency_internal.h"
 
 namespace wheatstone {
+
+void check_one_size(const StereoPair& pair, ImageView<const float> left_disparity) {
+  if (same_size(pair.left, pair.right) && same_size(pair.left, left_disparity)) return;
+  throw Error(ErrorKind::bad_input,
+              fmt::format("measured pictures of {}x{} and {}x{} pixels with a disparity of {}x{}, expected one size",
+                          pair.left.width(), pair.left.height(), pair.right.width(), pair.right.height(),
+                          left_disparity.width(), left_disparity.height()));
+}
 
 Image<std::uint8_t> visible_in_both(ImageView<const float> left_disparity) {
   constexpr float tolerance_px = 1;
   const int width = left_disparity.width();
-  const Image<float> nearest = warp_disparity(left_disparity, Eye::left);
   Image<std::uint8_t> visible(width, left_disparity.height());
+  std::vector<float> nearest(width);
   for (int y = 0; y < visible.height(); ++y) {
-    for (int x = 0; x < width; ++x) {
-      const float d = left_disparity(x, y);
-      const float target = std::floor(static_cast<float>(x) + 0.5f - d);
-      const bool inside = target >= 0 && target < static_cast<float>(width);
-      if (inside && nearest(static_cast<int>(target), y) <= d + tolerance_px) visible(x, y) = 255;
-    }
+    const auto disparity = left_disparity.row(y);
+    const auto target = [&](int x) {  // pixel of the right view; −1 where there is none
+      const float place = static_cast<float>(x) + 0.5f - disparity[x];
+      return place >= 0 && place < static_cast<float>(width) ? static_cast<int>(place) : -1;
+    };
+    std::ranges::fill(nearest, -std::numeric_limits<float>::infinity());
+    for (int x = 0; x < width; ++x)
+      if (const int there = target(x); there >= 0) nearest[there] = std::max(nearest[there], disparity[x]);
+    for (int x = 0; x < width; ++x)
+      if (const int there = target(x); there >= 0 && nearest[there] <= disparity[x] + tolerance_px) visible(x, y) = 255;
   }
   return visible;
 }
 
 LeftRightDifference measure_left_right_difference(const StereoPair& pair, ImageView<const float> left_disparity) {
+  check_one_size(pair, left_disparity);
   const int width = pair.left.width(), height = pair.left.height();
   const Image<std::uint8_t> visible = visible_in_both(left_disparity);
   double absolute = 0, squared = 0;

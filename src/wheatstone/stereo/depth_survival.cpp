@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/stereo/consistency.h"
+#include "wheatstone/stereo/consistency_internal.h"
 #include "wheatstone/stereo/match_internal.h"
 
 namespace wheatstone {
 namespace {
 
-/// The truth's range with a little room, in whole pixels.
+/// From nothing, or the truth's least, to its largest, in whole pixels; no farther than the picture is wide.
 DisparityRange range_of(ImageView<const float> disparity) {
-  float least = INFINITY, largest = -INFINITY;
+  float least = 0, largest = 0;
   for (int y = 0; y < disparity.height(); ++y) {
     for (const float d : disparity.row(y)) {
       if (!std::isfinite(d)) continue;
@@ -21,14 +21,14 @@ DisparityRange range_of(ImageView<const float> disparity) {
       largest = std::max(largest, d);
     }
   }
-  if (least > largest) return {};
-  constexpr int room_px = 4;
-  return {static_cast<int>(std::floor(least)) - room_px, static_cast<int>(std::ceil(largest)) + room_px};
+  const auto width = static_cast<float>(disparity.width());
+  return {static_cast<int>(std::floor(std::max(least, -width))), static_cast<int>(std::ceil(std::min(largest, width)))};
 }
 
 }  // namespace
 
 DepthSurvival measure_depth_survival(const StereoPair& pair, ImageView<const float> left_disparity) {
+  check_one_size(pair, left_disparity);
   const Image<float> found = match_plain_sgbm(as_mat(pair.left), as_mat(pair.right), range_of(left_disparity));
   const Image<std::uint8_t> visible = visible_in_both(left_disparity);
   std::size_t asked = 0, matched = 0, within_1 = 0, within_2 = 0;

@@ -13,7 +13,8 @@ struct DepthSurvival {
   double bad_2 = 0;           ///< … by more than 2 pixels
 };
 
-/// `left_disparity` is the truth, or what is taken for it; NaN where it is unknown.
+/// `left_disparity` is the truth, or what is taken for it; NaN where it is unknown. Throws Error{bad_input} where sizes
+/// differ.
 DepthSurvival measure_depth_survival(const StereoPair& pair, ImageView<const float> left_disparity);
 
 }  // namespace wheatstone

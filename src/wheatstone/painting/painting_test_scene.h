@@ -1,0 +1,53 @@
+#pragma once
+
+// A small pair with known truth, for the painting room's tests: a textured far wall and a nearer square before it.
+
+#include <cmath>
+
+#include "wheatstone/painting/random.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone::test_scene {
+
+inline constexpr int width = 160, height = 120;
+inline constexpr float wall_disparity = 4, square_disparity = 16;
+inline constexpr int square_left = 60, square_right = 110, square_top = 30, square_bottom = 90;
+
+inline bool in_square(float x_left_view, int y) {
+  return x_left_view >= square_left && x_left_view < square_right && y >= square_top && y < square_bottom;
+}
+
+/// A surface's colour at a place on it: smooth waves with some grain, so that strokes have something to follow.
+inline Rgb8 colour_at(float x, int y, bool square) {
+  const float wave = 0.5f + 0.5f * std::sin(0.21f * x + 0.13f * static_cast<float>(y));
+  const float grain = unit_float(hash({static_cast<std::uint64_t>(x + 1000), static_cast<std::uint64_t>(y)}));
+  const auto level = [&](float base, float swing) { return static_cast<std::uint8_t>(base + swing * wave + 20 * grain); };
+  return square ? Rgb8{level(150, 80), level(30, 40), level(20, 30)} : Rgb8{level(30, 60), level(60, 120), level(120, 100)};
+}
+
+inline StereoPair photographs() {
+  StereoPair pair{Image<Rgb8>(width, height), Image<Rgb8>(width, height)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto fx = static_cast<float>(x);
+      pair.left(x, y) = colour_at(fx, y, in_square(fx, y));
+      const bool square = in_square(fx + square_disparity, y);
+      pair.right(x, y) = colour_at(fx + (square ? square_disparity : wall_disparity), y, square);
+    }
+  }
+  return pair;
+}
+
+inline StereoGeometry geometry() {
+  Image<float> left(width, height, wall_disparity), right(width, height, wall_disparity);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (in_square(static_cast<float>(x), y)) left(x, y) = square_disparity;
+      if (in_square(static_cast<float>(x) + square_disparity, y)) right(x, y) = square_disparity;
+    }
+  }
+  return geometry_from_both(left, right, {.least_occlusion_px = 1});
+}
+
+}  // namespace wheatstone::test_scene
