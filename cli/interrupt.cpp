@@ -24,6 +24,7 @@ void watch_signals() {
     if (before.sa_handler != SIG_IGN) sigaction(signal, &once, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void throw_if_interrupted() {

@@ -120,6 +120,8 @@ int run_guarded(int argc, const char* const* argv) {
 }  // namespace wheatstone::cli
 
 int main(int argc, char** argv) {
+  // Results wait until the progress bar is gone, which would share their line.
+  std::setvbuf(stdout, nullptr, _IOFBF, 1 << 16);
   wheatstone::cli::watch_signals();
   wheatstone::cli::silence_opencv();
   return wheatstone::cli::run_guarded(argc, argv);

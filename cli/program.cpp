@@ -19,6 +19,17 @@ class CommandHelp : public CLI::Formatter {
   }
 };
 
+/// Gives an app and all below it our form of help. `word` is what usage calls the next word of the line.
+void lay_out_help(CLI::App& app, const std::string& word) {
+  const auto help = std::make_shared<CommandHelp>();
+  help->label("SUBCOMMAND", word);
+  app.formatter(help);
+  for (CLI::App* below : app.get_subcommands({})) {
+    below->group(app.get_parent() == nullptr ? "Commands" : "Kinds");
+    lay_out_help(*below, "KIND");
+  }
+}
+
 void add_shared_options(CLI::App& program, SharedOptions& options) {
   Session& session = options.session;
   program.add_flag("--json", session.json, "Print one JSON object instead of text");
@@ -40,31 +51,21 @@ void add_shared_options(CLI::App& program, SharedOptions& options) {
 
 std::unique_ptr<CLI::App> make_program(SharedOptions& options) {
   auto program = std::make_unique<CLI::App>("Pictures for two eyes, and for forty-five.", "wheatstone");
-  program->formatter(std::make_shared<CommandHelp>());
   // Taken over by every command: what all share may stand before or behind the command's name.
   program->fallthrough();
   program->require_subcommand(1);
-  program->get_formatter()->label("SUBCOMMAND", "COMMAND");
   program->footer(
       "'wheatstone COMMAND --help' tells more. Exit codes: 0 done, 2 wrong usage, 3 bad input,\n"
       "4 cannot read or write, 5 interrupted.");
   add_shared_options(*program, options);
 
   const Session& session = options.session;
-#ifdef WHEATSTONE_HAS_MATCH
   add_match_command(*program, session);
-#endif
-#ifdef WHEATSTONE_HAS_PAINT
   add_paint_command(*program, session);
-#endif
-#ifdef WHEATSTONE_HAS_MEASURE
   add_measure_command(*program, session);
-#endif
-#ifdef WHEATSTONE_HAS_SYNTH
   add_synth_command(*program, session);
-#endif
   add_info_command(*program, session);
-  for (CLI::App* command : program->get_subcommands({})) command->group("Commands");
+  lay_out_help(*program, "COMMAND");
   return program;
 }
 

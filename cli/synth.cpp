@@ -96,11 +96,13 @@ void add_still(CLI::App& synth, const Session& session) {
   CLI::Option* views = command.add_option("--views", arguments->views, "Views from the left eye to the right")
                            ->check(CLI::Range(1, 1000))
                            ->capture_default_str();
-  command.add_option("--view", arguments->view, "Only the view at this position: left eye -0.5, centre 0, right eye 0.5")
+  command
+      .add_option("--view", arguments->view, "Only the view at this position: left eye -0.5, centre 0, right eye 0.5")
       ->check(CLI::Range(-10.0, 10.0))
       ->excludes(views);
   command.footer(
-      "Two views are written as left.png and right.png with left_disparity.pfm, left_occlusion.png and so on: exact, in\n"
+      "Two views are written as left.png and right.png with left_disparity.pfm, left_occlusion.png and so on: exact, "
+      "in\n"
       "pixels, each in its own view. Other numbers of views are written as view_000.png with view_000_disparity.pfm.\n"
       "--seed moves and recolours what lies on the table.\n\n"
       "Example:\n  wheatstone synth still -o still --size 1280x960 --seed 2");

@@ -1,4 +1,4 @@
-// Bad input gets one clear line and exit code 3, and leaves no output. Each command that reads pictures adds a line to
+// Bad input gets one clear line and exit code 3, and leaves no output. A command that reads pictures adds its lines to
 // `readers`.
 
 #include <gtest/gtest.h>
@@ -9,8 +9,15 @@
 namespace wheatstone {
 namespace {
 
-/// The arguments that make a command read this file, and what else they need.
-std::vector<std::vector<std::string>> readers(const std::string& file) { return {{"info", file}}; }
+/// The lines that make a command read this file; "good.png" is a picture without fault.
+std::vector<std::vector<std::string>> readers(const std::string& file) {
+  return {{"info", file},
+          {"match", file, "good.png", "-o", "results"},
+          {"match", "good.png", file, "-o", "results"},
+          {"paint", file, "good.png", "-o", "results"},
+          {"paint", "good.png", file, "-o", "results"},
+          {"paint", "good.png", "good.png", "--disparity", file, "-o", "results"}};
+}
 
 Image<Rgb8> ramp() {
   Image<Rgb8> image(64, 48);
@@ -43,6 +50,26 @@ TEST(BadInput, WhatIsNoPictureIsRefused) {
   put_bytes(folder / "empty.png", "");
   std::filesystem::create_directory(folder / "folder.png");
   for (const std::string name : {"letter.png", "empty.png", "folder.png"}) expect_every_reader_refuses(folder, name);
+}
+
+TEST(BadInput, EyesOfDifferentSizesAreRefused) {
+  const TemporaryFolder folder;
+  write_image(folder / "good.png", ramp());
+  write_image(folder / "small.png", Image<Rgb8>(32, 24));
+  for (const std::string command : {"match", "paint"}) {
+    expect_refused(folder, {command, "good.png", "small.png", "-o", "results"}, 3, "small.png");
+  }
+}
+
+TEST(BadInput, TinyPicturesAreRefused) {
+  const TemporaryFolder folder;
+  write_image(folder / "1x1.png", Image<Rgb8>(1, 1));
+  write_image(folder / "3x2.png", Image<Rgb8>(3, 2));
+  for (const std::string command : {"match", "paint"}) {
+    for (const std::string name : {"1x1.png", "3x2.png"}) {
+      expect_refused(folder, {command, name, name, "-o", "results", "--quiet"}, 3, name.substr(0, 3));
+    }
+  }
 }
 
 TEST(BadInput, DamagedPaintingIsRefused) {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,17 +21,19 @@ void redirect(int descriptor, const fs::path& path, int flags) {
   ::close(file);
 }
 
-[[noreturn]] void become_program(std::vector<std::string> words, const fs::path& folder, const fs::path& output,
+[[noreturn]] void become_program(std::vector<std::string> words, const ProgramRun& run, const fs::path& output,
                                  const fs::path& errors) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   // A test runner may ignore what the program is to notice.
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) ::signal(number, SIG_DFL);
   redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
   redirect(STDOUT_FILENO, output, O_WRONLY | O_CREAT);
   redirect(STDERR_FILENO, errors, O_WRONLY | O_CREAT);
-  if (::chdir(folder.c_str()) == 0) ::execv(arguments.front(), arguments.data());
+  const rlimit limit = {run.largest_file, run.largest_file};
+  if (run.largest_file > 0 && ::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(127);
+  if (::chdir(run.folder.c_str()) == 0) ::execv(arguments.front(), arguments.data());
   ::_exit(127);
 }
 
@@ -43,7 +46,7 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const Progr
   const fs::path output = run.standard_output.empty() ? scratch / "output" : run.standard_output;
 
   const pid_t process = ::fork();
-  if (process == 0) become_program(words, run.folder, output, scratch / "errors");
+  if (process == 0) become_program(words, run, output, scratch / "errors");
   if (process > 0 && run.while_running) run.while_running(process);
   int status = 0;
   if (process < 0 || ::waitpid(process, &status, 0) != process) throw std::runtime_error("cannot run the program");

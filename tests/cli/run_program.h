@@ -17,13 +17,14 @@ struct ProgramResult {
   std::string errors;
 };
 
-/// Runs `wheatstone ARGUMENTS` in a folder and waits for it. `standard_output` takes the output instead of the result
-/// where it is given; `while_running` is called with the process id once the program has started.
 struct ProgramRun {
   std::filesystem::path folder = ".";
-  std::filesystem::path standard_output;
-  std::function<void(int process)> while_running;
+  std::filesystem::path standard_output;           ///< takes the output instead of the result, where it is given
+  std::size_t largest_file = 0;                    ///< in bytes, 0 for no limit; a write beyond fails as on a full disk
+  std::function<void(int process)> while_running;  ///< called once the program has started
 };
+
+/// Runs `wheatstone ARGUMENTS` and waits for it.
 ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramRun& run = {});
 
 /// The names of all files in a folder and below it.

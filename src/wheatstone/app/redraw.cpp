@@ -12,6 +12,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/image/write_image.h"
 #include "wheatstone/painting/rasterise.h"
+#include "wheatstone/painting/resize_strokes.h"
 #include "wheatstone/painting/svg.h"
 
 namespace wheatstone {
@@ -40,14 +41,7 @@ Painting scaled(Painting painting, double scale) {
   const auto factor = static_cast<float>(scale);
   painting.width = static_cast<int>(width);
   painting.height = static_cast<int>(height);
-  for (Layer& layer : painting.layers) {
-    layer.radius_px *= factor;
-    for (ControlPoint& point : layer.points) point = {point.x * factor, point.y * factor, point.disparity * factor};
-    for (Stroke& stroke : layer.strokes) {
-      stroke.radius_px *= factor;
-      stroke.disparity *= factor;
-    }
-  }
+  for (Layer& layer : painting.layers) resize_strokes(layer, factor);
   return painting;
 }
 

@@ -1,10 +1,10 @@
 #include "wheatstone/image/whole_file.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 
 #include "temporary_folder.h"
 #include "throws_error.h"

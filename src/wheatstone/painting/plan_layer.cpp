@@ -47,7 +47,7 @@ bool may_begin(const LayerPlan& plan, Place place, int x, int y) {
 /// one nearest to the cell's target is wanted most. A pixel right on a depth edge mixes two surfaces' colours: it is
 /// taken only where nothing else in the cell is bare.
 float desire(const LayerPlan& plan, Place place, float error, int x, int y, const Target& target) {
-  const bool on_edge = place == Place::beside_edge && plan.edge_distance(x, y) < 1;
+  const bool on_edge = place == Place::beside_edge && !plan.mixed_colours.empty() && plan.edge_distance(x, y) < 1;
   if (error < bare_error) return on_edge ? -1 : error;
   if (on_edge) return bare_error / 4;
   const float dx = static_cast<float>(x) - target.x, dy = static_cast<float>(y) - target.y;
@@ -64,12 +64,35 @@ void improve_seed(const LayerPlan& plan, Place place, const float* errors, int b
   }
 }
 
-bool has_seeds(const LayerPlan& plan, Place place, int y) {
-  const auto any = [](std::span<const std::uint8_t> row) {
-    return std::ranges::any_of(row, [](std::uint8_t value) { return value != 0; });
-  };
-  if (place == Place::beside_edge && !any(plan.depth_edges.row(y))) return false;
-  return plan.seeds.empty() || any(plan.seeds.row(y));
+/// True where the mask has anything in the rectangle; an empty mask is a full one.
+bool has_any(ImageView<const std::uint8_t> mask, int left, int right, int top, int bottom) {
+  if (mask.empty()) return true;
+  for (int y = top; y < bottom; ++y)
+    for (const std::uint8_t value : mask.row(y).subspan(left, right - left))
+      if (value != 0) return true;
+  return false;
+}
+
+/// A run of neighbouring cells in one row of cells.
+struct CellRun {
+  int first, end;
+};
+
+/// The cells of a row in which strokes may begin at all.
+std::vector<CellRun> runs_of_active_cells(const LayerPlan& plan, Place place, const Grid& grid, int row) {
+  std::vector<CellRun> runs;
+  for (int column = 0; column < grid.columns(); ++column) {
+    const auto holds = [&](ImageView<const std::uint8_t> mask) {
+      return has_any(mask, grid.left(column), grid.left(column + 1), grid.top(row), grid.top(row + 1));
+    };
+    if (!holds(plan.seeds) || (place == Place::beside_edge && !holds(plan.depth_edges))) continue;
+    if (!runs.empty() && runs.back().end == column) {
+      ++runs.back().end;
+    } else {
+      runs.push_back({column, column + 1});
+    }
+  }
+  return runs;
 }
 
 /// What a random number decides.
@@ -97,24 +120,32 @@ void add_stroke(const LayerPlan& plan, const Style& style, Place place, const Se
   layer.strokes.push_back(stroke);
 }
 
+Target target_of(const LayerPlan& plan, const Style& style, Place place, const Grid& grid, int column, int row) {
+  const float u = unit_float(cell_hash(plan, style, place, column, row, jitter_x));
+  const float v = unit_float(cell_hash(plan, style, place, column, row, jitter_y));
+  return {(static_cast<float>(column) + u) * grid.cell_px, (static_cast<float>(row) + v) * grid.cell_px};
+}
+
 /// The strokes that begin in one row of cells.
 Layer plan_cells(const LayerPlan& plan, const Style& style, Place place, const Grid& grid, int row) {
+  const std::vector<CellRun> runs = runs_of_active_cells(plan, place, grid, row);
+  Layer layer;
+  if (runs.empty()) return layer;
   std::vector<Seed> seeds(grid.columns());
   std::vector<Target> targets(grid.columns());
-  for (int column = 0; column < grid.columns(); ++column) {
-    const float u = unit_float(cell_hash(plan, style, place, column, row, jitter_x));
-    const float v = unit_float(cell_hash(plan, style, place, column, row, jitter_y));
-    targets[column] = {(static_cast<float>(column) + u) * grid.cell_px, (static_cast<float>(row) + v) * grid.cell_px};
-  }
-  std::vector<float> errors(plan.canvas.red.width());
+  for (const CellRun& run : runs)
+    for (int column = run.first; column < run.end; ++column)
+      targets[column] = target_of(plan, style, place, grid, column, row);
+
+  std::vector<float> errors(plan.canvas.width);
   for (int y = grid.top(row); y < grid.top(row + 1); ++y) {
-    if (!has_seeds(plan, place, y)) continue;
-    squared_errors(plan.reference, plan.canvas, y, errors.data());
-    for (int column = 0; column < grid.columns(); ++column)
-      improve_seed(plan, place, errors.data(), grid.left(column), grid.left(column + 1), y, targets[column],
-                   seeds[column]);
+    for (const CellRun& run : runs) {
+      squared_errors(plan.reference, plan.canvas, {y, grid.left(run.first), grid.left(run.end)}, errors.data());
+      for (int column = run.first; column < run.end; ++column)
+        improve_seed(plan, place, errors.data(), grid.left(column), grid.left(column + 1), y, targets[column],
+                     seeds[column]);
+    }
   }
-  Layer layer;
   const float squared_threshold = style.threshold * style.threshold;
   for (int column = 0; column < grid.columns(); ++column) {
     if (seeds[column].error > squared_threshold)

@@ -19,8 +19,13 @@ float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed);
 /// Error of a bare pixel: above every squared RGB distance (at most 3·255²), with room below it for a preference.
 inline constexpr float bare_error = 1e6f;
 
-/// Squared RGB distances between reference and canvas for one row, `bare_error` where the canvas is bare; `errors` has
-/// the canvas's padded width.
-void squared_errors(const ReferencePicture& reference, const Canvas& canvas, int row, float* errors);
+/// Columns [begin, end) of one row of a picture.
+struct RowPart {
+  int row, begin, end;
+};
+
+/// Squared RGB distances between reference and canvas, `bare_error` where the canvas is bare; `errors` has the canvas's
+/// width, and only the part's columns are written.
+void squared_errors(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors);
 
 }  // namespace wheatstone

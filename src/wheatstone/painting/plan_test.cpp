@@ -73,7 +73,7 @@ TEST(DepthEdges, DistanceIsHalfAPixelBesideAnEdge) {
   Image<float> disparity(20, 3, 1);
   for (int y = 0; y < 3; ++y)
     for (int x = 10; x < 20; ++x) disparity(x, y) = 9;
-  const Image<float> distance = distance_to_depth_edge(disparity, 2);
+  const Image<float> distance = distance_to_depth_edge(disparity, 2, 6);
   EXPECT_FLOAT_EQ(distance(9, 1), 0.5f);
   EXPECT_FLOAT_EQ(distance(10, 1), 0.5f);
   EXPECT_NEAR(distance(14, 1), 4.5f, 0.3f);

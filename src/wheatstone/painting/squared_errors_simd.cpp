@@ -9,18 +9,19 @@ HWY_BEFORE_NAMESPACE();
 namespace wheatstone::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void errors_of_row(const ReferencePicture& reference, const Canvas& canvas, int row, float* errors) {
+void errors_of_row(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors) {
   const hn::CappedTag<float, Canvas::widest_vector> f;
   const hn::Rebind<std::uint8_t, decltype(f)> bytes;
   const hn::Rebind<std::int32_t, decltype(f)> ints;
   const int lanes = static_cast<int>(hn::Lanes(f));
+  const int row = part.row;
   const std::uint8_t* wanted[] = {reference.red.row(row).data(), reference.green.row(row).data(),
                                   reference.blue.row(row).data()};
   const float* painted[] = {canvas.red.row(row).data(), canvas.green.row(row).data(), canvas.blue.row(row).data()};
   const float* coverage = canvas.coverage.row(row).data();
   const auto half = hn::Set(f, 0.5f), bare = hn::Set(f, bare_error);
-  int x = 0;
-  for (; x + lanes <= canvas.width; x += lanes) {
+  int x = part.begin;
+  for (; x + lanes <= part.end; x += lanes) {
     auto error = hn::Zero(f);
     for (int channel = 0; channel < 3; ++channel) {
       const auto want = hn::ConvertTo(f, hn::PromoteTo(ints, hn::LoadU(bytes, wanted[channel] + x)));
@@ -30,7 +31,7 @@ void errors_of_row(const ReferencePicture& reference, const Canvas& canvas, int 
     const auto is_bare = hn::Lt(hn::LoadU(f, coverage + x), half);
     hn::StoreU(hn::IfThenElse(is_bare, bare, error), f, errors + x);
   }
-  for (; x < canvas.width; ++x) {
+  for (; x < part.end; ++x) {
     float error = 0;
     for (int channel = 0; channel < 3; ++channel) {
       const float difference = static_cast<float>(wanted[channel][x]) - painted[channel][x];
@@ -48,8 +49,8 @@ namespace wheatstone {
 
 HWY_EXPORT(errors_of_row);
 
-void squared_errors(const ReferencePicture& reference, const Canvas& canvas, int row, float* errors) {
-  HWY_DYNAMIC_DISPATCH(errors_of_row)(reference, canvas, row, errors);
+void squared_errors(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors) {
+  HWY_DYNAMIC_DISPATCH(errors_of_row)(reference, canvas, part, errors);
 }
 
 }  // namespace wheatstone

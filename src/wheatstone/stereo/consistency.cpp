@@ -56,7 +56,8 @@ LeftRightDifference measure_left_right_difference(const StereoPair& pair, ImageV
       const int before = static_cast<int>(place), after = std::min(before + 1, width - 1);
       const float t = place - static_cast<float>(before);
       const auto add = [&](std::uint8_t Rgb8::*channel) {
-        const float there = (1 - t) * static_cast<float>(right[before].*channel) + t * static_cast<float>(right[after].*channel);
+        const float there =
+            (1 - t) * static_cast<float>(right[before].*channel) + t * static_cast<float>(right[after].*channel);
         const double difference = static_cast<double>(left[x].*channel) - there;
         absolute += std::abs(difference);
         squared += difference * difference;

@@ -5,16 +5,16 @@
 namespace wheatstone {
 
 /// 255 for the pixels of the left view whose disparity is known and whose counterpart in the right view lies in the
-/// picture and is not hidden: a z-buffer, into whose pixels every left pixel falls, holds nothing there that is nearer by
-/// more than a pixel.
+/// picture and is not hidden: a z-buffer, into whose pixels every left pixel falls, holds nothing there that is nearer
+/// by more than a pixel.
 Image<std::uint8_t> visible_in_both(ImageView<const float> left_disparity);
 
 /// How alike the two eyes' pictures of the same points are: L(x) − R(x − d) over the pixels visible in both, R
 /// interpolated along the scan line.
 struct LeftRightDifference {
-  double mean_absolute = 0;  ///< over pixels and channels, 0..255
-  double rmse = 0;           ///< over pixels and channels, 0..1
-  double compared_share = 0; ///< of the left picture's pixels
+  double mean_absolute = 0;   ///< over pixels and channels, 0..255
+  double rmse = 0;            ///< over pixels and channels, 0..1
+  double compared_share = 0;  ///< of the left picture's pixels
 };
 
 /// `left_disparity` is the truth, or what is taken for it; NaN where it is unknown. Throws Error{bad_input} where sizes

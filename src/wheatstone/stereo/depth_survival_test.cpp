@@ -9,7 +9,7 @@
 #include "throws_error.h"
 #include "wheatstone/image/disparity_file.h"
 #include "wheatstone/image/read_image.h"
-#include "wheatstone/stereo/spoiled_pair_test.h"
+#include "wheatstone/stereo/spoiled_pair_internal.h"
 
 namespace wheatstone {
 namespace {

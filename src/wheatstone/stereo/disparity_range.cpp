@@ -4,8 +4,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/stereo/match.h"
+#include "wheatstone/stereo/match_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -13,6 +14,20 @@ namespace {
 /// Corners are looked for in pictures at most this wide: enough for a range, and quick.
 constexpr int search_width_px = 1000;
 constexpr std::size_t least_matches = 12;
+
+/// Dense disparities of a small copy of the pair, over all that a picture could hold: it also sees the plain surfaces on
+/// which there are no corners. In pixels of the full picture.
+std::vector<float> coarse_disparities(const StereoPair& pair) {
+  constexpr int small_width_px = 320;
+  const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());
+  cv::Mat left, right;
+  cv::resize(as_mat(pair.left), left, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(as_mat(pair.right), right, {}, scale, scale, cv::INTER_AREA);
+  const Image<float> disparity = match_plain_sgbm(left, right, {-left.cols / 6, left.cols / 3});
+  const float least = disparity_percentile(disparity, 0.01), largest = disparity_percentile(disparity, 0.995);
+  if (!std::isfinite(least)) return {};
+  return {least / static_cast<float>(scale), largest / static_cast<float>(scale)};
+}
 
 cv::Mat reduced_luminance(const Image<Rgb8>& picture, double scale) {
   cv::Mat luminance;
@@ -65,12 +80,17 @@ DisparityRange find_disparity_range(const StereoPair& pair) {
   const double scale = std::min(1.0, static_cast<double>(search_width_px) / width);
   const cv::Mat left = reduced_luminance(pair.left, scale), right = reduced_luminance(pair.right, scale);
   const float agreement_px = std::max(2.f, 0.005f * static_cast<float>(left.cols));
-  const std::vector<float> disparities = supported(sparse_disparities(left, right), agreement_px);
+  std::vector<float> ends = coarse_disparities(pair);
+  const std::vector<float> corners = supported(sparse_disparities(left, right), agreement_px);
+  if (corners.size() >= least_matches) {
+    ends.push_back(corners.front() / static_cast<float>(scale));
+    ends.push_back(corners.back() / static_cast<float>(scale));
+  }
 
-  // Without enough to go by: what a pair made for viewing keeps to.
-  if (disparities.size() < least_matches) return {-width / 32, std::max(width / 8, 16)};
-  const double least = disparities.front() / scale, largest = disparities.back() / scale;
-  const double room = std::max(0.2 * (largest - least), 8.0);
+  // Without anything to go by: what a pair made for viewing keeps to.
+  if (ends.empty()) return {-width / 32, std::max(width / 8, 16)};
+  const auto [least, largest] = std::ranges::minmax(ends);
+  const float room = std::max(0.1f * (largest - least), 6.f);
   const int limit = width - 1;
   return {std::max(static_cast<int>(std::floor(least - room)), -limit),
           std::min(static_cast<int>(std::ceil(largest + room)), limit)};

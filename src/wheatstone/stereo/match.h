@@ -52,7 +52,8 @@ struct MatchedPair {
 /// block that makes no sense.
 MatchedPair match(const StereoPair& pair, const MatchOptions& options = {}, const Progress& progress = {});
 
-/// The range of disparities in a pair, from matched corners (ORB), with some room at either end.
+/// The range of disparities in a pair, from matched corners (ORB) and a coarse match of small copies, with some room at
+/// either end.
 DisparityRange find_disparity_range(const StereoPair& pair);
 
 }  // namespace wheatstone

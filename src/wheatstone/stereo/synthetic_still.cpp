@@ -10,9 +10,8 @@
 #include "wheatstone/stereo/synthetic_still_internal.h"
 
 namespace wheatstone {
+namespace still {
 namespace {
-
-using namespace still;
 
 constexpr int tile_px = 16;
 /// Nearer by this share of the depth hides a point; less is rounding.
@@ -57,24 +56,31 @@ void check(const SyntheticStillOptions& options) {
   constexpr int least_px = 16, most_px = 16384;
   const auto refuse = [](const std::string& what) { throw Error(ErrorKind::wrong_usage, what); };
   if (options.width < least_px || options.height < least_px || options.width > most_px || options.height > most_px)
-    refuse(fmt::format("still life of {}x{} pixels, expected {} to {} a side", options.width, options.height, least_px, most_px));
+    refuse(fmt::format("still life of {}x{} pixels, expected {} to {} a side", options.width, options.height, least_px,
+                       most_px));
   constexpr int most_aspect = 8;
   if (options.width > most_aspect * options.height || options.height > most_aspect * options.width)
-    refuse(fmt::format("still life of {}x{} pixels, expected sides of at most 1:{}", options.width, options.height, most_aspect));
+    refuse(fmt::format("still life of {}x{} pixels, expected sides of at most 1:{}", options.width, options.height,
+                       most_aspect));
   if (options.samples_a_side < 1 || options.samples_a_side > 8)
     refuse(fmt::format("{} samples a side of a pixel, expected 1 to 8", options.samples_a_side));
   const float least = options.least_disparity_px.value_or(0), largest = options.largest_disparity_px.value_or(least);
   const auto width = static_cast<float>(options.width);
   if (!std::isfinite(least) || !std::isfinite(largest) || largest < least || largest > width || least < -width)
-    refuse(fmt::format("disparities from {} to {} px, expected least <= largest within the picture's width", least, largest));
+    refuse(fmt::format("disparities from {} to {} px, expected least <= largest within the picture's width", least,
+                       largest));
 }
 
 /// One eye's view of the scene: which objects may be met in which tile of its picture.
 class View {
  public:
   View(const Scene& scene, const Cameras& cameras, float position)
-      : scene_(&scene), cameras_(&cameras), position_(position), columns_((cameras.width + tile_px - 1) / tile_px),
-        rows_((cameras.height + tile_px - 1) / tile_px), tiles_(static_cast<std::size_t>(columns_) * rows_) {
+      : scene_(&scene),
+        cameras_(&cameras),
+        position_(position),
+        columns_((cameras.width + tile_px - 1) / tile_px),
+        rows_((cameras.height + tile_px - 1) / tile_px),
+        tiles_(static_cast<std::size_t>(columns_) * rows_) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) enter(static_cast<int>(i));
   }
 
@@ -120,7 +126,7 @@ class View {
 std::uint8_t srgb_encoded(float linear) {
   const float v = clamp01(linear);
   const float encoded = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(encoded * 255 + 0.5f);
+  return static_cast<std::uint8_t>(std::lround(encoded * 255));
 }
 
 /// Gathers the samples of one pixel.
@@ -192,7 +198,8 @@ void render(const Scene& scene, const Cameras& cameras, const View& view, int sa
   });
 }
 
-Image<std::uint8_t> occlusion_of(const Cameras& cameras, const View& from, const View& to, const Image<float>& disparity) {
+Image<std::uint8_t> occlusion_of(const Cameras& cameras, const View& from, const View& to,
+                                 const Image<float>& disparity) {
   Image<std::uint8_t> mask(cameras.width, cameras.height);
   tbb::parallel_for(0, cameras.height, [&](int y) {
     for (int x = 0; x < cameras.width; ++x) {
@@ -204,26 +211,28 @@ Image<std::uint8_t> occlusion_of(const Cameras& cameras, const View& from, const
 }
 
 }  // namespace
+}  // namespace still
 
 SyntheticStill make_synthetic_still(const SyntheticStillOptions& options) {
-  check(options);
-  const Scene scene = compose_still(options.seed);
-  const Cameras cameras = make_cameras(options);
-  const View left(scene, cameras, -0.5f), right(scene, cameras, 0.5f);
-  SyntheticStill still;
-  render(scene, cameras, left, options.samples_a_side, still.pictures.left, still.geometry.left_disparity);
-  render(scene, cameras, right, options.samples_a_side, still.pictures.right, still.geometry.right_disparity);
-  still.geometry.left_occlusion = occlusion_of(cameras, left, right, still.geometry.left_disparity);
-  still.geometry.right_occlusion = occlusion_of(cameras, right, left, still.geometry.right_disparity);
-  return still;
+  still::check(options);
+  const still::Scene scene = still::compose_still(options.seed);
+  const still::Cameras cameras = still::make_cameras(options);
+  const still::View left(scene, cameras, -0.5f), right(scene, cameras, 0.5f);
+  SyntheticStill result;
+  still::render(scene, cameras, left, options.samples_a_side, result.pictures.left, result.geometry.left_disparity);
+  still::render(scene, cameras, right, options.samples_a_side, result.pictures.right, result.geometry.right_disparity);
+  result.geometry.left_occlusion = still::occlusion_of(cameras, left, right, result.geometry.left_disparity);
+  result.geometry.right_occlusion = still::occlusion_of(cameras, right, left, result.geometry.right_disparity);
+  return result;
 }
 
 SyntheticView make_synthetic_view(const SyntheticStillOptions& options, float view) {
-  check(options);
-  const Scene scene = compose_still(options.seed);
-  const Cameras cameras = make_cameras(options);
+  still::check(options);
+  const still::Scene scene = still::compose_still(options.seed);
+  const still::Cameras cameras = still::make_cameras(options);
   SyntheticView result;
-  render(scene, cameras, View(scene, cameras, view), options.samples_a_side, result.picture, result.disparity);
+  still::render(scene, cameras, still::View(scene, cameras, view), options.samples_a_side, result.picture,
+                result.disparity);
   return result;
 }
 

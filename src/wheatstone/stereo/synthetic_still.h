@@ -8,10 +8,10 @@
 namespace wheatstone {
 
 struct SyntheticStillOptions {
-  int width = 960;   ///< of each view, in pixels; the picture's height decides how large things are
+  int width = 960;  ///< of each view, in pixels; the picture's height decides how large things are
   int height = 720;
-  std::uint64_t seed = 1;              ///< moves, swaps and recolours what lies on the table
-  int samples_a_side = 2;              ///< each pixel is the mean, in linear light, of this many squared samples
+  std::uint64_t seed = 1;                     ///< moves, swaps and recolours what lies on the table
+  int samples_a_side = 2;                     ///< each pixel is the mean, in linear light, of this many squared samples
   std::optional<float> largest_disparity_px;  ///< of the nearest point; none: 45 pixels in a picture 640 wide
   std::optional<float> least_disparity_px;    ///< of the wall; none: 6 pixels in a picture 640 wide
   bool converged = false;  ///< moves both views so that the middle of that range gets disparity 0, either side a sign

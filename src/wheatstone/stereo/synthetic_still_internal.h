@@ -62,7 +62,21 @@ struct Panel {
 };
 
 enum class Material : std::uint8_t {
-  plaster, table, glaze, glass, orange, lemon, apple, pear, grape, petal, blossom_heart, leaf, stem, copper, velvet
+  plaster,
+  table,
+  glaze,
+  glass,
+  orange,
+  lemon,
+  apple,
+  pear,
+  grape,
+  petal,
+  blossom_heart,
+  leaf,
+  stem,
+  copper,
+  velvet
 };
 
 struct Surface {
@@ -146,8 +160,8 @@ void set_bounds(Object& object);
 struct Finish {
   Vec3 colour;  ///< linear reflectance
   Vec3 normal;
-  float gloss = 0;       ///< strength of the highlight
-  float sharpness = 20;  ///< its exponent
+  float gloss = 0;         ///< strength of the highlight
+  float sharpness = 20;    ///< its exponent
   float translucence = 0;  ///< light that comes round the edge, 0..1
 };
 /// `footprint` is the width of a pixel at the point, in metres: finer detail is left out.

@@ -46,9 +46,12 @@ float light_through_window(Vec3 point) {
   const auto bar = [&](float v, float half_width) {
     return smooth_step(half_width - soft, half_width + soft, std::abs(v));
   };
-  const float sides = smooth_step(1.02f - soft, 1.02f + soft, crossing.z) * (1 - smooth_step(1.74f - soft, 1.74f + soft, crossing.z));
-  const float ends = smooth_step(0.72f - soft, 0.72f + soft, crossing.y) * (1 - smooth_step(1.80f - soft, 1.80f + soft, crossing.y));
-  const float bars = bar(crossing.z - 1.38f, 0.022f) * bar(crossing.y - 1.08f, 0.022f) * bar(crossing.y - 1.44f, 0.022f);
+  const float sides =
+      smooth_step(1.02f - soft, 1.02f + soft, crossing.z) * (1 - smooth_step(1.74f - soft, 1.74f + soft, crossing.z));
+  const float ends =
+      smooth_step(0.72f - soft, 0.72f + soft, crossing.y) * (1 - smooth_step(1.80f - soft, 1.80f + soft, crossing.y));
+  const float bars =
+      bar(crossing.z - 1.38f, 0.022f) * bar(crossing.y - 1.08f, 0.022f) * bar(crossing.y - 1.44f, 0.022f);
   return 0.13f + 0.87f * sides * ends * bars;
 }
 
@@ -163,8 +166,8 @@ Noise noise_at(Vec3 p, std::uint32_t seed) {
   const float k1 = b - a, k2 = c - a, k3 = e - a, k4 = a - b - c + d, k5 = a - c - e + g, k6 = a - b - e + f;
   const float k7 = -a + b + c - d + e - f - g + h;
   Noise noise;
-  noise.value = a + k1 * u.x + k2 * u.y + k3 * u.z + k4 * u.x * u.y + k5 * u.y * u.z + k6 * u.z * u.x +
-                k7 * u.x * u.y * u.z;
+  noise.value =
+      a + k1 * u.x + k2 * u.y + k3 * u.z + k4 * u.x * u.y + k5 * u.y * u.z + k6 * u.z * u.x + k7 * u.x * u.y * u.z;
   noise.slope = du * Vec3{k1 + k4 * u.y + k6 * u.z + k7 * u.y * u.z, k2 + k5 * u.z + k4 * u.x + k7 * u.z * u.x,
                           k3 + k6 * u.x + k5 * u.y + k7 * u.x * u.y};
   return noise;

@@ -100,7 +100,8 @@ void Composer::add_caster(Pose pose, Vec3 radii, int group, float opacity) {
 
 void Composer::add_stalk(Vec3 from, Vec3 to, float radius, const Surface& surface, int group) {
   const float size = length(to - from);
-  add(turned(from, to - from, 0), make_lathe({{radius * 1.15f, 0}, {radius, size * 0.5f}, {radius * 0.85f, size}, {0.f, size + radius}}, 1),
+  add(turned(from, to - from, 0),
+      make_lathe({{radius * 1.15f, 0}, {radius, size * 0.5f}, {radius * 0.85f, size}, {0.f, size + radius}}, 1),
       surface, group);
 }
 
@@ -112,7 +113,8 @@ void Composer::add_room() {
   add(back, Panel{6, 4}, {Material::plaster, wall * 1.35f, wall * 0.70f, next_seed()}, new_group());
   Pose top;
   top.origin = {0, 0, 0.95f};
-  add(top, Panel{3.5f, 0.93f}, {Material::table, linear(palette_.dye), linear(palette_.second_dye), next_seed()}, new_group());
+  add(top, Panel{3.5f, 0.93f}, {Material::table, linear(palette_.dye), linear(palette_.second_dye), next_seed()},
+      new_group());
 }
 
 void Composer::add_ball(Vec3 centre, Vec3 radii, Vec3 up, const Surface& surface) {
@@ -134,9 +136,16 @@ void Composer::add_lemon(Vec3 centre, float size, float turn) {
   const Vec3 along{std::cos(turn), 0.10f, std::sin(turn)};
   const int group = new_group();
   const Pose pose = turned(centre, along, uniform() * 6);
-  const Lathe shape = make_lathe({{0.f, -1.38f * size}, {0.16f * size, -1.34f * size}, {0.30f * size, -1.22f * size},
-                                  {0.72f * size, -0.80f * size}, {0.98f * size, -0.1f * size}, {0.80f * size, 0.70f * size},
-                                  {0.34f * size, 1.18f * size}, {0.15f * size, 1.36f * size}, {0.f, 1.42f * size}}, 4);
+  const Lathe shape = make_lathe({{0.f, -1.38f * size},
+                                  {0.16f * size, -1.34f * size},
+                                  {0.30f * size, -1.22f * size},
+                                  {0.72f * size, -0.80f * size},
+                                  {0.98f * size, -0.1f * size},
+                                  {0.80f * size, 0.70f * size},
+                                  {0.34f * size, 1.18f * size},
+                                  {0.15f * size, 1.36f * size},
+                                  {0.f, 1.42f * size}},
+                                 4);
   add(pose, shape, {Material::lemon, linear(0xf2cb1d), linear(0xe0a80f), next_seed()}, group);
   add_caster(pose, {size, 1.3f * size, size}, group);
 }
@@ -144,10 +153,17 @@ void Composer::add_lemon(Vec3 centre, float size, float turn) {
 void Composer::add_apple(Vec3 foot, float size, Vec3 up) {
   const int group = new_group();
   const Pose pose = turned(foot, up, 6.28f * uniform());
-  const Lathe shape = make_lathe({{0.f, 0.14f * size}, {0.18f * size, 0.05f * size}, {0.45f * size, 0.02f * size},
-                                  {0.80f * size, 0.30f * size}, {1.0f * size, 0.88f * size}, {0.93f * size, 1.36f * size},
-                                  {0.62f * size, 1.68f * size}, {0.32f * size, 1.70f * size}, {0.12f * size, 1.56f * size},
-                                  {0.f, 1.42f * size}}, 4);
+  const Lathe shape = make_lathe({{0.f, 0.14f * size},
+                                  {0.18f * size, 0.05f * size},
+                                  {0.45f * size, 0.02f * size},
+                                  {0.80f * size, 0.30f * size},
+                                  {1.0f * size, 0.88f * size},
+                                  {0.93f * size, 1.36f * size},
+                                  {0.62f * size, 1.68f * size},
+                                  {0.32f * size, 1.70f * size},
+                                  {0.12f * size, 1.56f * size},
+                                  {0.f, 1.42f * size}},
+                                 4);
   const bool green = uniform() < 0.3f;
   const Vec3 skin = green ? linear(0x8fa52a) : pick({0xb3161a, 0xa81f22, 0xc23a1c});
   add(pose, shape, {Material::apple, skin, green ? linear(0xb9b840) : linear(0xdba43a), next_seed()}, group);
@@ -160,10 +176,18 @@ void Composer::add_apple(Vec3 foot, float size, Vec3 up) {
 void Composer::add_pear(Vec3 foot, float size, Vec3 up, float turn) {
   const int group = new_group();
   const Pose pose = turned(foot, up, turn);
-  const Lathe shape = make_lathe({{0.f, 0.10f * size}, {0.16f * size, 0.04f * size}, {0.42f * size, 0.03f * size},
-                                  {0.82f * size, 0.32f * size}, {1.0f * size, 0.86f * size}, {0.86f * size, 1.40f * size},
-                                  {0.56f * size, 1.92f * size}, {0.42f * size, 2.36f * size}, {0.28f * size, 2.68f * size},
-                                  {0.10f * size, 2.78f * size}, {0.f, 2.74f * size}}, 4);
+  const Lathe shape = make_lathe({{0.f, 0.10f * size},
+                                  {0.16f * size, 0.04f * size},
+                                  {0.42f * size, 0.03f * size},
+                                  {0.82f * size, 0.32f * size},
+                                  {1.0f * size, 0.86f * size},
+                                  {0.86f * size, 1.40f * size},
+                                  {0.56f * size, 1.92f * size},
+                                  {0.42f * size, 2.36f * size},
+                                  {0.28f * size, 2.68f * size},
+                                  {0.10f * size, 2.78f * size},
+                                  {0.f, 2.74f * size}},
+                                 4);
   add(pose, shape, {Material::pear, linear(0xb9ae3a), linear(0xcf7f2e), next_seed()}, group);
   const Vec3 top = pose.origin + pose.axes[1] * (2.72f * size);
   add_stalk(top, top + normalised(pose.axes[1] + Vec3{0.35f, 0, 0.1f}) * (0.62f * size), 0.0026f,
@@ -175,9 +199,20 @@ void Composer::add_pear(Vec3 foot, float size, Vec3 up, float turn) {
 void Composer::add_bowl(Vec3 foot) {
   const int group = new_group();
   const float r = 0.168f;
-  const Lathe shape = make_lathe({{0.058f, 0}, {0.062f, 0.004f}, {0.056f, 0.012f}, {0.090f, 0.024f}, {0.132f, 0.052f},
-                                  {0.158f, 0.088f}, {r, 0.103f}, {r - 0.004f, 0.1065f}, {r - 0.010f, 0.103f}, {0.148f, 0.088f},
-                                  {0.122f, 0.056f}, {0.080f, 0.034f}, {0.f, 0.027f}}, 4);
+  const Lathe shape = make_lathe({{0.058f, 0},
+                                  {0.062f, 0.004f},
+                                  {0.056f, 0.012f},
+                                  {0.090f, 0.024f},
+                                  {0.132f, 0.052f},
+                                  {0.158f, 0.088f},
+                                  {r, 0.103f},
+                                  {r - 0.004f, 0.1065f},
+                                  {r - 0.010f, 0.103f},
+                                  {0.148f, 0.088f},
+                                  {0.122f, 0.056f},
+                                  {0.080f, 0.034f},
+                                  {0.f, 0.027f}},
+                                 4);
   Pose pose;
   pose.origin = foot;
   add(pose, shape, {Material::glaze, linear(palette_.bowl), linear(palette_.brush), next_seed() & ~1u}, group);
@@ -213,7 +248,8 @@ void Composer::add_blossom(Vec3 centre, Vec3 facing, float radius, Vec3 tip, Vec
     const int count = ring == 0 ? 11 : 8;
     const float reach = radius * (ring == 0 ? 0.60f : 0.40f), lift = ring == 0 ? 0.30f : 0.75f;
     for (int i = 0; i < count; ++i) {
-      const float angle = 2 * pi * (static_cast<float>(i) + 0.5f * static_cast<float>(ring) + vary(0.12f)) / static_cast<float>(count);
+      const float angle =
+          2 * pi * (static_cast<float>(i) + 0.5f * static_cast<float>(ring) + vary(0.12f)) / static_cast<float>(count);
       const Vec3 outward = pose.axes[0] * std::cos(angle) + pose.axes[2] * std::sin(angle);
       const Vec3 lengthwise = normalised(outward + pose.axes[1] * (lift + vary(0.12f)));
       Pose at;
@@ -226,7 +262,8 @@ void Composer::add_blossom(Vec3 centre, Vec3 facing, float radius, Vec3 tip, Vec
   const Pose middle = turned(centre + pose.axes[1] * (radius * 0.20f), facing, 0);
   add(middle, Ellipsoid{{radius * 0.27f, radius * 0.17f, radius * 0.27f}},
       {Material::blossom_heart, linear(0xd9a21b), linear(0x7a4a10), next_seed()}, group);
-  add_caster(turned(centre + pose.axes[1] * (radius * 0.12f), facing, 0), {radius * 0.86f, radius * 0.28f, radius * 0.86f}, group, 0.85f);
+  add_caster(turned(centre + pose.axes[1] * (radius * 0.12f), facing, 0),
+             {radius * 0.86f, radius * 0.28f, radius * 0.86f}, group, 0.85f);
 }
 
 void Composer::add_leaf(Vec3 from, Vec3 along, float size) {
@@ -236,15 +273,27 @@ void Composer::add_leaf(Vec3 from, Vec3 along, float size) {
   pose.axes = {x, cross(z, x), z};
   pose.origin = from + x * size;
   const int group = new_group();
-  add(pose, Ellipsoid{{size, size * 0.06f, size * 0.40f}}, {Material::leaf, linear(0x3f6a2c), linear(0x7d9a45), next_seed()}, group);
+  add(pose, Ellipsoid{{size, size * 0.06f, size * 0.40f}},
+      {Material::leaf, linear(0x3f6a2c), linear(0x7d9a45), next_seed()}, group);
   add_caster(pose, {size, size * 0.12f, size * 0.40f}, group, 0.8f);
 }
 
 void Composer::add_vase(Vec3 foot) {
   const int group = new_group();
-  const Lathe shape = make_lathe({{0.046f, 0}, {0.052f, 0.006f}, {0.064f, 0.030f}, {0.089f, 0.085f}, {0.091f, 0.125f}, {0.070f, 0.168f},
-                                  {0.044f, 0.196f}, {0.040f, 0.214f}, {0.050f, 0.232f}, {0.0525f, 0.2355f}, {0.049f, 0.236f}, {0.040f, 0.226f},
-                                  {0.032f, 0.200f}}, 4);
+  const Lathe shape = make_lathe({{0.046f, 0},
+                                  {0.052f, 0.006f},
+                                  {0.064f, 0.030f},
+                                  {0.089f, 0.085f},
+                                  {0.091f, 0.125f},
+                                  {0.070f, 0.168f},
+                                  {0.044f, 0.196f},
+                                  {0.040f, 0.214f},
+                                  {0.050f, 0.232f},
+                                  {0.0525f, 0.2355f},
+                                  {0.049f, 0.236f},
+                                  {0.040f, 0.226f},
+                                  {0.032f, 0.200f}},
+                                 4);
   Pose pose;
   pose.origin = foot;
   add(pose, shape, {Material::glaze, linear(palette_.vase), linear(0xdccfa8), next_seed() | 1u}, group);
@@ -256,10 +305,13 @@ void Composer::add_vase(Vec3 foot) {
   // Blossoms on a dome over the mouth, the largest in front.
   const Vec3 mouth = foot + Vec3{0, 0.225f, 0};
   const Surface green{Material::stem, linear(0x55742f), linear(0x3a5522), next_seed()};
-  struct Place { float x, y, z, radius; };
-  constexpr Place places[] = {{-0.120f, 0.085f, -0.02f, 0.052f}, {-0.030f, 0.135f, -0.05f, 0.056f}, {0.078f, 0.105f, -0.04f, 0.050f},
-                              {-0.075f, 0.175f, 0.05f, 0.046f}, {0.020f, 0.195f, 0.04f, 0.048f}, {0.130f, 0.165f, 0.03f, 0.042f},
-                              {-0.010f, 0.060f, -0.09f, 0.050f}, {0.135f, 0.050f, 0.00f, 0.040f}, {-0.175f, 0.150f, 0.03f, 0.040f}};
+  struct Place {
+    float x, y, z, radius;
+  };
+  constexpr Place places[] = {
+      {-0.120f, 0.085f, -0.02f, 0.052f}, {-0.030f, 0.135f, -0.05f, 0.056f}, {0.078f, 0.105f, -0.04f, 0.050f},
+      {-0.075f, 0.175f, 0.05f, 0.046f},  {0.020f, 0.195f, 0.04f, 0.048f},   {0.130f, 0.165f, 0.03f, 0.042f},
+      {-0.010f, 0.060f, -0.09f, 0.050f}, {0.135f, 0.050f, 0.00f, 0.040f},   {-0.175f, 0.150f, 0.03f, 0.040f}};
   for (const Place& place : places) {
     const Vec3 centre = mouth + Vec3{place.x + vary(0.012f), place.y + vary(0.012f), place.z + vary(0.015f)};
     const Vec3 facing = normalised({place.x * 4 - 0.15f + vary(0.2f), place.y * 2.2f, -0.62f + vary(0.15f)});
@@ -277,12 +329,28 @@ void Composer::add_vase(Vec3 foot) {
 
 void Composer::add_bottle(Vec3 foot) {
   const int group = new_group();
-  const Lathe shape = make_lathe({{0.030f, 0}, {0.043f, 0.003f}, {0.0465f, 0.012f}, {0.047f, 0.07f}, {0.047f, 0.14f}, {0.0465f, 0.198f},
-                                  {0.040f, 0.228f}, {0.022f, 0.262f}, {0.0165f, 0.29f}, {0.0155f, 0.335f}, {0.0155f, 0.350f},
-                                  {0.0190f, 0.352f}, {0.0190f, 0.365f}, {0.0150f, 0.367f}, {0.f, 0.366f}}, 4);
+  const Lathe shape = make_lathe({{0.030f, 0},
+                                  {0.043f, 0.003f},
+                                  {0.0465f, 0.012f},
+                                  {0.047f, 0.07f},
+                                  {0.047f, 0.14f},
+                                  {0.0465f, 0.198f},
+                                  {0.040f, 0.228f},
+                                  {0.022f, 0.262f},
+                                  {0.0165f, 0.29f},
+                                  {0.0155f, 0.335f},
+                                  {0.0155f, 0.350f},
+                                  {0.0190f, 0.352f},
+                                  {0.0190f, 0.365f},
+                                  {0.0150f, 0.367f},
+                                  {0.f, 0.366f}},
+                                 4);
   const Pose pose = turned(foot, {0, 1, 0}, vary(0.35f));
   const bool brown = uniform() < 0.4f;
-  add(pose, shape, {Material::glass, brown ? linear(0x6a3b14) : linear(0x2f4a22), brown ? linear(0x1c0f08) : linear(0x0d150c), next_seed()}, group);
+  add(pose, shape,
+      {Material::glass, brown ? linear(0x6a3b14) : linear(0x2f4a22), brown ? linear(0x1c0f08) : linear(0x0d150c),
+       next_seed()},
+      group);
   for (const float y : {0.05f, 0.10f, 0.15f, 0.19f})
     add_caster(turned(foot + Vec3{0, y, 0}, {0, 1, 0}, 0), {0.046f, 0.062f, 0.046f}, group, 0.9f);
   add_caster(turned(foot + Vec3{0, 0.29f, 0}, {0, 1, 0}, 0), {0.018f, 0.085f, 0.018f}, group, 0.9f);
@@ -290,8 +358,18 @@ void Composer::add_bottle(Vec3 foot) {
 
 void Composer::add_cup(Vec3 foot) {
   const int group = new_group();
-  const Lathe shape = make_lathe({{0.026f, 0}, {0.033f, 0.004f}, {0.040f, 0.024f}, {0.041f, 0.048f}, {0.0435f, 0.072f}, {0.0450f, 0.078f},
-                                  {0.0435f, 0.0795f}, {0.0405f, 0.074f}, {0.038f, 0.050f}, {0.036f, 0.02f}, {0.f, 0.012f}}, 4);
+  const Lathe shape = make_lathe({{0.026f, 0},
+                                  {0.033f, 0.004f},
+                                  {0.040f, 0.024f},
+                                  {0.041f, 0.048f},
+                                  {0.0435f, 0.072f},
+                                  {0.0450f, 0.078f},
+                                  {0.0435f, 0.0795f},
+                                  {0.0405f, 0.074f},
+                                  {0.038f, 0.050f},
+                                  {0.036f, 0.02f},
+                                  {0.f, 0.012f}},
+                                 4);
   Pose pose;
   pose.origin = foot;
   add(pose, shape, {Material::copper, linear(0xc8713c), linear(0x6b3d22), next_seed()}, group);
@@ -304,10 +382,13 @@ void Composer::add_grapes(Vec3 stalk, float direction) {
   const Vec3 dark = linear(palette_.grapes), dust = linear(palette_.bloom);
   const float c = std::cos(direction), s = std::sin(direction);
   // Rows across the bunch: on the cloth, then on top of one another.
-  struct Row { float along, up; int count; };
-  constexpr Row rows[] = {{0.00f, 0.0135f, 2}, {0.024f, 0.0135f, 4}, {0.048f, 0.0135f, 5}, {0.072f, 0.0135f, 4}, {0.096f, 0.0135f, 3},
-                          {0.118f, 0.0135f, 1}, {0.014f, 0.034f, 3}, {0.038f, 0.035f, 4}, {0.062f, 0.035f, 3}, {0.086f, 0.033f, 2},
-                          {0.030f, 0.053f, 2}, {0.054f, 0.053f, 2}};
+  struct Row {
+    float along, up;
+    int count;
+  };
+  constexpr Row rows[] = {{0.00f, 0.0135f, 2},  {0.024f, 0.0135f, 4}, {0.048f, 0.0135f, 5}, {0.072f, 0.0135f, 4},
+                          {0.096f, 0.0135f, 3}, {0.118f, 0.0135f, 1}, {0.014f, 0.034f, 3},  {0.038f, 0.035f, 4},
+                          {0.062f, 0.035f, 3},  {0.086f, 0.033f, 2},  {0.030f, 0.053f, 2},  {0.054f, 0.053f, 2}};
   for (const Row& row : rows) {
     for (int i = 0; i < row.count; ++i) {
       const float across = 0.0245f * (static_cast<float>(i) - 0.5f * static_cast<float>(row.count - 1)) + vary(0.003f);
@@ -326,7 +407,8 @@ void Composer::add_grapes(Vec3 stalk, float direction) {
 
 void Composer::add_fruit_about() {
   add_pear({-0.305f + vary(0.02f), 0, 1.19f + vary(0.02f)}, 0.046f, normalised({0.10f, 1, 0.05f}), 0.6f);
-  add_pear({-0.235f + vary(0.015f), 0.043f, 1.085f + vary(0.02f)}, 0.043f, normalised({0.93f, 0.10f, -0.35f + vary(0.2f)}), 2.0f);
+  add_pear({-0.235f + vary(0.015f), 0.043f, 1.085f + vary(0.02f)}, 0.043f,
+           normalised({0.93f, 0.10f, -0.35f + vary(0.2f)}), 2.0f);
   add_apple({-0.385f + vary(0.015f), 0, 1.33f + vary(0.02f)}, 0.045f, {vary(0.2f), 1, -0.15f});
   add_lemon({-0.035f + vary(0.015f), 0.033f, 0.99f + vary(0.015f)}, 0.032f, 0.5f + vary(0.5f));
   add_apple({0.060f + vary(0.012f), 0, 1.045f + vary(0.01f)}, 0.040f, {0.15f + vary(0.15f), 1, -0.25f});

@@ -12,8 +12,8 @@ constexpr float overlap = 1e-6f;
 /// Ray in an object's frame, begun where it comes nearest to the object's bounds: there floats are exact enough.
 struct LocalRay {
   Vec3 origin, direction;
-  float start = 0;       ///< distance of `origin` along the whole ray
-  float half_height = 0; ///< of the ray's part within the bounds: it stays this near to its origin in y
+  float start = 0;        ///< distance of `origin` along the whole ray
+  float half_height = 0;  ///< of the ray's part within the bounds: it stays this near to its origin in y
 };
 
 bool find_hit(const Ellipsoid& shape, const LocalRay& ray, Hit& hit) {

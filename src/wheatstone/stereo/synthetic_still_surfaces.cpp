@@ -66,7 +66,8 @@ Finish wood(const Surface& s, Vec3 p, Vec3 n, float footprint) {
   const float joint = stripe(distance_to_whole(place - 0.5f) * plank_width, 0.0011f, 0.0008f + footprint);
 
   Finish finish;
-  const float tone = clamp01(0.42f + 0.16f * rings + 0.45f * fibres.value + 0.55f * stains.value + 0.35f * (random - 0.5f));
+  const float tone =
+      clamp01(0.42f + 0.16f * rings + 0.45f * fibres.value + 0.55f * stains.value + 0.35f * (random - 0.5f));
   finish.colour = mix(s.second_colour, s.colour, tone) * (1 - 0.75f * joint);
   finish.normal = embossed(n, 0.0009f * fibres.slope + Vec3{0, 0, 0.01f * rings});
   finish.gloss = 0.16f + 0.08f * fibres.value;
@@ -89,29 +90,32 @@ Finish linen(const Surface& s, Vec3 p, Vec3 n, const ClothPlace& at, float footp
   const Noise creases = octaves({at.along * 0.7f, 0, at.across}, 5.5f, 3, footprint, s.seed + 31);
   const Noise slub = octaves({at.along * 0.25f, 3, at.across}, 150, 2, footprint, s.seed + 37);
   const Noise blotch = octaves({at.along, 9, at.across}, 30, 3, footprint, s.seed + 41);
-  const float weave = std::sin(2 * pi * threads * at.along) * std::sin(2 * pi * threads * at.across) *
-                      shown(threads, footprint);
+  const float weave =
+      std::sin(2 * pi * threads * at.along) * std::sin(2 * pi * threads * at.across) * shown(threads, footprint);
 
   const float edge = half_width - std::abs(at.across), soft = 0.0007f + 0.6f * footprint;
   const Vec3 ground{0.72f, 0.64f, 0.50f};
   Vec3 colour = ground * (1 + 0.16f * slub.value + 0.10f * weave + 0.12f * blotch.value);
-  float dyed = std::max({stripe(edge - 0.035f, 0.014f, soft), stripe(edge - 0.062f, 0.0035f, soft),
-                         stripe(edge - 0.012f, 0.003f, soft)});
+  float dyed = std::max(
+      {stripe(edge - 0.035f, 0.014f, soft), stripe(edge - 0.062f, 0.0035f, soft), stripe(edge - 0.012f, 0.003f, soft)});
   float second = std::max(stripe(edge - 0.088f, 0.008f, soft), stripe(edge - 0.107f, 0.002f, soft));
   // Cross stripes near the ends.
   const float end = 0.52f - std::abs(at.along);
   dyed = std::max({dyed, stripe(end - 0.04f, 0.014f, soft), stripe(end - 0.085f, 0.0035f, soft)});
   second = std::max(second, stripe(end - 0.066f, 0.006f, soft));
   colour = mix(colour, s.colour * (0.9f + 0.35f * slub.value + 0.25f * weave + 0.4f * blotch.value), 0.92f * dyed);
-  colour = mix(colour, s.second_colour * (0.9f + 0.35f * slub.value + 0.25f * weave + 0.4f * blotch.value), 0.9f * second);
+  colour =
+      mix(colour, s.second_colour * (0.9f + 0.35f * slub.value + 0.25f * weave + 0.4f * blotch.value), 0.9f * second);
 
   Finish finish;
   finish.colour = colour;
   const float turned_x = creases.slope.x, turned_z = creases.slope.z;
   // Pressed folds, as cloth has that lay in a drawer.
   const auto fold = [](float v) { return v / 0.010f * std::exp(-v * v / (0.010f * 0.010f)); };
-  const float fold_along = 0.30f * (fold(at.along) + fold(at.along - 0.27f) + fold(at.along + 0.27f)), fold_across = 0.30f * fold(at.across);
-  finish.normal = embossed(n, Vec3{0.040f * turned_x + fold_along, 0, 0.040f * turned_z + fold_across} + 0.0011f * slub.slope);
+  const float fold_along = 0.30f * (fold(at.along) + fold(at.along - 0.27f) + fold(at.along + 0.27f)),
+              fold_across = 0.30f * fold(at.across);
+  finish.normal =
+      embossed(n, Vec3{0.040f * turned_x + fold_along, 0, 0.040f * turned_z + fold_across} + 0.0011f * slub.slope);
   (void)p;
   return finish;
 }
@@ -148,13 +152,14 @@ Finish glaze(const Surface& s, Vec3 p, Vec3 n, float footprint) {
 
   // Leaves painted round the body, two rings above and below them. p.y counts from the foot.
   const float band = s.seed % 2 == 0 ? 0.062f : 0.105f;
-  const float turns = angle / (2 * pi) * 14, leaf = distance_to_whole(turns) * (std::round(turns) < turns ? 1.f : 1.f);
+  const float turns = angle / (2 * pi) * 14, leaf = distance_to_whole(turns);
   const float height = (p.y - band) / 0.019f;
   const float slant = std::abs(leaf - 0.16f * height) - 0.30f * std::max(0.f, 1 - height * height);
   const float painted = std::abs(height) < 1 ? 1 - smooth_step(-0.05f, 0.05f, slant) : 0.f;
   const float rings = std::max(stripe(p.y - band - 0.027f, 0.0022f, 0.0006f + footprint),
                                stripe(p.y - band + 0.027f, 0.0022f, 0.0006f + footprint));
-  colour = mix(colour, s.second_colour * (1 + 0.5f * brush.value), std::max(painted, rings) * (0.78f + 0.3f * brush.value));
+  colour =
+      mix(colour, s.second_colour * (1 + 0.5f * brush.value), std::max(painted, rings) * (0.78f + 0.3f * brush.value));
 
   Finish finish;
   finish.colour = colour;
@@ -180,8 +185,10 @@ Finish glass(const Surface& s, Vec3 p, Vec3 n, float footprint) {
   const Noise paper = octaves({angle * 0.04f, p.y, 0}, 90, 3, footprint, s.seed + 9);
   finish.colour = Vec3{0.66f, 0.56f, 0.38f} * (1 + 0.3f * paper.value);
   const float soft = 0.0005f + 0.6f * footprint;
-  const float frame = stripe(std::min((0.95f - std::abs(angle)) * 0.045f, 0.052f - std::abs(high)) - 0.006f, 0.001f, soft);
-  const float words = stripe(high - 0.012f, 0.009f, soft) * smooth_step(-0.05f, 0.15f, std::sin(angle * 17) + 0.4f * std::sin(angle * 41)) *
+  const float frame =
+      stripe(std::min((0.95f - std::abs(angle)) * 0.045f, 0.052f - std::abs(high)) - 0.006f, 0.001f, soft);
+  const float words = stripe(high - 0.012f, 0.009f, soft) *
+                      smooth_step(-0.05f, 0.15f, std::sin(angle * 17) + 0.4f * std::sin(angle * 41)) *
                       (std::abs(angle) < 0.72f ? 1.f : 0.f);
   const float lines = (stripe(high + 0.013f, 0.002f, soft) + stripe(high + 0.023f, 0.002f, soft)) *
                       (std::abs(angle) < 0.55f ? 1.f : 0.f);
@@ -305,7 +312,8 @@ Finish velvet(const Surface& s, Vec3 p, Vec3 n, float footprint) {
   const float u = p.x * 9, v = p.y * 6;
   const Noise pile = octaves(p, 130, 3, footprint, s.seed);
   const Noise wear = octaves({p.x, p.y * 0.3f, p.z}, 8, 3, footprint, s.seed + 3);
-  const float figure = std::cos(2 * pi * u) + std::cos(2 * pi * v) + 0.7f * std::cos(2 * pi * (u + v)) * std::cos(2 * pi * (u - v));
+  const float figure =
+      std::cos(2 * pi * u) + std::cos(2 * pi * v) + 0.7f * std::cos(2 * pi * (u + v)) * std::cos(2 * pi * (u - v));
   const float woven = smooth_step(0.35f, 0.55f, figure);
   Finish finish;
   finish.colour = mix(s.colour, s.second_colour, 0.75f * woven) * (1 + 0.4f * pile.value + 0.5f * wear.value);
@@ -319,21 +327,34 @@ Finish velvet(const Surface& s, Vec3 p, Vec3 n, float footprint) {
 
 Finish finish_at(const Surface& s, Vec3 p, Vec3 n, float footprint) {
   switch (s.material) {
-    case Material::plaster: return plaster(s, p, n, footprint);
-    case Material::table: return table(s, p, n, footprint);
-    case Material::glaze: return glaze(s, p, n, footprint);
-    case Material::glass: return glass(s, p, n, footprint);
+    case Material::plaster:
+      return plaster(s, p, n, footprint);
+    case Material::table:
+      return table(s, p, n, footprint);
+    case Material::glaze:
+      return glaze(s, p, n, footprint);
+    case Material::glass:
+      return glass(s, p, n, footprint);
     case Material::orange:
-    case Material::lemon: return citrus(s, p, n, footprint);
-    case Material::apple: return apple(s, p, n, footprint);
-    case Material::pear: return pear(s, p, n, footprint);
-    case Material::grape: return grape(s, p, n, footprint);
-    case Material::petal: return petal(s, p, n, footprint);
-    case Material::leaf: return leaf(s, p, n, footprint);
-    case Material::copper: return copper(s, p, n, footprint);
-    case Material::velvet: return velvet(s, p, n, footprint);
+    case Material::lemon:
+      return citrus(s, p, n, footprint);
+    case Material::apple:
+      return apple(s, p, n, footprint);
+    case Material::pear:
+      return pear(s, p, n, footprint);
+    case Material::grape:
+      return grape(s, p, n, footprint);
+    case Material::petal:
+      return petal(s, p, n, footprint);
+    case Material::leaf:
+      return leaf(s, p, n, footprint);
+    case Material::copper:
+      return copper(s, p, n, footprint);
+    case Material::velvet:
+      return velvet(s, p, n, footprint);
     case Material::blossom_heart:
-    case Material::stem: return rough(s, p, n, footprint);
+    case Material::stem:
+      return rough(s, p, n, footprint);
   }
   return {};
 }

@@ -72,7 +72,8 @@ TEST(SyntheticStill, RightEyeAgreesWithLeft) {
       const double there = x + 0.5 + g.right_disparity(x, y);
       ASSERT_TRUE(there >= 0 && there < 320);
       ++seen;
-      agree += std::abs(g.right_disparity(x, y) - between([&](int i) { return g.left_disparity(i, y); }, there, 320)) < 0.25;
+      agree +=
+          std::abs(g.right_disparity(x, y) - between([&](int i) { return g.left_disparity(i, y); }, there, 320)) < 0.25;
     }
   }
   EXPECT_GT(agree, 0.95 * seen);  // the rest lies beside depth edges, where interpolation mixes two things
@@ -128,7 +129,8 @@ TEST(SyntheticStill, CentralViewLiesHalfWay) {
   // x(−½) = x(0) + ½ d, and the left view knows the same disparity there.
   const auto seen = [&](int x, int y) {
     const int there = static_cast<int>(std::floor(static_cast<float>(x) + 0.5f + 0.5f * central.disparity(x, y)));
-    return there >= 0 && there < 320 && std::abs(still.geometry.left_disparity(there, y) - central.disparity(x, y)) < 0.3f;
+    return there >= 0 && there < 320 &&
+           std::abs(still.geometry.left_disparity(there, y) - central.disparity(x, y)) < 0.3f;
   };
   EXPECT_LT(mean_difference(central.picture, still.pictures.left, central.disparity, -0.5, 0, seen), 2.0);
   EXPECT_GT(mean_difference(central.picture, still.pictures.left, central.disparity, 0.5, 0, seen), 6.0);

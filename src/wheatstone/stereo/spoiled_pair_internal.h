@@ -1,6 +1,6 @@
 #pragma once
 
-// Pairs spoiled in one way each, on which every measure must come out badly.
+// For tests only: pairs spoiled in one way each, on which every measure must come out badly.
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "wheatstone/painting/canvas.h"
+#include "wheatstone/painting/painting.h"
+#include "wheatstone/painting/style.h"
+#include "wheatstone/progress.h"
+
+namespace wheatstone {
+
+/// A style's lengths in pixels of the picture at hand: one `width` pixels wide, or that picture reduced by a factor.
+struct ScaledStyle {
+  ScaledStyle(const Style& style, int width, float reduction = 1);
+  std::vector<float> radii_px;
+  float depth_threshold_px;
+};
+
+/// One eye at work: what it sees, and the canvas that its next layer is planned against.
+struct Easel {
+  Easel(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view, const Style& style);
+
+  ImageView<const Rgb8> photograph;
+  ImageView<const float> disparity;
+  float view;
+  Canvas canvas;
+  /// Begin no stroke where two surfaces' colours mix, if it can be helped: they part in the other eye.
+  bool avoid_mixed_colours = true;
+};
+
+/// Plans layer number `layer` of one eye, with strokes that begin only on the seeds, or anywhere where there are none.
+Layer plan_on(const Easel& easel, const Style& style, const ScaledStyle& scaled, int layer,
+              ImageView<const std::uint8_t> seeds = {});
+
+/// Puts the strokes of layer number `layer` into drawing order.
+void order_strokes(Layer& strokes, const Style& style, int layer);
+
+/// Plans all layers of one eye, for it alone, each against what the coarser ones left on the canvas.
+Painting plan_alone(Easel& easel, const Style& style, const ScaledStyle& scaled, ImageView<const std::uint8_t> seeds,
+                    const Progress& progress = {});
+
+}  // namespace wheatstone

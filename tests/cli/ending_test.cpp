@@ -1,0 +1,44 @@
+// How a run ends that cannot go on: interrupted, or without room for its results. Nothing half-written is left.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <time.h>
+
+#include <thread>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/write_image.h"
+
+namespace wheatstone {
+namespace {
+
+// Long enough that no machine is done before the signal comes.
+const std::vector<std::string> long_run = {"synth", "still",  "-o",        "results", "--views",
+                                           "500",   "--size", "1920x1440", "--quiet"};
+
+TEST(Ending, OfAnInterruptedRunIsExitCodeFive) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TemporaryFolder folder;
+    const ProgramResult result = run_program(long_run, {.folder = folder / "", .while_running = [signal](int process) {
+                                                          std::this_thread::sleep_for(std::chrono::seconds(2));
+                                                          ::kill(process, signal);
+                                                        }});
+    EXPECT_EQ(result.exit_code, 5);
+    EXPECT_EQ(result.errors, "wheatstone: interrupted; nothing half-written is left\n");
+    EXPECT_TRUE(folder.is_empty());
+  }
+}
+
+TEST(Ending, OnAFullDiskIsExitCodeFour) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({"synth", "still", "-o", "results", "--size", "320x240", "--quiet"},
+                                           {.folder = folder / "", .largest_file = 20000});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.errors, testing::StartsWith("wheatstone: "));
+  EXPECT_THAT(result.errors, testing::HasSubstr("File too large"));
+  EXPECT_TRUE(folder.is_empty());
+}
+
+}  // namespace
+}  // namespace wheatstone
