@@ -14,8 +14,8 @@ namespace wheatstone {
 namespace {
 
 // Long enough that no machine is done before the signal comes.
-const std::vector<std::string> long_run = {"synth", "still",  "-o",        "results", "--views",
-                                           "500",   "--size", "1920x1440", "--quiet"};
+const std::vector<std::string> long_run = {"synth", "still",  "-o",      "results", "--views",
+                                           "1000",  "--size", "640x480", "--quiet"};
 
 TEST(Ending, OfAnInterruptedRunIsExitCodeFive) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {

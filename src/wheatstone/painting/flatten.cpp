@@ -29,15 +29,6 @@ int segment_count(const ClampedSpline& spline, int span) {
   return std::min(static_cast<int>(std::ceil(std::sqrt(std::sqrt(squared) / enough_for_one))), most_segments_a_span);
 }
 
-PlanePoint point_on(const ClampedSpline& spline, int span, float t) {
-  const PlanePoint a = spline.control(span), b = spline.control(span + 1), c = spline.control(span + 2),
-                   d = spline.control(span + 3);
-  const float s = 1 - t;
-  const float wa = s * s * s / 6, wb = (3 * t * t * t - 6 * t * t + 4) / 6;
-  const float wd = t * t * t / 6, wc = 1 - wa - wb - wd;
-  return {wa * a.x + wb * b.x + wc * c.x + wd * d.x, wa * a.y + wb * b.y + wc * c.y + wd * d.y};
-}
-
 std::uint32_t vertex_count(const ClampedSpline& spline) {
   int count = 1;
   for (int span = 0; span < spline.span_count(); ++span) count += segment_count(spline, span);

@@ -35,4 +35,14 @@ class ClampedSpline {
   float view_;
 };
 
+/// The curve's point at 0 ≤ t ≤ 1 of one of its spans.
+inline PlanePoint point_on(const ClampedSpline& spline, int span, float t) {
+  const PlanePoint a = spline.control(span), b = spline.control(span + 1), c = spline.control(span + 2),
+                   d = spline.control(span + 3);
+  const float s = 1 - t;
+  const float wa = s * s * s / 6, wb = (3 * t * t * t - 6 * t * t + 4) / 6;
+  const float wd = t * t * t / 6, wc = 1 - wa - wb - wd;
+  return {wa * a.x + wb * b.x + wc * c.x + wd * d.x, wa * a.y + wb * b.y + wc * c.y + wd * d.y};
+}
+
 }  // namespace wheatstone

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/painting/flatten.h"
+#include "wheatstone/painting/depth_edges.h"
+#include "wheatstone/painting/spline.h"
 
 namespace wheatstone {
 namespace {
@@ -35,24 +36,47 @@ bool shape_differs(const Layer& layer, const Stroke& stroke) {
   return difference > least_px && difference > least_ratio * std::max(left, right);
 }
 
-/// Walks one flattened centre line pixel by pixel and measures how far it goes on after leaving its first surface.
-bool spills(const FlatLayer& flat, const FlatStroke& stroke, const Image<float>& disparity, float threshold_px) {
-  float last = NAN, beyond_px = 0;
-  bool crossed = false;
-  for (std::uint32_t i = 0; i + 1 < stroke.vertex_count; ++i) {
-    const std::size_t from = stroke.first_vertex + i, to = from + 1;
-    const float dx = flat.x[to] - flat.x[from], dy = flat.y[to] - flat.y[from];
-    const int steps = std::max(static_cast<int>(std::ceil(2 * std::hypot(dx, dy))), 1);
+/// A view's disparities and how far its pixels are from depth edges.
+struct Surfaces {
+  const Image<float>& disparity;
+  Image<float> edge_distance;
+  float threshold_px;
+};
+
+bool is_far_from_edge(const Surfaces& surfaces, float x, float y, float radius_px) {
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  return surfaces.edge_distance.contains(column, row) && surfaces.edge_distance(column, row) > radius_px;
+}
+
+/// True where a stroke jumps from one surface to another and is planned on there.
+bool jumps(const Layer& layer, const Stroke& stroke, const Surfaces& surfaces) {
+  const auto points = layer.points_of(stroke);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (std::abs(points[i].disparity - points[i - 1].disparity) > surfaces.threshold_px &&
+        is_far_from_edge(surfaces, points[i].x, points[i].y, stroke.radius_px))
+      return true;
+  return false;
+}
+
+/// True where the centre line, walked by steps of a sixth of a radius, lies on a surface whose disparity is not the
+/// stroke's own there.
+bool strays(const Layer& layer, const Stroke& stroke, const Surfaces& surfaces) {
+  const ClampedSpline left(layer.points_of(stroke), stroke.reference_view, left_eye);
+  const ClampedSpline right(layer.points_of(stroke), stroke.reference_view, right_eye);
+  const ClampedSpline& own = stroke.reference_view < 0 ? left : right;
+  constexpr int steps = 6;
+  for (int span = 0; span < own.span_count(); ++span) {
     for (int step = 0; step < steps; ++step) {
-      const float t = static_cast<float>(step) / static_cast<float>(steps);
-      const int x = static_cast<int>(flat.x[from] + t * dx), y = static_cast<int>(flat.y[from] + t * dy);
-      if (!disparity.contains(x, y)) continue;
-      if (!std::isnan(last) && std::abs(disparity(x, y) - last) > threshold_px) crossed = true;
-      if (crossed) beyond_px += std::hypot(dx, dy) / static_cast<float>(steps);
-      last = disparity(x, y);
+      const float t = static_cast<float>(step) / steps;
+      const PlanePoint at = point_on(own, span, t);
+      const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+      if (!surfaces.disparity.contains(x, y)) continue;
+      const float disparity = point_on(left, span, t).x - point_on(right, span, t).x;
+      const bool away = std::abs(surfaces.disparity(x, y) - disparity) > surfaces.threshold_px;
+      if (away && is_far_from_edge(surfaces, at.x, at.y, stroke.radius_px)) return true;
     }
   }
-  return beyond_px > stroke.radius_px;
+  return false;
 }
 
 }  // namespace
@@ -84,13 +108,14 @@ StrokeMeasures measure_strokes(const Painting& painting, const StereoGeometry& g
 double spilling_share(const Layer& layer, const StereoGeometry& geometry, float threshold_px) {
   std::size_t spilling = 0, planned = 0;
   for (const float view : {left_eye, right_eye}) {
-    Layer own = layer;
-    std::erase_if(own.strokes, [&](const Stroke& stroke) { return stroke.reference_view != view; });
-    const FlatLayer flat = flatten(own, view);
     const Image<float>& disparity = view < 0 ? geometry.left_disparity : geometry.right_disparity;
-    planned += flat.strokes.size();
-    spilling += std::ranges::count_if(
-        flat.strokes, [&](const FlatStroke& stroke) { return spills(flat, stroke, disparity, threshold_px); });
+    const Surfaces surfaces{disparity, distance_to_depth_edge(disparity, threshold_px, 2 * layer.radius_px + 2),
+                            threshold_px};
+    for (const Stroke& stroke : layer.strokes) {
+      if (stroke.reference_view != view) continue;
+      ++planned;
+      spilling += jumps(layer, stroke, surfaces) || strays(layer, stroke, surfaces) ? 1 : 0;
+    }
   }
   return planned == 0 ? 0 : static_cast<double>(spilling) / static_cast<double>(planned);
 }

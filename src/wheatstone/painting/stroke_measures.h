@@ -17,9 +17,9 @@ struct StrokeMeasures {
 
 StrokeMeasures measure_strokes(const Painting& painting, const StereoGeometry& geometry);
 
-/// How far paint of one layer runs over depth edges, in the view in which its strokes were planned: the share of its
-/// strokes, 0..1, with a point of their centre line on the other side of a jump in disparity above `threshold_px`,
-/// farther from where it crossed than the stroke's radius.
+/// How much paint of one layer runs over depth edges, in the views in which its strokes were planned: the share of its
+/// strokes, 0..1, that jump from one surface to another, by more than `threshold_px` of disparity, or whose centre line
+/// strays onto another surface, and that come farther away from the edge there than their radius.
 double spilling_share(const Layer& layer, const StereoGeometry& geometry, float threshold_px);
 
 }  // namespace wheatstone

@@ -1,0 +1,136 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "wheatstone/app/output_folder.h"
+#include "wheatstone/app/redraw.h"
+#include "wheatstone/app/write_results.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/read_image.h"
+#include "wheatstone/image/whole_file.h"
+#include "wheatstone/painting/painting_file.h"
+#include "wheatstone/painting/rasterise.h"
+#include "wheatstone/stereo/synthetic_still.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An empty folder of the test's own.
+fs::path fresh_folder() {
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("wheatstone_app_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::size_t entries_in(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+const SyntheticStill& still() {
+  static const SyntheticStill made = make_synthetic_still({.width = 240, .height = 180});
+  return made;
+}
+
+TEST(OutputFolder, AppearsOnlyWhenItIsWhole) {
+  const fs::path folder = fresh_folder();
+  {
+    OutputFolder output(folder / "results");
+    write_whole_file(output.file("a.txt"), "a");
+    EXPECT_FALSE(fs::exists(folder / "results"));
+  }
+  EXPECT_EQ(entries_in(folder), 0u) << "nothing is left without a commit";
+  {
+    OutputFolder output(folder / "results");
+    write_whole_file(output.file("a.txt"), "a");
+    output.commit();
+  }
+  EXPECT_EQ(read_whole_file(folder / "results" / "a.txt", 10), "a");
+  EXPECT_EQ(entries_in(folder), 1u);
+}
+
+TEST(OutputFolder, ReplacesOnlyFilesOfTheSameNames) {
+  const fs::path folder = fresh_folder();
+  write_whole_file(folder / "mine.txt", "mine");
+  write_whole_file(folder / "a.txt", "old");
+  OutputFolder output(folder);
+  write_whole_file(output.file("a.txt"), "new");
+  output.commit();
+  EXPECT_EQ(read_whole_file(folder / "a.txt", 10), "new");
+  EXPECT_EQ(read_whole_file(folder / "mine.txt", 10), "mine");
+}
+
+TEST(OutputFolder, RefusesWhatCannotBeAFolder) {
+  const fs::path folder = fresh_folder();
+  write_whole_file(folder / "file", "x");
+  EXPECT_THROW(OutputFolder(folder / "file"), Error);
+  EXPECT_THROW(OutputFolder(folder / "no" / "such"), Error);
+}
+
+TEST(PaintPhotograph, WritesEverythingThatItPromises) {
+  const fs::path folder = fresh_folder();
+  PaintPhotographOptions options;
+  options.left_disparity = still().geometry.left_disparity;
+  const PaintedPhotograph result = paint_photograph(still().pictures, options);
+  const PaintingMeasures measures = measure_painting(still().pictures, result, still().geometry.left_disparity);
+  const auto names = write_results(folder / "out", still().pictures, result, options.style, &measures, {.html = true});
+  for (const std::string& name : names) EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  EXPECT_EQ(read_image(folder / "out" / "left.png"), result.painted.pictures.left);
+  EXPECT_EQ(read_painting(folder / "out" / "painting.wst"), result.painted.painting);
+  const auto report = nlohmann::json::parse(read_whole_file(folder / "out" / "report.json", 1 << 20));
+  EXPECT_EQ(report["width"], 240);
+  EXPECT_LT(report["measures"]["painting"]["left_right_rmse"], 0.1);
+  EXPECT_THAT(read_whole_file(folder / "out" / "index.html", 1 << 20), testing::HasSubstr("anaglyph.png"));
+}
+
+TEST(PaintPhotograph, PutsTheChosenPointOnTheScreen) {
+  PaintPhotographOptions options;
+  options.left_disparity = still().geometry.left_disparity;
+  options.zero_parallax.disparity_px = 7.5f;
+  EXPECT_EQ(paint_photograph(still().pictures, options).zero_parallax_px, 7.5f);
+  options.zero_parallax = {.disparity_px = {}, .at = std::pair{100, 90}};
+  EXPECT_EQ(paint_photograph(still().pictures, options).zero_parallax_px, still().geometry.left_disparity(100, 90));
+  options.zero_parallax.at = std::pair{1000, 90};
+  EXPECT_THROW(paint_photograph(still().pictures, options), Error);
+}
+
+TEST(PaintPhotograph, RefusesDisparityThatDoesNotFit) {
+  PaintPhotographOptions options;
+  options.left_disparity = Image<float>(10, 10, 1);
+  EXPECT_THROW(paint_photograph(still().pictures, options), Error);
+  options.left_disparity = Image<float>(240, 180, std::numeric_limits<float>::quiet_NaN());
+  EXPECT_THROW(paint_photograph(still().pictures, options), Error);
+}
+
+TEST(Redraw, KeepsThePaintingWhenItIsMadeLarger) {
+  PaintPhotographOptions options;
+  options.left_disparity = still().geometry.left_disparity;
+  options.style.background = Background::colour;
+  const PaintedPhotograph result = paint_photograph(still().pictures, options);
+  const Painting large = scaled(result.painted.painting, 2);
+  const Image<Rgb8> small_picture = result.painted.pictures.right, large_picture = draw(large, right_eye).picture;
+  ASSERT_EQ(large_picture.width(), 480);
+  double difference = 0;
+  for (int y = 0; y < 180; ++y)
+    for (int x = 0; x < 240; ++x) difference += std::abs(small_picture(x, y).g - large_picture(2 * x, 2 * y).g);
+  EXPECT_LT(difference / (240 * 180), 8);
+  EXPECT_THROW(scaled(result.painted.painting, 1000), Error);
+}
+
+TEST(Redraw, WritesBothEyes) {
+  const fs::path folder = fresh_folder();
+  PaintPhotographOptions options;
+  options.left_disparity = still().geometry.left_disparity;
+  draw_again(paint_photograph(still().pictures, options).painted.painting, 0.5, folder / "again");
+  EXPECT_EQ(read_image(folder / "again" / "left.png").width(), 120);
+  EXPECT_TRUE(fs::exists(folder / "again" / "anaglyph.png"));
+}
+
+}  // namespace
+}  // namespace wheatstone
