@@ -48,13 +48,14 @@ bool is_far_from_edge(const Surfaces& surfaces, float x, float y, float radius_p
   return surfaces.edge_distance.contains(column, row) && surfaces.edge_distance(column, row) > radius_px;
 }
 
-/// True where a stroke jumps from one surface to another and is planned on there.
+/// True where a stroke jumps from one surface to another and is planned on there; a second jump takes it home.
 bool jumps(const Layer& layer, const Stroke& stroke, const Surfaces& surfaces) {
   const auto points = layer.points_of(stroke);
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if (std::abs(points[i].disparity - points[i - 1].disparity) > surfaces.threshold_px &&
-        is_far_from_edge(surfaces, points[i].x, points[i].y, stroke.radius_px))
-      return true;
+  bool away = false;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (std::abs(points[i].disparity - points[i - 1].disparity) > surfaces.threshold_px) away = !away;
+    if (away && is_far_from_edge(surfaces, points[i].x, points[i].y, stroke.radius_px)) return true;
+  }
   return false;
 }
 
