@@ -20,10 +20,4 @@ struct Canvas {
 /// A bare canvas that shows a picture through what is not painted.
 Canvas make_canvas(ImageView<const Rgb8> background);
 
-/// The canvas rounded to 8 bits.
-Image<Rgb8> to_picture(const Canvas& canvas);
-
-/// Share of the pixels, 0..1, that no brush has touched at least by half.
-double bare_share(const Canvas& canvas);
-
 }  // namespace wheatstone

@@ -68,61 +68,30 @@ Painting joined(Painting left, const Painting& right) {
   return left;
 }
 
-void draw_left(const StereoPair& photographs, const Style& style, PaintedPair& result) {
-  DrawnView view = draw_over(photographs.left, result.painting, left_eye, style);
-  result.pictures.left = std::move(view.picture);
-  result.left_bare_share = view.bare_share;
+/// Draws both eyes of a planned painting.
+void draw_both(const StereoPair& photographs, const Style& style, PaintedPair& result) {
+  DrawnView left = draw_over(photographs.left, result.painting, left_eye, style);
+  DrawnView right = draw_over(photographs.right, result.painting, right_eye, style);
+  result.pictures = {std::move(left.picture), std::move(right.picture)};
+  result.left_bare_share = left.bare_share;
+  result.right_bare_share = right.bare_share;
 }
 
-void draw_right(const StereoPair& photographs, const Style& style, PaintedPair& result) {
-  DrawnView view = draw_over(photographs.right, result.painting, right_eye, style);
-  result.pictures.right = std::move(view.picture);
-  result.right_bare_share = view.bare_share;
-}
-
-PaintedPair paint_with_strokes(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                               const Progress& progress) {
-  PaintedPair result;
-  {
-    const Stopwatch watch(result.times.planning_s);
-    result.painting = plan_with_strokes(photographs, geometry, style, progress);
-  }
-  const Stopwatch watch(result.times.rasterising_s);
-  draw_left(photographs, style, result);
-  draw_right(photographs, style, result);
-  return result;
-}
-
-/// Stavrakis & Gelautz 2004, sec. 3.2: the left eye is painted; the right eye is painted where only it sees, and the
-/// left picture is warped over that. The few pixels that neither reaches show the photograph.
-PaintedPair paint_with_raster(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                              const Progress& progress) {
-  PaintedPair result;
-  {
-    const Stopwatch watch(result.times.planning_s);
-    result.painting = joined(plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress),
-                             plan_occluded_part(photographs, geometry, style));
-  }
-  const Stopwatch watch(result.times.rasterising_s);
-  draw_left(photographs, style, result);
-  draw_right(photographs, style, result);
+/// Stavrakis & Gelautz 2004, sec. 3.2: the left picture, warped, covers the right eye's paint. The few pixels that
+/// neither reaches show the photograph.
+void lay_left_over_right(const StereoGeometry& geometry, PaintedPair& result) {
   lay_over(warp_picture(result.pictures.left, geometry.left_disparity, Eye::left), result.pictures.right);
   result.right_bare_share = 0;
-  return result;
 }
 
-PaintedPair paint_each_alone(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                             const Progress& progress) {
-  PaintedPair result;
-  {
-    const Stopwatch watch(result.times.planning_s);
-    result.painting = joined(plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress),
-                             plan_by_itself(photographs.right, geometry.right_disparity, right_eye, style, progress));
-  }
-  const Stopwatch watch(result.times.rasterising_s);
-  draw_left(photographs, style, result);
-  draw_right(photographs, style, result);
-  return result;
+Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+              const Progress& progress) {
+  if (style.propagation == Propagation::strokes) return plan_with_strokes(photographs, geometry, style, progress);
+  Painting left = plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress);
+  if (style.propagation == Propagation::raster)
+    return joined(std::move(left), plan_occluded_part(photographs, geometry, style));
+  return joined(std::move(left),
+                plan_by_itself(photographs.right, geometry.right_disparity, right_eye, style, progress));
 }
 
 void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {
@@ -149,12 +118,15 @@ PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry,
                   const Progress& progress) {
   check_style(style);
   check_fits(photographs, geometry);
-  switch (style.propagation) {
-    case Propagation::strokes: return paint_with_strokes(photographs, geometry, style, progress);
-    case Propagation::raster: return paint_with_raster(photographs, geometry, style, progress);
-    case Propagation::independent: break;
+  PaintedPair result;
+  {
+    const Stopwatch watch(result.times.planning_s);
+    result.painting = plan(photographs, geometry, style, progress);
   }
-  return paint_each_alone(photographs, geometry, style, progress);
+  const Stopwatch watch(result.times.rasterising_s);
+  draw_both(photographs, style, result);
+  if (style.propagation == Propagation::raster) lay_left_over_right(geometry, result);
+  return result;
 }
 
 PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "wheatstone/error.h"
-#include "wheatstone/painting/painting_test_scene.h"
+#include "wheatstone/painting/painting_test_scene_internal.h"
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/painting/stroke_measures.h"
 #include "wheatstone/stereo/consistency.h"

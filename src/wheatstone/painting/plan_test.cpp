@@ -9,7 +9,7 @@
 #include "wheatstone/painting/flatten.h"
 #include "wheatstone/painting/jitter.h"
 #include "wheatstone/painting/layer_order.h"
-#include "wheatstone/painting/painting_test_scene.h"
+#include "wheatstone/painting/painting_test_scene_internal.h"
 #include "wheatstone/painting/plan_layer_internal.h"
 #include "wheatstone/painting/propagate.h"
 #include "wheatstone/painting/reference_picture.h"
