@@ -1,15 +1,14 @@
 # The short ways in. Each sees to its packages and its build first; what is already there is left alone.
-.PHONY: build test demo bench format lint
+.PHONY: build test demo bench format lint configured
 
-build:
-	@scripts/install-deps
-	@test -f build/release/build.ninja || cmake --preset release
+build: configured
 	@cmake --build --preset release
 
 test: build
 	@ctest --preset release
 
-demo: build
+demo: configured
+	@cmake --build --preset release --target wheatstone_cli
 	@scripts/demo
 
 bench: build
@@ -22,3 +21,7 @@ format:
 lint: build
 	@scripts/install-deps lint
 	@scripts/lint
+
+configured:
+	@scripts/install-deps
+	@test -f build/release/build.ninja || cmake --preset release

@@ -9,11 +9,11 @@ namespace wheatstone::cli {
 
 /// What every command shares; filled from the command line before a command runs.
 struct Session {
-  bool json = false;        ///< print one JSON object on standard output instead of text
+  bool json = false;  ///< print one JSON object on standard output instead of text
   bool verbose = false;
-  int threads = 0;          ///< 0: as many as the machine has
+  int threads = 0;  ///< 0: as many as the machine has
   std::uint64_t seed = 1;
-  Progress progress;        ///< draws the bar and throws Error{interrupted} after Ctrl-C
+  Progress progress;  ///< draws the bar and throws Error{interrupted} after Ctrl-C
 };
 
 // Each adds its command to the program. A command throws wheatstone::Error; main turns that into one line and the

@@ -61,7 +61,8 @@ void add_match_command(CLI::App& program, const Session& session) {
   command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
   add_match_options(command, arguments->matching);
   command.footer(
-      "Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is red),\n"
+      "Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is "
+      "red),\n"
       "and the occlusion masks (white: the other eye does not see it).\n\n"
       "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched");
   command.callback([arguments, &session] { run(*arguments, session); });

@@ -16,7 +16,8 @@ DisparityRange parse_range(const std::string& text) {
   const bool colon = least.ec == std::errc{} && least.ptr != end && *least.ptr == ':';
   const auto largest = colon ? std::from_chars(least.ptr + 1, end, range.largest) : least;
   if (!colon || largest.ec != std::errc{} || largest.ptr != end)
-    throw Error(ErrorKind::wrong_usage, fmt::format("--range: is '{}', expected LEAST:LARGEST, as 0:64 or -20:40", text));
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--range: is '{}', expected LEAST:LARGEST, as 0:64 or -20:40", text));
   return range;
 }
 
@@ -25,11 +26,15 @@ DisparityRange parse_range(const std::string& text) {
 void add_match_options(CLI::App& command, MatchArguments& arguments) {
   constexpr auto group = "Matching";
   const auto names = matcher_names();
-  command.add_option("--matcher", arguments.matcher, "How pixels are matched: sgbm, bm, or dp (scan-line dynamic programming)")
+  command
+      .add_option("--matcher", arguments.matcher,
+                  "How pixels are matched: sgbm, bm, or dp (scan-line dynamic programming)")
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
       ->capture_default_str()
       ->group(group);
-  command.add_option("--range", arguments.range, "Disparities looked for, LEAST:LARGEST in pixels; found by itself if not given")
+  command
+      .add_option("--range", arguments.range,
+                  "Disparities looked for, LEAST:LARGEST in pixels; found by itself if not given")
       ->group(group);
   command.add_option("--block", arguments.block_px, "Side of the compared windows, an odd number of pixels")
       ->capture_default_str()

@@ -132,8 +132,9 @@ void add_paint_command(CLI::App& program, const Session& session) {
   command.add_option("RIGHT", arguments->right, "Right photograph, of the same size");
   command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
   command.add_option("--print-style", arguments->print_style, "Print a style as a file to change, and do nothing else");
-  command.add_option("--disparity", arguments->disparity,
-                     "Left view's disparity instead of matching: PNG, PFM or EXR, FILE[:SCALE], value / SCALE = pixels");
+  command.add_option(
+      "--disparity", arguments->disparity,
+      "Left view's disparity instead of matching: PNG, PFM or EXR, FILE[:SCALE], value / SCALE = pixels");
   command.add_option("--right-disparity", arguments->right_disparity, "The right view's own, if there is one");
   auto* plane = command.add_option("--zero-parallax", arguments->zero_parallax,
                                    "What lies on the screen plane: 'nearest', or a disparity in pixels");
@@ -148,7 +149,8 @@ void add_paint_command(CLI::App& program, const Session& session) {
   add_style_options(command, arguments->style);
   add_match_options(command, arguments->matching);
   command.footer(
-      "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, painting.wst\n"
+      "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, "
+      "painting.wst\n"
       "(the strokes), SVG for each eye, disparity, occlusion, and report.json.\n\n"
       "Example:\n  wheatstone synth still -o still\n"
       "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted");

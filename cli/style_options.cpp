@@ -9,8 +9,9 @@ namespace wheatstone::cli {
 
 void add_style_options(CLI::App& command, StyleArguments& arguments) {
   constexpr auto group = "Style";
-  command.add_option("--style", arguments.style,
-                     fmt::format("{}, or a style file (.toml)", fmt::join(style_names(), ", ")))
+  command
+      .add_option("--style", arguments.style,
+                  fmt::format("{}, or a style file (.toml)", fmt::join(style_names(), ", ")))
       ->capture_default_str()
       ->group(group);
   for (const StyleParameter& parameter : style_parameters()) {
@@ -19,9 +20,10 @@ void add_style_options(CLI::App& command, StyleArguments& arguments) {
     const std::string option = "--" + name;
     if (parameter.is_switch) {
       // "--depth-test" and "--depth-test=false" are both understood.
-      command.add_flag_function(option + ",!--no-" + name,
-                                [keep](std::int64_t count) { keep(count > 0 ? "true" : "false"); },
-                                std::string(parameter.help))
+      command
+          .add_flag_function(
+              option + ",!--no-" + name, [keep](std::int64_t count) { keep(count > 0 ? "true" : "false"); },
+              std::string(parameter.help))
           ->group(group);
     } else {
       command.add_option_function<std::string>(option, keep, std::string(parameter.help))->group(group);

@@ -38,9 +38,8 @@ struct OneEye {
 OneEye time_of_one_eye(const SyntheticStill& still) {
   OneEye time{};
   std::vector<PaintingTimes> parts;
-  time.total_s = median_seconds([&] {
-    parts.push_back(paint_view(still.pictures.left, still.geometry.left_disparity, left_eye, {}).times);
-  });
+  time.total_s = median_seconds(
+      [&] { parts.push_back(paint_view(still.pictures.left, still.geometry.left_disparity, left_eye, {}).times); });
   const auto middle = parts.begin() + static_cast<std::ptrdiff_t>(parts.size() / 2);
   std::ranges::nth_element(parts, middle, {}, &PaintingTimes::planning_s);
   time.planning_s = middle->planning_s;
@@ -51,8 +50,8 @@ OneEye time_of_one_eye(const SyntheticStill& still) {
 
 double time_of_sgbm(const StereoPair& pair) {
   constexpr int block = 5, disparities = 128;
-  const auto matcher = cv::StereoSGBM::create(0, disparities, block, 8 * 3 * block * block, 32 * 3 * block * block, 1, 63,
-                                              10, 100, 2, cv::StereoSGBM::MODE_SGBM);
+  const auto matcher = cv::StereoSGBM::create(0, disparities, block, 8 * 3 * block * block, 32 * 3 * block * block, 1,
+                                              63, 10, 100, 2, cv::StereoSGBM::MODE_SGBM);
   cv::Mat disparity;
   return median_seconds([&] { matcher->compute(as_mat(pair.left), as_mat(pair.right), disparity); }, 3);
 }
@@ -65,19 +64,21 @@ void print_row(const Size& size) {
   const double strokes = time_of(still, Propagation::strokes), raster = time_of(still, Propagation::raster);
   const double independent = time_of(still, Propagation::independent);
   const double share = (one.planning_s + 2 * one.rasterising_s) / (one.planning_s + one.rasterising_s);
-  fmt::print("{:4}x{:<4}  {:6.1f} ms  {:5.2f}  {:5.2f}  {:5.2f}   {:>5}   {:5.2f}  strokes <= {:.2f} {}, raster <= 1.15 {}\n",
-             size.width, size.height, 1000 * one.total_s, strokes / one.total_s, raster / one.total_s,
-             independent / one.total_s, size.paper_ratio > 0 ? fmt::format("{:.2f}", size.paper_ratio) : "-", share,
-             std::min(1.1 * share, 1.5), verdict(strokes <= std::min(1.1 * share, 1.5) * one.total_s),
-             verdict(raster <= 1.15 * one.total_s));
+  fmt::print(
+      "{:4}x{:<4}  {:6.1f} ms  {:5.2f}  {:5.2f}  {:5.2f}   {:>5}   {:5.2f}  strokes <= {:.2f} {}, raster <= 1.15 {}\n",
+      size.width, size.height, 1000 * one.total_s, strokes / one.total_s, raster / one.total_s,
+      independent / one.total_s, size.paper_ratio > 0 ? fmt::format("{:.2f}", size.paper_ratio) : "-", share,
+      std::min(1.1 * share, 1.5), verdict(strokes <= std::min(1.1 * share, 1.5) * one.total_s),
+      verdict(raster <= 1.15 * one.total_s));
 }
 
 void print_against_matching() {
   const SyntheticStill still = make_synthetic_still({.width = 1920, .height = 1080, .samples_a_side = 1});
   const double ours = time_of(still, Propagation::strokes), matching = time_of_sgbm(still.pictures);
-  fmt::print("\n1920x1080, both eyes: painting {:.0f} ms, OpenCV StereoSGBM (MODE_SGBM, 128 disparities) {:.0f} ms: "
-             "{:.2f} x, <= 1.0 {}\n",
-             1000 * ours, 1000 * matching, ours / matching, verdict(ours <= matching));
+  fmt::print(
+      "\n1920x1080, both eyes: painting {:.0f} ms, OpenCV StereoSGBM (MODE_SGBM, 128 disparities) {:.0f} ms: "
+      "{:.2f} x, <= 1.0 {}\n",
+      1000 * ours, 1000 * matching, ours / matching, verdict(ours <= matching));
 }
 
 void print_memory() {
@@ -95,8 +96,10 @@ int main(int argument_count, char** arguments) {
   const int threads = argument_count > 1 ? std::atoi(arguments[1]) : tbb::info::default_concurrency();
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   cv::setNumThreads(threads);
-  fmt::print("Painting the synthetic still, impressionist, disparity given, {} threads.\n"
-             "Both eyes as multiples of one eye's time; P planning, R rasterising of one eye.\n\n", threads);
+  fmt::print(
+      "Painting the synthetic still, impressionist, disparity given, {} threads.\n"
+      "Both eyes as multiples of one eye's time; P planning, R rasterising of one eye.\n\n",
+      threads);
   fmt::print("size         one eye  strokes raster  each    paper   (P+2R)/(P+R)\n");
   for (const Size& size : sizes) print_row(size);
   print_against_matching();

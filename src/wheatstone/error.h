@@ -7,10 +7,10 @@ namespace wheatstone {
 
 /// Why a run ended; the value is the exit code of the command line.
 enum class ErrorKind {
-  wrong_usage = 2,         ///< an option, or a combination of options, that makes no sense
-  bad_input = 3,           ///< a file or picture that cannot be used for what was asked
-  cannot_read_write = 4,   ///< the system refused: no such folder, no permission, disk full, pipe closed
-  interrupted = 5,         ///< the user asked to stop
+  wrong_usage = 2,        ///< an option, or a combination of options, that makes no sense
+  bad_input = 3,          ///< a file or picture that cannot be used for what was asked
+  cannot_read_write = 4,  ///< the system refused: no such folder, no permission, disk full, pipe closed
+  interrupted = 5,        ///< the user asked to stop
 };
 
 /// The one exception that leaves the library. Its message is one line, without a final full stop, and names the file

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 /// An empty folder of the test's own.
 fs::path fresh_folder() {
   const fs::path folder =
-      fs::path(testing::TempDir()) / ("wheatstone_app_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+      fs::path(testing::TempDir()) /
+      ("wheatstone_app_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;

@@ -56,8 +56,9 @@ std::string escaped(std::string_view text) {
 std::string gallery_html(std::string_view report_json) {
   std::string page(head);
   for (const Shown& picture : pictures)
-    page += fmt::format("<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
-                        picture.file, picture.caption);
+    page +=
+        fmt::format("<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
+                    picture.file, picture.caption);
   page += fmt::format("</main>\n<h2>Numbers</h2>\n<pre>{}</pre>\n</body></html>\n", escaped(report_json));
   return page;
 }

@@ -13,9 +13,9 @@ namespace {
 
 void check_size(const Image<float>& disparity, const StereoPair& photographs, std::string_view name) {
   if (!same_size(disparity, photographs.left))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("the {} disparity is {}x{} pixels, expected the photographs' {}x{}", name, disparity.width(),
-                            disparity.height(), photographs.left.width(), photographs.left.height()));
+    throw Error(ErrorKind::bad_input, fmt::format("the {} disparity is {}x{} pixels, expected the photographs' {}x{}",
+                                                  name, disparity.width(), disparity.height(), photographs.left.width(),
+                                                  photographs.left.height()));
 }
 
 StereoGeometry given_geometry(const StereoPair& photographs, const PaintPhotographOptions& options) {
@@ -45,10 +45,9 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
                                    const Progress& progress) {
   check_style(options.style);
   if (!same_size(photographs.left, photographs.right))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("the right photograph is {}x{} pixels, expected the left one's {}x{}",
-                            photographs.right.width(), photographs.right.height(), photographs.left.width(),
-                            photographs.left.height()));
+    throw Error(ErrorKind::bad_input, fmt::format("the right photograph is {}x{} pixels, expected the left one's {}x{}",
+                                                  photographs.right.width(), photographs.right.height(),
+                                                  photographs.left.width(), photographs.left.height()));
   PaintedPhotograph result;
   if (options.left_disparity) {
     result.geometry = given_geometry(photographs, options);

@@ -13,9 +13,9 @@ namespace wheatstone {
 
 /// Which disparity lies on the screen plane.
 struct ZeroParallax {
-  std::optional<float> disparity_px;          ///< this one
-  std::optional<std::pair<int, int>> at;      ///< that of this pixel (x, y) of the left photograph
-                                              ///< neither: that of the nearest point, but for outliers
+  std::optional<float> disparity_px;      ///< this one
+  std::optional<std::pair<int, int>> at;  ///< that of this pixel (x, y) of the left photograph
+                                          ///< neither: that of the nearest point, but for outliers
 };
 
 struct PaintPhotographOptions {

@@ -32,7 +32,8 @@ std::optional<Subject> shared_subject(const std::string& name, std::optional<flo
 
 Subject synthetic_subject() {
   SyntheticStill still = make_synthetic_still({.width = 640, .height = 480});
-  return {std::move(still.pictures), std::move(still.geometry.left_disparity), std::move(still.geometry.right_disparity)};
+  return {std::move(still.pictures), std::move(still.geometry.left_disparity),
+          std::move(still.geometry.right_disparity)};
 }
 
 PaintedPhotograph painted(const Subject& subject, Propagation propagation) {

@@ -35,9 +35,8 @@ Painting scaled(Painting painting, double scale) {
   constexpr double largest_side_px = 65535;
   const double width = std::round(painting.width * scale), height = std::round(painting.height * scale);
   if (!(width >= 1 && height >= 1 && width <= largest_side_px && height <= largest_side_px))
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--scale {} makes {}x{} pixels, expected 1 to {} a side", scale, width, height,
-                            largest_side_px));
+    throw Error(ErrorKind::wrong_usage, fmt::format("--scale {} makes {}x{} pixels, expected 1 to {} a side", scale,
+                                                    width, height, largest_side_px));
   const auto factor = static_cast<float>(scale);
   painting.width = static_cast<int>(width);
   painting.height = static_cast<int>(height);

@@ -10,7 +10,7 @@
 namespace wheatstone {
 
 struct ResultOptions {
-  bool html = false;    ///< also an index.html that shows the pictures
+  bool html = false;  ///< also an index.html that shows the pictures
 };
 
 /// Writes a painted photograph into a folder, which appears when all of it is written: left.png and right.png in the

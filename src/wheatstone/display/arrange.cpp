@@ -8,7 +8,8 @@ namespace {
 
 Image<Rgb8> columns_of(const Image<Rgb8>& picture, int first, int count) {
   Image<Rgb8> part(count, picture.height());
-  for (int y = 0; y < picture.height(); ++y) std::ranges::copy(picture.row(y).subspan(first, count), part.row(y).begin());
+  for (int y = 0; y < picture.height(); ++y)
+    std::ranges::copy(picture.row(y).subspan(first, count), part.row(y).begin());
   return part;
 }
 

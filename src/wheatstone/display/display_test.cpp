@@ -45,9 +45,7 @@ TEST(Translation, BringsTheChosenDisparityToTheSameColumn) {
   }
 }
 
-TEST(Translation, NeverLeavesLessThanAColumn) {
-  EXPECT_EQ(translated(plain_pair({}, {}), 1000).left.width(), 1);
-}
+TEST(Translation, NeverLeavesLessThanAColumn) { EXPECT_EQ(translated(plain_pair({}, {}), 1000).left.width(), 1); }
 
 TEST(DisparityPicture, ShowsNearRedFarBlueAndUnknownBlack) {
   Image<float> disparity(3, 1);

@@ -130,8 +130,9 @@ void write_disparity(const std::filesystem::path& path, ImageView<const float> d
   if (kind == ".pfm") return write_whole_file(path, encode_pfm(disparity));
   if (kind == ".png") return write_png(path, disparity);
   if (kind == ".exr") return write_exr(path, disparity);
-  throw Error(ErrorKind::wrong_usage,
-              fmt::format("{}: there is no disparity format for '{}', expected .pfm, .png or .exr", path.string(), kind));
+  throw Error(
+      ErrorKind::wrong_usage,
+      fmt::format("{}: there is no disparity format for '{}', expected .pfm, .png or .exr", path.string(), kind));
 }
 
 }  // namespace wheatstone

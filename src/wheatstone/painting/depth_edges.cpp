@@ -1,4 +1,4 @@
-#include "wheatstone/painting/depth_edges.h"
+#include "wheatstone/painting/depth_edges_internal.h"
 
 #include <tbb/parallel_for.h>
 
@@ -20,7 +20,8 @@ Image<std::int16_t> in_steps(ImageView<const float> disparity) {
     const auto from = disparity.row(y);
     const auto to = steps.row(y);
     for (int x = 0; x < disparity.width(); ++x)
-      to[x] = static_cast<std::int16_t>(std::clamp(from[x] * steps_a_px + (from[x] < 0 ? -0.5f : 0.5f), -32767.f, 32767.f));
+      to[x] =
+          static_cast<std::int16_t>(std::clamp(from[x] * steps_a_px + (from[x] < 0 ? -0.5f : 0.5f), -32767.f, 32767.f));
   });
   return steps;
 }
@@ -28,9 +29,8 @@ Image<std::int16_t> in_steps(ImageView<const float> disparity) {
 /// Calls `work(first_row, end_row)` for bands of rows of a picture, in parallel.
 template <class Work>
 void for_each_band(int height, int band_rows, Work work) {
-  tbb::parallel_for(0, (height + band_rows - 1) / band_rows, [&](int band) {
-    work(band * band_rows, std::min((band + 1) * band_rows, height));
-  });
+  tbb::parallel_for(0, (height + band_rows - 1) / band_rows,
+                    [&](int band) { work(band * band_rows, std::min((band + 1) * band_rows, height)); });
 }
 
 /// Marks the pixels for which `test(own, nearest, farthest)` holds, the last two over the square window of `reach_px`

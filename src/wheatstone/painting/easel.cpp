@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "wheatstone/painting/depth_edges.h"
+#include "wheatstone/painting/depth_edges_internal.h"
 #include "wheatstone/painting/easel_internal.h"
-#include "wheatstone/painting/layer_order.h"
-#include "wheatstone/painting/plan_layer.h"
+#include "wheatstone/painting/layer_order_internal.h"
+#include "wheatstone/painting/plan_layer_internal.h"
 #include "wheatstone/painting/random.h"
 #include "wheatstone/painting/rasterise.h"
-#include "wheatstone/painting/reference_picture.h"
+#include "wheatstone/painting/reference_picture_internal.h"
 
 namespace wheatstone {
 

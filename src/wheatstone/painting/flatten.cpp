@@ -1,11 +1,11 @@
-#include "wheatstone/painting/flatten.h"
+#include "wheatstone/painting/flatten_internal.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/painting/spline.h"
+#include "wheatstone/painting/spline_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -49,7 +49,8 @@ void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& 
   add(begin);
   for (int span = 0; span < spline.span_count(); ++span) {
     const int segments = segment_count(spline, span);
-    for (int i = 1; i <= segments; ++i) add(point_on(spline, span, static_cast<float>(i) / static_cast<float>(segments)));
+    for (int i = 1; i <= segments; ++i)
+      add(point_on(spline, span, static_cast<float>(i) / static_cast<float>(segments)));
   }
 }
 

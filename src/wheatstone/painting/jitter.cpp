@@ -1,4 +1,4 @@
-#include "wheatstone/painting/jitter.h"
+#include "wheatstone/painting/jitter_internal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,8 +45,8 @@ Rgb8 jittered(Rgb8 colour, const ColourJitter& jitter, std::uint64_t random) {
   };
   const auto clamped = [](float value) { return std::clamp(value, 0.f, 1.f); };
 
-  Triple hsv = hsv_from_rgb({static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255,
-                             static_cast<float>(colour.b) / 255});
+  Triple hsv = hsv_from_rgb(
+      {static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255, static_cast<float>(colour.b) / 255});
   hsv.a += change(jitter.hue, 0);
   hsv.a -= std::floor(hsv.a);
   hsv.b = clamped(hsv.b + change(jitter.saturation, 1));

@@ -1,4 +1,4 @@
-#include "wheatstone/painting/layer_order.h"
+#include "wheatstone/painting/layer_order_internal.h"
 
 #include <algorithm>
 #include <cmath>

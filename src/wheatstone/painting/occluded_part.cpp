@@ -1,4 +1,4 @@
-#include "wheatstone/painting/occluded_part.h"
+#include "wheatstone/painting/occluded_part_internal.h"
 
 #include <tbb/parallel_for.h>
 
@@ -25,7 +25,9 @@ struct HalfView {
 };
 
 Rgb8 mean(Rgb8 a, Rgb8 b, Rgb8 c, Rgb8 d) {
-  const auto channel = [&](std::uint8_t Rgb8::*m) { return static_cast<std::uint8_t>((a.*m + b.*m + c.*m + d.*m + 2) / 4); };
+  const auto channel = [&](std::uint8_t Rgb8::*m) {
+    return static_cast<std::uint8_t>((a.*m + b.*m + c.*m + d.*m + 2) / 4);
+  };
   return {channel(&Rgb8::r), channel(&Rgb8::g), channel(&Rgb8::b)};
 }
 
@@ -50,8 +52,8 @@ HalfView halved(const Image<Rgb8>& photograph, const Image<float>& disparity, co
 Painting plan_occluded_part(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
   const int width = photographs.right.width(), height = photographs.right.height();
   const float largest_radius_px = ScaledStyle(style, width).radii_px.front();
-  const Image<std::uint8_t> seeds =
-      dilate_occlusion(geometry.right_occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
+  const Image<std::uint8_t> seeds = dilate_occlusion(
+      geometry.right_occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
   const HalfView half = halved(photographs.right, geometry.right_disparity, seeds);
   Painting part{width, height, style.canvas_colour, std::vector<Layer>(style.radii_px.size())};
   if (half.photograph.empty()) return part;

@@ -1,4 +1,4 @@
-#include "wheatstone/painting/orientation_field.h"
+#include "wheatstone/painting/orientation_field_internal.h"
 
 #include <algorithm>
 #include <cmath>

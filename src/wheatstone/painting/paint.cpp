@@ -7,9 +7,9 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/painting/easel_internal.h"
-#include "wheatstone/painting/layer_order.h"
-#include "wheatstone/painting/occluded_part.h"
-#include "wheatstone/painting/propagate.h"
+#include "wheatstone/painting/layer_order_internal.h"
+#include "wheatstone/painting/occluded_part_internal.h"
+#include "wheatstone/painting/propagate_internal.h"
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/stereo/warp.h"
 
@@ -97,9 +97,9 @@ Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, con
 void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {
   const auto check = [&](const auto& image, std::string_view name) {
     if (!same_size(image, photographs.left))
-      throw Error(ErrorKind::bad_input, fmt::format("{} is {}x{} pixels, expected the photographs' {}x{}", name,
-                                                    image.width(), image.height(), photographs.left.width(),
-                                                    photographs.left.height()));
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{} is {}x{} pixels, expected the photographs' {}x{}", name, image.width(),
+                              image.height(), photographs.left.width(), photographs.left.height()));
   };
   if (photographs.left.empty()) throw Error(ErrorKind::bad_input, "the left picture has no pixels");
   check(photographs.right, "the right picture");

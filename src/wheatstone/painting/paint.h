@@ -19,13 +19,14 @@ struct PaintingTimes {
 struct PaintedPair {
   Painting painting;
   StereoPair pictures;
-  double left_bare_share = 0;   ///< of the pixels, 0..1, that no stroke covers
+  double left_bare_share = 0;  ///< of the pixels, 0..1, that no stroke covers
   double right_bare_share = 0;
   PaintingTimes times;
 };
 
 /// Paints a rectified pair so that its strokes fuse. The geometry must have the pair's size and no unknown disparity.
-/// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not fit.
+/// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not
+/// fit.
 PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                   const Progress& progress = {});
 

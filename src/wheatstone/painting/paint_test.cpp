@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "wheatstone/error.h"
-#include "wheatstone/painting/painting_test_scene_internal.h"
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/painting/stroke_measures.h"
+#include "wheatstone/painting/two_surfaces_internal.h"
 #include "wheatstone/stereo/consistency.h"
 
 namespace wheatstone {
@@ -75,7 +75,8 @@ TEST(Paint, PairsEveryStrokeThatBothEyesCanSee) {
   const StrokeMeasures strokes = measure_strokes(paint_scene(small_style()).painting, geometry);
   EXPECT_DOUBLE_EQ(strokes.paired_share, 1);
   EXPECT_LT(strokes.shape_differs_share, 0.01);
-  const StrokeMeasures independent = measure_strokes(paint_scene(small_style(Propagation::independent)).painting, geometry);
+  const StrokeMeasures independent =
+      measure_strokes(paint_scene(small_style(Propagation::independent)).painting, geometry);
   EXPECT_DOUBLE_EQ(independent.paired_share, 0);
 }
 

@@ -31,13 +31,13 @@ struct ViewRange {
 /// One stroke of the brush: a disc with a soft rim, drawn along a cubic B-spline. It covers a pixel once, however
 /// often its curve comes back to it.
 struct Stroke {
-  std::uint32_t first_point = 0;   ///< index into its layer's points
-  std::uint32_t point_count = 0;   ///< at least one; a stroke of one point is a dot
+  std::uint32_t first_point = 0;  ///< index into its layer's points
+  std::uint32_t point_count = 0;  ///< at least one; a stroke of one point is a dot
   float radius_px = 0;
   float opacity = 1;
   Rgb8 colour;
-  float disparity = 0;             ///< the stroke's depth: the disparity of the point where it was begun
-  float reference_view = left_eye; ///< the view in which its points stand
+  float disparity = 0;              ///< the stroke's depth: the disparity of the point where it was begun
+  float reference_view = left_eye;  ///< the view in which its points stand
   ViewRange views;
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
@@ -57,7 +57,7 @@ struct Layer {
 /// A painting as a value: made once, drawn for any view. Layers are drawn in their order, coarse to fine, over a
 /// background that is either the view's photograph or `canvas_colour`.
 struct Painting {
-  int width = 0;   ///< of each view, in pixels
+  int width = 0;  ///< of each view, in pixels
   int height = 0;
   Rgb8 canvas_colour{255, 255, 255};
   std::vector<Layer> layers;

@@ -65,8 +65,13 @@ Stroke decode_stroke(const file::Stroke& from, std::size_t point_count, const Ch
   checker.expect(from.radius_px() > 0 && from.radius_px() <= static_cast<float>(largest_side_px),
                  "a stroke's radius is out of range");
   checker.expect(from.opacity() >= 0 && from.opacity() <= 1, "a stroke's opacity is out of range, expected 0 to 1");
-  return {from.first_point(),    from.point_count(), from.radius_px(), from.opacity(),
-          {from.red(), from.green(), from.blue()}, from.disparity(), from.reference_view(),
+  return {from.first_point(),
+          from.point_count(),
+          from.radius_px(),
+          from.opacity(),
+          {from.red(), from.green(), from.blue()},
+          from.disparity(),
+          from.reference_view(),
           {from.first_view(), from.last_view()}};
 }
 
@@ -86,7 +91,8 @@ Layer decode_layer(const file::Layer& from, const Checker& checker) {
     layer.points.push_back(point);
   }
   layer.strokes.reserve(from.strokes()->size());
-  for (const file::Stroke* stroke : *from.strokes()) layer.strokes.push_back(decode_stroke(*stroke, point_count, checker));
+  for (const file::Stroke* stroke : *from.strokes())
+    layer.strokes.push_back(decode_stroke(*stroke, point_count, checker));
   return layer;
 }
 
@@ -111,9 +117,9 @@ std::string encode_painting(const Painting& painting) {
 Painting decode_painting(std::string_view bytes, std::string_view name) {
   const Checker checker(name);
   constexpr std::size_t smallest = 2 * sizeof(flatbuffers::uoffset_t);
-  checker.expect(bytes.size() >= smallest && bytes.size() <= most_bytes &&
-                     file::PaintingFileBufferHasIdentifier(bytes.data()),
-                 "is not a painting, expected a .wst file");
+  checker.expect(
+      bytes.size() >= smallest && bytes.size() <= most_bytes && file::PaintingFileBufferHasIdentifier(bytes.data()),
+      "is not a painting, expected a .wst file");
   const std::vector<std::uint8_t> aligned(bytes.begin(), bytes.end());
   const std::uint8_t* data = aligned.data();
   flatbuffers::Verifier verifier(data, aligned.size());
@@ -130,12 +136,14 @@ Painting decode_painting(std::string_view bytes, std::string_view name) {
   checker.expect(payload.size() >= smallest && payload_verifier.VerifyBuffer<file::Painting>(nullptr),
                  "the painting is damaged");
   const file::Painting& from = *flatbuffers::GetRoot<file::Painting>(payload.data());
-  checker.expect(from.width() >= 1 && from.height() >= 1 && from.width() <= largest_side_px &&
-                     from.height() <= largest_side_px,
-                 fmt::format("the painting is {}x{} pixels, expected 1 to {} a side", from.width(), from.height(),
-                             largest_side_px));
-  Painting painting{static_cast<int>(from.width()), static_cast<int>(from.height()),
-                    {from.canvas_red(), from.canvas_green(), from.canvas_blue()}, {}};
+  checker.expect(
+      from.width() >= 1 && from.height() >= 1 && from.width() <= largest_side_px && from.height() <= largest_side_px,
+      fmt::format("the painting is {}x{} pixels, expected 1 to {} a side", from.width(), from.height(),
+                  largest_side_px));
+  Painting painting{static_cast<int>(from.width()),
+                    static_cast<int>(from.height()),
+                    {from.canvas_red(), from.canvas_green(), from.canvas_blue()},
+                    {}};
   for (const file::Layer* layer : *from.layers()) painting.layers.push_back(decode_layer(*layer, checker));
   return painting;
 }

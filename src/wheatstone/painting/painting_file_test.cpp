@@ -16,7 +16,8 @@ Painting small_painting() {
   Layer layer;
   layer.radius_px = 3;
   layer.points = {{1, 2, 3}, {4, 5.5f, -6}, {7, 8, 9}};
-  layer.strokes.push_back({.first_point = 0, .point_count = 2, .radius_px = 3, .opacity = 0.5f, .colour = {1, 2, 3}, .disparity = 3});
+  layer.strokes.push_back(
+      {.first_point = 0, .point_count = 2, .radius_px = 3, .opacity = 0.5f, .colour = {1, 2, 3}, .disparity = 3});
   layer.strokes.push_back({.first_point = 2,
                            .point_count = 1,
                            .radius_px = 2,

@@ -1,15 +1,15 @@
-#include "wheatstone/painting/plan_layer.h"
+#include "wheatstone/painting/plan_layer_internal.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/painting/jitter.h"
-#include "wheatstone/painting/layer_order.h"
-#include "wheatstone/painting/plan_layer_internal.h"
+#include "wheatstone/painting/jitter_internal.h"
+#include "wheatstone/painting/layer_order_internal.h"
 #include "wheatstone/painting/random.h"
-#include "wheatstone/painting/trace_stroke.h"
+#include "wheatstone/painting/seed_internal.h"
+#include "wheatstone/painting/trace_stroke_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -112,8 +112,9 @@ void add_stroke(const LayerPlan& plan, const Style& style, Place place, const Se
   stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
   stroke.opacity = style.opacity;
   const ReferencePicture& reference = plan.reference;
-  stroke.colour = jittered({reference.red(seed.x, seed.y), reference.green(seed.x, seed.y),
-                            reference.blue(seed.x, seed.y)}, style.jitter, random);
+  stroke.colour =
+      jittered({reference.red(seed.x, seed.y), reference.green(seed.x, seed.y), reference.blue(seed.x, seed.y)},
+               style.jitter, random);
   stroke.disparity = plan.disparity(seed.x, seed.y);
   stroke.reference_view = plan.view;
   stroke.views = {plan.view, plan.view};

@@ -1,31 +1,33 @@
 #pragma once
 
-#include "wheatstone/painting/plan_layer.h"
+#include "wheatstone/painting/canvas.h"
+#include "wheatstone/painting/painting.h"
+#include "wheatstone/painting/reference_picture_internal.h"
+#include "wheatstone/painting/style.h"
 
 namespace wheatstone {
 
-/// Strokes away from depth edges, or those beside them.
-enum class Place { open, beside_edge };
+/// What one layer of one view is planned from; everything has the view's size.
+struct LayerPlan {
+  const ReferencePicture& reference;
+  const Canvas& canvas;                 ///< as the coarser layers left it
+  ImageView<const float> disparity;     ///< pixels, no unknowns
+  ImageView<const std::uint8_t> seeds;  ///< strokes begin only where it is not 0; empty: everywhere
+  float view = left_eye;
+  float radius_px = 4;
+  int layer = 0;  ///< numbers the layer's random choices
 
-/// Where one stroke is set down, and how wide it is.
-struct Seed {
-  float error = -1;
-  int x = 0, y = 0;
+  // The depth test; all are empty where the style wants none.
+  float depth_threshold_px = 2;                    ///< T_depth in pixels of this view
+  ImageView<const std::uint8_t> depth_edges = {};  ///< as near_depth_edge
+  ImageView<const float> edge_distance = {};  ///< as distance_to_depth_edge; empty: leave the edges to a finer layer
+  ImageView<const std::uint8_t> mixed_colours = {};  ///< as behind_depth_edge: no stroke takes its colour there
 };
 
-/// The radius of a stroke that begins at a seed: the layer's, or beside a depth edge what fits.
-float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed);
-
-/// Error of a bare pixel: above every squared RGB distance (at most 3·255²), with room below it for a preference.
-inline constexpr float bare_error = 1e6f;
-
-/// Columns [begin, end) of one row of a picture.
-struct RowPart {
-  int row, begin, end;
-};
-
-/// Squared RGB distances between reference and canvas, `bare_error` where the canvas is bare; `errors` has the canvas's
-/// width, and only the part's columns are written.
-void squared_errors(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors);
+/// Plans the strokes of one layer (Hertzmann 1998; Stavrakis & Gelautz 2004, sec. 3.2 and 3.3): one for every grid cell
+/// whose largest error, over the cell, is above the threshold. Beside depth edges, where the brush does not fit, it is
+/// used edgeways: on a grid of half the cells, strokes as wide as the distance to the edge allows. In the order of the
+/// cells, not yet in drawing order.
+Layer plan_layer(const LayerPlan& plan, const Style& style);
 
 }  // namespace wheatstone

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <set>
 
-#include "wheatstone/painting/depth_edges.h"
-#include "wheatstone/painting/flatten.h"
-#include "wheatstone/painting/jitter.h"
-#include "wheatstone/painting/layer_order.h"
-#include "wheatstone/painting/painting_test_scene_internal.h"
-#include "wheatstone/painting/plan_layer_internal.h"
-#include "wheatstone/painting/propagate.h"
-#include "wheatstone/painting/reference_picture.h"
-#include "wheatstone/painting/trace_stroke.h"
+#include "wheatstone/painting/depth_edges_internal.h"
+#include "wheatstone/painting/flatten_internal.h"
+#include "wheatstone/painting/jitter_internal.h"
+#include "wheatstone/painting/layer_order_internal.h"
+#include "wheatstone/painting/propagate_internal.h"
+#include "wheatstone/painting/reference_picture_internal.h"
+#include "wheatstone/painting/seed_internal.h"
+#include "wheatstone/painting/trace_stroke_internal.h"
+#include "wheatstone/painting/two_surfaces_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -252,7 +252,8 @@ TEST(Propagation, TakesSingleWrongDisparitiesOutOfAStroke) {
   Layer planned;
   for (const float d : {10.f, 10.f, 40.f, 10.f, 10.f}) planned.points.push_back({5, 5, d});
   planned.strokes.push_back({.point_count = 5, .radius_px = 4});
-  for (const Layer split = propagate_to_other_eye(planned, Image<std::uint8_t>(10, 10)); const ControlPoint& point : split.points)
+  for (const Layer split = propagate_to_other_eye(planned, Image<std::uint8_t>(10, 10));
+       const ControlPoint& point : split.points)
     EXPECT_EQ(point.disparity, 10);
 }
 

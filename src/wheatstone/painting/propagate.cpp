@@ -1,4 +1,4 @@
-#include "wheatstone/painting/propagate.h"
+#include "wheatstone/painting/propagate_internal.h"
 
 #include <algorithm>
 

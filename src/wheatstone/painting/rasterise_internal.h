@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "wheatstone/painting/canvas.h"
-#include "wheatstone/painting/flatten.h"
+#include "wheatstone/painting/flatten_internal.h"
 
 namespace wheatstone {
 
@@ -12,7 +12,9 @@ namespace wheatstone {
 /// pixel, which is the antialiasing. Half cover lies at 0.95 R, the middle of the rim.
 struct BrushProfile {
   explicit BrushProfile(float radius_px)
-      : rim_px(radius_px > 10 ? 0.1f * radius_px : 1.f), middle_px(0.95f * radius_px), reach_px(middle_px + rim_px / 2) {}
+      : rim_px(radius_px > 10 ? 0.1f * radius_px : 1.f),
+        middle_px(0.95f * radius_px),
+        reach_px(middle_px + rim_px / 2) {}
   float rim_px;
   float middle_px;
   float reach_px;  ///< cover is 0 from here on
@@ -40,7 +42,7 @@ struct SegmentBox {
 struct DistanceBand {
   DistanceBand(int top, int canvas_width, int canvas_height);
 
-  int top;       ///< the picture's row that is the band's first
+  int top;  ///< the picture's row that is the band's first
   int row_count;
   int stride;
   std::vector<float> squared;      ///< row_count × stride

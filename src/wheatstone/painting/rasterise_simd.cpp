@@ -151,7 +151,8 @@ void lay_over_row(const FlatStroke& stroke, const Cover& cover, const DistanceBa
 }
 
 /// Slides the stroke's colour under one row of what is drawn already, as far as that lets light through.
-void slide_under_row(const FlatStroke& stroke, const Cover& cover, const DistanceBand& band, int row, Glazing& glazing) {
+void slide_under_row(const FlatStroke& stroke, const Cover& cover, const DistanceBand& band, int row,
+                     Glazing& glazing) {
   const Floats f;
   const int lanes = static_cast<int>(hn::Lanes(f));
   const float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;

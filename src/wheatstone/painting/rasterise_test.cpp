@@ -51,7 +51,8 @@ Image<Rgb8> draw_plainly(const Painting& painting, float view) {
           for (std::uint32_t i = 0; i < stroke.vertex_count; ++i) {
             const std::size_t to = stroke.first_vertex + i, from = i == 0 ? to : to - 1;
             const float dx = layer.x[to] - layer.x[from], dy = layer.y[to] - layer.y[from];
-            const float px = static_cast<float>(x) + 0.5f - layer.x[from], py = static_cast<float>(y) + 0.5f - layer.y[from];
+            const float px = static_cast<float>(x) + 0.5f - layer.x[from],
+                        py = static_cast<float>(y) + 0.5f - layer.y[from];
             const float squared = dx * dx + dy * dy;
             const float t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.f, 1.f) : 0;
             nearest = std::min(nearest, std::hypot(px - t * dx, py - t * dy));
@@ -79,7 +80,10 @@ int largest_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
 }
 
 Painting painting_of(int width, int height, float opacity) {
-  return {width, height, {240, 230, 220}, {random_layer(width, height, 150, opacity), random_layer(width, height, 80, opacity)}};
+  return {width,
+          height,
+          {240, 230, 220},
+          {random_layer(width, height, 150, opacity), random_layer(width, height, 80, opacity)}};
 }
 
 TEST(Rasteriser, DrawsWhatTheObviousWayDraws) {

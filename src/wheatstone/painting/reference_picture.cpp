@@ -1,4 +1,4 @@
-#include "wheatstone/painting/reference_picture.h"
+#include "wheatstone/painting/reference_picture_internal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +38,7 @@ cv::Mat blurred(const cv::Mat& photograph, int kernel_px, ReferenceFilter filter
 
 }  // namespace
 
-int blur_kernel_px(float blur, float radius_px) {
-  return 2 * static_cast<int>(std::lround(blur * radius_px)) + 1;
-}
+int blur_kernel_px(float blur, float radius_px) { return 2 * static_cast<int>(std::lround(blur * radius_px)) + 1; }
 
 ReferencePicture make_reference(ImageView<const Rgb8> photograph, float radius_px, const Style& style) {
   const int width = photograph.width(), height = photograph.height();

@@ -1,4 +1,4 @@
-#include "wheatstone/painting/plan_layer_internal.h"
+#include "wheatstone/painting/seed_internal.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "wheatstone/painting/squared_errors_simd.cpp"

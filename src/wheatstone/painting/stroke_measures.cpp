@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/painting/depth_edges.h"
-#include "wheatstone/painting/spline.h"
+#include "wheatstone/painting/depth_edges_internal.h"
+#include "wheatstone/painting/spline_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -23,9 +23,9 @@ float length_in(const Layer& layer, const Stroke& stroke, float view) {
   const auto points = layer.points_of(stroke);
   float length = 0;
   for (std::size_t i = 1; i < points.size(); ++i)
-    length += std::hypot(x_in_view(points[i], stroke.reference_view, view) -
-                             x_in_view(points[i - 1], stroke.reference_view, view),
-                         points[i].y - points[i - 1].y);
+    length += std::hypot(
+        x_in_view(points[i], stroke.reference_view, view) - x_in_view(points[i - 1], stroke.reference_view, view),
+        points[i].y - points[i - 1].y);
   return length;
 }
 

@@ -12,8 +12,8 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 5> preset_names{"impressionist", "expressionist", "colorist-wash",
-                                                       "pointillist", "psychedelic"};
+constexpr std::array<std::string_view, 5> preset_names{"impressionist", "expressionist", "colorist-wash", "pointillist",
+                                                       "psychedelic"};
 
 constexpr std::array propagations{std::pair{Propagation::strokes, std::string_view("strokes")},
                                   std::pair{Propagation::raster, std::string_view("raster")},

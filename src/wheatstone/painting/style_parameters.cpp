@@ -179,8 +179,8 @@ void apply_toml(std::string_view document, std::string_view name, Style& style) 
     for (const auto& [key, node] : table) apply_key(key.str(), node, style);
     check_style(style);
   } catch (const toml::parse_error& error) {
-    throw Error(ErrorKind::bad_input, fmt::format("{}: line {}: {}", name, error.source().begin.line,
-                                                  error.description()));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: line {}: {}", name, error.source().begin.line, error.description()));
   } catch (const Error& error) {
     throw Error(ErrorKind::bad_input, fmt::format("{}: {}", name, error.what()));
   }

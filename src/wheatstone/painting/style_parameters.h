@@ -14,9 +14,9 @@ namespace wheatstone {
 struct StyleParameter {
   std::string_view name;  ///< "depth-threshold": an option without its dashes, and a key of a style file
   std::string_view help;
-  bool is_switch;                                        ///< true or false
-  std::function<std::string(const Style&)> toml_value;   ///< as it stands in a TOML file
-  std::function<void(Style&, std::string_view)> set;     ///< from "4", "8,4,2", "true", "median"; throws wrong_usage
+  bool is_switch;                                       ///< true or false
+  std::function<std::string(const Style&)> toml_value;  ///< as it stands in a TOML file
+  std::function<void(Style&, std::string_view)> set;    ///< from "4", "8,4,2", "true", "median"; throws wrong_usage
 };
 
 /// Every parameter of Style, in the order in which they are shown. Option parser, help and style files come from here.

@@ -60,7 +60,8 @@ TEST(Style, RefusesWhatCannotBePaintedWithByName) {
                          apply_toml(toml, "mine.toml", style);
                        }).what());
   };
-  EXPECT_THAT(message("radii = [-3]"), testing::AllOf(testing::HasSubstr("mine.toml"), testing::HasSubstr("radius is -3")));
+  EXPECT_THAT(message("radii = [-3]"),
+              testing::AllOf(testing::HasSubstr("mine.toml"), testing::HasSubstr("radius is -3")));
   EXPECT_THAT(message("threshold = 0"), testing::HasSubstr("threshold is 0"));
   EXPECT_THAT(message("radii = [2, 8]"), testing::HasSubstr("coarse to fine"));
   EXPECT_THAT(message("colour = 3"), testing::HasSubstr("unknown key 'colour'"));

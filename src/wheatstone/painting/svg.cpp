@@ -6,7 +6,7 @@
 
 #include "wheatstone/image/whole_file.h"
 #include "wheatstone/painting/rasterise_internal.h"
-#include "wheatstone/painting/spline.h"
+#include "wheatstone/painting/spline_internal.h"
 
 namespace wheatstone {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheatstone/painting/trace_stroke.h"
+#include "wheatstone/painting/trace_stroke_internal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +33,7 @@ Direction gradient_at(const ImageView<const std::uint8_t>& luminance, int x, int
 
 /// The direction in which a stroke leaves a pixel, or nothing where the style ends strokes at a vanishing gradient.
 std::optional<Direction> direction_at(const LayerPlan& plan, const Style& style, float x, float y) {
-  const Direction gradient =
-      gradient_at(plan.reference.luminance, static_cast<int>(x), static_cast<int>(y));
+  const Direction gradient = gradient_at(plan.reference.luminance, static_cast<int>(x), static_cast<int>(y));
   if (style.orientation == Orientation::smooth) return plan.reference.orientation.along(x, y, gradient.x, gradient.y);
   const float magnitude = std::hypot(gradient.x, gradient.y);
   constexpr float vanishing = 0.5f;  // half a luminance step a pixel: below it 8-bit rounding decides
@@ -56,8 +55,8 @@ bool crosses_depth_edge(const LayerPlan& plan, const ControlPoint& from, const C
   float last = from.disparity;
   for (int i = 1; i <= steps; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(steps);
-    const float disparity = plan.disparity(static_cast<int>(from.x + t * (to.x - from.x)),
-                                           static_cast<int>(from.y + t * (to.y - from.y)));
+    const float disparity =
+        plan.disparity(static_cast<int>(from.x + t * (to.x - from.x)), static_cast<int>(from.y + t * (to.y - from.y)));
     if (std::abs(disparity - last) > plan.depth_threshold_px) return true;
     last = disparity;
   }
@@ -95,8 +94,7 @@ void trace_stroke(const LayerPlan& plan, const Style& style, const Seed& seed, f
     const Rgb wanted = reference_at(plan.reference, x, y);
     const Rgb painted{plan.canvas.red(x, y), plan.canvas.green(x, y), plan.canvas.blue(x, y)};
     const bool bare = plan.canvas.coverage(x, y) < 0.5f;
-    if (length >= style.min_length && !bare &&
-        squared_distance(wanted, painted) < squared_distance(wanted, colour)) {
+    if (length >= style.min_length && !bare && squared_distance(wanted, painted) < squared_distance(wanted, colour)) {
       return;
     }
 

@@ -15,8 +15,8 @@ namespace {
 constexpr int search_width_px = 1000;
 constexpr std::size_t least_matches = 12;
 
-/// Dense disparities of a small copy of the pair, over all that a picture could hold: it also sees the plain surfaces on
-/// which there are no corners. In pixels of the full picture.
+/// Dense disparities of a small copy of the pair, over all that a picture could hold: it also sees the plain surfaces
+/// on which there are no corners. In pixels of the full picture.
 std::vector<float> coarse_disparities(const StereoPair& pair) {
   constexpr int small_width_px = 320;
   const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());

@@ -91,10 +91,9 @@ StereoGeometry geometry_from_left(Image<float> left_disparity, const GeometryOpt
 StereoGeometry geometry_from_both(Image<float> left_disparity, Image<float> right_disparity,
                                   const GeometryOptions& options) {
   if (!same_size(left_disparity, right_disparity))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("the right disparity is {}x{} pixels, expected the left one's {}x{}",
-                            right_disparity.width(), right_disparity.height(), left_disparity.width(),
-                            left_disparity.height()));
+    throw Error(ErrorKind::bad_input, fmt::format("the right disparity is {}x{} pixels, expected the left one's {}x{}",
+                                                  right_disparity.width(), right_disparity.height(),
+                                                  left_disparity.width(), left_disparity.height()));
   fill_from_farther_side(left_disparity);
   fill_from_farther_side(right_disparity);
   return with_occlusion(std::move(left_disparity), std::move(right_disparity), options);

@@ -56,7 +56,8 @@ TEST(Geometry, WorksWithNegativeDisparities) {
 
 TEST(Warp, LeavesNoCracksInASurfaceThatItStretches) {
   Image<float> disparity(width, 1);
-  for (int x = 0; x < width; ++x) disparity(x, 0) = 40 - 0.4f * static_cast<float>(x);  // 1.4 times as wide on the right
+  for (int x = 0; x < width; ++x)
+    disparity(x, 0) = 40 - 0.4f * static_cast<float>(x);  // 1.4 times as wide on the right
   const Image<float> warped = warp_disparity(disparity, Eye::left);
   for (int x = 0; x < width; ++x) {
     // x_right = 1.4·x_left − 40, at pixel centres

@@ -36,8 +36,9 @@ void check(const StereoPair& pair, const MatchOptions& options) {
   if (options.block_px < 1 || options.block_px > 51 || options.block_px % 2 == 0)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("the matching block is {} pixels wide, expected an odd number, 1 to 51", options.block_px));
-  if (options.range && (options.range->least >= options.range->largest ||
-                        std::max(std::abs(options.range->least), std::abs(options.range->largest)) >= pair.left.width()))
+  if (options.range &&
+      (options.range->least >= options.range->largest ||
+       std::max(std::abs(options.range->least), std::abs(options.range->largest)) >= pair.left.width()))
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("the disparity range is {}:{}, expected least:largest within the width of {} pixels",
                             options.range->least, options.range->largest, pair.left.width()));
@@ -116,7 +117,8 @@ Image<float> refined(const Image<float>& left, const Image<float>& right, const 
   for (int y = 0; y < left.height(); ++y) {
     for (int x = 0; x < left.width(); ++x) {
       const float value = static_cast<float>(result.at<std::int16_t>(y, x)) / sixteenths_a_px;
-      if (value >= static_cast<float>(range.least) && value <= static_cast<float>(range.largest)) disparity(x, y) = value;
+      if (value >= static_cast<float>(range.least) && value <= static_cast<float>(range.largest))
+        disparity(x, y) = value;
     }
   }
   return disparity;

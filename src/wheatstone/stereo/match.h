@@ -13,7 +13,7 @@ namespace wheatstone {
 enum class Matcher {
   sgbm,  ///< semi-global matching (OpenCV, MODE_SGBM_3WAY)
   bm,    ///< block matching (OpenCV)
-  dp,    ///< dynamic programming along scan lines (Birchfield & Tomasi 1998), one of the two of Stavrakis & Gelautz 2005
+  dp,  ///< dynamic programming along scan lines (Birchfield & Tomasi 1998), one of the two of Stavrakis & Gelautz 2005
 };
 
 std::span<const std::string_view> matcher_names();
@@ -31,8 +31,8 @@ struct MatchOptions {
   int block_px = 3;                     ///< side of the compared windows; odd. bm takes at least 11
   bool left_right_check = true;         ///< drop what the other view does not confirm
   float check_tolerance_px = 1;
-  int least_surface_px = 100;           ///< smaller connected patches of like disparity are dropped as speckles
-  bool wls = false;                     ///< edge-aware refinement (OpenCV ximgproc, weighted least squares)
+  int least_surface_px = 100;  ///< smaller connected patches of like disparity are dropped as speckles
+  bool wls = false;            ///< edge-aware refinement (OpenCV ximgproc, weighted least squares)
   double wls_lambda = 2000;
   double wls_sigma = 1;
 };

@@ -62,7 +62,8 @@ class ScanLine {
     int best_larger = infinite;
     for (int i = count_ - 1; i >= 0; --i) {
       // diagonal: the best of the matches (x − 1 − k, d − k), k ≥ 1
-      diagonal_[at(x, i)] = x >= 2 && i >= 1 ? std::min(cost_[at(x - 2, i - 1)], diagonal_[at(x - 1, i - 1)]) : infinite;
+      diagonal_[at(x, i)] =
+          x >= 2 && i >= 1 ? std::min(cost_[at(x - 2, i - 1)], diagonal_[at(x - 1, i - 1)]) : infinite;
       int cost = x == 0 ? 0 : occlusion_penalty;
       Step step = Step::begins;
       const auto consider = [&](int candidate, Step candidate_step) {

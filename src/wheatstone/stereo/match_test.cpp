@@ -45,8 +45,8 @@ TEST(Match, EveryMatcherBeatsWhatItFindsUnchecked) {
   MatchOptions naive;
   naive.matcher = Matcher::bm;
   naive.range = DisparityRange{0, 48};
-  const Image<float> unchecked = match_with_opencv(as_mat(still().pictures.left), as_mat(still().pictures.right),
-                                                   *naive.range, naive);
+  const Image<float> unchecked =
+      match_with_opencv(as_mat(still().pictures.left), as_mat(still().pictures.right), *naive.range, naive);
   const double naive_bad = bad_2(unchecked, still().geometry.left_disparity);
   for (const std::string_view name : matcher_names()) {
     MatchOptions options;
@@ -104,7 +104,8 @@ TEST(Match, TakesTinyPictures) {
   StereoPair tiny{Image<Rgb8>(16, 16), Image<Rgb8>(16, 16)};
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x)
-      tiny.left(x, y) = tiny.right(x, y) = {static_cast<std::uint8_t>(x * 37 * (y + 3)), static_cast<std::uint8_t>(y * 91), 7};
+      tiny.left(x, y) =
+          tiny.right(x, y) = {static_cast<std::uint8_t>(x * 37 * (y + 3)), static_cast<std::uint8_t>(y * 91), 7};
   MatchOptions options;
   options.range = DisparityRange{-4, 4};
   EXPECT_EQ(match(tiny, options).geometry.left_disparity.width(), 16);

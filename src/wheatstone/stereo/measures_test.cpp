@@ -41,7 +41,8 @@ Image<Rgb8> blurred(const Image<Rgb8>& picture) {
 TEST(LeftRightDifference, IsSmallForThePhotographsAndLargeForATornPair) {
   const Image<float>& truth = still().geometry.left_disparity;
   const auto own = measure_left_right_difference(still().pictures, truth);
-  const auto bad = measure_left_right_difference({torn(still().pictures.left, 1), torn(still().pictures.right, 2)}, truth);
+  const auto bad =
+      measure_left_right_difference({torn(still().pictures.left, 1), torn(still().pictures.right, 2)}, truth);
   EXPECT_LT(own.mean_absolute, 3);
   EXPECT_GT(bad.mean_absolute, 3 * own.mean_absolute);
   EXPECT_GT(bad.rmse, own.rmse);
@@ -53,7 +54,8 @@ TEST(LeftRightDifference, IsExactForAShiftOfOnePixel) {
   StereoPair ramp{Image<Rgb8>(60, 4), Image<Rgb8>(60, 4)};
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 60; ++x)
-      ramp.left(x, y) = ramp.right(x, y) = {static_cast<std::uint8_t>(4 * x), static_cast<std::uint8_t>(4 * x), static_cast<std::uint8_t>(4 * x)};
+      ramp.left(x, y) = ramp.right(x, y) = {static_cast<std::uint8_t>(4 * x), static_cast<std::uint8_t>(4 * x),
+                                            static_cast<std::uint8_t>(4 * x)};
   EXPECT_NEAR(measure_left_right_difference(ramp, Image<float>(60, 4, 1)).mean_absolute, 4, 1e-6);
   // Half a pixel to the left of the first column there is nothing to interpolate.
   Image<float> half(60, 4, 0.5f);

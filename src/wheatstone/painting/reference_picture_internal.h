@@ -1,7 +1,7 @@
 #pragma once
 
 #include "wheatstone/image/image.h"
-#include "wheatstone/painting/orientation_field.h"
+#include "wheatstone/painting/orientation_field_internal.h"
 #include "wheatstone/painting/style.h"
 
 namespace wheatstone {

@@ -10,8 +10,8 @@ namespace wheatstone {
 /// a brush of radius R set down there would spill paint onto another surface (Stavrakis & Gelautz 2005, sec. 3.2).
 Image<std::uint8_t> near_depth_edge(ImageView<const float> disparity, float radius_px, float threshold_px);
 
-/// Distance in pixels from each pixel's centre to the nearest depth edge, at most `most_px`: 0.5 for the pixels on either
-/// side of one.
+/// Distance in pixels from each pixel's centre to the nearest depth edge, at most `most_px`: 0.5 for the pixels on
+/// either side of one.
 Image<float> distance_to_depth_edge(ImageView<const float> disparity, float threshold_px, float most_px);
 
 /// 255 for every pixel that has a surface nearer than its own by more than `threshold_px` within `reach_px`. A camera

@@ -22,8 +22,11 @@ inline bool in_square(float x_left_view, int y) {
 inline Rgb8 colour_at(float x, int y, bool square) {
   const float wave = 0.5f + 0.5f * std::sin(0.21f * x + 0.13f * static_cast<float>(y));
   const float grain = unit_float(hash({static_cast<std::uint64_t>(x + 1000), static_cast<std::uint64_t>(y)}));
-  const auto level = [&](float base, float swing) { return static_cast<std::uint8_t>(base + swing * wave + 20 * grain); };
-  return square ? Rgb8{level(150, 80), level(30, 40), level(20, 30)} : Rgb8{level(30, 60), level(60, 120), level(120, 100)};
+  const auto level = [&](float base, float swing) {
+    return static_cast<std::uint8_t>(base + swing * wave + 20 * grain);
+  };
+  return square ? Rgb8{level(150, 80), level(30, 40), level(20, 30)}
+                : Rgb8{level(30, 60), level(60, 120), level(120, 100)};
 }
 
 inline StereoPair photographs() {
