@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -21,8 +20,7 @@ struct Arguments {
   MatchArguments matching;
 };
 
-void write(const std::filesystem::path& folder, const StereoGeometry& geometry) {
-  OutputFolder output(folder);
+void write(OutputFolder& output, const StereoGeometry& geometry) {
   write_disparity(output.file("left_disparity.pfm"), geometry.left_disparity);
   write_disparity(output.file("right_disparity.pfm"), geometry.right_disparity);
   write_image(output.file("left_disparity.png"), disparity_picture(geometry.left_disparity));
@@ -34,8 +32,9 @@ void write(const std::filesystem::path& folder, const StereoGeometry& geometry) 
 
 void run(const Arguments& arguments, const Session& session) {
   const StereoPair pair = read_pair(arguments.left, arguments.right);
+  OutputFolder folder(arguments.folder);
   const MatchedPair matched = match(pair, match_options_from(arguments.matching), session.progress);
-  write(arguments.folder, matched.geometry);
+  write(folder, matched.geometry);
   if (session.json) {
     const nlohmann::ordered_json facts{{"folder", arguments.folder},
                                        {"least_disparity_px", matched.range.least},

@@ -92,13 +92,14 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
   }
   if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
 
+  // Before the work, so that a folder that cannot be written to is known at once.
+  OutputFolder folder(arguments.folder);
   const PaintedPhotograph result = paint_photograph(photographs, options, session.progress);
   std::optional<PaintingMeasures> measures;
   if (arguments.measure)
     measures = measure_painting(photographs, result, truth ? *truth : result.geometry.left_disparity);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
-  write_results(arguments.folder, photographs, result, options.style, measured, {.html = arguments.html},
-                session.progress);
+  write_results(folder, photographs, result, options.style, measured, {.html = arguments.html}, session.progress);
   if (session.json) {
     fmt::print("{}", report_json(result, options.style, measured));
   } else {

@@ -80,7 +80,8 @@ TEST(PaintPhotograph, WritesEverythingThatItPromises) {
   options.left_disparity = still().geometry.left_disparity;
   const PaintedPhotograph result = paint_photograph(still().pictures, options);
   const PaintingMeasures measures = measure_painting(still().pictures, result, still().geometry.left_disparity);
-  const auto names = write_results(folder / "out", still().pictures, result, options.style, &measures, {.html = true});
+  OutputFolder output(folder / "out");
+  const auto names = write_results(output, still().pictures, result, options.style, &measures, {.html = true});
   for (const std::string& name : names) EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
   EXPECT_EQ(read_image(folder / "out" / "left.png"), result.painted.pictures.left);
   EXPECT_EQ(read_painting(folder / "out" / "painting.wst"), result.painted.painting);

@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "wheatstone/app/gallery.h"
-#include "wheatstone/app/output_folder.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/disparity_picture.h"
@@ -18,7 +17,7 @@
 
 namespace wheatstone {
 
-std::vector<std::string> write_results(const std::filesystem::path& folder, const StereoPair& photographs,
+std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs,
                                        const PaintedPhotograph& result, const Style& style,
                                        const PaintingMeasures* measures, const ResultOptions& options,
                                        const Progress& progress) {
@@ -54,16 +53,15 @@ std::vector<std::string> write_results(const std::filesystem::path& folder, cons
                        }});
   }
 
-  OutputFolder target(folder);
   std::mutex reporting;
   std::size_t written = 0;
   report(progress, "writing", 0);
   tbb::parallel_for(std::size_t{0}, outputs.size(), [&](std::size_t i) {
-    outputs[i].write(target.file(outputs[i].name));
+    outputs[i].write(folder.file(outputs[i].name));
     const std::scoped_lock lock(reporting);
     report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
   });
-  target.commit();
+  folder.commit();
   std::vector<std::string> names;
   for (const Output& output : outputs) names.push_back(output.name);
   return names;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/report.h"
 
@@ -13,11 +13,11 @@ struct ResultOptions {
   bool html = false;  ///< also an index.html that shows the pictures
 };
 
-/// Writes a painted photograph into a folder, which appears when all of it is written: left.png and right.png in the
+/// Writes a painted photograph into a folder and commits it: left.png and right.png in the
 /// photographs' own geometry; side_by_side.png and anaglyph.png shifted to the zero-parallax plane; disparity.png,
 /// left_disparity.pfm, right_disparity.pfm, left_occlusion.png, right_occlusion.png; painting.wst, left.svg, right.svg;
-/// report.json. Returns the names written. Throws Error{cannot_read_write}; then nothing is left behind.
-std::vector<std::string> write_results(const std::filesystem::path& folder, const StereoPair& photographs,
+/// report.json. Returns the names written. Throws Error{cannot_read_write}; then nothing is committed.
+std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs,
                                        const PaintedPhotograph& result, const Style& style,
                                        const PaintingMeasures* measures, const ResultOptions& options = {},
                                        const Progress& progress = {});
