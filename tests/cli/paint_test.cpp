@@ -1,0 +1,180 @@
+// Painting from the command line: what works on unusual pictures, and what is refused with one line.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/painting/painting_file.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int width = 96, height = 64, shift = 6;
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+/// A texture that matches at one place only.
+std::uint8_t level(int x, int y) {
+  return static_cast<std::uint8_t>((x * x * 7 + y * y * 3 + x * y * 11 + 40 * (x % 5)) % 251);
+}
+
+/// Writes a pair with a disparity of six pixels and its map.
+void write_pair(const TemporaryFolder& folder) {
+  Image<Rgb8> left(width, height), right(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      left(x, y) = {level(x, y), level(x + 9, y), level(x, y + 5)};
+      right(x, y) = {level(x + shift, y), level(x + shift + 9, y), level(x + shift, y + 5)};
+    }
+  }
+  write_image(folder / "left.png", left);
+  write_image(folder / "right.png", right);
+  write_disparity(folder / "disparity.pfm", Image<float>(width, height, shift));
+}
+
+std::vector<std::string> paint_line(std::vector<std::string> more) {
+  std::vector<std::string> line{"paint", "left.png", "right.png", "-o", "painted", "--quiet"};
+  line.insert(line.end(), more.begin(), more.end());
+  return line;
+}
+
+TEST(PaintCommand, WritesAPaintingAndItsReport) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  const ProgramResult result = run_program(paint_line({"--disparity", "disparity.pfm", "--report", "--html", "--json"}),
+                                           {.folder = folder / ""});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto report = nlohmann::json::parse(result.output);
+  EXPECT_EQ(report["width"], width);
+  EXPECT_EQ(report["zero_parallax_px"], shift);
+  EXPECT_LT(report["measures"]["painting"]["left_right_mean_absolute"], 10);
+  EXPECT_THAT(
+      files_in(folder / "painted"),
+      testing::IsSupersetOf({"left.png", "right.png", "side_by_side.png", "anaglyph.png", "painting.wst", "left.svg",
+                             "right.svg", "disparity.png", "left_occlusion.png", "report.json", "index.html"}));
+}
+
+TEST(PaintCommand, SaysTheSameForTheSameSeedOnAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  std::string first;
+  for (const std::string threads : {"1", "3"}) {
+    ASSERT_EQ(run_program(paint_line({"--seed", "7", "--threads", threads}), {.folder = folder / ""}).exit_code, 0);
+    const std::string bytes = bytes_of(folder / "painted/painting.wst");
+    if (first.empty()) first = bytes;
+    EXPECT_EQ(bytes, first);
+  }
+}
+
+TEST(PaintCommand, TakesItsStyleFromAFileThatItPrinted) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  const ProgramResult printed = run_program({"paint", "--print-style", "pointillist"}, {.folder = folder / ""});
+  ASSERT_EQ(printed.exit_code, 0);
+  put_bytes(folder / "mine.toml", printed.output);
+  EXPECT_EQ(run_program(paint_line({"--style", "mine.toml"}), {.folder = folder / ""}).exit_code, 0);
+  EXPECT_EQ(read_painting(folder / "painted/painting.wst").layers.size(), 2u);
+}
+
+TEST(PaintCommand, DrawsAPaintingAgain) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  ASSERT_EQ(run_program(paint_line({}), {.folder = folder / ""}).exit_code, 0);
+  const ProgramResult again =
+      run_program({"paint", "painted/painting.wst", "--scale", "2", "-o", "again"}, {.folder = folder / ""});
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_THAT(files_in(folder / "again"), testing::Contains("anaglyph.png"));
+}
+
+/// Writes a grey ramp as a picture of any layout of channels and type.
+void write_plain(const std::string& path, int channels, OIIO::TypeDesc type, int orientation = 1) {
+  OIIO::ImageSpec spec(width, height, channels, type);
+  if (channels == 4) spec.alpha_channel = 3;
+  spec["Orientation"] = orientation;
+  std::vector<float> pixels;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < channels; ++c) pixels.push_back(c == 3 ? 1.f : static_cast<float>(level(x, y)) / 255);
+  const auto output = OIIO::ImageOutput::create(path);
+  ASSERT_TRUE(output->open(path, spec)) << path;
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, pixels.data())) << path;
+  ASSERT_TRUE(output->close());
+}
+
+TEST(PaintCommand, TakesGreyDeepTransparentAndTurnedPictures) {
+  const TemporaryFolder folder;
+  write_plain(folder / "grey.png", 1, OIIO::TypeDesc::UINT8);
+  write_plain(folder / "deep.png", 3, OIIO::TypeDesc::UINT16);
+  write_plain(folder / "transparent.png", 4, OIIO::TypeDesc::UINT8);
+  write_plain(folder / "turned.jpg", 3, OIIO::TypeDesc::UINT8, 6);
+  for (const std::string name : {"grey.png", "deep.png", "transparent.png", "turned.jpg"}) {
+    const ProgramResult result =
+        run_program({"paint", name, name, "-o", "painted", "--quiet", "--range", "-4:8"}, {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << name << ": " << result.errors;
+  }
+}
+
+TEST(PaintCommand, RefusesDisparityThatCannotBePaintedFrom) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  write_disparity(folder / "small.pfm", Image<float>(10, 10, 3));
+  write_disparity(folder / "nothing.pfm", Image<float>(width, height, unknown));
+  expect_refused(folder, paint_line({"--disparity", "small.pfm"}), 3, "10x10");
+  expect_refused(folder, paint_line({"--disparity", "nothing.pfm"}), 3, "knows no pixel");
+  expect_refused(folder, paint_line({"--disparity", "disparity.pfm", "--right-disparity", "small.pfm"}), 3, "10x10");
+}
+
+TEST(PaintCommand, TakesDisparityWithUnknownAndInfinitePixels) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  Image<float> disparity(width, height, shift);
+  for (int x = 10; x < 60; ++x) disparity(x, 20) = unknown;
+  for (int x = 10; x < 60; ++x) disparity(x, 21) = std::numeric_limits<float>::infinity();
+  write_disparity(folder / "holes.pfm", disparity);
+  EXPECT_EQ(run_program(paint_line({"--disparity", "holes.pfm"}), {.folder = folder / ""}).exit_code, 0);
+}
+
+TEST(PaintCommand, RefusesParametersThatMakeNoSense) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  expect_refused(folder, paint_line({"--radii", "-3"}), 2, "radius is -3");
+  expect_refused(folder, paint_line({"--threshold", "0"}), 2, "threshold is 0");
+  expect_refused(folder, paint_line({"--style", "cubist"}), 2, "impressionist");
+  expect_refused(folder, paint_line({"--disparity", "disparity.pfm", "--range", "0:10"}), 2, "choose one");
+  expect_refused(folder, paint_line({"--right-disparity", "disparity.pfm"}), 2, "--disparity");
+  expect_refused(folder, paint_line({"--zero-parallax", "3", "--zero-parallax-at", "3,4"}), 2, "excludes");
+  expect_refused(folder, paint_line({"--zero-parallax-at", "3000,4"}), 2, "3000,4");
+  expect_refused(folder, paint_line({"--range", "30:10"}), 2, "30:10");
+  expect_refused(folder, {"paint", "left.png"}, 2, "two photographs");
+}
+
+TEST(PaintCommand, RefusesADamagedPainting) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  ASSERT_EQ(run_program(paint_line({}), {.folder = folder / ""}).exit_code, 0);
+  const std::string bytes = bytes_of(folder / "painted/painting.wst");
+  put_bytes(folder / "cut.wst", bytes.substr(0, bytes.size() / 2));
+  std::string flipped = bytes;
+  flipped[bytes.size() / 2] = static_cast<char>(flipped[bytes.size() / 2] ^ 0x40);
+  put_bytes(folder / "flipped.wst", flipped);
+  for (const std::string name : {"cut.wst", "flipped.wst"})
+    expect_refused(folder, {"paint", name, "-o", "again"}, 3, name + ": ");
+}
+
+TEST(PaintCommand, LeavesNothingOnAFullDisk) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  const auto before = files_in(folder / "");
+  const ProgramResult result = run_program(paint_line({}), {.folder = folder / "", .largest_file = 4000});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(files_in(folder / ""), before);
+}
+
+}  // namespace
+}  // namespace wheatstone
