@@ -92,7 +92,7 @@ void print_memory() {
 }  // namespace wheatstone::bench
 
 int main(int argument_count, char** arguments) {
-  using namespace wheatstone::bench;
+  namespace bench = wheatstone::bench;
   const int threads = argument_count > 1 ? std::atoi(arguments[1]) : tbb::info::default_concurrency();
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   cv::setNumThreads(threads);
@@ -101,8 +101,8 @@ int main(int argument_count, char** arguments) {
       "Both eyes as multiples of one eye's time; P planning, R rasterising of one eye.\n\n",
       threads);
   fmt::print("size         one eye  strokes raster  each    paper   (P+2R)/(P+R)\n");
-  for (const Size& size : sizes) print_row(size);
-  print_against_matching();
-  print_memory();
+  for (const bench::Size& size : bench::sizes) bench::print_row(size);
+  bench::print_against_matching();
+  bench::print_memory();
   return 0;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <ranges>
 
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/painting/rasterise_internal.h"
@@ -95,11 +96,9 @@ DrawnView draw(const Painting& painting, float view, ImageView<const Rgb8> backg
   tbb::parallel_for(0, bands, [&](int i) {
     DistanceBand band(i * band_rows, painting.width, painting.height);
     Glazing glazing(band.row_count, painting.width);
-    for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
-      const auto& strokes = layer->bands[i];
-      for (auto stroke = strokes.rbegin(); stroke != strokes.rend(); ++stroke)
-        draw_stroke_under(layer->flat, layer->flat.strokes[*stroke], band, glazing);
-    }
+    for (const BandedLayer& layer : std::views::reverse(layers))
+      for (const std::uint32_t stroke : std::views::reverse(layer.bands[i]))
+        draw_stroke_under(layer.flat, layer.flat.strokes[stroke], band, glazing);
     bare[i] = finish_band(glazing, band, backdrop, bare_light, drawn.picture);
   });
   std::size_t bare_pixels = 0;

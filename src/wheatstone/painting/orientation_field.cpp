@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <ranges>
 #include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
@@ -45,16 +46,16 @@ cv::Mat interpolate(const cv::Mat& finest) {
   }
   constexpr float full_confidence = 0.25f;
   cv::Mat field;
-  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+  for (const cv::Mat& level : std::views::reverse(levels)) {
     cv::Mat coarser_field;
     if (field.empty()) {
-      coarser_field = cv::Mat::zeros(level->size(), CV_32FC4);
+      coarser_field = cv::Mat::zeros(level.size(), CV_32FC4);
     } else {
-      cv::pyrUp(field, coarser_field, level->size());
+      cv::pyrUp(field, coarser_field, level.size());
     }
-    field.create(level->size(), CV_32FC4);
+    field.create(level.size(), CV_32FC4);
     for (int y = 0; y < field.rows; ++y) {
-      const cv::Vec4f* own = level->ptr<cv::Vec4f>(y);
+      const cv::Vec4f* own = level.ptr<cv::Vec4f>(y);
       const cv::Vec4f* coarse = coarser_field.ptr<cv::Vec4f>(y);
       cv::Vec4f* to = field.ptr<cv::Vec4f>(y);
       for (int x = 0; x < field.cols; ++x) {

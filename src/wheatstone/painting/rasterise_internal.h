@@ -54,7 +54,8 @@ struct DistanceBand {
 /// Which blocks of columns still let light through, a bit each.
 class OpenBlocks {
  public:
-  OpenBlocks(int rows, int blocks) : words_(rows * words_for(blocks), ~std::uint64_t{0}), stride_(words_for(blocks)) {}
+  OpenBlocks(int rows, int blocks)
+      : words_(static_cast<std::size_t>(rows) * words_for(blocks), ~std::uint64_t{0}), stride_(words_for(blocks)) {}
 
   void close(int row, int block) { word(row, block) &= ~(std::uint64_t{1} << (block % 64)); }
 
