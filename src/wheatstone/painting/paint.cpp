@@ -1,6 +1,7 @@
 #include "wheatstone/painting/paint.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <chrono>
 #include <cmath>
@@ -46,13 +47,17 @@ Painting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float>
 Painting plan_with_strokes(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                            const Progress& progress) {
   const ScaledStyle scaled(style, photographs.left.width());
-  const Painting right_only = plan_occluded_part(photographs, geometry, style);
   Easel left(photographs.left, geometry.left_disparity, left_eye, style);
+  Painting right_only;
+  Layer planned;
+  tbb::parallel_invoke([&] { right_only = plan_occluded_part(photographs, geometry, style); },
+                       [&] { planned = plan_on(left, style, scaled, 0); });
   Painting painting{photographs.left.width(), photographs.left.height(), style.canvas_colour, {}};
   const int layers = static_cast<int>(scaled.radii_px.size());
   for (int i = 0; i < layers; ++i) {
     report(progress, "painting", static_cast<double>(i) / layers);
-    Layer layer = propagate_to_other_eye(plan_on(left, style, scaled, i), geometry.left_occlusion);
+    if (i > 0) planned = plan_on(left, style, scaled, i);
+    Layer layer = propagate_to_other_eye(planned, geometry.left_occlusion);
     append_strokes(propagate_to_other_eye(right_only.layers[i], geometry.right_occlusion), layer);
     order_strokes(layer, style, i);
     if (i + 1 < layers) rasterise(layer, left.view, left.canvas);
@@ -70,8 +75,9 @@ Painting joined(Painting left, const Painting& right) {
 
 /// Draws both eyes of a planned painting.
 void draw_both(const StereoPair& photographs, const Style& style, PaintedPair& result) {
-  DrawnView left = draw_over(photographs.left, result.painting, left_eye, style);
-  DrawnView right = draw_over(photographs.right, result.painting, right_eye, style);
+  DrawnView left, right;
+  tbb::parallel_invoke([&] { left = draw_over(photographs.left, result.painting, left_eye, style); },
+                       [&] { right = draw_over(photographs.right, result.painting, right_eye, style); });
   result.pictures = {std::move(left.picture), std::move(right.picture)};
   result.left_bare_share = left.bare_share;
   result.right_bare_share = right.bare_share;
@@ -87,11 +93,15 @@ void lay_left_over_right(const StereoGeometry& geometry, PaintedPair& result) {
 Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
               const Progress& progress) {
   if (style.propagation == Propagation::strokes) return plan_with_strokes(photographs, geometry, style, progress);
-  Painting left = plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress);
-  if (style.propagation == Propagation::raster)
-    return joined(std::move(left), plan_occluded_part(photographs, geometry, style));
-  return joined(std::move(left),
-                plan_by_itself(photographs.right, geometry.right_disparity, right_eye, style, progress));
+  Painting left, right;
+  tbb::parallel_invoke(
+      [&] { left = plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress); },
+      [&] {
+        right = style.propagation == Propagation::raster
+                    ? plan_occluded_part(photographs, geometry, style)
+                    : plan_by_itself(photographs.right, geometry.right_disparity, right_eye, style, {});
+      });
+  return joined(std::move(left), right);
 }
 
 void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {

@@ -51,10 +51,10 @@ struct Style {
   int max_length = 16;                   ///< control points at most; 0 paints dots
   ColourJitter jitter;
 
-  bool depth_test = true;            ///< end strokes at depth discontinuities
-  float depth_threshold_px = 2;      ///< T_depth, as a difference in disparity, for a picture 640 pixels wide
-  bool follow_depth_edges = true;    ///< strokes of the finest layer that begin beside an edge run along it, not dots
-  float occlusion_dilation = 0.25f;  ///< growth of the occlusion masks, as a multiple of the largest radius
+  bool depth_test = true;             ///< end strokes at depth discontinuities
+  float depth_threshold_px = 2;       ///< T_depth, as a difference in disparity, for a picture 640 pixels wide
+  bool follow_depth_edges = true;     ///< strokes of the finest layer that begin beside an edge run along it, not dots
+  float occlusion_dilation = 0.125f;  ///< growth of the occlusion masks, as a multiple of the largest radius
 
   Propagation propagation = Propagation::strokes;
   Orientation orientation = Orientation::smooth;
