@@ -72,7 +72,8 @@ void expect_no_spilling(const Subject& subject) {
   options.style.depth_test = false;
   options.left_disparity = subject.left_disparity;
   const PaintedPhotograph untested = paint_photograph(subject.photographs, options);
-  EXPECT_GT(spilling_share(untested.painted.painting.layers.back(), untested.geometry, threshold), 0.01);
+  // Without the test many do: one in two hundred of all strokes, most of which are nowhere near an edge.
+  EXPECT_GT(spilling_share(untested.painted.painting.layers.back(), untested.geometry, threshold), 0.005);
 }
 
 TEST(PaintingQuality, SyntheticStillIsConsistent) { expect_consistent(synthetic_subject()); }
