@@ -71,12 +71,12 @@ std::optional<Subject> read_subject(const std::filesystem::path& folder, std::op
 }  // namespace wheatstone::bench
 
 int main(int argument_count, char** arguments) {
-  using namespace wheatstone;
+  namespace bench = wheatstone::bench;
   const std::filesystem::path shared = argument_count > 1 ? arguments[1] : "../shared/data/stereo";
   fmt::print(
       "Impressionist paintings, both eyes. Left − right: mean 0..255, RMSE 0..1, over pixels visible in both;\n"
       "depth survival by OpenCV's SGBM on the painted pair.\n");
-  SyntheticStill still = make_synthetic_still();
+  wheatstone::SyntheticStill still = wheatstone::make_synthetic_still();
   bench::print_subject(
       {"synthetic still, 960x720", std::move(still.pictures), std::move(still.geometry.left_disparity)});
   if (const auto teddy = bench::read_subject(shared / "teddy", 4.f)) bench::print_subject(*teddy);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <ranges>
 
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/painting/rasterise_internal.h"
@@ -96,9 +95,12 @@ DrawnView draw(const Painting& painting, float view, ImageView<const Rgb8> backg
   tbb::parallel_for(0, bands, [&](int i) {
     DistanceBand band(i * band_rows, painting.width, painting.height);
     Glazing glazing(band.row_count, painting.width);
-    for (const BandedLayer& layer : std::views::reverse(layers))
-      for (const std::uint32_t stroke : std::views::reverse(layer.bands[i]))
-        draw_stroke_under(layer.flat, layer.flat.strokes[stroke], band, glazing);
+    for (std::size_t above = layers.size(); above-- > 0;) {
+      const BandedLayer& layer = layers[above];
+      const std::vector<std::uint32_t>& strokes = layer.bands[i];
+      for (std::size_t nearer = strokes.size(); nearer-- > 0;)
+        draw_stroke_under(layer.flat, layer.flat.strokes[strokes[nearer]], band, glazing);
+    }
     bare[i] = finish_band(glazing, band, backdrop, bare_light, drawn.picture);
   });
   std::size_t bare_pixels = 0;

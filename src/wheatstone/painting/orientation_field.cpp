@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <ranges>
 #include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
@@ -46,7 +45,8 @@ cv::Mat interpolate(const cv::Mat& finest) {
   }
   constexpr float full_confidence = 0.25f;
   cv::Mat field;
-  for (const cv::Mat& level : std::views::reverse(levels)) {
+  for (std::size_t finer_levels = levels.size(); finer_levels-- > 0;) {
+    const cv::Mat& level = levels[finer_levels];
     cv::Mat coarser_field;
     if (field.empty()) {
       coarser_field = cv::Mat::zeros(level.size(), CV_32FC4);
