@@ -24,7 +24,8 @@ class ImageView {
   ImageView() = default;
   ImageView(Pixel* data, int width, int height, std::ptrdiff_t stride)
       : data_(data), width_(width), height_(height), stride_(stride) {}
-  ImageView(const ImageView<std::remove_const_t<Pixel>>& other) requires std::is_const_v<Pixel>
+  template <class Other>
+  ImageView(const ImageView<Other>& other) requires std::is_same_v<Pixel, const Other>
       : ImageView(other.data(), other.width(), other.height(), other.stride()) {}
 
   int width() const { return width_; }

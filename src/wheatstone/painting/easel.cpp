@@ -7,9 +7,9 @@
 #include "wheatstone/painting/easel_internal.h"
 #include "wheatstone/painting/layer_order_internal.h"
 #include "wheatstone/painting/plan_layer_internal.h"
-#include "wheatstone/painting/random.h"
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/painting/reference_picture_internal.h"
+#include "wheatstone/random.h"
 
 namespace wheatstone {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/painting/random.h"
+#include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {

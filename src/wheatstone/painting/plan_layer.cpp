@@ -7,9 +7,9 @@
 
 #include "wheatstone/painting/jitter_internal.h"
 #include "wheatstone/painting/layer_order_internal.h"
-#include "wheatstone/painting/random.h"
 #include "wheatstone/painting/seed_internal.h"
 #include "wheatstone/painting/trace_stroke_internal.h"
+#include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "wheatstone/painting/random.h"
 #include "wheatstone/painting/rasterise_internal.h"
+#include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {

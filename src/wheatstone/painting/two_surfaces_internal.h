@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "wheatstone/painting/random.h"
+#include "wheatstone/random.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/stereo_pair.h"
 

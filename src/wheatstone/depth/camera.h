@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+
+namespace wheatstone {
+
+/// Where the reference view is taken from: a pinhole camera in scene units. The axes are of length 1 and at right
+/// angles; a point's pixel is centre + focal_px · (along right, along down) / depth, its depth the length along
+/// `forward`.
+struct Camera {
+  std::array<float, 3> position{0, 0, 0};
+  std::array<float, 3> right{1, 0, 0};
+  std::array<float, 3> down{0, 1, 0};
+  std::array<float, 3> forward{0, 0, 1};
+  float focal_px = 640;
+  float centre_x_px = 320;
+  float centre_y_px = 180;
+  float nearest_depth = 0;  ///< what is nearer, or behind the camera, is not seen
+};
+
+/// From which side, and how much of it.
+struct Framing {
+  float azimuth_deg = 30;        ///< around the vertical axis (z of the scene is up)
+  float elevation_deg = 20;      ///< above the horizontal plane
+  float field_of_view_deg = 40;  ///< across the width of a view
+  float zoom = 1;                ///< 2 shows half as much
+};
+
+/// A camera outside a sphere that sees just all of it, in views of the given size, in pixels.
+Camera camera_around(const std::array<float, 3>& centre, float radius, int width, int height,
+                     const Framing& framing = {});
+
+}  // namespace wheatstone

@@ -1,0 +1,49 @@
+#include "wheatstone/multiview/cost_model.h"
+
+#include <fmt/format.h>
+
+namespace wheatstone {
+
+Costs estimate_costs(const Workload& workload) {
+  constexpr double ns = 1e-9;
+  const auto particles = static_cast<double>(workload.particles);
+  const auto pixels = static_cast<double>(workload.pixels);
+  const double views = workload.views;
+  const double planes = workload.planes;
+
+  // A particle is projected, lit and put in order once; a splat is unpacked, and its fragments are added.
+  const double project = 15 * ns;
+  const double fragments = (8 + 0.5 * (workload.splat_px + 1) * (workload.splat_px + 1)) * ns;
+  const double tone_map = 4 * ns;
+  const double take_plane = 0.9 * ns;
+  const double composite = 0.22 * ns;
+  Costs costs;
+  costs.exact = views * (particles * (project + fragments) + pixels * tone_map);
+  costs.incremental = particles * (project + views * fragments) + views * pixels * tone_map;
+  costs.layered = particles * (project + 1.1 * fragments) +
+                  pixels * (planes * take_plane + views * (planes * composite + tone_map));
+  return costs;
+}
+
+Choice choose_method(const Workload& workload) {
+  const Costs costs = estimate_costs(workload);
+  Choice choice;
+  double least = costs.exact;
+  if (costs.incremental < least) {
+    choice.method = Method::incremental;
+    least = costs.incremental;
+  }
+  if (costs.layered < least) choice.method = Method::layered;
+  const auto* const name = choice.method == Method::exact         ? "exact"
+                           : choice.method == Method::incremental ? "incremental"
+                                                                  : "layered";
+  choice.reason = fmt::format(
+      "{}: for {} particles of about {:.0f} pixels in {} views of {} pixels with {} planes, estimated seconds of one "
+      "thread "
+      "are exact {:.3f}, incremental {:.3f}, layered {:.3f}",
+      name, workload.particles, workload.splat_px, workload.views, workload.pixels, workload.planes, costs.exact,
+      costs.incremental, costs.layered);
+  return choice;
+}
+
+}  // namespace wheatstone

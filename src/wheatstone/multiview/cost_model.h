@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "wheatstone/multiview/render.h"
+
+namespace wheatstone {
+
+/// What decides how long each way of rendering takes.
+struct Workload {
+  std::uint64_t particles = 0;
+  float splat_px = 4;  ///< typical diameter
+  int views = 2;
+  int planes = 36;
+  std::uint64_t pixels = 640 * 360;  ///< of a view
+};
+
+/// Estimated times of one thread in seconds. Their ratios are what matters: they were fitted to bench/multiview, whose
+/// table shows how far off they are.
+struct Costs {
+  double exact = 0, incremental = 0, layered = 0;
+};
+Costs estimate_costs(const Workload& workload);
+
+/// The cheapest way, and why, in words for people.
+struct Choice {
+  Method method = Method::exact;
+  std::string reason;
+};
+Choice choose_method(const Workload& workload);
+
+}  // namespace wheatstone

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "wheatstone/multiview/splat_internal.h"
+
+namespace wheatstone {
+
+/// Light on a band of scan lines, red, green, blue and nothing for each pixel, with a margin on either side into which
+/// splats may spill. Four pixels are a cache line.
+class LightBand {
+ public:
+  static constexpr int margin = 48;  ///< the widest splat, and a vector
+  static constexpr int channels = 4;
+
+  LightBand() = default;
+  /// Bands that are written in turn lie at different places within a page: a processor takes a load for one that
+  /// depends on a store 4096 bytes away. `number` tells them apart.
+  LightBand(int left, int right, int rows, int number = 0)
+      : left_(left),
+        right_(right),
+        rows_(rows),
+        lines_a_row_((right - left + 2 * margin + 15) / 16 * 4),
+        first_line_(number % 8 * 7),
+        lines_(static_cast<std::size_t>(lines_a_row_) * rows + first_line_) {}
+
+  int left() const { return left_; }
+  int right() const { return right_; }
+  int rows() const { return rows_; }
+  int width_with_margins() const { return lines_a_row_ * 4; }                               ///< a multiple of 16
+  std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(lines_a_row_) * 16; }  ///< floats a row
+  /// Column `left()` of a row; columns from −margin to width + margin may be written. Aligned as cache lines are.
+  float* row(int row) {
+    return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values + margin * channels;
+  }
+  const float* row(int row) const { return const_cast<LightBand*>(this)->row(row); }
+  void darken() { std::ranges::fill(lines_, Line{}); }
+
+ private:
+  struct alignas(64) Line {
+    float values[16] = {};
+  };
+  int left_ = 0, right_ = 0, rows_ = 0;
+  int lines_a_row_ = 0;
+  std::size_t first_line_ = 0;
+  std::vector<Line> lines_;
+};
+
+/// Adds splats to a band whose first row is `top` in the picture.
+void deposit(std::span<const Splat> splats, int top, LightBand& band);
+
+/// Two depth planes, and what lies between them.
+struct PlanePair {
+  float parallax_px;  ///< of the nearer one
+  float spacing_px;   ///< from it to the farther one
+};
+
+/// Adds splats that lie between two planes to both, by their distances, so that the middle of each is right in every
+/// view. One that is nearly in a plane goes there alone: within a quarter of the way, which moves it by at most an
+/// eighth of a pixel in an eye's view where planes are a pixel apart.
+void deposit_between(std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
+                     LightBand& farther);
+
+/// Adds splats to one band a view: each splat's fragments, moved by its parallax times the view's position. The bands
+/// are of one shape.
+void deposit_in_views(std::span<const Splat> splats, int top, std::span<const float> views, std::span<LightBand> bands);
+
+}  // namespace wheatstone

@@ -1,0 +1,73 @@
+#include "wheatstone/multiview/opaque_internal.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheatstone/multiview/half_float_internal.h"
+#include "wheatstone/multiview/renderers_internal.h"
+
+namespace wheatstone {
+namespace {
+
+LinearRgba light_of(const Splat& splat) {
+  return {float_from_half(splat.colour[0]), float_from_half(splat.colour[1]), float_from_half(splat.colour[2]), 1};
+}
+
+void tone_map_rows(const OpaqueBand& band, const ToneMap& tone, int top, ImageView<Rgb8> picture) {
+  const auto byte_of = [&](float light) {
+    const float exposed = light * tone.exposure;
+    const float mapped = exposed / (exposed + 1);
+    return static_cast<std::uint8_t>(tone.table[std::lround(mapped * (ToneMap::table_size - 1))]);
+  };
+  const int rows = std::min(band.light.height(), picture.height() - top);
+  for (int row = 0; row < rows; ++row)
+    for (int x = 0; x < picture.width(); ++x) {
+      const LinearRgba& light = band.light(x, row);
+      picture(x, top + row) = {byte_of(light.r), byte_of(light.g), byte_of(light.b)};
+    }
+}
+
+}  // namespace
+
+void draw_discs(std::span<const Splat> splats, int top, float view, OpaqueBand& band) {
+  const int width = band.light.width();
+  for (const Splat& splat : splats) {
+    // At least a pixel's width, so that some centre is met.
+    const float radius = std::max(float_from_half(splat.size) / 2, 0.71f);
+    const float x = std::fma(splat.parallax, view, splat.x) - static_cast<float>(band.left) - 0.5f;
+    const float y = splat.y - static_cast<float>(top) - 0.5f;
+    const int first_row = std::max(static_cast<int>(std::ceil(y - radius)), 0);
+    const int end_row = std::min(static_cast<int>(std::floor(y + radius)) + 1, band.light.height());
+    const LinearRgba light = light_of(splat);
+    for (int row = first_row; row < end_row; ++row) {
+      const float off = static_cast<float>(row) - y;
+      const float half_width = std::sqrt(std::max(radius * radius - off * off, 0.f));
+      const int first = std::max(static_cast<int>(std::ceil(x - half_width)), 0);
+      const int end = std::min(static_cast<int>(std::floor(x + half_width)) + 1, width);
+      for (int column = first; column < end; ++column) {
+        if (splat.parallax >= band.parallax(column, row)) continue;
+        band.parallax(column, row) = splat.parallax;
+        band.light(column, row) = light;
+      }
+    }
+  }
+}
+
+void render_opaque(const RenderJob& job, std::span<const float> views, std::span<const ImageView<Rgb8>> pictures) {
+  const SplatOrder order = bands_of(job.rig, job.scene.look);
+  const std::vector<SplatBlock> blocks =
+      order_splats(job.cloud, make_projection(job.scene, job.survey), window_around(job.scene, job.rig), order);
+  tbb::parallel_for(0, order.bands, [&](int b) {
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      OpaqueBand band(0, job.rig.width, order.band_rows);
+      for (int part = 0; part < order.parts; ++part)
+        for (const SplatBlock& block : blocks)
+          draw_discs(block.bin(order.bin(b, part)), b * order.band_rows, views[v], band);
+      tone_map_rows(band, job.tone, b * order.band_rows, pictures[v]);
+    }
+  });
+}
+
+}  // namespace wheatstone

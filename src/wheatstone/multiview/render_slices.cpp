@@ -1,0 +1,173 @@
+#include "wheatstone/multiview/render_slices.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+
+#include "wheatstone/multiview/renderers_internal.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int band_rows = 16;
+// A pixel through which less comes than the tone map can show is full.
+constexpr float full = 1.f / 1024;
+
+bool hides(const SliceStack& stack) {
+  return std::ranges::any_of(stack.slices, [](const Slice& slice) {
+    return std::ranges::any_of(slice.pixels.pixels(), [](const LinearRgba& pixel) { return pixel.a > 0; });
+  });
+}
+
+/// Copies a slice's rows of one band to where the compositor reads them.
+void take_rows(const Slice& slice, int top, LightBand& band) {
+  const int first = std::max(top, slice.top);
+  const int end = std::min(top + band.rows(), slice.top + slice.pixels.height());
+  static_assert(sizeof(LinearRgba) == LightBand::channels * sizeof(float));
+  for (int y = first; y < end; ++y) {
+    const std::span<const LinearRgba> from = slice.pixels.row(y - slice.top);
+    const int begin = std::max(slice.left, band.left());
+    const int stop = std::min(slice.left + slice.pixels.width(), band.right());
+    if (begin < stop)
+      std::memcpy(band.row(y - top) + (begin - band.left()) * LightBand::channels, from.data() + (begin - slice.left),
+                  sizeof(LinearRgba) * (stop - begin));
+  }
+}
+
+struct Workplace {
+  LightBand plane;
+  SliceBand slices;
+};
+
+std::vector<float> parallaxes_of(const SliceStack& stack) {
+  std::vector<float> parallaxes;
+  for (const Slice& slice : stack.slices) parallaxes.push_back(slice.parallax_px);
+  return parallaxes;
+}
+
+void add_glowing(const SliceStack& stack, const Rig& rig, SliceFilter filter,
+                 std::span<const ImageView<Rgb8>> pictures) {
+  const std::vector<float> parallaxes = parallaxes_of(stack);
+  const Compositing compositing{parallaxes, rig.positions, resampling_of(filter)};
+  const ToneMap tone(stack.exposure);
+  float reach = 0;
+  for (const float view : rig.positions)
+    for (const float parallax : parallaxes) reach = std::max(reach, std::abs(view * parallax));
+  const int around = static_cast<int>(std::ceil(reach)) + 2;
+  const int planes = static_cast<int>(stack.slices.size());
+  tbb::enumerable_thread_specific<Workplace> workplaces([&] {
+    return Workplace{LightBand(-around, rig.width + around, band_rows),
+                     SliceBand(-around, rig.width + around, band_rows, planes)};
+  });
+  tbb::parallel_for(0, (rig.height + band_rows - 1) / band_rows, [&](int b) {
+    Workplace& work = workplaces.local();
+    for (int plane = 0; plane < planes; ++plane) {
+      take_rows(stack.slices[plane], b * band_rows, work.plane);
+      work.slices.take(plane, work.plane);
+    }
+    composite(work.slices, compositing, tone, b * band_rows, pictures);
+  });
+}
+
+/// Light of one pixel of one view, front to back. Slices are read at their nearest pixel: opaque edges stay sharp.
+LinearRgba look_through(const SliceStack& stack, float view, int x, int y) {
+  LinearRgba seen;
+  float through = 1;
+  for (const Slice& slice : stack.slices) {
+    const int column = x - static_cast<int>(std::lround(view * slice.parallax_px)) - slice.left;
+    if (!slice.pixels.contains(column, y - slice.top)) continue;
+    const LinearRgba& light = slice.pixels(column, y - slice.top);
+    seen.r += through * light.r;
+    seen.g += through * light.g;
+    seen.b += through * light.b;
+    through *= 1 - light.a;
+    if (through < full) break;
+  }
+  return seen;
+}
+
+std::uint8_t byte_of(float light, const ToneMap& tone) {
+  const float exposed = std::max(light * tone.exposure, 0.f);
+  return static_cast<std::uint8_t>(tone.table[std::lround(exposed / (exposed + 1) * (ToneMap::table_size - 1))]);
+}
+
+/// One channel of one sub-pixel of a view: the sum of all slices there, or what of them is not hidden.
+float channel_through(const SliceStack& stack, float view, int x, int y, float LinearRgba::*channel) {
+  float seen = 0;
+  float through = 1;
+  for (const Slice& slice : stack.slices) {
+    const int row = y - slice.top;
+    if (row < 0 || row >= slice.pixels.height()) continue;
+    const float at = static_cast<float>(x - slice.left) - view * slice.parallax_px;
+    const int column = static_cast<int>(std::floor(at));
+    if (column < -1 || column >= slice.pixels.width()) continue;
+    const float share = at - static_cast<float>(column);
+    const std::span<const LinearRgba> pixels = slice.pixels.row(row);
+    const LinearRgba before = column >= 0 ? pixels[column] : LinearRgba{};
+    const LinearRgba after = column + 1 < slice.pixels.width() ? pixels[column + 1] : LinearRgba{};
+    seen += through * (before.*channel * (1 - share) + after.*channel * share);
+    through *= 1 - (before.a * (1 - share) + after.a * share);
+    if (through < full) break;
+  }
+  return seen;
+}
+
+}  // namespace
+
+std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, SliceFilter filter,
+                                       const Progress& progress) {
+  std::vector<Image<Rgb8>> views(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
+  const std::vector<ImageView<Rgb8>> pictures(views.begin(), views.end());
+  if (stack.slices.empty() || views.empty()) return views;
+  if (!hides(stack)) {
+    add_glowing(stack, rig, filter, pictures);
+  } else {
+    const ToneMap tone(stack.exposure);
+    tbb::parallel_for(0, rig.height, [&](int y) {
+      for (std::size_t v = 0; v < views.size(); ++v)
+        for (int x = 0; x < rig.width; ++x) {
+          const LinearRgba seen = look_through(stack, rig.positions[v], x, y);
+          views[v](x, y) = {byte_of(seen.r, tone), byte_of(seen.g, tone), byte_of(seen.b, tone)};
+        }
+    });
+  }
+  report(progress, "views", 1);
+  return views;
+}
+
+InterleavedView render_interleaved(const SliceStack& stack, std::span<const float> views,
+                                   const ViewsOfRow& views_of_row, const Progress& progress) {
+  InterleavedView result{.picture = Image<Rgb8>(stack.width, stack.height), .composited = 0};
+  const ToneMap tone(stack.exposure);
+  std::atomic<std::uint64_t> composited = 0;
+  tbb::parallel_for(0, stack.height, [&](int y) {
+    std::vector<std::uint16_t> shown(3 * static_cast<std::size_t>(stack.width));
+    views_of_row(y, shown);
+    for (int x = 0; x < stack.width; ++x) {
+      const std::uint16_t* const view = shown.data() + 3 * static_cast<std::size_t>(x);
+      result.picture(x, y) = {byte_of(channel_through(stack, views[view[0]], x, y, &LinearRgba::r), tone),
+                              byte_of(channel_through(stack, views[view[1]], x, y, &LinearRgba::g), tone),
+                              byte_of(channel_through(stack, views[view[2]], x, y, &LinearRgba::b), tone)};
+    }
+    composited += 3 * static_cast<std::uint64_t>(stack.width);
+  });
+  result.composited = composited;
+  report(progress, "views", 1);
+  return result;
+}
+
+void map_depth(SliceStack& stack, float nearest_px, float farthest_px) {
+  if (stack.slices.empty()) return;
+  const float first = stack.slices.front().parallax_px;
+  const float range = stack.slices.back().parallax_px - first;
+  for (Slice& slice : stack.slices) {
+    const float share = range > 0 ? (slice.parallax_px - first) / range : 0.5f;
+    slice.parallax_px = nearest_px + share * (farthest_px - nearest_px);
+  }
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,22 @@
+#include <cmath>
+
+#include "wheatstone/image/srgb.h"
+#include "wheatstone/multiview/slice_band_internal.h"
+
+namespace wheatstone {
+
+SliceBand::SliceBand(int left, int right, int rows, int planes)
+    : left_(left),
+      right_(right),
+      rows_(rows),
+      planes_(planes),
+      stride_(LightBand(left, right, 0).width_with_margins()),
+      // A vector may be read from the last pixel on.
+      values_(static_cast<std::size_t>(stride_) * 3 * rows * planes + 16) {}
+
+ToneMap::ToneMap(float given_exposure) : exposure(given_exposure) {
+  for (int i = 0; i < table_size; ++i)
+    table.push_back(srgb_from_linear((static_cast<float>(i) + 0.0f) / static_cast<float>(table_size - 1)));
+}
+
+}  // namespace wheatstone

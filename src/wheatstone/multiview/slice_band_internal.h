@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wheatstone/image/image.h"
+#include "wheatstone/multiview/light_band_internal.h"
+
+namespace wheatstone {
+
+/// All depth planes of one band of scan lines, as half floats: they stay in a core's cache between being filled and
+/// being composited. Column 0 is `left()` of the central view.
+class SliceBand {
+ public:
+  SliceBand() = default;
+  SliceBand(int left, int right, int rows, int planes);
+
+  int left() const { return left_; }
+  int right() const { return right_; }
+  int rows() const { return rows_; }
+  int planes() const { return planes_; }
+  int margin() const { return LightBand::margin; }
+  std::uint16_t* row(int plane, int row, int channel) {
+    return values_.data() + ((static_cast<std::size_t>(plane) * rows_ + row) * 3 + channel) * stride_ + margin();
+  }
+  const std::uint16_t* row(int plane, int row, int channel) const {
+    return const_cast<SliceBand*>(this)->row(plane, row, channel);
+  }
+
+  /// Takes the light of a band of the same shape as one plane, and leaves that band dark.
+  void take(int plane, LightBand& band);
+
+ private:
+  int left_ = 0, right_ = 0, rows_ = 0, planes_ = 0;
+  std::ptrdiff_t stride_ = 0;
+  std::vector<std::uint16_t> values_;
+};
+
+/// From linear light to a picture's bytes: L/(1+L) (Hassaine 2010, eq. 5.8.1) of the exposed light, as sRGB, by table.
+struct ToneMap {
+  static constexpr int table_size = 4096;
+  explicit ToneMap(float exposure);
+  float exposure;
+  std::vector<std::int32_t> table;  ///< by L/(1+L) times table_size − 1
+};
+
+/// How a slice is read between its pixels.
+enum class Resampling { nearest, linear, cubic };
+
+/// What compositing needs besides the slices.
+struct Compositing {
+  std::span<const float> parallaxes;  ///< of the planes, in pixels
+  std::span<const float> views;       ///< positions of the views
+  Resampling resampling = Resampling::cubic;
+};
+
+/// Composites every view's part of a band whose first row is `top` in the pictures, and tone-maps it into them.
+void composite(const SliceBand& slices, const Compositing& compositing, const ToneMap& tone, int top,
+               std::span<const ImageView<Rgb8>> pictures);
+
+/// Tone-maps a band of light into a picture: columns 0 … width − 1 of the view.
+void tone_map(const LightBand& band, const ToneMap& tone, int top, ImageView<Rgb8> picture);
+
+}  // namespace wheatstone

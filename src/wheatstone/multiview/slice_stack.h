@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "wheatstone/depth/viewing_geometry.h"
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// Linear light, premultiplied by alpha. Glowing particles have alpha 0: laid over another they add to it.
+struct LinearRgba {
+  float r = 0, g = 0, b = 0, a = 0;
+  friend bool operator==(const LinearRgba&, const LinearRgba&) = default;
+};
+
+/// The picture of one depth plane, cropped to what is not empty. Its upper left pixel is pixel (left, top) of the
+/// central view; slices reach beyond the view's sides by what the rig's outermost views look past them.
+struct Slice {
+  float parallax_px = 0;  ///< of the plane, at full eye separation; positive behind the screen
+  int left = 0, top = 0;
+  Image<LinearRgba> pixels;
+};
+
+/// A scene cut into depth planes: enough to make every view of every rig (Hassaine 2010, sec. 6.2).
+struct SliceStack {
+  int width = 0, height = 0;  ///< of a view, in pixels
+  float span = 1;             ///< eye separations between the outermost views for which nothing is missing
+  float exposure = 1;         ///< what the light is multiplied by before the tone map
+  ViewingGeometry viewing;    ///< for which the parallaxes were chosen
+  std::vector<Slice> slices;  ///< nearest first: parallax ascends
+};
+
+}  // namespace wheatstone

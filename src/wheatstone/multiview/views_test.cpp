@@ -1,0 +1,335 @@
+// The renderers against each other, and against the naive one.
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "throws_error.h"
+#include "wheatstone/multiview/cost_model.h"
+#include "wheatstone/multiview/make_slices.h"
+#include "wheatstone/multiview/naive_view.h"
+#include "wheatstone/multiview/render.h"
+#include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/multiview/view_measures.h"
+#include "wheatstone/random.h"
+
+namespace wheatstone {
+namespace {
+
+float random(std::uint64_t i, std::uint64_t which) { return unit_float(hash({i, which})); }
+
+/// Knots and a thin gas between them, in the unit cube.
+Cloud clumps(std::size_t count) {
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool in_clump = i % 2 == 0;
+    const std::uint64_t clump = i / 2 % 23;
+    std::array<float, 3> at{};
+    for (std::uint64_t axis = 0; axis < 3; ++axis) {
+      const float spread = random(i, axis) + random(i, axis + 10) + random(i, axis + 20) - 1.5f;
+      at[axis] = in_clump ? random(clump, axis + 100) + 0.06f * spread : random(i, axis);
+    }
+    cloud.x.push_back(at[0]);
+    cloud.y.push_back(at[1]);
+    cloud.z.push_back(at[2]);
+    cloud.density.push_back((in_clump ? 20.f : 1.f) * (0.5f + random(i, 30)));
+    cloud.temperature.push_back(1e4f * (in_clump ? 50.f : 1.f) * (0.5f + random(i, 31)));
+  }
+  return cloud;
+}
+
+Scene scene_of(const Cloud& cloud, const Rig& rig, float smallest = 2, float largest = 6) {
+  Survey survey;
+  survey.add(cloud);
+  Scene scene;
+  scene.camera = camera_around(survey.centre(), survey.radius(), rig.width, rig.height);
+  float depth = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    depth += (survey.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
+  scene.mapping.points = {{depth - survey.radius(), -19}, {depth + survey.radius(), 16}};
+  Appearance appearance;
+  appearance.smallest_px = smallest;
+  appearance.largest_px = largest;
+  scene.look = make_look(appearance, survey);
+  scene.look.size_depth = depth;
+  return scene;
+}
+
+Rig nine_views() {
+  Rig rig{.width = 320, .height = 180, .positions = {}};
+  for (int i = 0; i < 9; ++i) rig.positions.push_back(static_cast<float>(i) / 8 - 0.5f);
+  return rig;
+}
+
+double worst_psnr(const std::vector<Image<Rgb8>>& views, const std::vector<Image<Rgb8>>& reference) {
+  double worst = 1000;
+  for (std::size_t v = 0; v < views.size(); ++v) worst = std::min(worst, measure_view(views[v], reference[v]).psnr_db);
+  return worst;
+}
+
+std::vector<Image<Rgb8>> views_of(const Cloud& cloud, const Scene& scene, const Rig& rig, Method method,
+                                  SliceFilter filter = SliceFilter::linear, bool opaque = false) {
+  return render(cloud, scene, rig, {.method = method, .filter = filter, .opaque = opaque, .exposure = 0.5f}).views;
+}
+
+TEST(Exact, IsWhatTheNaiveLoopDraws) {
+  const Cloud cloud = clumps(20000);
+  Rig rig = nine_views();
+  for (const auto& [smallest, largest] : {std::pair{2.f, 6.f}, std::pair{1.f, 3.f}, std::pair{8.f, 24.f}}) {
+    const Scene scene = scene_of(cloud, rig, smallest, largest);
+    const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, Method::exact);
+    for (const std::size_t v : {0, 5}) {
+      const Image<Rgb8> truth = naive_view(cloud, scene, rig, rig.positions[v], 0.5f);
+      EXPECT_GT(measure_view(views[v], truth).psnr_db, 60) << smallest << ".." << largest << ", view " << v;
+      EXPECT_LT(measure_view(views[v == 0 ? 8 : 0], truth).psnr_db, 40) << "another view must be told apart";
+    }
+  }
+}
+
+TEST(Incremental, EqualsExactToTheBit) {
+  const Cloud cloud = clumps(30000);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  EXPECT_EQ(views_of(cloud, scene, rig, Method::incremental), views_of(cloud, scene, rig, Method::exact));
+}
+
+TEST(Layered, IsWithin45DecibelsOfExactInEveryView) {
+  const Cloud cloud = clumps(200000);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
+  const double nearest = worst_psnr(views_of(cloud, scene, rig, Method::layered, SliceFilter::nearest), exact);
+  const double linear = worst_psnr(views_of(cloud, scene, rig, Method::layered, SliceFilter::linear), exact);
+  const double centroid = worst_psnr(views_of(cloud, scene, rig, Method::layered, SliceFilter::centroid), exact);
+  EXPECT_GE(linear, 45);
+  EXPECT_GE(centroid, linear + 2);
+  EXPECT_LE(nearest, linear - 2);
+}
+
+/// A few bright particles, far from each other.
+Cloud lone_particles() {
+  Cloud cloud;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    cloud.x.push_back(random(i, 1));
+    cloud.y.push_back(static_cast<float>(i % 8) / 8 + 0.05f * random(i, 2));
+    cloud.z.push_back(static_cast<float>(i / 8) / 5 + 0.05f * random(i, 3));
+    cloud.density.push_back(1);
+    cloud.temperature.push_back(1e5f);
+  }
+  return cloud;
+}
+
+TEST(Layered, PutsNoLoneSplatFartherThanHalfAPixelOff) {
+  const Cloud cloud = lone_particles();
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig, 5, 5);
+  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
+  for (const SliceFilter filter : {SliceFilter::linear, SliceFilter::centroid}) {
+    const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, Method::layered, filter);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      const ViewMeasures measures = measure_view(views[v], exact[v]);
+      EXPECT_GT(measures.isolated_splats, 10u);
+      EXPECT_EQ(measures.lost_splats, 0u);
+      EXPECT_LE(measures.largest_position_error_px, filter == SliceFilter::centroid ? 0.2 : 0.5);
+    }
+  }
+  // Two planes are too few, and that must be seen.
+  const std::vector<Image<Rgb8>> coarse =
+      render(cloud, scene, rig, {.method = Method::layered, .planes = 2, .exposure = 0.5f}).views;
+  EXPECT_GT(measure_view(coarse[0], exact[0]).largest_position_error_px, 0.5);
+}
+
+TEST(Layered, FollowsAMappingOfManyRegions) {
+  const Cloud cloud = clumps(50000);
+  const Rig rig = nine_views();
+  Scene scene = scene_of(cloud, rig);
+  const float first = scene.mapping.points.front().depth;
+  const float last = scene.mapping.points.back().depth;
+  scene.mapping.points = {
+      {first, -19}, {first + 0.4f * (last - first), -15}, {first + 0.5f * (last - first), 12}, {last, 16}};
+  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
+  EXPECT_GT(measure_view(exact[0], naive_view(cloud, scene, rig, rig.positions[0], 0.5f)).psnr_db, 55);
+  EXPECT_GE(worst_psnr(views_of(cloud, scene, rig, Method::layered), exact), 45);
+}
+
+TEST(Opaque, NearestParticleHidesTheOthers) {
+  Cloud cloud;
+  for (const float z : {1.f, 2.f, 3.f}) {
+    cloud.x.push_back(0);
+    cloud.y.push_back(0);
+    cloud.z.push_back(z);
+    cloud.temperature.push_back(z);
+  }
+  const Rig rig{.width = 64, .height = 32, .positions = {-0.5f, 0.5f}};
+  Survey survey;
+  survey.add(cloud);
+  Scene scene;
+  scene.camera = {.focal_px = 30, .centre_x_px = 32, .centre_y_px = 16, .nearest_depth = 0.1f};
+  scene.mapping.points = {{1, 0}, {3, 0}};
+  Appearance appearance;
+  appearance.smallest_px = appearance.largest_px = 9;
+  appearance.logarithmic = false;
+  appearance.cold = {0, 255, 0};  // the nearest
+  appearance.hot = {255, 0, 0};
+  scene.look = make_look(appearance, survey);
+  for (const Method method : {Method::exact, Method::incremental, Method::layered}) {
+    const Rgb8 middle = views_of(cloud, scene, rig, method, SliceFilter::linear, true)[0](32, 16);
+    EXPECT_GT(middle.g, 60);
+    EXPECT_EQ(middle.r, 0);
+  }
+}
+
+TEST(Opaque, WaysOfRenderingAgree) {
+  const Cloud cloud = clumps(3000);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  const auto exact = views_of(cloud, scene, rig, Method::exact, SliceFilter::linear, true);
+  EXPECT_EQ(views_of(cloud, scene, rig, Method::incremental, SliceFilter::linear, true), exact);
+  const auto layered = views_of(cloud, scene, rig, Method::layered, SliceFilter::linear, true);
+  // Discs move by whole pixels: only their rims differ.
+  EXPECT_LT(measure_view(layered[4], exact[4]).differing_share, 0.02);
+  EXPECT_LT(measure_view(layered[0], exact[0]).differing_share, 0.2);
+}
+
+TEST(Render, SameBytesOnAnyNumberOfThreads) {
+  const Cloud cloud = clumps(60000);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  for (const Method method : {Method::exact, Method::incremental, Method::layered}) {
+    const std::vector<Image<Rgb8>> many = views_of(cloud, scene, rig, method, SliceFilter::centroid);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(views_of(cloud, scene, rig, method, SliceFilter::centroid), many);
+  }
+}
+
+TEST(Render, FewParticlesAndNoneInSight) {
+  const Rig rig = nine_views();
+  for (const std::size_t count : {1, 2, 17}) {
+    const Cloud cloud = clumps(count);
+    const Scene scene = scene_of(cloud, rig);
+    for (const Method method : {Method::exact, Method::incremental, Method::layered}) {
+      const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, method);
+      EXPECT_TRUE(std::ranges::any_of(views[3].pixels(), [](Rgb8 p) { return p.r + p.g + p.b > 30; })) << count;
+    }
+  }
+  const Cloud cloud = clumps(100);
+  Scene scene = scene_of(cloud, rig);
+  for (float& axis : scene.camera.forward) axis = -axis;
+  const RenderedViews behind = render(cloud, scene, rig, {.method = Method::layered});
+  EXPECT_EQ(behind.exposure, 1);
+  EXPECT_EQ(behind.views[0], Image<Rgb8>(rig.width, rig.height));
+}
+
+TEST(Render, AllInOnePlace) {
+  Cloud cloud;
+  cloud.x = cloud.y = cloud.z = std::vector<float>(1000, 5.f);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
+  EXPECT_EQ(views_of(cloud, scene, rig, Method::incremental), exact);
+  EXPECT_GE(worst_psnr(views_of(cloud, scene, rig, Method::layered), exact), 45);
+}
+
+TEST(Render, RefusesWhatMakesNoSense) {
+  const Cloud cloud = clumps(10);
+  Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  rig.positions.clear();
+  expect_error(ErrorKind::wrong_usage, "--views", [&] { render(cloud, scene, rig); });
+  expect_error(ErrorKind::wrong_usage, "--planes", [&] { render(cloud, scene, nine_views(), {.planes = -1}); });
+}
+
+TEST(Slices, RefuseToOutgrowMemory) {
+  const Cloud cloud = clumps(10);
+  const Rig rig = nine_views();
+  Survey survey;
+  survey.add(cloud);
+  expect_error(ErrorKind::bad_input, "--planes",
+               [&] { SliceMaker(scene_of(cloud, rig), survey, rig, {.planes = 1000}, 1 << 20); });
+}
+
+TEST(Slices, SumToTheViews) {
+  const Cloud cloud = clumps(50000);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  const RenderOptions options{.method = Method::layered, .filter = SliceFilter::centroid, .exposure = 0.5f};
+  const SliceStack stack = make_slices(cloud, scene, rig, options, {});
+  EXPECT_GT(stack.slices.size(), 20u);
+  EXPECT_LE(stack.slices.size(), 36u);
+  EXPECT_TRUE(std::ranges::is_sorted(stack.slices, {}, &Slice::parallax_px));
+  EXPECT_GT(worst_psnr(render_slices(stack, rig), render(cloud, scene, rig, options).views), 65);
+}
+
+TEST(Slices, AreTheSameInChunks) {
+  const Cloud cloud = clumps(40000);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  Survey survey;
+  survey.add(cloud);
+  SliceMaker maker(scene, survey, rig, {.exposure = 0.5f});
+  for (std::size_t first = 0; first < cloud.size(); first += 9999) {
+    Cloud chunk;
+    const auto part = [&](const std::vector<float>& column) {
+      return std::vector<float>(column.begin() + static_cast<std::ptrdiff_t>(first),
+                                column.begin() + static_cast<std::ptrdiff_t>(std::min(first + 9999, cloud.size())));
+    };
+    chunk.x = part(cloud.x);
+    chunk.y = part(cloud.y);
+    chunk.z = part(cloud.z);
+    chunk.density = part(cloud.density);
+    chunk.temperature = part(cloud.temperature);
+    maker.add(chunk);
+  }
+  const auto whole = render_slices(make_slices(cloud, scene, rig, {.exposure = 0.5f}, {}), rig);
+  EXPECT_GT(worst_psnr(render_slices(maker.finish({}), rig), whole), 70);
+}
+
+TEST(Slices, ServeRigsOfAnyNumberOfViewsAndAnyDepth) {
+  const Cloud cloud = clumps(20000);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  SliceStack stack = make_slices(cloud, scene, rig, {.exposure = 0.5f}, {});
+  const Rig two{.width = rig.width, .height = rig.height, .positions = {-0.5f, 0.5f}};
+  const auto views = render_slices(stack, two);
+  EXPECT_EQ(views[0], render_slices(stack, rig)[0]);
+  // Without depth all views are one.
+  map_depth(stack, 0, 0);
+  const auto flat = render_slices(stack, two);
+  EXPECT_EQ(flat[0], flat[1]);
+  EXPECT_NE(views[0], views[1]);
+}
+
+TEST(Interleaved, CompositesEachSubPixelForItsViewAndNoOther) {
+  const Cloud cloud = clumps(20000);
+  const Rig rig = nine_views();
+  const Scene scene = scene_of(cloud, rig);
+  const SliceStack stack = make_slices(cloud, scene, rig, {.exposure = 0.5f}, {});
+  const auto view_at = [](int x, int y, int channel) { return (3 * x + channel + 2 * y) % 9; };
+  const InterleavedView interleaved = render_interleaved(stack, rig.positions, [&](int y, auto three) {
+    for (int i = 0; i < 3 * rig.width; ++i) three[i] = static_cast<std::uint16_t>(view_at(i / 3, y, i % 3));
+  });
+  EXPECT_EQ(interleaved.composited, 3ull * rig.width * rig.height);
+  const auto views = render_slices(stack, rig, SliceFilter::linear);
+  int most = 0;
+  int most_of_next = 0;
+  for (int y = 0; y < rig.height; ++y)
+    for (int x = 0; x < rig.width; ++x) {
+      most = std::max(most, std::abs(interleaved.picture(x, y).g - views[view_at(x, y, 1)](x, y).g));
+      most_of_next = std::max(most_of_next, std::abs(interleaved.picture(x, y).g - views[view_at(x, y, 2)](x, y).g));
+    }
+  EXPECT_LE(most, 1);
+  EXPECT_GT(most_of_next, 20);
+}
+
+TEST(CostModel, TakesTheLayersForManyParticlesAndNotForFew) {
+  EXPECT_EQ(choose_method({.particles = 2'654'562, .views = 9}).method, Method::layered);
+  EXPECT_NE(choose_method({.particles = 100, .views = 2}).method, Method::layered);
+  EXPECT_EQ(choose_method({.particles = 1'000'000, .views = 1}).method, Method::exact);
+  EXPECT_NE(choose_method({.particles = 5, .views = 9}).reason.find("exact"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wheatstone/particles/cloud.h"
+#include "wheatstone/progress.h"
+
+namespace wheatstone {
+
+/// What of a file becomes the cloud. Names that are empty are found by the format's own conventions.
+struct CloudChoice {
+  std::string type = "gas";      ///< of a snapshot's particles: gas, halo, disk, bulge, stars, bndry, or 0..5
+  std::string position;          ///< name of the dataset or column ("/Coordinates"); "x,y,z" for three columns
+  std::string density;           ///< name of the dataset or column
+  std::string temperature;       ///< name of the dataset or column; any scalar
+  std::string smoothing_length;  ///< name of the dataset or column
+};
+
+/// A file of particles, opened, its header checked against its length. Reading goes forward only, chunk by chunk.
+struct CloudSource {
+  std::string format;                  ///< "GADGET HDF5", "PLY", …, for people
+  std::optional<std::uint64_t> count;  ///< particles in all; unknown for text until it is read
+  double box_size = 0;                 ///< of the periodic box, 0 where there is none
+  std::optional<double> redshift;      ///< of a snapshot
+  std::vector<std::string> fields;     ///< every column that the chosen particles have, as the file names them
+  std::uint64_t bytes = 0;             ///< of all files together
+  /// The next particles, at most so many; an empty cloud at the end. Throws Error{bad_input} where the file is damaged.
+  std::function<Cloud(std::size_t most)> next;
+};
+
+/// Opens a file, the first part of a snapshot in several ("snap_007.0.hdf5"), or a folder of parts. The format is told
+/// by the content, and by the name only for text and NumPy. Throws Error{bad_input}, naming the file, what is wrong and
+/// what was expected; a field that is missing is named, with those that the file has.
+CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& choice = {});
+
+/// All particles of a file at once. Throws as open_cloud does, and Error{bad_input} where there is none.
+Cloud read_cloud(const std::filesystem::path& path, const CloudChoice& choice = {}, const Progress& progress = {});
+
+}  // namespace wheatstone
