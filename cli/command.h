@@ -20,6 +20,7 @@ struct Session {
 // exit code. The session outlives the commands and is filled when their callbacks run.
 void add_match_command(CLI::App& program, const Session& session);
 void add_paint_command(CLI::App& program, const Session& session);
+void add_render_command(CLI::App& program, const Session& session);
 void add_measure_command(CLI::App& program, const Session& session);
 void add_synth_command(CLI::App& program, const Session& session);
 void add_info_command(CLI::App& program, const Session& session);

@@ -1,122 +1,15 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
-
 #include "command.h"
-#include "wheatstone/app/output_folder.h"
-#include "wheatstone/error.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "synth_kinds.h"
 
 namespace wheatstone::cli {
-namespace {
-
-struct Arguments {
-  std::string folder = "still";
-  std::string size = "960x720";
-  SyntheticStillOptions still;
-  int views = 2;
-  std::optional<float> view;
-};
-
-/// "960x720" as two numbers. Throws Error{wrong_usage}.
-void take_size(const std::string& text, SyntheticStillOptions& options) {
-  const char* const end = text.data() + text.size();
-  const auto [after_width, width_error] = std::from_chars(text.data(), end, options.width);
-  bool whole = width_error == std::errc() && after_width != end && *after_width == 'x';
-  if (whole) {
-    const auto [after_height, height_error] = std::from_chars(after_width + 1, end, options.height);
-    whole = height_error == std::errc() && after_height == end;
-  }
-  if (!whole) throw Error(ErrorKind::wrong_usage, fmt::format("--size: '{}' is no size, expected WIDTHxHEIGHT", text));
-}
-
-void write(const OutputFolder& output, const SyntheticStill& still) {
-  write_image(output.file("left.png"), still.pictures.left);
-  write_image(output.file("right.png"), still.pictures.right);
-  write_disparity(output.file("left_disparity.pfm"), still.geometry.left_disparity);
-  write_disparity(output.file("right_disparity.pfm"), still.geometry.right_disparity);
-  write_image(output.file("left_occlusion.png"), still.geometry.left_occlusion);
-  write_image(output.file("right_occlusion.png"), still.geometry.right_occlusion);
-}
-
-void write(const OutputFolder& output, const std::string& name, const SyntheticView& view) {
-  write_image(output.file(name + ".png"), view.picture);
-  write_disparity(output.file(name + "_disparity.pfm"), view.disparity);
-}
-
-void run(const Arguments& arguments, const Session& session) {
-  SyntheticStillOptions options = arguments.still;
-  options.seed = session.seed;
-  take_size(arguments.size, options);
-
-  OutputFolder output(arguments.folder);
-  if (arguments.view) {
-    write(output, "view", make_synthetic_view(options, *arguments.view));
-  } else if (arguments.views == 2) {
-    write(output, make_synthetic_still(options));
-  } else {
-    // From the left eye to the right, evenly.
-    for (int i = 0; i < arguments.views; ++i) {
-      report(session.progress, "views", static_cast<double>(i) / arguments.views);
-      const float last = static_cast<float>(std::max(arguments.views - 1, 1));
-      const float position = arguments.views == 1 ? 0.f : static_cast<float>(i) / last - 0.5f;
-      write(output, fmt::format("view_{:03}", i), make_synthetic_view(options, position));
-    }
-  }
-  output.commit();
-  if (session.json) {
-    const nlohmann::ordered_json facts{
-        {"folder", arguments.folder}, {"width", options.width}, {"height", options.height}, {"seed", options.seed}};
-    fmt::print("{}\n", facts.dump(2));
-  } else {
-    fmt::print("written to {}\n", arguments.folder);
-  }
-}
-
-void add_still(CLI::App& synth, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *synth.add_subcommand("still", "A still life on a table by a window, ray-cast");
-  command.fallthrough();
-  command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
-  command.add_option("--size", arguments->size, "Of each view: WIDTHxHEIGHT")->capture_default_str();
-  command.add_option("--samples", arguments->still.samples_a_side, "Samples along each side of a pixel")
-      ->check(CLI::Range(1, 8))
-      ->capture_default_str();
-  command.add_option("--largest-disparity", arguments->still.largest_disparity_px,
-                     "Of the nearest point, in pixels; 45 in a picture 640 wide if not given");
-  command.add_option("--least-disparity", arguments->still.least_disparity_px,
-                     "Of the wall, in pixels; 6 in a picture 640 wide if not given");
-  command.add_flag("--converged", arguments->still.converged, "Disparity 0 in the middle of the range: mixed signs");
-  CLI::Option* views = command.add_option("--views", arguments->views, "Views from the left eye to the right")
-                           ->check(CLI::Range(1, 1000))
-                           ->capture_default_str();
-  command
-      .add_option("--view", arguments->view, "Only the view at this position: left eye -0.5, centre 0, right eye 0.5")
-      ->check(CLI::Range(-10.0, 10.0))
-      ->excludes(views);
-  command.footer(
-      "Two views are written as left.png and right.png with left_disparity.pfm, left_occlusion.png and so on: exact, "
-      "in\n"
-      "pixels, each in its own view. Other numbers of views are written as view_000.png with view_000_disparity.pfm.\n"
-      "--seed moves and recolours what lies on the table.\n\n"
-      "Example:\n  wheatstone synth still -o still --size 1280x960 --seed 2");
-  command.callback([arguments, &session] { run(*arguments, session); });
-}
-
-}  // namespace
 
 void add_synth_command(CLI::App& program, const Session& session) {
   CLI::App& synth = *program.add_subcommand("synth", "Synthetic input with exact ground truth");
   synth.require_subcommand(1);
   synth.get_formatter()->label("SUBCOMMAND", "KIND");
   synth.footer("Example:\n  wheatstone synth still -o still");
-  add_still(synth, session);
+  add_synth_still(synth, session);
+  add_synth_universe(synth, session);
 }
 
 }  // namespace wheatstone::cli

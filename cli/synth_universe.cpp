@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "synth_kinds.h"
+#include "wheatstone/particles/synthetic_universe.h"
+#include "wheatstone/particles/write_gadget.h"
+
+namespace wheatstone::cli {
+namespace {
+
+struct Arguments {
+  std::string file = "universe.hdf5";
+  SyntheticUniverseOptions universe;
+};
+
+void run(const Arguments& arguments, const Session& session) {
+  SyntheticUniverseOptions options = arguments.universe;
+  options.seed = session.seed;
+  SyntheticUniverse universe(options, session.progress);
+  GadgetWriter writer(arguments.file, {.particles = options.particles,
+                                       .box_size = universe.box_size(),
+                                       .redshift = options.redshift,
+                                       .mass_of_a_particle = universe.mass_of_a_particle()});
+  constexpr std::size_t chunk = 1'000'000;
+  std::uint64_t written = 0;
+  while (written < options.particles) {
+    report(session.progress, "particles", static_cast<double>(written) / static_cast<double>(options.particles));
+    const Cloud cloud = universe.next(chunk);
+    writer.add(cloud);
+    written += cloud.size();
+  }
+  writer.commit();
+  if (session.json) {
+    const nlohmann::ordered_json facts{
+        {"file", arguments.file}, {"particles", written}, {"redshift", options.redshift}, {"seed", options.seed}};
+    fmt::print("{}\n", facts.dump(2));
+  } else {
+    fmt::print("written to {}\n", arguments.file);
+  }
+}
+
+}  // namespace
+
+void add_synth_universe(CLI::App& synth, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = *synth.add_subcommand("universe", "Gas along the cosmic web, as a GADGET-4 HDF5 snapshot");
+  command.fallthrough();
+  command.add_option("-o,--output", arguments->file, "The snapshot")->capture_default_str();
+  command.add_option("--particles", arguments->universe.particles, "How many")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000'000}))
+      ->capture_default_str();
+  command.add_option("--redshift", arguments->universe.redshift, "0 is today")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  command.add_option("--box", arguments->universe.box_mpc_h, "Side of the periodic box, in Mpc/h")
+      ->check(CLI::Range(1.0, 10000.0))
+      ->capture_default_str();
+  command.footer("Example:\n  wheatstone synth universe --particles 1000000 --redshift 0 --seed 7 -o universe.hdf5");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,164 @@
+#include "wheatstone/app/render_particles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "wheatstone/depth/comfort.h"
+#include "wheatstone/error.h"
+#include "wheatstone/multiview/make_slices.h"
+#include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/particles/sph_density.h"
+#include "wheatstone/particles/survey.h"
+
+namespace wheatstone {
+namespace {
+
+/// The scene as the central camera has it.
+struct Staged {
+  Scene scene;
+  Rig rig;
+  ViewingGeometry viewing;
+};
+
+ViewingGeometry viewing_of(const RenderParticlesOptions& options) {
+  ViewingGeometry viewing = options.depth.viewing;
+  viewing.width_px = options.width;
+  return viewing;
+}
+
+Staged stage(const RenderParticlesOptions& options, const Survey& survey) {
+  Staged staged;
+  staged.rig = evenly_spaced(options.width, options.height, options.views, options.span);
+  staged.viewing = viewing_of(options);
+  staged.scene.camera = camera_around(survey.centre(), survey.radius(), options.width, options.height, options.framing);
+  float depth = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    depth += (survey.centre()[axis] - staged.scene.camera.position[axis]) * staged.scene.camera.forward[axis];
+  staged.scene.mapping = mapping_for(options.depth, options.width, std::max(depth - survey.radius(), depth * 0.01f),
+                                     depth + survey.radius());
+  staged.scene.look = make_look(options.appearance, survey);
+  staged.scene.look.size_depth = depth;
+  return staged;
+}
+
+[[noreturn]] void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts) {
+  throw Error(ErrorKind::bad_input,
+              counts.dropped > 0
+                  ? fmt::format("{}: nothing is left to draw, {} particles have no finite position", file.string(),
+                                counts.dropped)
+                  : fmt::format("{}: nothing is left to draw, the cut holds no particle", file.string()));
+}
+
+void add(SelectionCounts& sum, const SelectionCounts& more) {
+  sum.dropped += more.dropped;
+  sum.mended += more.mended;
+}
+
+/// Calls `visit` with every chunk of the file that has something selected in it.
+template <class Visit>
+SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                               const std::string& step, const Progress& progress, Visit visit) {
+  const CloudSource source = open_cloud(file, options.choice);
+  SelectionCounts counts;
+  std::uint64_t first = 0;
+  while (true) {
+    Cloud chunk = source.next(options.chunk);
+    const std::size_t read = chunk.size();
+    if (read == 0) return counts;
+    add(counts, select(chunk, options.selection, first));
+    first += read;
+    if (chunk.size() > 0) visit(chunk);
+    if (source.count) report(progress, step, static_cast<double>(first) / static_cast<double>(*source.count));
+  }
+}
+
+RenderedParticles stream(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                         const Progress& progress) {
+  RenderedParticles result;
+  Survey survey;
+  const SelectionCounts counts =
+      for_each_chunk(file, options, "survey", progress, [&](const Cloud& chunk) { survey.add(chunk); });
+  if (survey.count == 0) refuse_nothing(file, counts);
+  const Staged staged = stage(options, survey);
+  SliceMaker maker(staged.scene, survey, staged.rig, options.rendering);
+  for_each_chunk(file, options, "slices", progress, [&](const Cloud& chunk) { maker.add(chunk); });
+  result.stack = maker.finish(staged.viewing);
+  result.rig = staged.rig;
+  result.particles = survey.count;
+  result.dropped = counts.dropped;
+  result.mended = counts.mended;
+  return result;
+}
+
+RenderedParticles render_whole(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                               const Progress& progress) {
+  RenderedParticles result;
+  Cloud cloud = read_cloud(file, options.choice, progress);
+  const SelectionCounts counts = select(cloud, options.selection);
+  if (cloud.size() == 0) refuse_nothing(file, counts);
+  result.particles = cloud.size();
+  result.dropped = counts.dropped;
+  result.mended = counts.mended;
+  if (cloud.density.empty() && cloud.colour.empty()) {
+    estimate_density(cloud, options.neighbours, progress);
+    result.density_estimated = true;
+  }
+  Survey survey;
+  survey.add(cloud);
+  const Staged staged = stage(options, survey);
+  result.rig = staged.rig;
+  if (options.slices) {
+    report(progress, "slices", 0);
+    result.stack = make_slices(cloud, staged.scene, staged.rig, options.rendering, staged.viewing);
+  } else {
+    result.rendered = render(cloud, staged.scene, staged.rig, options.rendering, progress);
+  }
+  return result;
+}
+
+}  // namespace
+
+DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float nearest, float farthest) {
+  ViewingGeometry viewing = depth.viewing;
+  viewing.width_px = width_px;
+  const auto parallax = [&](float behind_mm) {
+    return screen_parallax_mm(viewing, behind_mm) / viewing.pixel_pitch_mm();
+  };
+  DepthMapping mapping;
+  if (depth.regions.empty()) {
+    mapping.points = {{nearest, parallax(-depth.near_mm)}, {farthest, parallax(depth.far_mm)}};
+    return mapping;
+  }
+  for (const PerceivedDepth::Region& region : depth.regions)
+    mapping.points.push_back({nearest + region.share * (farthest - nearest), parallax(region.behind_mm)});
+  return mapping;
+}
+
+RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                                   const Progress& progress) {
+  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "--views: 0, expected at least 1");
+  const CloudSource source = open_cloud(file, options.choice);
+  RenderedParticles result = options.stream ? stream(file, options, progress) : render_whole(file, options, progress);
+  result.format = source.format;
+  if (options.stream || options.slices) {
+    result.rendered.method = Method::layered;
+    result.rendered.reason = options.stream ? "layered: particles are streamed" : "layered: slices are asked for";
+    result.rendered.planes = static_cast<int>(result.stack.slices.size());
+    result.rendered.exposure = result.stack.exposure;
+    result.rendered.views = render_slices(result.stack, result.rig, options.rendering.filter, progress);
+  }
+  const ViewingGeometry viewing = viewing_of(options);
+  float nearest = -options.depth.near_mm;
+  float farthest = options.depth.far_mm;
+  for (const PerceivedDepth::Region& region : options.depth.regions) {
+    nearest = std::min(nearest, region.behind_mm);
+    farthest = std::max(farthest, region.behind_mm);
+  }
+  result.warnings = discomforts(viewing, -nearest, farthest);
+  return result;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wheatstone/depth/camera.h"
+#include "wheatstone/depth/viewing_geometry.h"
+#include "wheatstone/multiview/render.h"
+#include "wheatstone/multiview/slice_stack.h"
+#include "wheatstone/particles/appearance.h"
+#include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/particles/select.h"
+#include "wheatstone/progress.h"
+
+namespace wheatstone {
+
+/// How deep the scene is to stand on the display.
+struct PerceivedDepth {
+  ViewingGeometry viewing;  ///< its width in pixels is taken from the views
+  float near_mm = 100;      ///< the nearest particle stands so far in front of the screen
+  float far_mm = 100;       ///< and the farthest so far behind it
+  /// Many regions: share of the scene's depth, 0 the nearest and 1 the farthest particle, and what it becomes, in
+  /// millimetres behind the screen. Empty: one region from `near_mm` to `far_mm`.
+  struct Region {
+    float share;
+    float behind_mm;
+  };
+  std::vector<Region> regions;
+};
+
+struct RenderParticlesOptions {
+  CloudChoice choice;
+  Selection selection;
+  int neighbours = 32;  ///< of the density estimate, where the file has no density
+  Appearance appearance;
+  Framing framing;
+  PerceivedDepth depth;
+  int width = 640, height = 360;  ///< of a view
+  int views = 2;
+  float span = 1;  ///< eye separations from the first view to the last
+  RenderOptions rendering;
+  bool slices = false;            ///< make slices, and the views from them
+  bool stream = false;            ///< never hold all particles: two passes over the file, chunk by chunk; by slices
+  std::size_t chunk = 1'000'000;  ///< particles
+};
+
+/// What became of a file of particles.
+struct RenderedParticles {
+  RenderedViews rendered;
+  SliceStack stack;  ///< empty unless slices were made
+  Rig rig;
+  std::string format;
+  std::uint64_t particles = 0;  ///< drawn
+  std::uint64_t dropped = 0;    ///< without a finite position
+  std::uint64_t mended = 0;     ///< with a density or temperature that is not above 0, which got the least one
+  bool density_estimated = false;
+  std::vector<std::string> warnings;  ///< comfort, in words for people
+};
+
+/// A file of particles to the views of a rig. Throws Error: bad_input for the file, wrong_usage for the options.
+RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                                   const Progress& progress = {});
+
+/// The mapping of a scene between these depths, in scene units.
+DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float nearest, float farthest);
+
+}  // namespace wheatstone

@@ -1,0 +1,224 @@
+// GADGET's HDF5 snapshots and those of its relatives: GADGET-2, -3, -4, AREPO, SWIFT.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "wheatstone/error.h"
+#include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/hdf5_internal.h"
+#include "wheatstone/particles/snapshot_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// The first of several names that a group has; empty where it has none.
+std::string first_of(hid_t group, std::initializer_list<const char*> names) {
+  for (const char* name : names)
+    if (hdf5_has(group, name)) return name;
+  return {};
+}
+
+/// The columns of one file's particles of one type.
+struct Part {
+  std::string path;
+  Hdf5Handle file, group;
+  hsize_t count = 0;
+  Hdf5Column position, density, temperature, energy, electrons, smoothing_length, volume, mass;
+};
+
+double box_size_of(hid_t file) {
+  if (!hdf5_has(file, "Header")) return 0;
+  const Hdf5Handle header(H5Gopen2(file, "Header", H5P_DEFAULT), H5Gclose);
+  const double size = hdf5_number(header, "BoxSize").value_or(0);
+  return std::isfinite(size) && size > 0 ? size : 0;
+}
+
+std::string refuse_missing(const Part& part, const std::string& name) {
+  throw Error(ErrorKind::bad_input, fmt::format("{}: has no '{}' for these particles, but {}", part.path, name,
+                                                fmt::join(hdf5_datasets(part.group), ", ")));
+}
+
+/// Opens the column that the user named, or the first of the usual names; an empty column where there is none.
+Hdf5Column find_column(const Part& part, const std::string& wanted, std::initializer_list<const char*> usual) {
+  std::string name = wanted;
+  if (name.empty()) {
+    name = first_of(part.group, usual);
+    if (name.empty()) return {};
+  }
+  if (!hdf5_has(part.group, name)) refuse_missing(part, name);
+  Hdf5Column column = open_column(part.group, name, part.path);
+  if (column.rows != part.count)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {} has {} rows, but there are {} positions", part.path, name,
+                                                  column.rows, part.count));
+  return column;
+}
+
+Part open_part(const std::filesystem::path& path, int type, const CloudChoice& choice) {
+  Part part;
+  part.path = path.string();
+  part.file = open_hdf5(path);
+  const std::string group = fmt::format("PartType{}", type);
+  if (!hdf5_has(part.file, group)) return part;  // a part of a snapshot may have none of this type
+  part.group = Hdf5Handle(H5Gopen2(part.file, group.c_str(), H5P_DEFAULT), H5Gclose);
+  const std::string position = choice.position.empty() ? "Coordinates" : choice.position;
+  if (!hdf5_has(part.group, position)) refuse_missing(part, position);
+  part.position = open_column(part.group, position, part.path);
+  if (part.position.width != 3)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {}/{} has {} numbers a row, expected 3", part.path, group,
+                                                  position, part.position.width));
+  part.count = part.position.rows;
+  part.density = find_column(part, choice.density, {"Density", "Densities"});
+  part.temperature = find_column(part, choice.temperature, {"Temperature", "Temperatures"});
+  if (!part.temperature.dataset) part.energy = find_column(part, {}, {"InternalEnergy", "InternalEnergies"});
+  part.electrons = find_column(part, {}, {"ElectronAbundance"});
+  part.smoothing_length = find_column(part, choice.smoothing_length, {"SmoothingLength", "SmoothingLengths"});
+  if (!part.smoothing_length.dataset) {
+    part.volume = find_column(part, {}, {"Volume"});  // AREPO's cells
+    part.mass = find_column(part, {}, {"Masses"});
+  }
+  return part;
+}
+
+void put_positions(const std::vector<float>& rows, Cloud& cloud) {
+  const std::size_t count = rows.size() / 3;
+  for (std::vector<float>* column : {&cloud.x, &cloud.y, &cloud.z}) column->resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    cloud.x[i] = rows[3 * i];
+    cloud.y[i] = rows[3 * i + 1];
+    cloud.z[i] = rows[3 * i + 2];
+  }
+}
+
+/// A column of one number a row; of vectors, their length.
+void put_scalars(const Part& part, const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<float>& to) {
+  if (!column.dataset) return;
+  read_rows(column, first, count, to, part.path);
+  if (column.width == 1) return;
+  for (hsize_t i = 0; i < count; ++i) {
+    float square = 0;
+    for (hsize_t k = 0; k < column.width; ++k) square += to[i * column.width + k] * to[i * column.width + k];
+    to[i] = std::sqrt(square);
+  }
+  to.resize(count);
+}
+
+void put_temperature(const Part& part, hsize_t first, hsize_t count, Cloud& cloud) {
+  put_scalars(part, part.temperature, first, count, cloud.temperature);
+  if (!part.energy.dataset) return;
+  put_scalars(part, part.energy, first, count, cloud.temperature);
+  std::vector<float> electrons;
+  put_scalars(part, part.electrons, first, count, electrons);
+  for (std::size_t i = 0; i < cloud.temperature.size(); ++i)
+    cloud.temperature[i] =
+        electrons.empty() ? gas_temperature(cloud.temperature[i]) : gas_temperature(cloud.temperature[i], electrons[i]);
+}
+
+void put_smoothing_length(const Part& part, hsize_t first, hsize_t count, Cloud& cloud) {
+  put_scalars(part, part.smoothing_length, first, count, cloud.smoothing_length);
+  std::vector<float> volume;
+  put_scalars(part, part.volume, first, count, volume);
+  if (!part.smoothing_length.dataset && !volume.empty()) {
+    for (const float cell : volume) cloud.smoothing_length.push_back(std::cbrt(cell));
+  } else if (!part.smoothing_length.dataset && part.mass.dataset && !cloud.density.empty()) {
+    std::vector<float> mass;
+    put_scalars(part, part.mass, first, count, mass);
+    for (std::size_t i = 0; i < mass.size(); ++i)
+      cloud.smoothing_length.push_back(std::cbrt(mass[i] / cloud.density[i]));
+  }
+}
+
+Cloud read_part(const Part& part, hsize_t first, hsize_t count) {
+  Cloud cloud;
+  std::vector<float> rows;
+  read_rows(part.position, first, count, rows, part.path);
+  put_positions(rows, cloud);
+  put_scalars(part, part.density, first, count, cloud.density);
+  put_temperature(part, first, count, cloud);
+  put_smoothing_length(part, first, count, cloud);
+  return cloud;
+}
+
+/// Which types a file has, for the message when the chosen one is not among them.
+std::string types_in(hid_t file) {
+  std::string types;
+  for (int type = 0; type < 8; ++type) {
+    const std::string name = fmt::format("PartType{}/Coordinates", type);
+    if (!hdf5_has(file, name)) continue;
+    types += fmt::format("{}{}: {}", types.empty() ? "" : ", ", type, open_column(file, name, {}).rows);
+  }
+  return types.empty() ? "none" : types;
+}
+
+/// What a snapshot's header says of all its files.
+struct Header {
+  int files = 1;
+  std::uint64_t total = 0;  ///< of the chosen type; 0 where it is not said
+  std::optional<double> redshift;
+};
+
+Header read_header(const Hdf5Handle& file, int type) {
+  Header header;
+  if (!hdf5_has(file, "Header")) return header;
+  const Hdf5Handle group(H5Gopen2(file, "Header", H5P_DEFAULT), H5Gclose);
+  const double files = hdf5_number(group, "NumFilesPerSnapshot").value_or(1);
+  header.files = files >= 1 && files < 1e6 ? static_cast<int>(files) : 1;
+  header.redshift = hdf5_number(group, "Redshift");
+  const std::vector<double> total = hdf5_numbers(group, "NumPart_Total");
+  const std::vector<double> high = hdf5_numbers(group, "NumPart_Total_HighWord");
+  const auto entry = static_cast<std::size_t>(type);
+  double count = entry < total.size() ? total[entry] : 0;
+  if (entry < high.size()) count += high[entry] * 4294967296.;
+  header.total = count > 0 && count < 1e18 ? static_cast<std::uint64_t>(count) : 0;
+  return header;
+}
+
+}  // namespace
+
+bool is_snapshot_hdf5(hid_t file) {
+  for (int type = 0; type < 8; ++type)
+    if (hdf5_has(file, fmt::format("PartType{}", type))) return true;
+  return false;
+}
+
+CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoice& choice) {
+  const int type = snapshot_type(choice.type);
+  const Hdf5Handle first = open_hdf5(path);
+  const Header header = read_header(first, type);
+  auto parts = std::make_shared<std::vector<Part>>();
+  std::uint64_t count = 0;
+  CloudSource source{.format = "GADGET HDF5", .count = {}, .box_size = box_size_of(first), .redshift = header.redshift};
+  for (const std::filesystem::path& file : snapshot_files(path, header.files)) {
+    parts->push_back(open_part(file, type, choice));
+    count += parts->back().count;
+    source.bytes += std::filesystem::file_size(file);
+    if (parts->back().group && source.fields.empty()) source.fields = hdf5_datasets(parts->back().group);
+  }
+  if (count == 0)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no particles of type '{}'; by type it has {}", path.string(),
+                                                  choice.type, types_in(first)));
+  if (header.total > count)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: its header says {} particles, but there are only {}",
+                                                  path.string(), header.total, count));
+  source.count = count;
+  const double box = source.box_size;
+  source.next = [parts, box, part = std::size_t{0}, at = hsize_t{0}](std::size_t most) mutable {
+    while (part < parts->size() && at >= (*parts)[part].count) {
+      ++part;
+      at = 0;
+    }
+    if (part == parts->size()) return Cloud{};
+    const hsize_t rows = std::min<hsize_t>(most, (*parts)[part].count - at);
+    Cloud cloud = read_part((*parts)[part], at, rows);
+    cloud.box_size = box;
+    at += rows;
+    return cloud;
+  };
+  return source;
+}
+
+}  // namespace wheatstone

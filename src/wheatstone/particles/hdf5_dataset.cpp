@@ -1,0 +1,129 @@
+// Any HDF5 file whose datasets the user names.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "wheatstone/error.h"
+#include "wheatstone/particles/formats_internal.h"
+#include "wheatstone/particles/hdf5_internal.h"
+#include "wheatstone/particles/snapshot_internal.h"
+
+namespace wheatstone {
+namespace {
+
+struct Datasets {
+  std::string path;
+  Hdf5Handle file;
+  std::vector<Hdf5Column> position;  // one of three numbers a row, or three of one
+  Hdf5Column density, temperature, smoothing_length;
+  hsize_t count = 0;
+};
+
+herr_t note_path(hid_t /*file*/, const char* name, const H5O_info_t* about, void* names) {
+  if (about->type == H5O_TYPE_DATASET)
+    static_cast<std::vector<std::string>*>(names)->push_back(fmt::format("/{}", name));
+  return 0;
+}
+
+std::vector<std::string> all_datasets(hid_t file) {
+  std::vector<std::string> names;
+  H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, note_path, &names);
+  return names;
+}
+
+std::vector<std::string> split(const std::string& names) {
+  std::vector<std::string> parts;
+  std::size_t first = 0;
+  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', first)) {
+    parts.push_back(names.substr(first, comma - first));
+    first = comma + 1;
+  }
+  parts.push_back(names.substr(first));
+  return parts;
+}
+
+Hdf5Column open_named(const Datasets& datasets, const std::string& name) {
+  if (name.empty()) return {};
+  if (!hdf5_has(datasets.file, name))
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no dataset '{}', but {}", datasets.path, name,
+                                                  fmt::join(all_datasets(datasets.file), ", ")));
+  Hdf5Column column = open_column(datasets.file, name, datasets.path);
+  if (datasets.count != 0 && column.rows != datasets.count)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {} has {} rows, but there are {} positions", datasets.path, name,
+                                                  column.rows, datasets.count));
+  return column;
+}
+
+std::vector<float> read_scalars(const Datasets& datasets, const Hdf5Column& column, hsize_t first, hsize_t count) {
+  std::vector<float> values;
+  if (!column.dataset) return values;
+  read_rows(column, first, count, values, datasets.path);
+  for (hsize_t i = 1; column.width > 1 && i < count; ++i) values[i] = values[i * column.width];
+  values.resize(count);
+  return values;
+}
+
+void read_positions(const Datasets& datasets, hsize_t first, hsize_t count, Cloud& cloud) {
+  if (datasets.position.size() == 3) {
+    cloud.x = read_scalars(datasets, datasets.position[0], first, count);
+    cloud.y = read_scalars(datasets, datasets.position[1], first, count);
+    cloud.z = read_scalars(datasets, datasets.position[2], first, count);
+    return;
+  }
+  std::vector<float> rows;
+  const Hdf5Column& column = datasets.position.front();
+  read_rows(column, first, count, rows, datasets.path);
+  for (hsize_t i = 0; i < count; ++i) {
+    cloud.x.push_back(rows[i * column.width]);
+    cloud.y.push_back(rows[i * column.width + 1]);
+    cloud.z.push_back(rows[i * column.width + 2]);
+  }
+}
+
+}  // namespace
+
+CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice& choice) {
+  auto datasets = std::make_shared<Datasets>();
+  datasets->path = path.string();
+  datasets->file = open_hdf5(path);
+  // Names within a snapshot's group are a snapshot's; a path from the root is anybody's.
+  if (is_snapshot_hdf5(datasets->file) && !choice.position.starts_with("/")) return open_gadget_hdf5(path, choice);
+  if (choice.position.empty())
+    throw Error(ErrorKind::bad_input, fmt::format("{}: is no snapshot; name its positions with --position, it has {}",
+                                                  path.string(), fmt::join(all_datasets(datasets->file), ", ")));
+  const std::vector<std::string> names = split(choice.position);
+  for (const std::string& name : names) {
+    datasets->position.push_back(open_named(*datasets, name));
+    datasets->count = datasets->position.back().rows;
+  }
+  if (names.size() != 3 && (names.size() != 1 || datasets->position.front().width < 3))
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: {} is no position, expected three numbers a row, or three datasets with commas between",
+                    path.string(), choice.position));
+  datasets->density = open_named(*datasets, choice.density);
+  datasets->temperature = open_named(*datasets, choice.temperature);
+  datasets->smoothing_length = open_named(*datasets, choice.smoothing_length);
+  if (datasets->count == 0)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {} has no rows", path.string(), choice.position));
+
+  CloudSource source{.format = "HDF5", .count = datasets->count, .fields = all_datasets(datasets->file)};
+  source.bytes = std::filesystem::file_size(path);
+  source.next = [datasets, at = hsize_t{0}](std::size_t most) mutable {
+    Cloud cloud;
+    const hsize_t count = std::min<hsize_t>(most, datasets->count - at);
+    if (count == 0) return cloud;
+    read_positions(*datasets, at, count, cloud);
+    cloud.density = read_scalars(*datasets, datasets->density, at, count);
+    cloud.temperature = read_scalars(*datasets, datasets->temperature, at, count);
+    cloud.smoothing_length = read_scalars(*datasets, datasets->smoothing_length, at, count);
+    at += count;
+    return cloud;
+  };
+  return source;
+}
+
+}  // namespace wheatstone

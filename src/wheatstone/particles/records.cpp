@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include "wheatstone/error.h"
+#include "wheatstone/particles/records_internal.h"
+
+namespace wheatstone {
+namespace {
+
+template <class Number>
+double decode(const char* from, bool swapped) {
+  std::array<char, sizeof(Number)> bytes;
+  std::memcpy(bytes.data(), from, sizeof(Number));
+  if (swapped) std::ranges::reverse(bytes);
+  return static_cast<double>(std::bit_cast<Number>(bytes));
+}
+
+double decode(const char* from, NumberType type, bool swapped) {
+  switch (type) {
+    case NumberType::i8:
+      return decode<std::int8_t>(from, swapped);
+    case NumberType::u8:
+      return decode<std::uint8_t>(from, swapped);
+    case NumberType::i16:
+      return decode<std::int16_t>(from, swapped);
+    case NumberType::u16:
+      return decode<std::uint16_t>(from, swapped);
+    case NumberType::i32:
+      return decode<std::int32_t>(from, swapped);
+    case NumberType::u32:
+      return decode<std::uint32_t>(from, swapped);
+    case NumberType::i64:
+      return decode<std::int64_t>(from, swapped);
+    case NumberType::u64:
+      return decode<std::uint64_t>(from, swapped);
+    case NumberType::f32:
+      return decode<float>(from, swapped);
+    default:
+      return decode<double>(from, swapped);
+  }
+}
+
+/// Some records in memory, and where each field of the first lies.
+struct Chunk {
+  const RecordLayout& layout;
+  const std::vector<char>& bytes;
+  std::size_t count;
+
+  double value(const RecordField& field, std::size_t record) const {
+    const std::size_t at = layout.column_bytes > 0 ? (field.at * count + record) * layout.record_bytes
+                                                   : record * layout.record_bytes + field.at;
+    return decode(bytes.data() + at, field.type, layout.swapped) * field.scale + field.offset;
+  }
+  void put(const std::optional<RecordField>& field, std::vector<float>& column) const {
+    if (!field) return;
+    column.resize(count);
+    for (std::size_t i = 0; i < count; ++i) column[i] = static_cast<float>(value(*field, i));
+  }
+};
+
+Cloud cloud_of(const Chunk& chunk) {
+  const RecordLayout& layout = chunk.layout;
+  Cloud cloud;
+  cloud.origin = layout.origin;
+  const std::array<std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    axes[axis]->resize(chunk.count);
+    for (std::size_t i = 0; i < chunk.count; ++i)
+      (*axes[axis])[i] = static_cast<float>(chunk.value(layout.position[axis], i) - layout.origin[axis]);
+  }
+  chunk.put(layout.density, cloud.density);
+  chunk.put(layout.temperature, cloud.temperature);
+  chunk.put(layout.smoothing_length, cloud.smoothing_length);
+  if (layout.colour) {
+    const auto byte = [&](const RecordField& field, std::size_t i) {
+      const double value = chunk.value(field, i);
+      return static_cast<std::uint8_t>(value > 0 ? std::min(value, 255.) : 0.);
+    };
+    cloud.colour.resize(chunk.count);
+    for (std::size_t i = 0; i < chunk.count; ++i)
+      cloud.colour[i] = {byte((*layout.colour)[0], i), byte((*layout.colour)[1], i), byte((*layout.colour)[2], i)};
+  }
+  return cloud;
+}
+
+struct Reading {
+  RecordLayout layout;
+  std::ifstream file;
+  std::uint64_t at = 0;
+  std::vector<char> bytes;
+
+  void read(std::uint64_t from, std::size_t count, std::size_t to) {
+    file.seekg(static_cast<std::streamoff>(from));
+    file.read(bytes.data() + to, static_cast<std::streamsize>(count));
+    if (!file) throw Error(ErrorKind::bad_input, fmt::format("{}: is cut short", layout.path.string()));
+  }
+};
+
+std::size_t columns_of(const RecordLayout& layout) {
+  std::size_t most = 0;
+  const auto note = [&](const RecordField& field) { most = std::max(most, field.at + 1); };
+  for (const RecordField& field : layout.position) note(field);
+  for (const auto* field : {&layout.density, &layout.temperature, &layout.smoothing_length})
+    if (*field) note(**field);
+  return most;
+}
+
+Cloud read_some(Reading& reading, std::size_t most) {
+  const RecordLayout& layout = reading.layout;
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, layout.count - reading.at));
+  if (count == 0) return {};
+  const std::size_t length = count * layout.record_bytes;
+  if (layout.column_bytes > 0) {
+    const std::size_t columns = columns_of(layout);
+    reading.bytes.resize(columns * length);
+    for (std::size_t column = 0; column < columns; ++column)
+      reading.read(layout.begin + column * layout.column_bytes + reading.at * layout.record_bytes, length,
+                   column * length);
+  } else {
+    reading.bytes.resize(length);
+    reading.read(layout.begin + reading.at * layout.record_bytes, length, 0);
+  }
+  reading.at += count;
+  return cloud_of({layout, reading.bytes, count});
+}
+
+}  // namespace
+
+std::size_t bytes_of(NumberType type) {
+  switch (type) {
+    case NumberType::i8:
+    case NumberType::u8:
+      return 1;
+    case NumberType::i16:
+    case NumberType::u16:
+      return 2;
+    case NumberType::i32:
+    case NumberType::u32:
+    case NumberType::f32:
+      return 4;
+    default:
+      return 8;
+  }
+}
+
+CloudSource open_records(const RecordLayout& layout, const std::string& format, std::vector<std::string> fields) {
+  const std::uint64_t length = std::filesystem::file_size(layout.path);
+  const std::string name = layout.path.string();
+  if (layout.count == 0) throw Error(ErrorKind::bad_input, fmt::format("{}: has no particles", name));
+  const std::uint64_t room = layout.begin < length ? length - layout.begin : 0;
+  const std::uint64_t a_particle =
+      layout.column_bytes > 0 ? layout.record_bytes * columns_of(layout) : layout.record_bytes;
+  if (layout.record_bytes == 0 || layout.count > room / a_particle)
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: is cut short or damaged: its header says {} particles of {} bytes, but there are {} bytes",
+                    name, layout.count, a_particle, room));
+  auto reading = std::make_shared<Reading>();
+  reading->layout = layout;
+  reading->file.open(layout.path, std::ios::binary);
+  CloudSource source{.format = format, .count = layout.count, .fields = std::move(fields)};
+  source.bytes = length;
+  source.next = [reading](std::size_t most) { return read_some(*reading, most); };
+  return source;
+}
+
+}  // namespace wheatstone

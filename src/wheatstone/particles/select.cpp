@@ -1,0 +1,125 @@
+#include "wheatstone/particles/select.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "wheatstone/error.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr float least = std::numeric_limits<float>::min();
+
+[[noreturn]] void refuse_cut(const std::string& text) {
+  throw Error(ErrorKind::wrong_usage,
+              fmt::format("--cut: is '{}', expected sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1", text));
+}
+
+/// Numbers between commas, exactly as many as there is room for.
+void parse_numbers(const std::string& text, std::size_t from, std::span<double> numbers) {
+  const char* at = text.data() + from;
+  const char* const end = text.data() + text.size();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto [stop, error] = std::from_chars(at, end, numbers[i]);
+    const bool last = i + 1 == numbers.size();
+    const bool ends_well = last ? stop == end : stop != end && *stop == ',';
+    if (error != std::errc{} || !ends_well || !std::isfinite(numbers[i])) refuse_cut(text);
+    at = stop + 1;
+  }
+}
+
+/// Moves positions so that `centre` comes to the middle of the periodic box.
+void wrap(Cloud& cloud, const std::array<double, 3>& centre) {
+  const std::array<std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
+  const double box = cloud.box_size;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double shift = box / 2 - (centre[axis] - cloud.origin[axis]);
+    for (float& value : *axes[axis]) {
+      const double moved = static_cast<double>(value) + shift;
+      value = static_cast<float>(moved - box * std::floor(moved / box));
+    }
+  }
+}
+
+bool inside(const Cut& cut, const std::array<double, 3>& at) {
+  if (const Sphere* sphere = std::get_if<Sphere>(&cut)) {
+    double square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) square += std::pow(at[axis] - sphere->centre[axis], 2);
+    return square <= sphere->radius * sphere->radius;
+  }
+  if (const Box* box = std::get_if<Box>(&cut)) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (at[axis] < box->lower[axis] || at[axis] > box->upper[axis]) return false;
+  }
+  return true;
+}
+
+std::uint64_t mend(std::vector<float>& column) {
+  std::uint64_t mended = 0;
+  for (float& value : column) {
+    if (value >= least && std::isfinite(value)) continue;
+    value = least;
+    ++mended;
+  }
+  return mended;
+}
+
+template <class Value>
+void keep(std::vector<Value>& column, const std::vector<std::uint32_t>& kept) {
+  if (column.empty()) return;
+  for (std::size_t i = 0; i < kept.size(); ++i) column[i] = column[kept[i]];
+  column.resize(kept.size());
+}
+
+}  // namespace
+
+Cut parse_cut(const std::string& text) {
+  if (text.starts_with("sphere:")) {
+    std::array<double, 4> numbers{};
+    parse_numbers(text, 7, numbers);
+    if (!(numbers[3] > 0)) refuse_cut(text);
+    return Sphere{{numbers[0], numbers[1], numbers[2]}, numbers[3]};
+  }
+  if (text.starts_with("box:")) {
+    std::array<double, 6> numbers{};
+    parse_numbers(text, 4, numbers);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!(numbers[axis] < numbers[axis + 3])) refuse_cut(text);
+    return Box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
+  }
+  refuse_cut(text);
+}
+
+SelectionCounts select(Cloud& cloud, const Selection& selection, std::uint64_t first) {
+  SelectionCounts counts;
+  if (selection.centre && cloud.box_size > 0) wrap(cloud, *selection.centre);
+  std::vector<std::uint32_t> kept;
+  kept.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!std::isfinite(cloud.x[i]) || !std::isfinite(cloud.y[i]) || !std::isfinite(cloud.z[i])) {
+      ++counts.dropped;
+      continue;
+    }
+    if (selection.every > 1 && (first + i) % selection.every != 0) continue;
+    if (selection.cut.index() != 0 &&
+        !inside(selection.cut,
+                {cloud.x[i] + cloud.origin[0], cloud.y[i] + cloud.origin[1], cloud.z[i] + cloud.origin[2]}))
+      continue;
+    kept.push_back(static_cast<std::uint32_t>(i));
+  }
+  if (kept.size() < cloud.size()) {
+    for (std::vector<float>* column :
+         {&cloud.x, &cloud.y, &cloud.z, &cloud.density, &cloud.temperature, &cloud.smoothing_length})
+      keep(*column, kept);
+    keep(cloud.colour, kept);
+  }
+  counts.mended = mend(cloud.density) + mend(cloud.temperature);
+  return counts;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "wheatstone/particles/cloud.h"
+#include "wheatstone/progress.h"
+
+namespace wheatstone {
+
+/// Gives a cloud density and smoothing length where its file has none: smoothed-particle estimates over each particle's
+/// `neighbours` nearest, itself among them, with the cubic spline kernel (Monaghan 1992); the smoothing length reaches
+/// to the farthest of them. Particles are of mass 1, so that density is their number a unit of volume. Periodic where
+/// the cloud's box is. Positions are finite.
+void estimate_density(Cloud& cloud, int neighbours = 32, const Progress& progress = {});
+
+}  // namespace wheatstone
