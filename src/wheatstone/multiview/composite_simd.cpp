@@ -74,7 +74,7 @@ void tone_map_band(const LightBand& band, const ToneMap& map, int top, ImageView
   }
 }
 
-void take_plane(const LightBand& band, std::uint16_t* to, std::ptrdiff_t stride) {
+void take_plane(const LightBand& band, std::uint16_t* to, std::ptrdiff_t stride, SliceBand::Extent* lit) {
   const Floats d;
   const hn::Rebind<hwy::float16_t, Floats> halves;
   const hn::Rebind<std::uint16_t, Floats> bits;
@@ -83,8 +83,14 @@ void take_plane(const LightBand& band, std::uint16_t* to, std::ptrdiff_t stride)
   };
   for (int row = 0; row < band.rows(); ++row, to += 3 * stride) {
     const float* from = band.row(row) - LightBand::margin * LightBand::channels;
+    lit[row] = {.first = band.width_with_margins(), .end = -LightBand::margin};
     for (int x = 0; x < band.width_with_margins(); x += lanes) {
       const Channels light = load_channels(from + x * LightBand::channels);
+      const Vec sum = hn::Add(light.red, hn::Add(light.green, light.blue));
+      if (!hn::AllFalse(d, hn::Gt(sum, hn::Zero(d)))) {
+        lit[row].first = std::min(lit[row].first, x - LightBand::margin);
+        lit[row].end = x + lanes - LightBand::margin;
+      }
       store(light.red, to + x);
       store(light.green, to + stride + x);
       store(light.blue, to + 2 * stride + x);
@@ -128,19 +134,25 @@ struct UnpackedBlock {
   static constexpr int widest = block_width + 2 * 64;
   std::vector<float> values;  // [plane][channel][widest]
   std::vector<int> first;     // column of each plane's value 0
+  std::vector<int> lit;       // the planes that hold light here
   const float* at(int plane, int channel) const {
     return values.data() + (static_cast<std::size_t>(plane) * 3 + channel) * widest;
   }
 };
 
+/// Unpacks the planes that are lit where any view of the group looks, and lists them.
 void unpack(const SliceBand& slices, int row, int x, const std::vector<std::array<int, 2>>& reach,
             UnpackedBlock& block) {
   const Floats d;
   const hn::Rebind<hwy::float16_t, Floats> halves;
   const hn::Rebind<std::uint16_t, Floats> bits;
+  block.lit.clear();
   for (int plane = 0; plane < slices.planes(); ++plane) {
     const int first = std::max(x + reach[plane][0], slices.left() - slices.margin());
     const int end = std::min(x + block_width + reach[plane][1], slices.right() + slices.margin());
+    // What is dark costs nothing.
+    if (!slices.lit(plane, row).meets(first - slices.left(), end - slices.left())) continue;
+    block.lit.push_back(plane);
     block.first[plane] = x + reach[plane][0];
     for (int channel = 0; channel < 3; ++channel) {
       const std::uint16_t* from = slices.row(plane, row, channel) + (first - slices.left());
@@ -160,9 +172,9 @@ void composite_block(const UnpackedBlock& block, int x, std::span<const Shift> s
   for (int channel = 0; channel < 3; ++channel) {
     Vec sum[vectors];
     for (int i = 0; i < vectors; ++i) sum[i] = hn::Zero(d);
-    for (std::size_t plane = 0; plane < shifts.size(); ++plane) {
+    for (const int plane : block.lit) {
       const Shift& shift = shifts[plane];
-      const float* from = block.at(static_cast<int>(plane), channel) + (x + shift.whole - block.first[plane]);
+      const float* from = block.at(plane, channel) + (x + shift.whole - block.first[plane]);
       for (int tap = 0; tap < taps; ++tap) {
         const Vec weight = hn::Set(d, shift.weight[tap]);
         for (int i = 0; i < vectors; ++i) sum[i] = hn::MulAdd(weight, hn::LoadU(d, from + tap + i * lanes), sum[i]);
@@ -258,7 +270,12 @@ HWY_EXPORT(tone_map_band);
 HWY_EXPORT(composite_views);
 
 void SliceBand::take(int plane, LightBand& band) {
-  HWY_DYNAMIC_DISPATCH(take_plane)(band, row(plane, 0, 0) - margin(), stride_);
+  Extent* const lit = lit_.data() + static_cast<std::size_t>(plane) * rows_;
+  if (band.lit()) {
+    HWY_DYNAMIC_DISPATCH(take_plane)(band, row(plane, 0, 0) - margin(), stride_, lit);
+  } else {
+    std::fill(lit, lit + rows_, Extent{});
+  }
   band.darken();
 }
 

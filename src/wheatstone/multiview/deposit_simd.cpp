@@ -195,16 +195,23 @@ HWY_EXPORT(deposit_splats_between);
 HWY_EXPORT(deposit_splats_in_views);
 
 void deposit(std::span<const Splat> splats, int top, LightBand& band) {
+  if (splats.empty()) return;
+  band.note_light();
   HWY_DYNAMIC_DISPATCH(deposit_splats)(splats, top, band);
 }
 
 void deposit_between(std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
                      LightBand& farther) {
+  if (splats.empty()) return;
+  nearer.note_light();
+  farther.note_light();
   HWY_DYNAMIC_DISPATCH(deposit_splats_between)(splats, top, planes, nearer, farther);
 }
 
 void deposit_in_views(std::span<const Splat> splats, int top, std::span<const float> views,
                       std::span<LightBand> bands) {
+  if (splats.empty()) return;
+  for (LightBand& band : bands) band.note_light();
   HWY_DYNAMIC_DISPATCH(deposit_splats_in_views)(splats, top, views, bands);
 }
 

@@ -37,7 +37,13 @@ class LightBand {
     return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values + margin * channels;
   }
   const float* row(int row) const { return const_cast<LightBand*>(this)->row(row); }
-  void darken() { std::ranges::fill(lines_, Line{}); }
+  void darken() {
+    if (lit_) std::ranges::fill(lines_, Line{});
+    lit_ = false;
+  }
+  /// Whether anything was drawn since it was dark; who draws says so.
+  bool lit() const { return lit_; }
+  void note_light() { lit_ = true; }
 
  private:
   struct alignas(64) Line {
@@ -47,6 +53,7 @@ class LightBand {
   int lines_a_row_ = 0;
   std::size_t first_line_ = 0;
   std::vector<Line> lines_;
+  bool lit_ = false;
 };
 
 /// Adds splats to a band whose first row is `top` in the picture.

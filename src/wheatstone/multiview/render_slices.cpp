@@ -32,9 +32,10 @@ void take_rows(const Slice& slice, int top, LightBand& band) {
     const std::span<const LinearRgba> from = slice.pixels.row(y - slice.top);
     const int begin = std::max(slice.left, band.left());
     const int stop = std::min(slice.left + slice.pixels.width(), band.right());
-    if (begin < stop)
-      std::memcpy(band.row(y - top) + (begin - band.left()) * LightBand::channels, from.data() + (begin - slice.left),
-                  sizeof(LinearRgba) * (stop - begin));
+    if (begin >= stop) return;
+    band.note_light();
+    std::memcpy(band.row(y - top) + (begin - band.left()) * LightBand::channels, from.data() + (begin - slice.left),
+                sizeof(LinearRgba) * (stop - begin));
   }
 }
 

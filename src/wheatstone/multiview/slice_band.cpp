@@ -12,7 +12,8 @@ SliceBand::SliceBand(int left, int right, int rows, int planes)
       planes_(planes),
       stride_(LightBand(left, right, 0).width_with_margins()),
       // A vector may be read from the last pixel on.
-      values_(static_cast<std::size_t>(stride_) * 3 * rows * planes + 16) {}
+      values_(static_cast<std::size_t>(stride_) * 3 * rows * planes + 16),
+      lit_(static_cast<std::size_t>(planes) * rows) {}
 
 ToneMap::ToneMap(float given_exposure) : exposure(given_exposure) {
   for (int i = 0; i < table_size; ++i)

@@ -31,10 +31,18 @@ class SliceBand {
   /// Takes the light of a band of the same shape as one plane, and leaves that band dark.
   void take(int plane, LightBand& band);
 
+  /// Columns, counted from `left()`, outside of which a row of a plane is dark.
+  struct Extent {
+    int first = 0, end = 0;
+    bool meets(int from, int to) const { return first < to && from < end; }
+  };
+  const Extent& lit(int plane, int row) const { return lit_[static_cast<std::size_t>(plane) * rows_ + row]; }
+
  private:
   int left_ = 0, right_ = 0, rows_ = 0, planes_ = 0;
   std::ptrdiff_t stride_ = 0;
   std::vector<std::uint16_t> values_;
+  std::vector<Extent> lit_;
 };
 
 /// From linear light to a picture's bytes: L/(1+L) (Hassaine 2010, eq. 5.8.1) of the exposed light, as sRGB, by table.
