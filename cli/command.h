@@ -21,6 +21,7 @@ struct Session {
 void add_match_command(CLI::App& program, const Session& session);
 void add_paint_command(CLI::App& program, const Session& session);
 void add_render_command(CLI::App& program, const Session& session);
+void add_depth_command(CLI::App& program, const Session& session);
 void add_measure_command(CLI::App& program, const Session& session);
 void add_synth_command(CLI::App& program, const Session& session);
 void add_info_command(CLI::App& program, const Session& session);

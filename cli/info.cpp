@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,9 @@
 #include "wheatstone/error.h"
 #include "wheatstone/image/describe_image.h"
 #include "wheatstone/image/disparity_file.h"
+#include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/painting/painting_file.h"
+#include "wheatstone/particles/cloud_source.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -80,10 +83,44 @@ ordered_json facts_of_picture(const ImageDescription& picture) {
   return facts;
 }
 
-ordered_json facts_of(const fs::path& path, std::optional<float> scale) {
+ordered_json facts_of_particles(const fs::path& path, const std::string& type) {
+  const CloudSource source = open_cloud(path, {.type = type});
+  ordered_json facts = {{"kind", "particles"}, {"format", source.format}};
+  if (source.count) facts["particles"] = *source.count;
+  if (source.box_size > 0) facts["box_size"] = source.box_size;
+  if (source.redshift) facts["redshift"] = *source.redshift;
+  facts["bytes"] = source.bytes;
+  facts["fields"] = fmt::format("{}", fmt::join(source.fields, ", "));
+  return facts;
+}
+
+ordered_json facts_of_slices(const fs::path& path) {
+  const SliceStack stack = read_slices(path);
+  ordered_json facts = {{"kind", "slices"}, {"width", stack.width}, {"height", stack.height}};
+  facts["slices"] = stack.slices.size();
+  facts["span_in_eye_separations"] = stack.span;
+  facts["exposure"] = stack.exposure;
+  if (!stack.slices.empty()) {
+    facts["nearest_parallax_px"] = stack.slices.front().parallax_px;
+    facts["farthest_parallax_px"] = stack.slices.back().parallax_px;
+  }
+  return facts;
+}
+
+/// Whether a file's ending is one of particles; pictures and text share none of them.
+bool is_particles(const fs::path& path) {
+  constexpr const char* endings[] = {".hdf5", ".h5", ".ply", ".las", ".npy", ".csv", ".txt", ".dat"};
+  const std::string ending = path.extension().string();
+  return std::ranges::find(endings, ending) != std::end(endings) ||
+         (ending.size() > 1 && ending.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
+ordered_json facts_of(const fs::path& path, std::optional<float> scale, const std::string& type) {
   if (path.extension() == ".wst") return facts_of_painting(path);
+  if (is_particles(path)) return facts_of_particles(path, type);
   if (scale) return facts_of_disparity(path, scale);
   const ImageDescription picture = describe_image(path);
+  if (picture.format == "openexr" && picture.channels == 4) return facts_of_slices(path);
   // One channel of floats is no photograph.
   if (picture.is_float && picture.channels == 1) return facts_of_disparity(path, {});
   return facts_of_picture(picture);
@@ -118,17 +155,21 @@ void add_info_command(CLI::App& program, const Session& session) {
   struct Arguments {
     std::string file;
     std::optional<float> scale;
+    std::string type = "gas";
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("info", "Tell what is in a picture, a disparity file or a painting");
+  CLI::App* command =
+      program.add_subcommand("info", "Tell what is in a picture, a disparity file, a painting, particles or slices");
   command
-      ->add_option("FILE", arguments->file, "Picture, disparity (.pfm, .exr, or any with --scale) or painting (.wst)")
+      ->add_option("FILE", arguments->file,
+                   "Picture, disparity (.pfm, .exr, or any with --scale), painting (.wst), particles or slices")
       ->required();
   command->add_option("--scale", arguments->scale, "Read the picture as disparities: value / SCALE pixels")
       ->check(CLI::PositiveNumber);
+  command->add_option("--type", arguments->type, "Of a snapshot's particles: gas, halo, disk, bulge, stars or 0 to 5");
   command->footer("Example:\n  wheatstone info left.png");
   command->callback([arguments, &session] {
-    const ordered_json facts = facts_of(arguments->file, arguments->scale);
+    const ordered_json facts = facts_of(arguments->file, arguments->scale, arguments->type);
     if (session.json) {
       fmt::print("{}\n", facts.dump(2));
     } else {

@@ -100,7 +100,8 @@ RenderParticlesOptions options_of(const Arguments& arguments) {
   if (!arguments.depth_map.empty()) options.depth.regions = parse_depth_map(arguments.depth_map);
   if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);
   if (!arguments.hot.empty()) options.appearance.hot = parse_colour("--hot", arguments.hot);
-  options.slices = options.slices || !arguments.save_slices.empty() || !arguments.interleave.empty();
+  options.slices = !arguments.save_slices.empty() || !arguments.interleave.empty();
+  options.without_views = !arguments.interleave.empty();
   return options;
 }
 
@@ -116,7 +117,9 @@ RenderedParticles from_slices(const Arguments& arguments, const CLI::App& comman
   }
   if (!std::isnan(options.rendering.exposure)) result.stack.exposure = options.rendering.exposure;
   result.rig = evenly_spaced(result.stack.width, result.stack.height, options.views, options.span);
-  result.rendered = {.views = render_slices(result.stack, result.rig, options.rendering.filter, progress),
+  result.rendered = {.views = options.without_views
+                                  ? std::vector<Image<Rgb8>>{}
+                                  : render_slices(result.stack, result.rig, options.rendering.filter, progress),
                      .method = Method::layered,
                      .reason = "layered: the file has slices",
                      .planes = static_cast<int>(result.stack.slices.size()),
@@ -136,11 +139,15 @@ QuiltLayout parse_quilt(const std::string& text, int views) {
   return layout;
 }
 
-void write_interleaved(const Arguments& arguments, const RenderedParticles& result, const Progress& progress) {
-  LenticularScreen screen = find_lenticular(arguments.interleave);
-  if (screen.width != result.stack.width || screen.height != result.stack.height)
+void check_screen(const LenticularScreen& screen, int width, int height) {
+  if (screen.width != width || screen.height != height)
     throw Error(ErrorKind::wrong_usage, fmt::format("--interleave: the screen has {0}x{1} pixels, give --size {0}x{1}",
                                                     screen.width, screen.height));
+}
+
+void write_interleaved(const Arguments& arguments, const RenderedParticles& result, const Progress& progress) {
+  const LenticularScreen screen = find_lenticular(arguments.interleave);
+  check_screen(screen, result.stack.width, result.stack.height);
   const int views = static_cast<int>(result.rig.positions.size());
   const InterleavedView interleaved = render_interleaved(
       result.stack, result.rig.positions,
@@ -183,7 +190,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"dropped", result.dropped},
                                  {"mended", result.mended},
                                  {"density_estimated", result.density_estimated},
-                                 {"views", result.rendered.views.size()},
+                                 {"views", result.rig.positions.size()},
                                  {"method", name_of(result.rendered.method)},
                                  {"reason", result.rendered.reason},
                                  {"planes", result.rendered.planes},
@@ -196,7 +203,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
   if (result.mended > 0)
     fmt::print("taken as the least there is: {} densities or temperatures that are not above 0\n", result.mended);
   if (result.density_estimated) fmt::print("density: estimated from each particle's neighbours\n");
-  for (const std::string& warning : result.warnings) fmt::print("comfort: {}\n", warning);
+  for (const std::string& warning : result.warnings) fmt::print("note: {}\n", warning);
   if (session.verbose)
     fmt::print("method: {}\nplanes: {}\nexposure: {:.4g}\n", result.rendered.reason, result.rendered.planes,
                result.rendered.exposure);
@@ -207,13 +214,14 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   const RenderParticlesOptions options = options_of(arguments);
   // What cannot be written or makes no sense is said before the long work.
   if (!arguments.quilt.empty()) parse_quilt(arguments.quilt, options.views);
+  const bool slices = std::filesystem::path(arguments.file).extension() == ".exr";
   if (!arguments.interleave.empty()) {
-    find_lenticular(arguments.interleave);
+    const LenticularScreen screen = find_lenticular(arguments.interleave);
+    if (!slices) check_screen(screen, options.width, options.height);
     if (std::filesystem::path(arguments.output).extension().empty())
       throw Error(ErrorKind::wrong_usage,
                   fmt::format("--interleave: -o is '{}', expected a picture's name", arguments.output));
   }
-  const bool slices = std::filesystem::path(arguments.file).extension() == ".exr";
   const RenderedParticles result = slices ? from_slices(arguments, command, options, session.progress)
                                           : render_particles(arguments.file, options, session.progress);
   tell(result, write_output(arguments, result, session), session);

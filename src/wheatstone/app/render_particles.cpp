@@ -87,6 +87,9 @@ RenderedParticles stream(const std::filesystem::path& file, const RenderParticle
   for_each_chunk(file, options, "slices", progress, [&](const Cloud& chunk) { maker.add(chunk); });
   result.stack = maker.finish(staged.viewing);
   result.rig = staged.rig;
+  if (!survey.has_density && !survey.has_colour)
+    result.warnings.emplace_back(
+        "the file has no density, and streamed particles cannot estimate it: all are equally bright");
   result.particles = survey.count;
   result.dropped = counts.dropped;
   result.mended = counts.mended;
@@ -140,6 +143,7 @@ DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float neares
 RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                    const Progress& progress) {
   if (options.views < 1) throw Error(ErrorKind::wrong_usage, "--views: 0, expected at least 1");
+  make_look(options.appearance, {});  // what makes no sense is said before the long work
   const CloudSource source = open_cloud(file, options.choice);
   RenderedParticles result = options.stream ? stream(file, options, progress) : render_whole(file, options, progress);
   result.format = source.format;
@@ -148,7 +152,8 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
     result.rendered.reason = options.stream ? "layered: particles are streamed" : "layered: slices are asked for";
     result.rendered.planes = static_cast<int>(result.stack.slices.size());
     result.rendered.exposure = result.stack.exposure;
-    result.rendered.views = render_slices(result.stack, result.rig, options.rendering.filter, progress);
+    if (!options.without_views)
+      result.rendered.views = render_slices(result.stack, result.rig, options.rendering.filter, progress);
   }
   const ViewingGeometry viewing = viewing_of(options);
   float nearest = -options.depth.near_mm;
@@ -157,7 +162,7 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
     nearest = std::min(nearest, region.behind_mm);
     farthest = std::max(farthest, region.behind_mm);
   }
-  result.warnings = discomforts(viewing, -nearest, farthest);
+  for (std::string& warning : discomforts(viewing, -nearest, farthest)) result.warnings.push_back(std::move(warning));
   return result;
 }
 

@@ -41,6 +41,7 @@ struct RenderParticlesOptions {
   float span = 1;  ///< eye separations from the first view to the last
   RenderOptions rendering;
   bool slices = false;            ///< make slices, and the views from them
+  bool without_views = false;     ///< make slices only
   bool stream = false;            ///< never hold all particles: two passes over the file, chunk by chunk; by slices
   std::size_t chunk = 1'000'000;  ///< particles
 };
@@ -55,7 +56,7 @@ struct RenderedParticles {
   std::uint64_t dropped = 0;    ///< without a finite position
   std::uint64_t mended = 0;     ///< with a density or temperature that is not above 0, which got the least one
   bool density_estimated = false;
-  std::vector<std::string> warnings;  ///< comfort, in words for people
+  std::vector<std::string> warnings;  ///< of comfort and of what is missing, in words for people
 };
 
 /// A file of particles to the views of a rig. Throws Error: bad_input for the file, wrong_usage for the options.

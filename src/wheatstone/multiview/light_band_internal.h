@@ -17,14 +17,13 @@ class LightBand {
   static constexpr int channels = 4;
 
   LightBand() = default;
-  /// Bands that are written in turn lie at different places within a page: a processor takes a load for one that
-  /// depends on a store 4096 bytes away. `number` tells them apart.
+  /// Bands that are written in turn lie at different places within a page (see `friendly`). `number` tells them apart.
   LightBand(int left, int right, int rows, int number = 0)
       : left_(left),
         right_(right),
         rows_(rows),
-        lines_a_row_((right - left + 2 * margin + 15) / 16 * 4),
-        first_line_(number % 8 * 7),
+        lines_a_row_(friendly((right - left + 2 * margin + 3) / 4)),
+        first_line_(number % 8 * 8 + number % 2 * 4),
         lines_(static_cast<std::size_t>(lines_a_row_) * rows + first_line_) {}
 
   int left() const { return left_; }
@@ -46,6 +45,10 @@ class LightBand {
   void note_light() { lit_ = true; }
 
  private:
+  /// A processor takes a load for one that depends on a store 4096 bytes away. Rows that are an odd multiple of 512
+  /// bytes long lie farthest apart in that sense: eight rows of a wide splat do not touch each other.
+  static constexpr int friendly(int lines) { return (lines + 7) / 16 * 16 + 8; }
+
   struct alignas(64) Line {
     float values[16] = {};
   };

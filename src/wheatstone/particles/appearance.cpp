@@ -77,7 +77,7 @@ Look make_look(const Appearance& appearance, const Survey& survey) {
   const bool sizes_are_right = appearance.smallest_px > 0 && appearance.largest_px >= appearance.smallest_px &&
                                appearance.largest_px <= Look::widest_px;
   if (!sizes_are_right)
-    throw Error(ErrorKind::wrong_usage, fmt::format("--size: {}..{} pixels, expected a range within 0..{}",
+    throw Error(ErrorKind::wrong_usage, fmt::format("--splat: {} to {} pixels, expected a range within 0 to {}",
                                                     appearance.smallest_px, appearance.largest_px, Look::widest_px));
   if (!(appearance.opacity > 0) || !std::isfinite(appearance.opacity))
     throw Error(ErrorKind::wrong_usage, "--opacity: must be above 0");

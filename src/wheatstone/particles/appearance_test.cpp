@@ -78,8 +78,8 @@ TEST(Look, TakesColourMapsByName) {
 
 TEST(Look, RefusesWhatMakesNoSense) {
   const Survey survey = survey_of(line(10));
-  expect_error(ErrorKind::wrong_usage, "--size", [&] { make_look({.smallest_px = 0}, survey); });
-  expect_error(ErrorKind::wrong_usage, "--size", [&] { make_look({.smallest_px = 5, .largest_px = 4}, survey); });
+  expect_error(ErrorKind::wrong_usage, "--splat", [&] { make_look({.smallest_px = 0}, survey); });
+  expect_error(ErrorKind::wrong_usage, "--splat", [&] { make_look({.smallest_px = 5, .largest_px = 4}, survey); });
   expect_error(ErrorKind::wrong_usage, "--opacity", [&] { make_look({.opacity = 0}, survey); });
   expect_error(ErrorKind::wrong_usage, "--hottest", [&] { make_look({.coldest = 10, .hottest = 1}, survey); });
 }

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "numbers_argument.h"
+#include "wheatstone/depth/comfort.h"
+#include "wheatstone/depth/viewing_geometry.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::cli {
+namespace {
+
+struct Arguments {
+  std::string display = "376x301,mm";
+  std::string resolution = "1280x1024";
+  ViewingGeometry viewing{.viewing_distance_mm = 750};
+  float near_mm = 100, far_mm = 100;
+};
+
+/// Width in mm of "376x301,mm", "14.8x11.9,in" or "37.6x30.1,cm".
+float screen_width(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const std::string unit = comma == std::string::npos ? "mm" : text.substr(comma + 1);
+  const float scale = unit == "mm" ? 1.f : unit == "cm" ? 10.f : unit == "in" ? 25.4f : 0.f;
+  const std::vector<float> size = parse_numbers("--display", text.substr(0, comma), 'x', 2);
+  if (!(scale > 0 && size[0] > 0 && size[1] > 0))
+    throw Error(ErrorKind::wrong_usage, fmt::format("--display: is '{}', expected WIDTHxHEIGHT,mm", text));
+  return scale * size[0];
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  ViewingGeometry viewing = arguments.viewing;
+  viewing.screen_width_mm = screen_width(arguments.display);
+  const float columns = parse_numbers("--resolution", arguments.resolution, 'x', 2)[0];
+  if (!(columns >= 1 && columns <= 1e6f))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--resolution: is '{}', expected WIDTHxHEIGHT", arguments.resolution));
+  if (arguments.near_mm >= viewing.viewing_distance_mm)
+    throw Error(ErrorKind::wrong_usage, fmt::format("--near: {} mm is behind the viewer, who is {} mm away",
+                                                    arguments.near_mm, viewing.viewing_distance_mm));
+  viewing.width_px = static_cast<int>(columns);
+  const float pitch = viewing.pixel_pitch_mm();
+  const float before = screen_parallax_mm(viewing, -arguments.near_mm);
+  const float behind = screen_parallax_mm(viewing, arguments.far_mm);
+  const float planes = stereoscopic_resolution(viewing, arguments.near_mm, arguments.far_mm);
+  const float percent = 100 * (behind - before) / viewing.screen_width_mm;
+  const auto warnings = discomforts(viewing, arguments.near_mm, arguments.far_mm);
+  if (session.json) {
+    const nlohmann::ordered_json facts{{"pixel_pitch_mm", pitch},
+                                       {"nearest_parallax_px", before / pitch},
+                                       {"farthest_parallax_px", behind / pitch},
+                                       {"depth_planes", planes},
+                                       {"total_parallax_percent", percent},
+                                       {"pixel_in_front_mm", -perceived_depth_mm(viewing, -pitch)},
+                                       {"pixel_behind_mm", perceived_depth_mm(viewing, pitch)},
+                                       {"warnings", warnings}};
+    fmt::print("{}\n", facts.dump(2));
+    return;
+  }
+  fmt::print("screen: {:.0f} mm wide, {} pixels a view, {:.4f} mm a pixel; seen from {:.0f} mm, eyes {:.0f} mm apart\n",
+             viewing.screen_width_mm, viewing.width_px, pitch, viewing.viewing_distance_mm, viewing.eye_separation_mm);
+  fmt::print("{:.0f} mm before the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n", arguments.near_mm,
+             before, before / pitch, angular_disparity_deg(viewing, -arguments.near_mm));
+  fmt::print("{:.0f} mm behind the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n", arguments.far_mm,
+             behind, behind / pitch, angular_disparity_deg(viewing, arguments.far_mm));
+  fmt::print("depth planes: {:.1f}\n", planes);
+  fmt::print("one pixel at the screen: {:.1f} mm before it, {:.1f} mm behind it\n",
+             -perceived_depth_mm(viewing, -pitch), perceived_depth_mm(viewing, pitch));
+  fmt::print("total parallax: {:.1f} % of the width\n", percent);
+  for (const std::string& warning : warnings) fmt::print("comfort: {}\n", warning);
+}
+
+}  // namespace
+
+void add_depth_command(CLI::App& program, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("depth", "Tell how much depth a display shows, in how many planes");
+  command->add_option("--display", arguments->display, "Size of the screen: WIDTHxHEIGHT,mm (or cm, in)")
+      ->capture_default_str();
+  command->add_option("--resolution", arguments->resolution, "Pixels of one view across the screen: WIDTHxHEIGHT")
+      ->capture_default_str();
+  const auto number = [&](const char* name, float& value, const char* what, double least, double most) {
+    command->add_option(name, value, what)->check(CLI::Range(least, most))->capture_default_str();
+  };
+  number("--distance", arguments->viewing.viewing_distance_mm, "From the eyes to the screen, in mm", 1, 1e6);
+  number("--eye", arguments->viewing.eye_separation_mm, "Between the eyes, or a viewing window's width, in mm", 1,
+         1000);
+  number("--near", arguments->near_mm, "Nearest point, in mm before the screen", 0, 1e6);
+  number("--far", arguments->far_mm, "Farthest point, in mm behind the screen", 0, 1e9);
+  command->footer(
+      "Examples, of which the first has 60 planes and the second 36:\n"
+      "  wheatstone depth --display 376x301,mm --resolution 1280x1024 --distance 750\n"
+      "  wheatstone depth --display 376x212,mm --resolution 640x360 --distance 630");
+  command->callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "command.h"
+
+namespace wheatstone::cli {
+
+// What can be measured, each in its own file.
+void add_measure_stereo(CLI::App& measure, const Session& session);
+void add_measure_views(CLI::App& measure, const Session& session);
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "measure_kinds.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/read_image.h"
+#include "wheatstone/multiview/view_measures.h"
+
+namespace wheatstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<std::string> views, against;
+  ViewMeasuresOptions options;
+};
+
+/// The files named, and in place of a folder its pictures in the order of their names.
+std::vector<fs::path> files_of(const std::vector<std::string>& names) {
+  std::vector<fs::path> files;
+  for (const std::string& name : names) {
+    if (!fs::is_directory(name)) {
+      files.emplace_back(name);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const fs::directory_entry& entry : fs::directory_iterator(name))
+      if (entry.path().extension() == ".png") inside.push_back(entry.path());
+    if (inside.empty()) throw Error(ErrorKind::bad_input, fmt::format("{}: has no pictures (.png)", name));
+    std::ranges::sort(inside);
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  return files;
+}
+
+struct MeasuredView {
+  std::string view;
+  ViewMeasures measures;
+};
+
+nlohmann::ordered_json to_json(const std::vector<MeasuredView>& measured) {
+  nlohmann::ordered_json views = nlohmann::ordered_json::array();
+  for (const MeasuredView& view : measured) {
+    const ViewMeasures& m = view.measures;
+    nlohmann::ordered_json facts{{"view", view.view}};
+    // JSON has no infinity: equal pictures have no PSNR.
+    if (std::isfinite(m.psnr_db)) facts["psnr_db"] = m.psnr_db;
+    facts["equal"] = !std::isfinite(m.psnr_db);
+    facts["differing_pixels"] = m.differing_pixels;
+    facts["differing_share"] = m.differing_share;
+    facts["isolated_splats"] = m.isolated_splats;
+    facts["lost_splats"] = m.lost_splats;
+    facts["largest_position_error_px"] = m.largest_position_error_px;
+    views.push_back(facts);
+  }
+  return {{"views", views}};
+}
+
+void print_line(const std::string& name, const ViewMeasures& m) {
+  fmt::print("{:<28}{:>10}{:>11}{:>11.2f}{:>9}{:>7}{:>14.2f}\n", name,
+             std::isfinite(m.psnr_db) ? fmt::format("{:.1f}", m.psnr_db) : "equal", m.differing_pixels,
+             100 * m.differing_share, m.isolated_splats, m.lost_splats, m.largest_position_error_px);
+}
+
+void print_table(const std::vector<MeasuredView>& measured, int noticeable) {
+  fmt::print("{:<28}{:>10}{:>11}{:>11}{:>9}{:>7}{:>14}\n", "", "PSNR", fmt::format("off by >{}", noticeable),
+             "off at all", "isolated", "lost", "position off");
+  fmt::print("{:<28}{:>10}{:>11}{:>11}{:>9}{:>7}{:>14}\n", "view", "dB", "pixels", "%", "splats", "", "px, at most");
+  ViewMeasures worst{.psnr_db = INFINITY};
+  for (const auto& [name, m] : measured) {
+    print_line(name, m);
+    worst.psnr_db = std::min(worst.psnr_db, m.psnr_db);
+    worst.differing_pixels = std::max(worst.differing_pixels, m.differing_pixels);
+    worst.differing_share = std::max(worst.differing_share, m.differing_share);
+    worst.isolated_splats = std::max(worst.isolated_splats, m.isolated_splats);
+    worst.lost_splats = std::max(worst.lost_splats, m.lost_splats);
+    worst.largest_position_error_px = std::max(worst.largest_position_error_px, m.largest_position_error_px);
+  }
+  if (measured.size() > 1) print_line("worst", worst);
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  const std::vector<fs::path> views = files_of(arguments.views);
+  const std::vector<fs::path> against = files_of(arguments.against);
+  if (views.size() != against.size())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("measure views: {} views against {}, expected as many", views.size(), against.size()));
+  std::vector<MeasuredView> measured;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    report(session.progress, "views", static_cast<double>(i) / static_cast<double>(views.size()));
+    const Image<Rgb8> view = read_image(views[i]);
+    const Image<Rgb8> reference = read_image(against[i]);
+    if (!same_size(view, reference))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", views[i].string(), view.width(),
+                              view.height(), reference.width(), reference.height(), against[i].string()));
+    measured.push_back({views[i].filename().string(), measure_view(view, reference, arguments.options)});
+  }
+  if (session.json) {
+    fmt::print("{}\n", to_json(measured).dump(2));
+  } else {
+    print_table(measured, arguments.options.noticeable);
+  }
+}
+
+}  // namespace
+
+void add_measure_views(CLI::App& measure, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = *measure.add_subcommand("views", "How far views are from a reference for each");
+  command.fallthrough();
+  command.add_option("VIEWS", arguments->views, "Pictures, or folders of them")->required();
+  command.add_option("--against", arguments->against, "The references: as many, of the same sizes")->required();
+  command.add_option("--noticeable", arguments->options.noticeable, "Differences of 0..255 above this are counted")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str();
+  command.footer(
+      "Example:\n"
+      "  wheatstone render universe.hdf5 --views 9 --method exact --exposure 0.04 -o exact\n"
+      "  wheatstone render universe.hdf5 --views 9 --method layered --exposure 0.04 -o layered\n"
+      "  wheatstone measure views layered --against exact");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,485 @@
+// Every format that particles come in, written here byte by byte, and what damaged files get.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "temporary_folder.h"
+#include "throws_error.h"
+#include "wheatstone/image/whole_file.h"
+#include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/hdf5_internal.h"
+
+namespace wheatstone {
+namespace {
+
+using testing::ElementsAre;
+using testing::FloatNear;
+
+/// Bytes of numbers, in either byte order.
+class Bytes {
+ public:
+  explicit Bytes(bool big_endian = false) : big_(big_endian) {}
+  template <class Number>
+  Bytes& put(Number number) {
+    std::array<char, sizeof(Number)> raw;
+    std::memcpy(raw.data(), &number, sizeof(Number));
+    if (big_) std::ranges::reverse(raw);
+    text.append(raw.data(), raw.size());
+    return *this;
+  }
+  Bytes& put_text(const std::string& more) {
+    text += more;
+    return *this;
+  }
+  /// A Fortran record.
+  Bytes& put_record(const std::string& data) {
+    put(static_cast<std::uint32_t>(data.size()));
+    text += data;
+    return put(static_cast<std::uint32_t>(data.size()));
+  }
+  std::string text;
+
+ private:
+  bool big_;
+};
+
+void expect_three_points(const Cloud& cloud) {
+  EXPECT_THAT(cloud.x, ElementsAre(1, 4, 7));
+  EXPECT_THAT(cloud.y, ElementsAre(2, 5, 8));
+  EXPECT_THAT(cloud.z, ElementsAre(3, 6, 9.5f));
+}
+
+/// Every file that is cut short is refused, or gives no more than it has; none is read beyond.
+void expect_truncations_refused(const std::string& bytes, const std::string& name) {
+  const TemporaryFolder folder;
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    write_whole_file(folder / name, std::string_view(bytes).substr(0, length));
+    expect_error(ErrorKind::bad_input, name, [&] { read_cloud(folder / name); });
+  }
+}
+
+TEST(TextTable, ReadsNamedColumnsInAnyOrder) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.csv",
+                   "# made by hand\nid,z,y,x,rho,temp\n1,3,2,1,10,1e4\n2,6,5,4,20,2e4\n3,9.5,8,7,+30,3e4\n");
+  const Cloud cloud = read_cloud(folder / "a.csv");
+  expect_three_points(cloud);
+  EXPECT_THAT(cloud.density, ElementsAre(10, 20, 30));
+  EXPECT_THAT(cloud.temperature, ElementsAre(1e4f, 2e4f, 3e4f));
+}
+
+TEST(TextTable, WithoutNamesTakesTheFirstThreeColumns) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.txt", "1 2 3 99\r\n4\t5\t6\t99\r\n\n7 8 9.5 99");
+  expect_three_points(read_cloud(folder / "a.txt"));
+}
+
+TEST(TextTable, NamesWhatIsWrongAndWhere) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, const std::string& part, const CloudChoice& choice = {}) {
+    write_whole_file(folder / "a.csv", text);
+    expect_error(ErrorKind::bad_input, part, [&] { read_cloud(folder / "a.csv", choice); });
+  };
+  refused("x,y,z\n1,2,3\n4,five,6\n", "line 3, column 2: 'five'");
+  refused("x,y,z\n1,2\n", "line 2 has 2 columns");
+  refused("x,y,z\n", "no particles");
+  refused("# nothing\n", "no particles");
+  refused("a,b,c\n1,2,3\n", "no column 'x', but a, b, c");
+  refused("x,y,z,rho\n1,2,3,4\n", "no column 'mass', but x, y, z, rho", {.density = "mass"});
+}
+
+std::string npy(const std::string& header, const std::string& data) {
+  const std::string padded = header + std::string((64 - (10 + header.size() + 1) % 64) % 64, ' ') + "\n";
+  return Bytes()
+             .put_text("\x93NUMPY")
+             .put<std::uint8_t>(1)
+             .put<std::uint8_t>(0)
+             .put<std::uint16_t>(static_cast<std::uint16_t>(padded.size()))
+             .text +
+         padded + data;
+}
+
+TEST(Npy, ReadsFloatsOfEitherOrderAndLayout) {
+  const TemporaryFolder folder;
+  const std::array<float, 9> rows{1, 2, 3, 4, 5, 6, 7, 8, 9.5f};
+  for (const bool big : {false, true}) {
+    Bytes by_row(big);
+    Bytes by_column(big);
+    for (std::size_t i = 0; i < 9; ++i) {
+      by_row.put(static_cast<double>(rows[i]));
+      by_column.put(rows[i % 3 * 3 + i / 3]);
+    }
+    const std::string order = big ? ">" : "<";
+    write_whole_file(folder / "a.npy",
+                     npy("{'descr': '" + order + "f8', 'fortran_order': False, 'shape': (3, 3), }", by_row.text));
+    expect_three_points(read_cloud(folder / "a.npy"));
+    write_whole_file(folder / "a.npy",
+                     npy("{'descr': '" + order + "f4', 'fortran_order': True, 'shape': (3, 3), }", by_column.text));
+    expect_three_points(read_cloud(folder / "a.npy"));
+  }
+}
+
+TEST(Npy, RefusesWhatIsNoTableOfNumbers) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& header, const std::string& part) {
+    write_whole_file(folder / "a.npy", npy(header, std::string(100, '\0')));
+    expect_error(ErrorKind::bad_input, part, [&] { read_cloud(folder / "a.npy"); });
+  };
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (99, 3), }", "cut short");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (9223372036854775807, 3), }", "cut short");
+  refused("{'descr': '<f4', 'fortran_order': True, 'shape': (9223372036854775807, 3), }", "rows");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (12,), }", "three numbers");
+  refused("{'descr': '<c8', 'fortran_order': False, 'shape': (3, 3), }", "type");
+  refused("{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (3,), }", "type");
+}
+
+std::string ply_header(const std::string& format, int vertices) {
+  return "ply\nformat " + format + " 1.0\ncomment by hand\nelement vertex " + std::to_string(vertices) +
+         "\nproperty float x\nproperty double y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+         "property uchar blue\nend_header\n";
+}
+
+TEST(Ply, ReadsAsciiAndBinaryOfEitherOrder) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.ply", ply_header("ascii", 3) + "1 2 3 255 0 7\n4 5 6 255 0 7\n7 8 9.5 255 0 7\n");
+  const Cloud ascii = read_cloud(folder / "a.ply");
+  expect_three_points(ascii);
+  EXPECT_EQ(ascii.colour[2], (Rgb8{255, 0, 7}));
+  for (const bool big : {false, true}) {
+    Bytes data(big);
+    for (const float x : {1.f, 4.f, 7.f})
+      data.put(x)
+          .put(static_cast<double>(x + 1))
+          .put(x == 7 ? 9.5f : x + 2)
+          .put<std::uint8_t>(255)
+          .put<std::uint8_t>(0)
+          .put<std::uint8_t>(7);
+    const std::string bytes = ply_header(big ? "binary_big_endian" : "binary_little_endian", 3) + data.text;
+    write_whole_file(folder / "b.ply", bytes);
+    const Cloud cloud = read_cloud(folder / "b.ply");
+    expect_three_points(cloud);
+    EXPECT_EQ(cloud.colour, ascii.colour);
+    expect_truncations_refused(bytes, "cut.ply");
+  }
+}
+
+TEST(Ply, RefusesWhatItCannotRead) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, const std::string& part) {
+    write_whole_file(folder / "a.ply", text);
+    expect_error(ErrorKind::bad_input, part, [&] { read_cloud(folder / "a.ply"); });
+  };
+  refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n", "no property 'y', but x");
+  refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar int x\nend_header\n1\n", "lists");
+  refused("ply\nformat ascii 1.0\nelement face 1\nelement vertex 1\n", "before its vertices");
+  refused(ply_header("ascii", 3) + "1 2 3 255 0 7\n4 five", "damaged");
+  refused(ply_header("ascii", 2000000000), "cut short");
+  refused(ply_header("ascii", 0), "no vertices");
+  refused(ply_header("utf-9", 1) + "1 2 3 4 5 6", "utf-9");
+}
+
+/// LAS 1.2, point format 2: with colours.
+std::string las(std::uint32_t count, std::uint8_t format = 2) {
+  Bytes header;
+  header.put_text("LASF").put_text(std::string(20, '\0')).put<std::uint8_t>(1).put<std::uint8_t>(2);
+  header.put_text(std::string(94 - header.text.size(), '\0')).put<std::uint16_t>(227).put<std::uint32_t>(227);
+  header.put_text(std::string(104 - header.text.size(), '\0')).put(format).put<std::uint16_t>(26).put(count);
+  header.put_text(std::string(131 - header.text.size(), '\0'));
+  for (int axis = 0; axis < 3; ++axis) header.put(0.5);                         // scale
+  for (int axis = 0; axis < 3; ++axis) header.put(4'500'000.);                  // offset
+  for (int axis = 0; axis < 3; ++axis) header.put(4'500'009.).put(4'500'000.);  // largest, least
+  for (int i = 0; i < 3; ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      header.put<std::int32_t>(2 * (3 * i + axis + 1) + (i == 2 && axis == 2 ? 1 : 0));
+    header.put<std::uint16_t>(static_cast<std::uint16_t>(100 * (i + 1))).put_text(std::string(6, '\0'));
+    header.put<std::uint16_t>(65535).put<std::uint16_t>(0).put<std::uint16_t>(257);
+  }
+  return header.text;
+}
+
+TEST(Las, KeepsCentimetresFarFromTheOrigin) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.las", las(3));
+  const Cloud cloud = read_cloud(folder / "a.las");
+  expect_three_points(cloud);
+  EXPECT_EQ(cloud.origin[0], 4'500'000);
+  EXPECT_EQ(cloud.colour[1], (Rgb8{255, 0, 1}));
+  EXPECT_THAT(read_cloud(folder / "a.las", {.temperature = "intensity"}).temperature, ElementsAre(100, 200, 300));
+  expect_truncations_refused(las(3), "cut.las");
+}
+
+TEST(Las, RefusesCompressedAndDamagedFiles) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.las", las(3, 2 | 0x80));
+  expect_error(ErrorKind::bad_input, "LAZ", [&] { read_cloud(folder / "a.las"); });
+  write_whole_file(folder / "a.las", las(4'000'000'000));
+  expect_error(ErrorKind::bad_input, "4000000000", [&] { read_cloud(folder / "a.las"); });
+  write_whole_file(folder / "a.las", las(3, 31));
+  expect_error(ErrorKind::bad_input, "format", [&] { read_cloud(folder / "a.las"); });
+}
+
+struct BinaryOptions {
+  bool big = false;
+  bool labelled = false;
+  int files = 1;
+  std::uint32_t total_gas = 2;
+};
+
+/// Two particles of gas and one of dark matter.
+std::string gadget(const BinaryOptions& options) {
+  Bytes header(options.big);
+  const std::array<std::uint32_t, 6> count{2, 1, 0, 0, 0, 0};
+  for (const std::uint32_t n : count) header.put(n);
+  for (int type = 0; type < 6; ++type) header.put(type < 2 ? 0.5 : 0.);
+  header.put(1.).put(0.25).put<std::int32_t>(0).put<std::int32_t>(0);
+  for (std::size_t type = 0; type < 6; ++type)
+    header.put(type == 0 ? options.total_gas : count[type] * static_cast<std::uint32_t>(options.files));
+  header.put<std::int32_t>(0).put<std::int32_t>(options.files).put(1000.);
+  header.put_text(std::string(256 - header.text.size(), '\0'));
+  Bytes file(options.big);
+  const auto block = [&](const std::string& label, const std::string& data) {
+    if (options.labelled)
+      file.put_record(Bytes(options.big).put_text(label).put(static_cast<std::uint32_t>(data.size() + 8)).text);
+    file.put_record(data);
+  };
+  const auto floats = [&](std::initializer_list<float> values) {
+    Bytes data(options.big);
+    for (const float value : values) data.put(value);
+    return data.text;
+  };
+  block("HEAD", header.text);
+  block("POS ", floats({1, 2, 3, 4, 5, 6, 7, 8, 9.5f}));
+  block("VEL ", floats({0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  block("ID  ", floats({0, 0, 0}));
+  block("U   ", floats({100, 200}));
+  block("RHO ", floats({10, 20}));
+  block("HSML", floats({3, 4}));
+  return file.text;
+}
+
+TEST(GadgetBinary, ReadsBothFormatsInBothByteOrders) {
+  const TemporaryFolder folder;
+  for (const bool big : {false, true})
+    for (const bool labelled : {false, true}) {
+      write_whole_file(folder / "snap", gadget({.big = big, .labelled = labelled}));
+      const Cloud gas = read_cloud(folder / "snap");
+      EXPECT_THAT(gas.x, ElementsAre(1, 4));
+      EXPECT_THAT(gas.density, ElementsAre(10, 20));
+      EXPECT_THAT(gas.smoothing_length, ElementsAre(3, 4));
+      EXPECT_THAT(gas.temperature, ElementsAre(gas_temperature(100), gas_temperature(200)));
+      EXPECT_EQ(gas.box_size, 1000);
+      const Cloud dark = read_cloud(folder / "snap", {.type = "halo"});
+      EXPECT_THAT(dark.z, ElementsAre(9.5f));
+      EXPECT_TRUE(dark.density.empty());
+    }
+}
+
+TEST(GadgetBinary, CutShortAnywhereIsRefused) {
+  for (const bool labelled : {false, true}) {
+    const std::string bytes = gadget({.labelled = labelled});
+    const TemporaryFolder folder;
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+      write_whole_file(folder / "cut", bytes.substr(0, length));
+      // Without its last records a snapshot is a smaller one; what it has must be right.
+      try {
+        EXPECT_THAT(read_cloud(folder / "cut").x, ElementsAre(1, 4));
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::bad_input) << error.what();
+      }
+    }
+  }
+}
+
+TEST(GadgetBinary, JoinsPartsAndNamesTheMissingOne) {
+  const TemporaryFolder folder;
+  const std::string part = gadget({.files = 2, .total_gas = 4});
+  write_whole_file(folder / "snap_1.0", part);
+  expect_error(ErrorKind::bad_input, "snap_1.1: is missing", [&] { read_cloud(folder / "snap_1.0"); });
+  write_whole_file(folder / "snap_1.1", part);
+  EXPECT_THAT(read_cloud(folder / "snap_1.1").x, ElementsAre(1, 4, 1, 4));
+  expect_error(ErrorKind::bad_input, "type 'stars'; by type it has 0: 2, 1: 1",
+               [&] { read_cloud(folder / "snap_1.0", {.type = "stars"}); });
+  write_whole_file(folder / "more", gadget({.total_gas = 99}));
+  expect_error(ErrorKind::bad_input, "99 particles, but there are only 2", [&] { read_cloud(folder / "more"); });
+}
+
+/// Writes HDF5 files as simulation codes do.
+class Hdf5Writer {
+ public:
+  explicit Hdf5Writer(const std::filesystem::path& path)
+      : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {}
+  void group(const std::string& name) {
+    const Hdf5Handle made(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  }
+  void attribute(const std::string& group, const std::string& name, std::vector<double> values) {
+    const Hdf5Handle where(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    const hsize_t size = values.size();
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Hdf5Handle made(H5Acreate2(where, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    H5Awrite(made, H5T_NATIVE_DOUBLE, values.data());
+  }
+  void dataset(const std::string& name, std::vector<float> values, hsize_t width = 1) {
+    const std::array<hsize_t, 2> size{values.size() / width, width};
+    const Hdf5Handle space(H5Screate_simple(width > 1 ? 2 : 1, size.data(), nullptr), H5Sclose);
+    const Hdf5Handle made(H5Dcreate2(file_, name.c_str(), H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                          H5Dclose);
+    H5Dwrite(made, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  }
+
+ private:
+  Hdf5Handle file_;
+};
+
+void write_snapshot(const std::filesystem::path& path, std::size_t header_entries, int files = 1, double total = 3) {
+  Hdf5Writer file(path);
+  file.group("Header");
+  std::vector<double> totals(header_entries, 0.);
+  totals[0] = total;
+  file.attribute("Header", "NumPart_Total", totals);
+  file.attribute("Header", "MassTable", std::vector<double>(header_entries, 1.));
+  file.attribute("Header", "NumFilesPerSnapshot", {static_cast<double>(files)});
+  file.attribute("Header", "BoxSize", {50.});
+  file.attribute("Header", "Redshift", {2.});
+  file.group("PartType0");
+  file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+  file.dataset("PartType0/Density", {10, 20, 30});
+  file.dataset("PartType0/InternalEnergy", {100, 200, 300});
+}
+
+TEST(GadgetHdf5, ReadsHeadersOfAnyNumberOfTypes) {
+  const TemporaryFolder folder;
+  for (const std::size_t entries : {1, 2, 6}) {
+    write_snapshot(folder / "snap.hdf5", entries);
+    const CloudSource source = open_cloud(folder / "snap.hdf5");
+    EXPECT_EQ(source.count, 3u);
+    EXPECT_EQ(source.box_size, 50);
+    EXPECT_EQ(source.redshift, 2);
+    EXPECT_THAT(source.fields, ElementsAre("Coordinates", "Density", "InternalEnergy"));
+    const Cloud cloud = read_cloud(folder / "snap.hdf5");
+    expect_three_points(cloud);
+    EXPECT_THAT(cloud.density, ElementsAre(10, 20, 30));
+    EXPECT_THAT(cloud.temperature, ElementsAre(gas_temperature(100), gas_temperature(200), gas_temperature(300)));
+  }
+}
+
+TEST(GadgetHdf5, ReadsTheNamesOfItsRelatives) {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "swift.hdf5");
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+    file.dataset("PartType0/Densities", {10, 20, 30});
+    file.dataset("PartType0/Temperatures", {1e4f, 2e4f, 3e4f});
+    file.dataset("PartType0/SmoothingLengths", {1, 2, 3});
+  }
+  const Cloud swift = read_cloud(folder / "swift.hdf5");
+  EXPECT_THAT(swift.density, ElementsAre(10, 20, 30));
+  EXPECT_THAT(swift.temperature, ElementsAre(1e4f, 2e4f, 3e4f));
+  EXPECT_THAT(swift.smoothing_length, ElementsAre(1, 2, 3));
+  {
+    Hdf5Writer file(folder / "arepo.hdf5");
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3}, 3);
+    file.dataset("PartType0/Density", {2});
+    file.dataset("PartType0/Masses", {16});
+    file.dataset("PartType0/InternalEnergy", {100});
+    file.dataset("PartType0/ElectronAbundance", {1.158f});
+  }
+  const Cloud arepo = read_cloud(folder / "arepo.hdf5");
+  EXPECT_THAT(arepo.smoothing_length, ElementsAre(FloatNear(2, 1e-5f)));
+  EXPECT_NEAR(arepo.temperature[0], gas_temperature(100), 0.01 * gas_temperature(100));  // wholly ionised
+}
+
+TEST(GadgetHdf5, JoinsPartsAndNamesTheMissingOne) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.0.hdf5", 6, 2, 6);
+  expect_error(ErrorKind::bad_input, "snap.1.hdf5: is missing", [&] { read_cloud(folder / "snap.0.hdf5"); });
+  write_snapshot(folder / "snap.1.hdf5", 6, 2, 6);
+  EXPECT_THAT(read_cloud(folder / "snap.0.hdf5").x, ElementsAre(1, 4, 7, 1, 4, 7));
+  write_snapshot(folder / "snap.hdf5", 6, 2, 6);
+  expect_error(ErrorKind::bad_input, "no number", [&] { read_cloud(folder / "snap.hdf5"); });
+  write_snapshot(folder / "more.hdf5", 6, 1, 1e12);
+  expect_error(ErrorKind::bad_input, "1000000000000 particles, but there are only 3",
+               [&] { read_cloud(folder / "more.hdf5"); });
+}
+
+TEST(GadgetHdf5, NamesWhatIsMissingAndWhatThereIs) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.hdf5", 2);
+  expect_error(ErrorKind::bad_input, "'Metallicity' for these particles, but Coordinates, Density, InternalEnergy",
+               [&] { read_cloud(folder / "snap.hdf5", {.temperature = "Metallicity"}); });
+  expect_error(ErrorKind::bad_input, "type 'halo'; by type it has 0: 3",
+               [&] { read_cloud(folder / "snap.hdf5", {.type = "halo"}); });
+  expect_error(ErrorKind::wrong_usage, "--type: is 'jellyfish'",
+               [&] { read_cloud(folder / "snap.hdf5", {.type = "jellyfish"}); });
+}
+
+TEST(GadgetHdf5, CutShortIsRefused) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.hdf5", 2);
+  const std::string bytes = read_whole_file(folder / "snap.hdf5", 1 << 20);
+  for (std::size_t length = 0; length < bytes.size(); length += 97) {
+    write_whole_file(folder / "cut.hdf5", bytes.substr(0, length));
+    expect_error(ErrorKind::bad_input, "cut.hdf5", [&] { read_cloud(folder / "cut.hdf5"); });
+  }
+}
+
+TEST(Hdf5Dataset, ReadsAnyByName) {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "stars.h5");
+    file.group("cat");
+    file.dataset("cat/pos", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+    file.dataset("cat/mag", {7, 8, 9});
+    file.dataset("x", {1, 4, 7});
+  }
+  const Cloud cloud = read_cloud(folder / "stars.h5", {.position = "/cat/pos", .temperature = "/cat/mag"});
+  expect_three_points(cloud);
+  EXPECT_THAT(cloud.temperature, ElementsAre(7, 8, 9));
+  EXPECT_THAT(read_cloud(folder / "stars.h5", {.position = "/x,/x,/cat/mag"}).z, ElementsAre(7, 8, 9));
+  expect_error(ErrorKind::bad_input, "it has /cat/mag, /cat/pos, /x", [&] { read_cloud(folder / "stars.h5"); });
+  expect_error(ErrorKind::bad_input, "no dataset '/y'", [&] { read_cloud(folder / "stars.h5", {.position = "/y"}); });
+  expect_error(ErrorKind::bad_input, "no position", [&] { read_cloud(folder / "stars.h5", {.position = "/x"}); });
+}
+
+TEST(CloudSource, ChunksAreTheWholeInOrder) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.hdf5", 2);
+  const CloudSource source = open_cloud(folder / "snap.hdf5");
+  EXPECT_THAT(source.next(2).x, ElementsAre(1, 4));
+  EXPECT_THAT(source.next(2).x, ElementsAre(7));
+  EXPECT_EQ(source.next(2).size(), 0u);
+}
+
+TEST(CloudSource, RefusesWhatIsNoFileOfParticles) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "empty", "");
+  write_whole_file(folder / "noise", std::string("\x01\x02\x00\x03 noise", 10));
+  expect_error(ErrorKind::bad_input, "empty", [&] { read_cloud(folder / "empty"); });
+  expect_error(ErrorKind::bad_input, "no known format", [&] { read_cloud(folder / "noise"); });
+  expect_error(ErrorKind::bad_input, "missing", [&] { read_cloud(folder / "missing"); });
+  expect_error(ErrorKind::bad_input, "is a folder", [&] { read_cloud(folder / "."); });
+}
+
+TEST(CloudSource, ReadsARealSnapshot) {
+  const std::filesystem::path path =
+      std::filesystem::path(WHEATSTONE_SHARED_DATA) / "particles/gadget4_lcdm_gas_z0.hdf5";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no snapshot in shared/data";
+  const Cloud gas = read_cloud(path);
+  EXPECT_EQ(gas.size(), 32768u);
+  EXPECT_EQ(gas.box_size, 50000);
+  EXPECT_GT(std::ranges::min(gas.temperature), 1.f);
+  EXPECT_LT(std::ranges::max(gas.temperature), 1e9f);
+  const Cloud dark = read_cloud(path, {.type = "halo"});
+  EXPECT_EQ(dark.size(), 32768u);
+  EXPECT_TRUE(dark.density.empty());
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,187 @@
+// Particles in, views out, as a user types it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/image/read_image.h"
+
+namespace wheatstone {
+namespace {
+
+ProgramResult run_in(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+  const ProgramResult result = run_program(arguments, {.folder = folder / "."});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  return result;
+}
+
+/// A small universe, made once for all tests.
+const std::filesystem::path& universe() {
+  static const TemporaryFolder folder;
+  static const std::filesystem::path path = [] {
+    const ProgramResult result =
+        run_program({"synth", "universe", "--particles", "20000", "-o", folder / "universe.hdf5"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return folder / "universe.hdf5";
+  }();
+  return path;
+}
+
+int brightest(const std::filesystem::path& picture) {
+  int most = 0;
+  for (const Rgb8 pixel : read_image(picture).pixels()) most = std::max({most, +pixel.r, +pixel.g, +pixel.b});
+  return most;
+}
+
+TEST(SynthUniverseCommand, IsToldByInfoAndRepeatsItself) {
+  const TemporaryFolder folder;
+  run_in(folder, {"synth", "universe", "--particles", "3001", "--redshift", "2", "--seed", "7", "-o", "a.hdf5"});
+  run_in(folder, {"synth", "universe", "--particles", "3001", "--redshift", "2", "--seed", "7", "-o", "b.hdf5",
+                  "--threads", "1"});
+  const auto facts = nlohmann::json::parse(run_in(folder, {"info", "a.hdf5", "--json"}).output);
+  EXPECT_EQ(facts["format"], "GADGET HDF5");
+  EXPECT_EQ(facts["particles"], 3001);
+  EXPECT_EQ(facts["redshift"], 2);
+  const auto rendered = [&](const std::string& file) {
+    run_in(folder, {"render", file, "--views", "1", "--size", "64x36", "-o", file + ".views"});
+    return read_image(folder / (file + ".views/view_000.png"));
+  };
+  EXPECT_EQ(rendered("a.hdf5"), rendered("b.hdf5"));
+}
+
+TEST(RenderCommand, WritesTheViewsAndSaysWhy) {
+  const TemporaryFolder folder;
+  const auto facts = nlohmann::json::parse(
+      run_in(folder, {"render", universe(), "--views", "3", "--size", "160x90", "-o", "views", "--json"}).output);
+  EXPECT_EQ(files_in(folder / "views"), (std::set<std::string>{"view_000.png", "view_001.png", "view_002.png"}));
+  EXPECT_GT(brightest(folder / "views/view_001.png"), 100);
+  EXPECT_EQ(facts["particles"], 20000);
+  EXPECT_FALSE(facts["reason"].get<std::string>().empty());
+}
+
+TEST(RenderCommand, MethodsAgreeByMeasureViews) {
+  const TemporaryFolder folder;
+  for (const std::string method : {"exact", "incremental", "layered"})
+    run_in(folder, {"render", universe(), "--views", "3", "--size", "320x180", "--method", method, "--exposure", "0.1",
+                    "-o", method});
+  const auto measured = [&](const std::string& method) {
+    return nlohmann::json::parse(
+        run_in(folder, {"measure", "views", method, "--against", "exact", "--json"}).output)["views"];
+  };
+  for (const auto& view : measured("incremental")) EXPECT_TRUE(view["equal"]);
+  for (const auto& view : measured("layered")) EXPECT_GE(view["psnr_db"], 45);
+  expect_refused(folder, {"measure", "views", "exact/view_000.png", "--against", "exact"}, 2, "1 views against 3");
+}
+
+TEST(RenderCommand, StreamsWhatItRendersWhole) {
+  const TemporaryFolder folder;
+  for (const std::string out : {"stream", "whole"}) {
+    std::vector<std::string> line{"render", universe(), "--views", "2",       "--size", "320x180", "--exposure",
+                                  "0.1",    "--method", "layered", "--chunk", "3000",   "-o",      out};
+    if (out == "stream") line.emplace_back("--stream");
+    run_in(folder, line);
+  }
+  const auto views = nlohmann::json::parse(
+      run_in(folder, {"measure", "views", "stream", "--against", "whole", "--json"}).output)["views"];
+  for (const auto& view : views) EXPECT_TRUE(view["equal"].get<bool>() || view["psnr_db"].get<double>() > 55);
+}
+
+TEST(RenderCommand, SlicesServeAnyRigLater) {
+  const TemporaryFolder folder;
+  run_in(folder, {"render", universe(), "--views", "2", "--size", "160x90", "--save-slices", "s.exr", "-o", "a"});
+  EXPECT_EQ(nlohmann::json::parse(run_in(folder, {"info", "s.exr", "--json"}).output)["kind"], "slices");
+  run_in(folder, {"render", "s.exr", "--views", "2", "-o", "b"});
+  run_in(folder, {"render", "s.exr", "--views", "5", "--near", "10", "--far", "10", "-o", "c"});
+  EXPECT_EQ(read_image(folder / "a/view_000.png"), read_image(folder / "b/view_000.png"));
+  EXPECT_EQ(files_in(folder / "c").size(), 5u);
+}
+
+TEST(RenderCommand, WritesQuiltsAndInterleavedPictures) {
+  const TemporaryFolder folder;
+  run_in(folder, {"render", universe(), "--views", "6", "--size", "60x80", "--quilt", "3x2", "-o", "gas"});
+  EXPECT_EQ(read_image(folder / "gas_qs3x2a0.75.png").width(), 180);
+  put_bytes(folder / "screen.json", R"({"pitch":50,"slope":-5.4,"center":0.1,"DPI":300,"screenW":192,"screenH":108})");
+  run_in(folder,
+         {"render", universe(), "--views", "9", "--size", "192x108", "--interleave", "screen.json", "-o", "step.png"});
+  EXPECT_EQ(read_image(folder / "step.png").width(), 192);
+  EXPECT_GT(brightest(folder / "step.png"), 100);
+  expect_refused(folder, {"render", universe(), "--views", "5", "--quilt", "3x2", "-o", "q"}, 2, "--quilt");
+  expect_refused(folder, {"render", universe(), "--views", "9", "--interleave", "step-9", "-o", "s.png"}, 2, "--size");
+  expect_refused(folder, {"render", universe(), "--interleave", "moon", "-o", "s.png"}, 2, "moon");
+}
+
+TEST(RenderCommand, DrawsOneParticleAndAllInOnePlace) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "one.csv", "x,y,z\n1,2,3\n");
+  put_bytes(folder / "same.csv", "x,y,z\n1,2,3\n1,2,3\n1,2,3\n");
+  put_bytes(folder / "some.csv", "x,y,z,rho\n1,2,3,1\nnan,1,1,1\n2,2,2,-5\ninf,0,0,1\n0,0,0,0\n");
+  for (const std::string name : {"one", "same"}) {
+    run_in(folder, {"render", name + ".csv", "--size", "64x48", "-o", name});
+    EXPECT_GT(brightest(folder / (name + "/view_000.png")), 50) << name;
+  }
+  const ProgramResult some = run_in(folder, {"render", "some.csv", "--size", "64x48", "-o", "some"});
+  EXPECT_THAT(some.output, testing::HasSubstr("2 particles without a finite position"));
+  EXPECT_THAT(some.output, testing::HasSubstr("2 densities"));
+}
+
+TEST(RenderCommand, RefusesBadFilesAndLeavesNothing) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "none.csv", "x,y,z\n");
+  put_bytes(folder / "nan.csv", "x,y,z\nnan,nan,nan\n");
+  put_bytes(folder / "letter.csv", "Dear Sir, this is a letter\nwith no numbers, at all\n");
+  put_bytes(folder / "cut.hdf5", bytes_of(universe()).substr(0, 5000));
+  put_bytes(folder / "cut.exr", "v/1\x01 not the rest");
+  write_disparity(folder / "plain.exr", Image<float>(8, 8, 1.f));
+  for (const std::string name :
+       {"none.csv", "nan.csv", "letter.csv", "cut.hdf5", "cut.exr", "plain.exr", "missing.hdf5"})
+    expect_refused(folder, {"render", name, "-o", "out"}, 3, name);
+  put_bytes(folder / "good.csv", "x,y,z\n1,2,3\n4,5,6\n");
+  expect_refused(folder, {"render", "good.csv", "--cut", "sphere:100,0,0,1", "-o", "out"}, 3,
+                 "the cut holds no particle");
+  expect_refused(folder, {"render", "good.csv", "--density", "mass", "-o", "out"}, 3, "but x, y, z");
+  expect_refused(folder,
+                 {"render", "good.csv", "--quiet", "--planes", "100000", "--size", "4000x4000", "--save-slices",
+                  "s.exr", "-o", "out"},
+                 3, "GB");
+}
+
+TEST(RenderCommand, RefusesWhatMakesNoSense) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "good.csv", "x,y,z\n1,2,3\n4,5,6\n");
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
+    std::vector<std::string> line{"render", "good.csv", "-o", "out"};
+    line.insert(line.end(), more.begin(), more.end());
+    expect_refused(folder, line, 2, part);
+  };
+  refused({"--views", "0"}, "--views");
+  refused({"--size", "0x5"}, "--size");
+  refused({"--size", "wide"}, "--size");
+  refused({"--splat", "5,2"}, "--s");
+  refused({"--cut", "moon"}, "--cut");
+  refused({"--colours", "mauve"}, "inferno");
+  refused({"--cold", "blue"}, "--cold");
+  refused({"--depth-map", "0:5,1:-5"}, "--depth-map");
+  refused({"--method", "magic"}, "--method");
+}
+
+TEST(DepthCommand, ReproducesTheThesis) {
+  const auto planes = [](const std::vector<std::string>& more) {
+    std::vector<std::string> line{"depth", "--json"};
+    line.insert(line.end(), more.begin(), more.end());
+    return nlohmann::json::parse(run_program(line).output)["depth_planes"].get<double>();
+  };
+  // Hassaine 2010, sec. 5.6: about 60 planes for ±10 cm on 2×1280×1024, about 36 for nine views of 640×360.
+  EXPECT_NEAR(planes({"--display", "376x301,mm", "--resolution", "1280x1024", "--distance", "750"}), 60, 0.5);
+  EXPECT_NEAR(planes({"--display", "376x212,mm", "--resolution", "640x360", "--distance", "630"}), 36, 0.5);
+  const TemporaryFolder folder;
+  expect_refused(folder, {"depth", "--near", "800"}, 2, "behind the viewer");
+  expect_refused(folder, {"depth", "--display", "376"}, 2, "--display");
+  const ProgramResult deep = run_program({"depth", "--near", "300", "--far", "5000"});
+  EXPECT_THAT(deep.output, testing::HasSubstr("comfort:"));
+}
+
+}  // namespace
+}  // namespace wheatstone
