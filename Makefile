@@ -1,5 +1,5 @@
 # The short ways in. Each sees to its packages and its build first; what is already there is left alone.
-.PHONY: build test demo bench format lint configured
+.PHONY: build test demo bench format lint fuzz configured
 
 build: configured
 	@cmake --build --preset release
@@ -21,6 +21,10 @@ format:
 lint: build
 	@scripts/install-deps lint
 	@scripts/lint
+
+fuzz:
+	@scripts/install-deps fuzz
+	@scripts/fuzz
 
 configured:
 	@scripts/install-deps

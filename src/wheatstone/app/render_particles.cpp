@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <utility>
 
 #include "wheatstone/depth/comfort.h"
@@ -62,12 +63,16 @@ template <class Visit>
 SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                const std::string& step, const Progress& progress, Visit visit) {
   const CloudSource source = open_cloud(file, options.choice);
+  // The next chunk is read while this one is worked on.
+  const auto read_next = [&] { return std::async(std::launch::async, [&] { return source.next(options.chunk); }); };
+  std::future<Cloud> pending = read_next();
   SelectionCounts counts;
   std::uint64_t first = 0;
   while (true) {
-    Cloud chunk = source.next(options.chunk);
+    Cloud chunk = pending.get();
     const std::size_t read = chunk.size();
     if (read == 0) return counts;
+    pending = read_next();
     add(counts, select(chunk, options.selection, first));
     first += read;
     if (chunk.size() > 0) visit(chunk);
