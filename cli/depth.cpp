@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "command.h"
 #include "numbers_argument.h"
 #include "wheatstone/depth/comfort.h"
+#include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/viewing_geometry.h"
 #include "wheatstone/error.h"
 
@@ -31,22 +33,35 @@ float screen_width(const std::string& text) {
   return scale * size[0];
 }
 
-void run(const Arguments& arguments, const Session& session) {
+/// The screen by its sizes, or by its name.
+ViewingGeometry viewing_from(const Arguments& arguments, const CLI::App& command) {
   ViewingGeometry viewing = arguments.viewing;
+  if (!arguments.display.empty() && std::isalpha(static_cast<unsigned char>(arguments.display.front()))) {
+    const ViewingGeometry preset = viewing_of(find_display(arguments.display));
+    viewing.screen_width_mm = preset.screen_width_mm;
+    viewing.width_px = preset.width_px;
+    if (command.count("--distance") == 0) viewing.viewing_distance_mm = preset.viewing_distance_mm;
+    return viewing;
+  }
   viewing.screen_width_mm = screen_width(arguments.display);
   const float columns = parse_numbers("--resolution", arguments.resolution, 'x', 2)[0];
   if (!(columns >= 1 && columns <= 1e6f))
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("--resolution: is '{}', expected WIDTHxHEIGHT", arguments.resolution));
+  viewing.width_px = static_cast<int>(columns);
+  return viewing;
+}
+
+void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
+  const ViewingGeometry viewing = viewing_from(arguments, command);
   if (arguments.near_mm >= viewing.viewing_distance_mm)
     throw Error(ErrorKind::wrong_usage, fmt::format("--near: {} mm is behind the viewer, who is {} mm away",
                                                     arguments.near_mm, viewing.viewing_distance_mm));
-  viewing.width_px = static_cast<int>(columns);
   const float pitch = viewing.pixel_pitch_mm();
   const float before = screen_parallax_mm(viewing, -arguments.near_mm);
   const float behind = screen_parallax_mm(viewing, arguments.far_mm);
   const float planes = stereoscopic_resolution(viewing, arguments.near_mm, arguments.far_mm);
-  const float percent = 100 * (behind - before) / viewing.screen_width_mm;
+  const float percent = total_parallax_percent(viewing, arguments.near_mm, arguments.far_mm);
   const auto warnings = discomforts(viewing, arguments.near_mm, arguments.far_mm);
   if (session.json) {
     const nlohmann::ordered_json facts{{"pixel_pitch_mm", pitch},
@@ -78,7 +93,9 @@ void run(const Arguments& arguments, const Session& session) {
 void add_depth_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand("depth", "Tell how much depth a display shows, in how many planes");
-  command->add_option("--display", arguments->display, "Size of the screen: WIDTHxHEIGHT,mm (or cm, in)")
+  command
+      ->add_option("--display", arguments->display,
+                   "Size of the screen: WIDTHxHEIGHT,mm (or cm, in); or a display's name")
       ->capture_default_str();
   command->add_option("--resolution", arguments->resolution, "Pixels of one view across the screen: WIDTHxHEIGHT")
       ->capture_default_str();
@@ -94,7 +111,7 @@ void add_depth_command(CLI::App& program, const Session& session) {
       "Examples, of which the first has 60 planes and the second 36:\n"
       "  wheatstone depth --display 376x301,mm --resolution 1280x1024 --distance 750\n"
       "  wheatstone depth --display 376x212,mm --resolution 640x360 --distance 630");
-  command->callback([arguments, &session] { run(*arguments, session); });
+  command->callback([arguments, command, &session] { run(*arguments, *command, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,11 +20,19 @@ namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 struct Arguments {
   std::vector<std::string> views, against;
   ViewMeasuresOptions options;
 };
+
+bool is_picture(const fs::path& path) {
+  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(endings, ending) != std::end(endings);
+}
 
 /// The files named, and in place of a folder its pictures in the order of their names.
 std::vector<fs::path> files_of(const std::vector<std::string>& names) {
@@ -34,8 +44,8 @@ std::vector<fs::path> files_of(const std::vector<std::string>& names) {
     }
     std::vector<fs::path> inside;
     for (const fs::directory_entry& entry : fs::directory_iterator(name))
-      if (entry.path().extension() == ".png") inside.push_back(entry.path());
-    if (inside.empty()) throw Error(ErrorKind::bad_input, fmt::format("{}: has no pictures (.png)", name));
+      if (entry.is_regular_file() && is_picture(entry.path())) inside.push_back(entry.path());
+    if (inside.empty()) throw Error(ErrorKind::bad_input, fmt::format("{}: has no pictures, expected views", name));
     std::ranges::sort(inside);
     files.insert(files.end(), inside.begin(), inside.end());
   }
@@ -43,41 +53,14 @@ std::vector<fs::path> files_of(const std::vector<std::string>& names) {
 }
 
 struct MeasuredView {
-  std::string view;
+  std::string name;
   ViewMeasures measures;
 };
 
-nlohmann::ordered_json to_json(const std::vector<MeasuredView>& measured) {
-  nlohmann::ordered_json views = nlohmann::ordered_json::array();
-  for (const MeasuredView& view : measured) {
-    const ViewMeasures& m = view.measures;
-    nlohmann::ordered_json facts{{"view", view.view}};
-    // JSON has no infinity: equal pictures have no PSNR.
-    if (std::isfinite(m.psnr_db)) facts["psnr_db"] = m.psnr_db;
-    facts["equal"] = !std::isfinite(m.psnr_db);
-    facts["differing_pixels"] = m.differing_pixels;
-    facts["differing_share"] = m.differing_share;
-    facts["isolated_splats"] = m.isolated_splats;
-    facts["lost_splats"] = m.lost_splats;
-    facts["largest_position_error_px"] = m.largest_position_error_px;
-    views.push_back(facts);
-  }
-  return {{"views", views}};
-}
-
-void print_line(const std::string& name, const ViewMeasures& m) {
-  fmt::print("{:<28}{:>10}{:>11}{:>11.2f}{:>9}{:>7}{:>14.2f}\n", name,
-             std::isfinite(m.psnr_db) ? fmt::format("{:.1f}", m.psnr_db) : "equal", m.differing_pixels,
-             100 * m.differing_share, m.isolated_splats, m.lost_splats, m.largest_position_error_px);
-}
-
-void print_table(const std::vector<MeasuredView>& measured, int noticeable) {
-  fmt::print("{:<28}{:>10}{:>11}{:>11}{:>9}{:>7}{:>14}\n", "", "PSNR", fmt::format("off by >{}", noticeable),
-             "off at all", "isolated", "lost", "position off");
-  fmt::print("{:<28}{:>10}{:>11}{:>11}{:>9}{:>7}{:>14}\n", "view", "dB", "pixels", "%", "splats", "", "px, at most");
-  ViewMeasures worst{.psnr_db = INFINITY};
+/// Each measure where it is the worst; of splats, how many there are at most.
+ViewMeasures worst_of(const std::vector<MeasuredView>& measured) {
+  ViewMeasures worst{.psnr_db = std::numeric_limits<double>::infinity()};
   for (const auto& [name, m] : measured) {
-    print_line(name, m);
     worst.psnr_db = std::min(worst.psnr_db, m.psnr_db);
     worst.differing_pixels = std::max(worst.differing_pixels, m.differing_pixels);
     worst.differing_share = std::max(worst.differing_share, m.differing_share);
@@ -85,7 +68,47 @@ void print_table(const std::vector<MeasuredView>& measured, int noticeable) {
     worst.lost_splats = std::max(worst.lost_splats, m.lost_splats);
     worst.largest_position_error_px = std::max(worst.largest_position_error_px, m.largest_position_error_px);
   }
-  if (measured.size() > 1) print_line("worst", worst);
+  return worst;
+}
+
+Json to_json(const ViewMeasures& m) {
+  Json facts;
+  // JSON has no infinity: equal pictures have no PSNR.
+  if (std::isfinite(m.psnr_db)) facts["psnr_db"] = m.psnr_db;
+  facts["equal"] = !std::isfinite(m.psnr_db);
+  facts["differing_pixels"] = m.differing_pixels;
+  facts["differing_share"] = m.differing_share;
+  facts["isolated_splats"] = m.isolated_splats;
+  facts["lost_splats"] = m.lost_splats;
+  facts["largest_position_error_px"] = m.largest_position_error_px;
+  return facts;
+}
+
+Json to_json(const std::vector<MeasuredView>& measured, int noticeable) {
+  Json views = Json::array();
+  for (const auto& [name, measures] : measured) {
+    Json facts{{"view", name}};
+    facts.update(to_json(measures));
+    views.push_back(facts);
+  }
+  return {{"noticeable", noticeable}, {"views", views}, {"worst", to_json(worst_of(measured))}};
+}
+
+void print_line(const std::string& name, std::size_t width, const ViewMeasures& m) {
+  fmt::print("{:<{}}{:>10}{:>11}{:>11.2f}{:>9}{:>7}{:>14.2f}\n", name, width,
+             std::isfinite(m.psnr_db) ? fmt::format("{:.1f}", m.psnr_db) : "equal", m.differing_pixels,
+             100 * m.differing_share, m.isolated_splats, m.lost_splats, m.largest_position_error_px);
+}
+
+void print_table(const std::vector<MeasuredView>& measured, int noticeable) {
+  std::size_t width = 16;
+  for (const MeasuredView& view : measured) width = std::max(width, view.name.size());
+  constexpr auto heads = "{:<{}}{:>10}{:>11}{:>11}{:>9}{:>7}{:>14}\n";
+  fmt::print(heads, "", width, "PSNR", fmt::format("off by >{}", noticeable), "off at all", "isolated", "lost",
+             "position off");
+  fmt::print(heads, "view", width, "dB", "pixels", "%", "splats", "", "px, at most");
+  for (const auto& [name, measures] : measured) print_line(name, width, measures);
+  if (measured.size() > 1) print_line("worst", width, worst_of(measured));
 }
 
 void run(const Arguments& arguments, const Session& session) {
@@ -106,7 +129,7 @@ void run(const Arguments& arguments, const Session& session) {
     measured.push_back({views[i].filename().string(), measure_view(view, reference, arguments.options)});
   }
   if (session.json) {
-    fmt::print("{}\n", to_json(measured).dump(2));
+    fmt::print("{}\n", to_json(measured, arguments.options.noticeable).dump(2));
   } else {
     print_table(measured, arguments.options.noticeable);
   }
@@ -118,7 +141,8 @@ void add_measure_views(CLI::App& measure, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *measure.add_subcommand("views", "How far views are from a reference for each");
   command.fallthrough();
-  command.add_option("VIEWS", arguments->views, "Pictures, or folders of them")->required();
+  command.add_option("VIEWS", arguments->views, "Pictures, or folders of them: then all, in the order of their names")
+      ->required();
   command.add_option("--against", arguments->against, "The references: as many, of the same sizes")->required();
   command.add_option("--noticeable", arguments->options.noticeable, "Differences of 0..255 above this are counted")
       ->check(CLI::Range(0, 255))

@@ -11,7 +11,7 @@
 #include "numbers_argument.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/render_particles.h"
-#include "wheatstone/depth/comfort.h"
+#include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
@@ -28,9 +28,10 @@ struct Arguments {
   RenderParticlesOptions options;
   std::string size = "640x360";
   std::string splat = "2,6";
-  std::string centre, cut, depth_map;
+  std::string display, centre, cut, depth_map;
   std::string cold, hot;
   std::string quilt, interleave, save_slices;
+  double aspect = 0;  // of the display; 0: a view's own
 };
 
 const std::map<std::string, Method> methods{{"auto", Method::automatic},
@@ -78,6 +79,31 @@ std::vector<PerceivedDepth::Region> parse_depth_map(const std::string& text) {
                   fmt::format("--depth-map: is '{}', expected rising SHARE:MM pairs, shares from 0 to 1", text));
   }
   return regions;
+}
+
+/// What a display by name asks for, where the user does not say otherwise.
+Arguments for_display(const Arguments& given, const CLI::App& command) {
+  Arguments arguments = given;
+  if (given.display.empty()) return arguments;
+  const DisplayPreset& display = find_display(given.display);
+  const auto unless_given = [&](const char* option, auto& value, const auto& preset) {
+    if (command.count(option) == 0) value = preset;
+  };
+  RenderParticlesOptions& options = arguments.options;
+  ViewingGeometry& viewing = options.depth.viewing;
+  unless_given("--views", options.views, display.views);
+  unless_given("--span", options.span, span_of(display, viewing.eye_separation_mm));
+  unless_given("--size", arguments.size, fmt::format("{}x{}", display.view_width_px, display.view_height_px));
+  unless_given("--distance", viewing.viewing_distance_mm, display.viewing_distance_mm);
+  unless_given("--screen-width", viewing.screen_width_mm, display.screen_width_mm);
+  // Depth that a small screen can show: as much of the width as a desk's screen has with 10 cm either way.
+  const float depth_mm = std::min(100.f, 0.27f * display.screen_width_mm);
+  unless_given("--near", options.depth.near_mm, depth_mm);
+  unless_given("--far", options.depth.far_mm, depth_mm);
+  arguments.aspect = display.aspect;
+  if (display.quilt_columns > 0 && given.interleave.empty())
+    unless_given("--quilt", arguments.quilt, fmt::format("{}x{}", display.quilt_columns, display.quilt_rows));
+  return arguments;
 }
 
 RenderParticlesOptions options_of(const Arguments& arguments) {
@@ -166,7 +192,8 @@ std::string write_output(const Arguments& arguments, const RenderedParticles& re
   if (!arguments.quilt.empty()) {
     const QuiltLayout layout = parse_quilt(arguments.quilt, static_cast<int>(views.size()));
     const std::filesystem::path output = arguments.output;
-    const double aspect = static_cast<double>(views.front().width()) / views.front().height();
+    const double aspect =
+        arguments.aspect > 0 ? arguments.aspect : static_cast<double>(views.front().width()) / views.front().height();
     // A name with an ending is taken as it is.
     const std::filesystem::path file =
         output.has_extension() ? output : output.parent_path() / quilt_name(output.filename().string(), layout, aspect);
@@ -210,7 +237,8 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
   fmt::print("written to {}\n", written);
 }
 
-void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
+void run(const Arguments& given, const CLI::App& command, const Session& session) {
+  const Arguments arguments = for_display(given, command);
   const RenderParticlesOptions options = options_of(arguments);
   // What cannot be written or makes no sense is said before the long work.
   if (!arguments.quilt.empty()) parse_quilt(arguments.quilt, options.views);
@@ -291,6 +319,12 @@ void add_look_options(CLI::App& command, Arguments& arguments) {
 void add_view_options(CLI::App& command, Arguments& arguments) {
   RenderParticlesOptions& options = arguments.options;
   const std::string group = "Views and depth";
+  std::string names;
+  for (const DisplayPreset& display : display_presets()) names += fmt::format(" {}", display.name);
+  command
+      .add_option("--display", arguments.display,
+                  "Views, span, size, distance, depth and quilt as a display wants them:" + names)
+      ->group(group);
   command.add_option("--views", options.views, "How many, from left to right")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str()
@@ -313,7 +347,11 @@ void add_view_options(CLI::App& command, Arguments& arguments) {
          1000);
   number("--distance", options.depth.viewing.viewing_distance_mm, "From the eyes to the screen, in mm", 1, 1e6);
   number("--screen-width", options.depth.viewing.screen_width_mm, "In mm", 1, 1e6);
-  command.add_option("--depth-map", arguments.depth_map, "Many regions: SHARE:MM,... from 0, nearest, to 1")
+  CLI::Option* map =
+      command.add_option("--depth-map", arguments.depth_map, "Many regions: SHARE:MM,... from 0, nearest, to 1")
+          ->group(group);
+  command.add_flag("--smooth-depth", options.depth.smooth, "A smooth curve through the regions' ends")
+      ->needs(map)
       ->group(group);
 }
 
@@ -358,7 +396,7 @@ void add_render_command(CLI::App& program, const Session& session) {
       "Examples:\n"
       "  wheatstone synth universe -o universe.hdf5\n"
       "  wheatstone render universe.hdf5 --views 9 -o views\n"
-      "  wheatstone render universe.hdf5 --views 48 --span 4 --size 420x560 --quilt 8x6 -o universe\n"
+      "  wheatstone render universe.hdf5 --display looking-glass-portrait -o universe\n"
       "  wheatstone render universe.hdf5 --save-slices slices.exr && wheatstone render slices.exr --views 45");
   command->callback([arguments, command, &session] { run(*arguments, *command, session); });
 }

@@ -32,7 +32,8 @@ const std::filesystem::path& universe() {
 
 int brightest(const std::filesystem::path& picture) {
   int most = 0;
-  for (const Rgb8 pixel : read_image(picture).pixels()) most = std::max({most, +pixel.r, +pixel.g, +pixel.b});
+  const Image<Rgb8> image = read_image(picture);
+  for (const Rgb8 pixel : image.pixels()) most = std::max({most, +pixel.r, +pixel.g, +pixel.b});
   return most;
 }
 
@@ -111,6 +112,19 @@ TEST(RenderCommand, WritesQuiltsAndInterleavedPictures) {
   expect_refused(folder, {"render", universe(), "--views", "5", "--quilt", "3x2", "-o", "q"}, 2, "--quilt");
   expect_refused(folder, {"render", universe(), "--views", "9", "--interleave", "step-9", "-o", "s.png"}, 2, "--size");
   expect_refused(folder, {"render", universe(), "--interleave", "moon", "-o", "s.png"}, 2, "moon");
+}
+
+TEST(RenderCommand, AsADisplayWantsIt) {
+  const TemporaryFolder folder;
+  run_in(folder, {"render", universe(), "--display", "looking-glass-portrait", "-o", "universe"});
+  const Image<Rgb8> quilt = read_image(folder / "universe_qs8x6a0.75.png");
+  EXPECT_EQ(quilt.width(), 3360);
+  EXPECT_EQ(quilt.height(), 3360);
+  // What is typed beside it counts for more.
+  run_in(folder, {"render", universe(), "--display", "nine-view", "--views", "3", "--depth-map", "0:-50,0.3:0,1:60",
+                  "--smooth-depth", "-o", "three"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "three" / "view_002.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "three" / "view_003.png"));
 }
 
 TEST(RenderCommand, DrawsOneParticleAndAllInOnePlace) {

@@ -132,17 +132,12 @@ RenderedParticles render_whole(const std::filesystem::path& file, const RenderPa
 DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float nearest, float farthest) {
   ViewingGeometry viewing = depth.viewing;
   viewing.width_px = width_px;
-  const auto parallax = [&](float behind_mm) {
-    return screen_parallax_mm(viewing, behind_mm) / viewing.pixel_pitch_mm();
-  };
-  DepthMapping mapping;
-  if (depth.regions.empty()) {
-    mapping.points = {{nearest, parallax(-depth.near_mm)}, {farthest, parallax(depth.far_mm)}};
-    return mapping;
-  }
+  if (depth.regions.empty()) return single_region(nearest, farthest, viewing, depth.near_mm, depth.far_mm);
+  std::vector<PlacedDepth> placed;
   for (const PerceivedDepth::Region& region : depth.regions)
-    mapping.points.push_back({nearest + region.share * (farthest - nearest), parallax(region.behind_mm)});
-  return mapping;
+    placed.push_back({nearest + region.share * (farthest - nearest), region.behind_mm});
+  const DepthMapping mapping = many_regions(placed, viewing);
+  return depth.smooth ? monotone_curve(mapping) : mapping;
 }
 
 RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
@@ -150,6 +145,8 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
   if (options.views < 1) throw Error(ErrorKind::wrong_usage, "--views: 0, expected at least 1");
   make_look(options.appearance, {});  // what makes no sense is said before the long work
   const CloudSource source = open_cloud(file, options.choice);
+  if (options.selection.centre && !(source.box_size > 0))
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no periodic box, which --centre needs", file.string()));
   RenderedParticles result = options.stream ? stream(file, options, progress) : render_whole(file, options, progress);
   result.format = source.format;
   if (options.stream || options.slices) {

@@ -27,6 +27,7 @@ struct PerceivedDepth {
     float behind_mm;
   };
   std::vector<Region> regions;
+  bool smooth = false;  ///< a monotone curve through the regions' ends instead of a corner at each
 };
 
 struct RenderParticlesOptions {
@@ -34,7 +35,7 @@ struct RenderParticlesOptions {
   Selection selection;
   int neighbours = 32;  ///< of the density estimate, where the file has no density
   Appearance appearance;
-  Framing framing;
+  Framing framing{.zoom = 1.2f};  ///< a box seldom fills the sphere around it
   PerceivedDepth depth;
   int width = 640, height = 360;  ///< of a view
   int views = 2;

@@ -1,8 +1,74 @@
 #include "wheatstone/depth/depth_mapping.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "wheatstone/error.h"
 
 namespace wheatstone {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::wrong_usage, message); }
+
+/// Text that is read from left to right, and refused as a whole.
+struct Reader {
+  const char* at;
+  const char* end;
+  const std::string& text;
+  const std::string& name;
+
+  [[noreturn]] void refuse_text() const {
+    refuse(fmt::format("{}: is '{}', expected DEPTH:PARALLAX,DEPTH:PARALLAX,...", name, text));
+  }
+  float number() {
+    float value = 0;
+    const auto [stop, error] = std::from_chars(at, end, value);
+    if (error != std::errc{}) refuse_text();
+    at = stop;
+    return value;
+  }
+  void skip(char expected) {
+    if (at == end || *at != expected) refuse_text();
+    ++at;
+  }
+};
+
+/// A point of a curve: parallax over w = 1/depth.
+struct Knot {
+  double w, parallax, slope;
+};
+
+/// Slopes at which no cubic between neighbours turns: the harmonic mean of the two sides' slopes, weighted by their
+/// lengths, never steeper than three times either (Fritsch & Carlson 1980; Fritsch & Butland 1984).
+void choose_slopes(std::vector<Knot>& knots) {
+  const std::size_t n = knots.size();
+  std::vector<double> length(n - 1), secant(n - 1);
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    length[k] = knots[k + 1].w - knots[k].w;
+    secant[k] = (knots[k + 1].parallax - knots[k].parallax) / length[k];
+  }
+  knots.front().slope = secant.front();
+  knots.back().slope = secant.back();
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    if (secant[k - 1] * secant[k] <= 0) continue;
+    const double before = 2 * length[k] + length[k - 1];
+    const double after = length[k] + 2 * length[k - 1];
+    knots[k].slope = (before + after) / (before / secant[k - 1] + after / secant[k]);
+  }
+}
+
+/// The cubic of two knots, at a share of the way between them.
+double hermite(const Knot& a, const Knot& b, double t) {
+  const double length = b.w - a.w;
+  const double u = 1 - t;
+  return u * u * ((1 + 2 * t) * a.parallax + t * length * a.slope) +
+         t * t * ((1 + 2 * u) * b.parallax - u * length * b.slope);
+}
+
+}  // namespace
 
 float parallax_px(const DepthMapping& mapping, float depth) {
   const auto& points = mapping.points;
@@ -10,8 +76,107 @@ float parallax_px(const DepthMapping& mapping, float depth) {
   if (next == points.begin()) return points.front().parallax_px;
   if (next == points.end()) return points.back().parallax_px;
   const DepthMapping::Point& before = *(next - 1);
-  const float share = (1 / before.depth - 1 / depth) / (1 / before.depth - 1 / next->depth);
-  return before.parallax_px + share * (next->parallax_px - before.parallax_px);
+  // Neighbours of a curve are so close that floats would not tell the differences.
+  const double w = 1.0 / before.depth;
+  const double share = (w - 1.0 / depth) / (w - 1.0 / next->depth);
+  return static_cast<float>(before.parallax_px + share * (static_cast<double>(next->parallax_px) - before.parallax_px));
+}
+
+std::vector<float> tabulate(const DepthMapping& mapping, float w_near, float w_far, int n) {
+  std::vector<float> table;
+  for (int i = 0; i < n; ++i) {
+    const double share = n > 1 ? static_cast<double>(i) / (n - 1) : 0;
+    table.push_back(parallax_px(mapping, static_cast<float>(1 / (w_near + share * (w_far - w_near)))));
+  }
+  return table;
+}
+
+void check(const DepthMapping& mapping, const std::string& name) {
+  if (mapping.points.empty()) refuse(name + ": has no points, expected at least one");
+  const DepthMapping::Point* before = nullptr;
+  for (const DepthMapping::Point& point : mapping.points) {
+    if (!(point.depth > 0) || !std::isfinite(point.parallax_px))
+      refuse(fmt::format("{}: has {}:{}, expected depths above 0 and finite parallaxes", name, point.depth,
+                         point.parallax_px));
+    if (before && !(point.depth > before->depth && point.parallax_px >= before->parallax_px))
+      refuse(fmt::format("{}: has {}:{} after {}:{}, expected ascending depths, and parallaxes that do not descend",
+                         name, point.depth, point.parallax_px, before->depth, before->parallax_px));
+    before = &point;
+  }
+}
+
+DepthMapping single_region(float nearest, float farthest, const ViewingGeometry& viewing, float near_mm, float far_mm) {
+  const std::vector<PlacedDepth> ends{{nearest, -near_mm}, {farthest, far_mm}};
+  return many_regions(ends, viewing);
+}
+
+DepthMapping many_regions(std::span<const PlacedDepth> placed, const ViewingGeometry& viewing) {
+  DepthMapping mapping;
+  for (const PlacedDepth& point : placed) {
+    if (!(point.behind_mm > -viewing.viewing_distance_mm))
+      refuse(fmt::format("a point {:.0f} mm before the screen is behind the viewer, who is {:.0f} mm away",
+                         -point.behind_mm, viewing.viewing_distance_mm));
+    mapping.points.push_back({point.depth, screen_parallax_mm(viewing, point.behind_mm) / viewing.pixel_pitch_mm()});
+  }
+  check(mapping);
+  return mapping;
+}
+
+DepthMapping regions_by_share(float nearest, std::span<const DepthRegion> regions, float nearest_px,
+                              float farthest_px) {
+  double total = 0;
+  for (const DepthRegion& region : regions) {
+    if (!(region.share >= 0)) refuse(fmt::format("a region has a share of {}, expected 0 or more", region.share));
+    total += region.share;
+  }
+  if (!(total > 0) || std::isinf(total)) refuse("regions of depth have no shares, expected at least one above 0");
+  DepthMapping mapping{{{nearest, nearest_px}}};
+  double passed = 0;
+  for (const DepthRegion& region : regions) {
+    passed += region.share;
+    const double parallax = nearest_px + passed / total * (static_cast<double>(farthest_px) - nearest_px);
+    mapping.points.push_back({region.to_depth, static_cast<float>(parallax)});
+  }
+  check(mapping);
+  return mapping;
+}
+
+DepthMapping monotone_curve(const DepthMapping& through, int samples) {
+  check(through);
+  if (through.points.size() < 3) return through;
+  std::vector<Knot> knots;
+  for (const DepthMapping::Point& point : through.points) knots.push_back({1.0 / point.depth, point.parallax_px, 0});
+  choose_slopes(knots);
+  DepthMapping curve;
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+    curve.points.push_back(through.points[k]);
+    for (int i = 1; i < samples; ++i) {
+      const double t = static_cast<double>(i) / samples;
+      const auto depth = static_cast<float>(1 / (knots[k].w + t * (knots[k + 1].w - knots[k].w)));
+      // Rounding must neither turn the curve nor put two samples at one depth.
+      const DepthMapping::Point& last = curve.points.back();
+      const DepthMapping::Point& end = through.points[k + 1];
+      if (depth <= last.depth || depth >= end.depth) continue;
+      const auto parallax = static_cast<float>(hermite(knots[k], knots[k + 1], t));
+      curve.points.push_back({depth, std::clamp(parallax, last.parallax_px, end.parallax_px)});
+    }
+  }
+  curve.points.push_back(through.points.back());
+  return curve;
+}
+
+DepthMapping parse_depth_mapping(const std::string& text, const std::string& name) {
+  DepthMapping mapping;
+  Reader reader{text.data(), text.data() + text.size(), text, name};
+  while (true) {
+    const float depth = reader.number();
+    reader.skip(':');
+    mapping.points.push_back({depth, reader.number()});
+    if (reader.at == reader.end) break;
+    reader.skip(',');
+  }
+  check(mapping, name);
+  return mapping;
 }
 
 }  // namespace wheatstone

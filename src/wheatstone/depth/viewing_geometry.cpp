@@ -2,8 +2,19 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace wheatstone {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Between the two lines of sight, in radians, at a distance from the eyes: eq. 2.1.5.
+double vergence(const ViewingGeometry& viewing, double distance_mm) {
+  return 2 * std::atan(viewing.eye_separation_mm / (2 * distance_mm));
+}
+
+}  // namespace
 
 float perceived_depth_mm(const ViewingGeometry& viewing, float parallax_mm) {
   const float separation = viewing.eye_separation_mm;
@@ -12,11 +23,36 @@ float perceived_depth_mm(const ViewingGeometry& viewing, float parallax_mm) {
 }
 
 float screen_parallax_mm(const ViewingGeometry& viewing, float behind_mm) {
+  if (std::isinf(behind_mm)) return viewing.eye_separation_mm;
   return viewing.eye_separation_mm * behind_mm / (viewing.viewing_distance_mm + behind_mm);
 }
 
 float stereoscopic_resolution(const ViewingGeometry& viewing, float near_mm, float far_mm) {
   return (screen_parallax_mm(viewing, far_mm) - screen_parallax_mm(viewing, -near_mm)) / viewing.pixel_pitch_mm();
+}
+
+std::vector<DepthPlane> depth_planes(const ViewingGeometry& viewing, float near_mm, float far_mm) {
+  // A limit that is a plane's own depth must not lose that plane to rounding.
+  constexpr float rounding = 1e-3f;
+  const float pitch = viewing.pixel_pitch_mm();
+  const int first = static_cast<int>(std::ceil(screen_parallax_mm(viewing, -near_mm) / pitch - rounding));
+  const int last = static_cast<int>(std::floor(screen_parallax_mm(viewing, far_mm) / pitch + rounding));
+  std::vector<DepthPlane> planes;
+  for (int parallax = first; parallax <= last; ++parallax)
+    planes.push_back({parallax, perceived_depth_mm(viewing, static_cast<float>(parallax) * pitch)});
+  return planes;
+}
+
+float angular_disparity_deg(const ViewingGeometry& viewing, float behind_mm) {
+  const double screen = viewing.viewing_distance_mm;
+  return static_cast<float>((vergence(viewing, screen + behind_mm) - vergence(viewing, screen)) / degree);
+}
+
+float depth_of_angular_disparity_mm(const ViewingGeometry& viewing, float degrees) {
+  const double screen = viewing.viewing_distance_mm;
+  const double angle = vergence(viewing, screen) + degrees * degree;
+  if (angle <= 0) return std::numeric_limits<float>::infinity();
+  return static_cast<float>(viewing.eye_separation_mm / (2 * std::tan(angle / 2)) - screen);
 }
 
 }  // namespace wheatstone

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 namespace wheatstone {
 
 /// A viewer in front of a display, in millimetres.
@@ -16,11 +18,28 @@ struct ViewingGeometry {
 /// where the eyes would have to diverge. Hassaine 2010, eqs. 2.1.3 and 2.1.4: behind Z·d/(E−d), in front Z·d/(E+d).
 float perceived_depth_mm(const ViewingGeometry& viewing, float parallax_mm);
 
-/// The inverse: eqs. 5.3.4 and 5.3.5, E·F/(Z+F) behind and −E·N/(Z−N) in front. `behind_mm` > −Z.
+/// The inverse: eqs. 5.3.4 and 5.3.5, E·F/(Z+F) behind and −E·N/(Z−N) in front. `behind_mm` > −Z; infinite gives E.
 float screen_parallax_mm(const ViewingGeometry& viewing, float behind_mm);
 
 /// Depth planes that the display can tell apart between `near_mm` in front of the screen and `far_mm` behind it: the
 /// range of parallax in pixels (sec. 5.3.2).
 float stereoscopic_resolution(const ViewingGeometry& viewing, float near_mm, float far_mm);
+
+/// A plane that pixels at whole numbers of parallax make (sec. 5.1).
+struct DepthPlane {
+  int parallax_px;  ///< positive behind the screen
+  float behind_mm;  ///< where it seems to be; negative before the screen
+};
+
+/// All of them between `near_mm` in front of the screen and `far_mm` behind it, nearest first. The screen itself is
+/// one.
+std::vector<DepthPlane> depth_planes(const ViewingGeometry& viewing, float near_mm, float far_mm);
+
+/// Angle between the lines of sight at a point `behind_mm` behind the screen less that on the screen, in degrees:
+/// positive in front (eqs. 2.1.1, 2.1.2, 2.1.5).
+float angular_disparity_deg(const ViewingGeometry& viewing, float behind_mm);
+
+/// The inverse, eqs. 2.1.6 and 2.1.7: how far behind the screen; infinite where the lines of sight do not meet.
+float depth_of_angular_disparity_mm(const ViewingGeometry& viewing, float degrees);
 
 }  // namespace wheatstone

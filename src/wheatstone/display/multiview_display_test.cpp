@@ -1,11 +1,15 @@
-// Quilts and lenticular screens.
+// Quilts, lenticular and interlaced screens.
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "temporary_folder.h"
 #include "throws_error.h"
+#include "wheatstone/display/interlaced.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/whole_file.h"
@@ -49,48 +53,118 @@ TEST(Quilt, RefusesTheWrongNumberOfViews) {
   expect_error(ErrorKind::wrong_usage, "quilt", [] { views_of_quilt(Image<Rgb8>(7, 6), {2, 2}); });
 }
 
-/// The formula by the book, in long double.
-int expected_view(const LenticularScreen& s, int views, int x, int y, int c) {
+/// Where the formula puts a sub-pixel, in long double: how many views it is from the first one's beginning.
+long double expected_place(const LenticularScreen& s, int views, int x, int y, int channel) {
+  const long double c = s.blue_first ? 2 - channel : channel;
   const long double p = s.pitch * s.width / s.dpi * std::cos(std::atan(1.0L / s.slope));
   const long double t = s.height / (s.width * static_cast<long double>(s.slope)) * (s.flip ? -1 : 1);
   const long double u = (x + 0.5L) / s.width;
   const long double v = 1 - (y + 0.5L) / s.height;
   const long double a = (u + c / (3.0L * s.width) + v * t) * p - s.center;
-  return std::min(static_cast<int>((1 - (a - std::floor(a))) * views), views - 1);
+  const long double part = a - std::floor(a);
+  return (s.first_from_left ? part : 1 - part) * views;
 }
 
 TEST(Lenticular, EverySubPixelComesFromItsView) {
-  LenticularScreen screen{.width = 300, .height = 200, .pitch = 47.58, .slope = -6.2, .center = 0.31, .dpi = 324};
-  for (const bool flip : {false, true}) {
-    screen.flip = flip;
-    const Image<Rgb8> picture = interleave(numbered(45, 300, 200), screen);
+  // Odd sizes, a width that no vector divides, and every way to turn the screen.
+  for (int turned = 0; turned < 8; ++turned) {
+    const LenticularScreen screen{.width = 301,
+                                  .height = 143,
+                                  .pitch = 47.58,
+                                  .slope = -6.2,
+                                  .center = 0.31,
+                                  .dpi = 324,
+                                  .flip = (turned & 1) != 0,
+                                  .blue_first = (turned & 2) != 0,
+                                  .first_from_left = (turned & 4) != 0};
+    for (const int views : {1, 2, 45, 66}) {
+      const Image<Rgb8> picture = interleave(numbered(views, 301, 143), screen);
+      int off = 0;
+      int on_border = 0;
+      for (int y = 0; y < 143; ++y)
+        for (int x = 0; x < 301; ++x)
+          for (int c = 0; c < 3; ++c) {
+            const int shown = (&picture(x, y).r)[c];
+            const long double place = expected_place(screen, views, x, y, c);
+            // Within rounding of a border between two views either may be shown.
+            on_border += std::abs(place - std::round(place)) < 1e-9L;
+            off += shown != static_cast<int>(place);
+            off += view_of_subpixel(screen, views, x, y, c) != shown;
+          }
+      EXPECT_EQ(off, 0) << turned << " " << views;
+      EXPECT_EQ(on_border, 0);
+    }
+  }
+}
+
+TEST(Lenticular, WholeRowsStayExactAcrossTheWidestScreen) {
+  const LenticularScreen screen{.width = 32768, .height = 9, .pitch = 52.1, .slope = 5.9, .center = -0.4, .dpi = 283};
+  std::vector<std::uint16_t> row(3 * 32768);
+  for (const int views : {9, 100, 65535}) {
+    views_of_row(screen, views, 4, row);
     int off = 0;
-    for (int y = 0; y < 200; ++y)
-      for (int x = 0; x < 300; ++x) {
-        off += picture(x, y).r != expected_view(screen, 45, x, y, 0);
-        off += picture(x, y).g != expected_view(screen, 45, x, y, 1);
-        off += picture(x, y).b != expected_view(screen, 45, x, y, 2);
-        ASSERT_EQ(view_of_subpixel(screen, 45, x, y, 1), picture(x, y).g);
-      }
-    EXPECT_EQ(off, 0);
+    for (int i = 0; i < 3 * 32768; ++i) {
+      const long double place = expected_place(screen, views, i / 3, 4, i % 3);
+      // A lens is told apart into 2^32 parts.
+      if (std::abs(place - std::round(place)) > views * 0x1p-32L + 1e-9L) off += row[i] != static_cast<int>(place);
+    }
+    EXPECT_EQ(off, 0) << views;
   }
 }
 
 TEST(Lenticular, NineViewsRepeatAfterThreePixelsAndStepByRow) {
   const LenticularScreen screen = find_lenticular("step-9");
-  int off = 0;
   for (int y = 600; y < 620; ++y)
     for (int i = 30; i < 300; ++i) {
-      const int here = view_of_subpixel(screen, 9, i / 3, y, i % 3);
-      const int later = view_of_subpixel(screen, 9, (i + 9) / 3, y, (i + 9) % 3);
-      const int next = view_of_subpixel(screen, 9, (i + 1) / 3, y, (i + 1) % 3);
-      const int below = view_of_subpixel(screen, 9, (i + 1) / 3, y + 1, (i + 1) % 3);
-      off += here != later;
-      off += (here + 8) % 9 != next;
-      off += here != below;
+      const auto view = [&](int subpixel, int row) {
+        return view_of_subpixel(screen, 9, subpixel / 3, row, subpixel % 3);
+      };
+      ASSERT_EQ(view(i, y), view(i + 9, y));
+      ASSERT_EQ((view(i, y) + 8) % 9, view(i + 1, y));
+      ASSERT_EQ(view(i, y), view(i + 1, y + 1));
     }
-  // Rounding may put what lies on the border between two views on either side.
-  EXPECT_LE(off, 20 * 270 * 3 / 100);
+}
+
+TEST(Lenticular, NamedScreensGiveEachViewItsShareOfEachColour) {
+  const auto views_of = [](const std::string& name) { return std::stoi(name.substr(name.find('-') + 1)); };
+  for (const std::string name : {"barrier-2", "step-5", "step-9", "lenticular-8", "philips-9", "philips-36"}) {
+    const LenticularScreen screen = find_lenticular(name);
+    const int views = views_of(name);
+    // A part of the screen in which the pattern repeats a whole number of times.
+    const int columns = 360;
+    const int rows = 360;
+    std::vector<std::uint16_t> row(3 * columns);
+    std::vector<std::array<int, 3>> count(views);
+    for (int y = 0; y < rows; ++y) {
+      views_of_row(screen, views, y, row);
+      for (int i = 0; i < 3 * columns; ++i) ++count[row[i]][i % 3];
+    }
+    for (int v = 0; v < views; ++v)
+      for (const int c : {0, 1, 2}) EXPECT_EQ(count[v][c], columns * rows / views) << name << " " << v << " " << c;
+  }
+}
+
+TEST(Lenticular, Philips36LeansAsItsSlitsDo) {
+  // arctan(1/6) = 9.46 degrees: six rows down are one pixel to the side.
+  const LenticularScreen screen = find_lenticular("philips-36");
+  EXPECT_EQ(screen.width, 3200);
+  for (int x = 10; x < 40; ++x)
+    for (const int c : {0, 1, 2})
+      ASSERT_EQ(view_of_subpixel(screen, 36, x, 100, c), view_of_subpixel(screen, 36, x + 1, 106, c));
+}
+
+TEST(Lenticular, IsTheSameOnAnyNumberOfThreads) {
+  std::vector<Image<Rgb8>> views;
+  for (int v = 0; v < 9; ++v) {
+    views.emplace_back(64, 36);
+    for (int y = 0; y < 36; ++y)
+      for (int x = 0; x < 64; ++x)
+        views[v](x, y) = {std::uint8_t(v * 7 + x), std::uint8_t(y * 3 + v), std::uint8_t(x * y)};
+  }
+  const LenticularScreen screen{.width = 192, .height = 108, .pitch = 31, .slope = 3.3};
+  const Image<Rgb8> many = interleave(views, screen);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(interleave(views, screen), many);
 }
 
 TEST(Lenticular, SmallViewsAreReadWhereTheSubPixelIs) {
@@ -112,6 +186,20 @@ TEST(Lenticular, ReadsALookingGlassCalibration) {
   EXPECT_EQ(screen.height, 2048);
   EXPECT_EQ(screen.pitch, 47.6);
   EXPECT_EQ(screen.slope, -5.4);
+  EXPECT_FALSE(screen.flip || screen.blue_first || screen.first_from_left);
+}
+
+TEST(Lenticular, CalibrationTellsWhichWayThingsLie) {
+  const TemporaryFolder folder;
+  const auto with = [&](const std::string& more) {
+    write_whole_file(folder / "visual.json",
+                     R"({"screenW":100,"screenH":50,"pitch":1,"slope":-5,"center":0,"DPI":100)" + more + "}");
+    return read_calibration(folder / "visual.json");
+  };
+  EXPECT_TRUE(with(R"(,"flipImageX":1)").flip);
+  EXPECT_TRUE(with(R"(,"flipSubp":{"value":1.0})").blue_first);
+  EXPECT_TRUE(with(R"(,"invView":0.0)").first_from_left);
+  EXPECT_FALSE(with(R"(,"invView":true)").first_from_left);
 }
 
 TEST(Lenticular, RefusesBadCalibrationsAndUnknownNames) {
@@ -125,7 +213,65 @@ TEST(Lenticular, RefusesBadCalibrationsAndUnknownNames) {
   refused(R"({"screenW":100,"screenH":100,"pitch":1})", "slope");
   refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":"steep"})", "slope");
   refused(R"({"screenW":1e9,"screenH":100,"pitch":1,"slope":1,"center":0,"DPI":100})", "no screen");
+  refused(R"({"screenW":100,"screenH":100,"pitch":1e300,"slope":1,"center":0,"DPI":1e-9})", "no screen");
+  refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":1e-9,"center":0,"DPI":100})", "no screen");
+  refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":0,"center":0,"DPI":100})", "no screen");
+  expect_error(ErrorKind::wrong_usage, "no views", [] { interleave({}, {}); });
+  expect_error(ErrorKind::wrong_usage, "one size", [] {
+    std::vector<Image<Rgb8>> views = numbered(2, 4, 4);
+    views[1] = Image<Rgb8>(3, 4);
+    interleave(views, {});
+  });
   expect_error(ErrorKind::wrong_usage, "step-9", [] { find_lenticular("moon"); });
+}
+
+TEST(Interlaced, EachPixelShowsItsView) {
+  const std::vector<Image<Rgb8>> views = numbered(2, 5, 3);
+  const auto shown = [&](Interlacing interlacing) {
+    const Image<Rgb8> picture = interlaced(views[0], views[1], interlacing);
+    std::string pattern;
+    for (int y = 0; y < 3; ++y) {
+      for (int x = 0; x < 5; ++x) {
+        pattern += picture(x, y).g == 0 ? 'L' : 'R';
+        EXPECT_EQ(view_of_pixel(interlacing, x, y), picture(x, y).b);
+      }
+      pattern += ' ';
+    }
+    return pattern;
+  };
+  EXPECT_EQ(shown(Interlacing::rows), "LLLLL RRRRR LLLLL ");
+  EXPECT_EQ(shown(Interlacing::columns), "LRLRL LRLRL LRLRL ");
+  EXPECT_EQ(shown(Interlacing::checkerboard), "LRLRL RLRLR LRLRL ");
+}
+
+TEST(Interlaced, PixelsStayWhereTheyAre) {
+  Image<Rgb8> left(7, 5);
+  Image<Rgb8> right(7, 5);
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 7; ++x) {
+      left(x, y) = {std::uint8_t(x), std::uint8_t(y), 0};
+      right(x, y) = {std::uint8_t(x), std::uint8_t(y), 1};
+    }
+  for (const InterlacingName& name : interlacing_names()) {
+    const Image<Rgb8> picture = interlaced(left, right, name.interlacing);
+    for (int y = 0; y < 5; ++y)
+      for (int x = 0; x < 7; ++x) {
+        EXPECT_EQ(picture(x, y).r, x);
+        EXPECT_EQ(picture(x, y).g, y);
+      }
+  }
+}
+
+TEST(Interlaced, IsFoundByEitherName) {
+  std::set<Interlacing> found;
+  for (const InterlacingName& name : interlacing_names()) {
+    EXPECT_EQ(find_interlacing(name.name), find_interlacing(name.ffmpeg));
+    found.insert(find_interlacing(name.name));
+  }
+  EXPECT_EQ(found.size(), 3u);
+  expect_error(ErrorKind::wrong_usage, "checkerboard (chl)", [] { find_interlacing("zigzag"); });
+  expect_error(ErrorKind::wrong_usage, "3x2 and 2x3",
+               [] { interlaced(Image<Rgb8>(3, 2), Image<Rgb8>(2, 3), Interlacing::rows); });
 }
 
 }  // namespace

@@ -2,10 +2,38 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace wheatstone {
 namespace {
+
+/// IEC 61966-2-1, not rounded.
+double code_by_formula(double linear) {
+  return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+}
+
+/// Light all over 0..1, denser where it is dark, and next to every place where the code value changes.
+std::vector<float> many_lights() {
+  std::vector<float> lights;
+  for (int i = 0; i <= 1 << 18; ++i) {
+    const float value = static_cast<float>(i) / (1 << 18);
+    lights.insert(lights.end(), {value, value * value * value});
+  }
+  for (int code = 0; code < 255; ++code) {
+    const double srgb = (code + 0.5) / 255;
+    const auto edge = static_cast<float>(srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4));
+    float below = edge, above = edge;
+    for (int step = 0; step < 20; ++step) {
+      below = std::nextafter(below, 0.f);
+      above = std::nextafter(above, 1.f);
+      lights.insert(lights.end(), {below, above});
+    }
+  }
+  return lights;
+}
 
 TEST(Srgb, EveryCodeComesBack) {
   for (int code = 0; code < 256; ++code)
@@ -17,8 +45,34 @@ TEST(Srgb, IsTheStandardsCurve) {
   EXPECT_EQ(linear_from_srgb(255), 1);
   EXPECT_NEAR(linear_from_srgb(128), 0.21586, 1e-5);
   EXPECT_EQ(srgb_from_linear(0.5f), 188);
+}
+
+TEST(Srgb, IsTheNearestCodeValueEverywhere) {
+  int rounded_otherwise = 0;
+  for (const float light : many_lights()) {
+    const double exact = code_by_formula(light);
+    // The standard's own constants leave the two halves of its curve a millionth of a code value apart.
+    EXPECT_LE(std::abs(srgb_from_linear(light) - exact), 0.5 + 1e-5) << light;
+    rounded_otherwise += srgb_from_linear(light) != std::lround(exact);
+  }
+  EXPECT_LE(rounded_otherwise, 20);
+}
+
+TEST(Srgb, ARowIsItsPixels) {
+  const std::vector<float> lights = many_lights();
+  std::vector<std::uint8_t> row(lights.size());
+  srgb_from_linear(lights, row);
+  EXPECT_TRUE(std::ranges::equal(row, lights, {}, {}, [](float light) { return srgb_from_linear(light); }));
+}
+
+TEST(Srgb, LightOutOfRangeIsLimited) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
   EXPECT_EQ(srgb_from_linear(-1), 0);
+  EXPECT_EQ(srgb_from_linear(-infinity), 0);
+  EXPECT_EQ(srgb_from_linear(std::numeric_limits<float>::quiet_NaN()), 0);
+  EXPECT_EQ(srgb_from_linear(std::nextafter(1.f, 2.f)), 255);
   EXPECT_EQ(srgb_from_linear(7), 255);
+  EXPECT_EQ(srgb_from_linear(infinity), 255);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -78,6 +79,15 @@ TEST(TextTable, WithoutNamesTakesTheFirstThreeColumns) {
   const TemporaryFolder folder;
   write_whole_file(folder / "a.txt", "1 2 3 99\r\n4\t5\t6\t99\r\n\n7 8 9.5 99");
   expect_three_points(read_cloud(folder / "a.txt"));
+}
+
+TEST(TextTable, APositionNeedsThreeColumns) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.csv", "x,y,z,mass\n1,2,3,4\n");
+  for (const std::string position : {"x", "x,y", "x,,", "x,y,z,mass"})
+    expect_error(ErrorKind::bad_input, "'" + position + "' is no position, expected three columns",
+                 [&] { read_cloud(folder / "a.csv", {.position = position}); });
+  EXPECT_THAT(read_cloud(folder / "a.csv", {.position = "mass,z,y"}).x, ElementsAre(4));
 }
 
 TEST(TextTable, NamesWhatIsWrongAndWhere) {
@@ -331,6 +341,16 @@ class Hdf5Writer {
                           H5Dclose);
     H5Dwrite(made, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   }
+  /// A dataset that takes no room in the file.
+  void unwritten(const std::string& name, hsize_t rows, hsize_t width) {
+    const std::array<hsize_t, 2> size{rows, width};
+    const std::array<hsize_t, 2> chunk{1024, width};
+    const Hdf5Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
+    const Hdf5Handle chunked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(chunked, 2, chunk.data());
+    const Hdf5Handle made(H5Dcreate2(file_, name.c_str(), H5T_IEEE_F32LE, space, H5P_DEFAULT, chunked, H5P_DEFAULT),
+                          H5Dclose);
+  }
 
  private:
   Hdf5Handle file_;
@@ -407,6 +427,40 @@ TEST(GadgetHdf5, JoinsPartsAndNamesTheMissingOne) {
   write_snapshot(folder / "more.hdf5", 6, 1, 1e12);
   expect_error(ErrorKind::bad_input, "1000000000000 particles, but there are only 3",
                [&] { read_cloud(folder / "more.hdf5"); });
+}
+
+TEST(GadgetHdf5, JoinsMorePartsThanFilesMayBeOpen) {
+  const TemporaryFolder folder;
+  rlimit usual{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &usual), 0);
+  const rlimit few{.rlim_cur = 24, .rlim_max = usual.rlim_max};
+  for (int i = 0; i < 40; ++i) write_snapshot(folder / ("snap." + std::to_string(i) + ".hdf5"), 6, 40, 120);
+  setrlimit(RLIMIT_NOFILE, &few);
+  EXPECT_EQ(read_cloud(folder / "snap.0.hdf5").size(), 120u);
+  setrlimit(RLIMIT_NOFILE, &usual);
+}
+
+TEST(GadgetHdf5, PartsWithOtherDatasetsAreRefused) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.0.hdf5", 6, 2, 6);
+  {
+    Hdf5Writer file(folder / "snap.1.hdf5");
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+  }
+  expect_error(ErrorKind::bad_input, "snap.1.hdf5: has other datasets than",
+               [&] { read_cloud(folder / "snap.0.hdf5"); });
+}
+
+TEST(GadgetHdf5, RowsThatTheFileCannotHoldAreRefused) {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "claims.hdf5");
+    file.group("PartType0");
+    file.unwritten("PartType0/Coordinates", 1'000'000'000'000, 3);
+  }
+  expect_error(ErrorKind::bad_input, "says 1000000000000 rows, which the file does not hold",
+               [&] { read_cloud(folder / "claims.hdf5"); });
 }
 
 TEST(GadgetHdf5, NamesWhatIsMissingAndWhatThereIs) {

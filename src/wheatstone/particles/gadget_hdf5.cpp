@@ -143,6 +143,38 @@ Cloud read_part(const Part& part, hsize_t first, hsize_t count) {
   return cloud;
 }
 
+/// Which columns a part has: those of one snapshot have the same.
+std::array<bool, 7> columns_of(const Part& part) {
+  const auto has = [](const Hdf5Column& column) { return static_cast<bool>(column.dataset); };
+  return {has(part.density),          has(part.temperature), has(part.energy), has(part.electrons),
+          has(part.smoothing_length), has(part.volume),      has(part.mass)};
+}
+
+/// Particles of one type in all files of a snapshot. One file is open at a time: there may be thousands.
+struct Snapshot {
+  CloudChoice choice;
+  int type = 0;
+  double box_size = 0;
+  std::vector<std::filesystem::path> files;  // those that have such particles
+  std::size_t next_file = 0;
+  Part part;
+  hsize_t at = 0;
+
+  Cloud next(std::size_t most) {
+    while (at >= part.count) {
+      if (next_file == files.size()) return {};
+      part = {};  // closes it before the next one is opened
+      part = open_part(files[next_file++], type, choice);
+      at = 0;
+    }
+    const hsize_t rows = std::min<hsize_t>(most, part.count - at);
+    Cloud cloud = read_part(part, at, rows);
+    cloud.box_size = box_size;
+    at += rows;
+    return cloud;
+  }
+};
+
 /// Which types a file has, for the message when the chosen one is not among them.
 std::string types_in(hid_t file) {
   std::string types;
@@ -189,14 +221,27 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
   const int type = snapshot_type(choice.type);
   const Hdf5Handle first = open_hdf5(path);
   const Header header = read_header(first, type);
-  auto parts = std::make_shared<std::vector<Part>>();
+  auto snapshot = std::make_shared<Snapshot>();
+  snapshot->choice = choice;
+  snapshot->type = type;
+  snapshot->box_size = box_size_of(first);
+  CloudSource source{.format = "GADGET HDF5", .count = {}, .box_size = snapshot->box_size, .redshift = header.redshift};
   std::uint64_t count = 0;
-  CloudSource source{.format = "GADGET HDF5", .count = {}, .box_size = box_size_of(first), .redshift = header.redshift};
+  std::array<bool, 7> columns{};
   for (const std::filesystem::path& file : snapshot_files(path, header.files)) {
-    parts->push_back(open_part(file, type, choice));
-    count += parts->back().count;
     source.bytes += std::filesystem::file_size(file);
-    if (parts->back().group && source.fields.empty()) source.fields = hdf5_datasets(parts->back().group);
+    const Part part = open_part(file, type, choice);
+    if (part.count == 0) continue;
+    if (snapshot->files.empty()) {
+      columns = columns_of(part);
+      source.fields = hdf5_datasets(part.group);
+    } else if (columns_of(part) != columns) {
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: has other datasets than {}, expected the same in all files of a snapshot",
+                              file.string(), snapshot->files.front().string()));
+    }
+    snapshot->files.push_back(file);
+    count += part.count;
   }
   if (count == 0)
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no particles of type '{}'; by type it has {}", path.string(),
@@ -205,19 +250,7 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
     throw Error(ErrorKind::bad_input, fmt::format("{}: its header says {} particles, but there are only {}",
                                                   path.string(), header.total, count));
   source.count = count;
-  const double box = source.box_size;
-  source.next = [parts, box, part = std::size_t{0}, at = hsize_t{0}](std::size_t most) mutable {
-    while (part < parts->size() && at >= (*parts)[part].count) {
-      ++part;
-      at = 0;
-    }
-    if (part == parts->size()) return Cloud{};
-    const hsize_t rows = std::min<hsize_t>(most, (*parts)[part].count - at);
-    Cloud cloud = read_part((*parts)[part], at, rows);
-    cloud.box_size = box;
-    at += rows;
-    return cloud;
-  };
+  source.next = [snapshot](std::size_t most) { return snapshot->next(most); };
   return source;
 }
 

@@ -21,6 +21,16 @@ herr_t note_dataset(hid_t group, const char* name, const H5L_info_t* /*link*/, v
   return 0;
 }
 
+/// Whether the file can hold so many numbers: no filter packs a thousandfold and more, and rows that were never written
+/// take no room at all. Of virtual datasets the library does not know what they take.
+bool can_hold(hid_t dataset, hid_t type, hsize_t rows, hsize_t width) {
+  const Hdf5Handle made(H5Dget_create_plist(dataset), H5Pclose);
+  if (H5Pget_layout(made) == H5D_VIRTUAL) return true;
+  constexpr double most_packed = 1100;
+  const double bytes = static_cast<double>(rows) * static_cast<double>(width) * static_cast<double>(H5Tget_size(type));
+  return bytes <= most_packed * static_cast<double>(H5Dget_storage_size(dataset));
+}
+
 }  // namespace
 
 Hdf5Handle open_hdf5(const std::filesystem::path& path) {
@@ -85,6 +95,8 @@ Hdf5Column open_column(hid_t where, const std::string& name, const std::string& 
   constexpr hsize_t widest = 1024;
   if (column.width == 0 || column.width > widest)
     return refuse(fmt::format("has {} numbers a row, expected at most {}", column.width, widest));
+  if (!can_hold(column.dataset, type, column.rows, column.width))
+    return refuse(fmt::format("says {} rows, which the file does not hold", column.rows));
   return column;
 }
 

@@ -42,6 +42,7 @@ void wrap(Cloud& cloud, const std::array<double, 3>& centre) {
     for (float& value : *axes[axis]) {
       const double moved = static_cast<double>(value) + shift;
       value = static_cast<float>(moved - box * std::floor(moved / box));
+      if (value >= static_cast<float>(box)) value = 0;  // rounded up to the far side, which is the near one
     }
   }
 }

@@ -69,6 +69,7 @@ Points points_of(const Cloud& cloud, std::size_t neighbours) {
 }  // namespace
 
 void estimate_density(Cloud& cloud, int neighbours, const Progress& progress) {
+  if (cloud.size() == 0) return;
   const std::size_t wanted = std::clamp<std::size_t>(static_cast<std::size_t>(neighbours), 1, cloud.size());
   const Points points = points_of(cloud, wanted);
   report(progress, "density", 0);

@@ -18,7 +18,7 @@ class LogHistogram {
 
  private:
   static constexpr int steps_a_factor_of_two = 16;
-  std::array<std::uint64_t, 256 * steps_a_factor_of_two> counts_{};
+  std::array<std::uint64_t, std::size_t{256} * steps_a_factor_of_two> counts_{};
   std::uint64_t total_ = 0;
 };
 

@@ -54,7 +54,8 @@ Waves density_waves(const Lattice& lattice, double redshift, std::uint64_t seed)
     for (int y = 0; y < side; ++y)
       for (int z = 0; z <= side / 2; ++z) {
         const double k = std::hypot(lattice.wave(x), lattice.wave(y), lattice.wave(z));
-        // White noise has a power of one cell's volume.
+        // White noise has a power of one cell's volume. Smoothed by less than the nonlinear scale, filaments are
+        // sharper, and few particles have passed through each other yet.
         const double factor =
             grown * std::sqrt(cdm_power(k) * cells / volume) * std::exp(-k * k * smoothing * smoothing / 4) / cells;
         waves[(static_cast<std::size_t>(x) * side + y) * (side / 2 + 1) + z] *= static_cast<float>(factor);

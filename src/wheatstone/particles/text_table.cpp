@@ -88,16 +88,12 @@ int column_of(const Table& table, const std::string& wanted, std::initializer_li
 }
 
 void choose_columns(Table& table, const CloudChoice& choice) {
-  std::array<std::string, 3> names{"x", "y", "z"};
-  if (!choice.position.empty()) {
-    std::size_t at = 0;
-    for (std::string& name : names) {
-      const std::size_t comma = std::min(choice.position.find(',', at), choice.position.size());
-      name = choice.position.substr(std::min(at, choice.position.size()), comma - at);
-      at = comma + 1;
-    }
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis) table.position[axis] = column_of(table, names[axis], {});
+  const std::vector<std::string_view> names =
+      choice.position.empty() ? std::vector<std::string_view>{"x", "y", "z"} : fields_of(choice.position);
+  if (names.size() != 3)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: '{}' is no position, expected three columns, as x,y,z", table.path, choice.position));
+  for (std::size_t axis = 0; axis < 3; ++axis) table.position[axis] = column_of(table, std::string(names[axis]), {});
   table.density = column_of(table, choice.density, {"density", "rho"});
   table.temperature = column_of(table, choice.temperature, {"temperature", "temp", "t", "scalar", "intensity"});
   table.smoothing_length = column_of(table, choice.smoothing_length, {"smoothing_length", "hsml", "h"});

@@ -45,7 +45,10 @@ Hdf5Handle GadgetWriter::State::make_group(const char* name) {
 Hdf5Handle GadgetWriter::State::make_dataset(hid_t group, const char* name, hsize_t width) {
   const std::array<hsize_t, 2> extent{header.particles, width};
   const Hdf5Handle space(H5Screate_simple(width > 1 ? 2 : 1, extent.data(), nullptr), H5Sclose);
-  Hdf5Handle dataset(H5Dcreate2(group, name, H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  // The time of writing would make two runs' files differ.
+  const Hdf5Handle timeless(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(timeless, false);
+  Hdf5Handle dataset(H5Dcreate2(group, name, H5T_IEEE_F32LE, space, H5P_DEFAULT, timeless, H5P_DEFAULT), H5Dclose);
   check(static_cast<bool>(dataset));
   return dataset;
 }

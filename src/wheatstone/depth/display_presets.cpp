@@ -1,0 +1,62 @@
+#include "wheatstone/depth/display_presets.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "wheatstone/error.h"
+
+namespace wheatstone {
+namespace {
+
+// Looking Glass: layouts as its makers recommend them, widths from resolution and pixels an inch, and the 40 degrees of
+// their software; a display's own calibration knows better. A view is as large as its place in the quilt.
+// The desk and the nine views are those of Hassaine 2010, sec. 5.6, whose 60 and 36 planes come out for 10 cm either
+// way at just these widths and distances; the 36 views are those of sec. 2.3.
+constexpr float wide = 16.f / 9;
+constexpr std::array<DisplayPreset, 10> presets{{
+    {"looking-glass-go", 66, 372, 682, 11, 6, 4092, 4092, 9.f / 16, 74.7f, 350, 40, "Looking Glass Go, 6 inch"},
+    {"looking-glass-portrait", 48, 420, 560, 8, 6, 3360, 3360, 0.75f, 120.4f, 450, 40, "Looking Glass Portrait"},
+    {"looking-glass-16", 49, 857, 857, 7, 7, 5999, 5999, wide, 344.7f, 700, 40, "Looking Glass 16 inch"},
+    {"looking-glass-16-old", 45, 819, 455, 5, 9, 4096, 4096, wide, 344.7f, 700, 40, "the same, older quilts"},
+    {"looking-glass-32", 49, 1170, 1170, 7, 7, 8190, 8190, wide, 696.7f, 1200, 40, "Looking Glass 32 inch"},
+    {"looking-glass-32-old", 45, 1638, 910, 5, 9, 8192, 8192, wide, 696.7f, 1200, 40, "the same, older quilts"},
+    {"looking-glass-65", 72, 1024, 910, 8, 9, 8192, 8192, wide, 1428, 2000, 40, "Looking Glass 65 inch"},
+    {"desk-stereo", 2, 1280, 1024, 0, 0, 0, 0, 1.25f, 376, 750, 0, "19 inch, 1280x1024 for either eye"},
+    {"nine-view", 9, 640, 360, 0, 0, 0, 0, wide, 376, 630, 26, "nine views on 1920x1080 pixels"},
+    {"philips-36", 36, 533, 400, 0, 0, 0, 0, 4.f / 3, 307, 700, 30, "36 views on 3200x2400 pixels, 15.1 inch"},
+}};
+
+}  // namespace
+
+std::span<const DisplayPreset> display_presets() { return presets; }
+
+const DisplayPreset& find_display(std::string_view name) {
+  std::string names;
+  for (const DisplayPreset& display : presets) {
+    if (display.name == name) return display;
+    names += fmt::format(" {}", display.name);
+  }
+  throw Error(ErrorKind::wrong_usage, fmt::format("no display '{}', expected one of:{}", name, names));
+}
+
+ViewingGeometry viewing_of(const DisplayPreset& display) {
+  return {.viewing_distance_mm = display.viewing_distance_mm,
+          .screen_width_mm = display.screen_width_mm,
+          .width_px = display.view_width_px};
+}
+
+float span_of(const DisplayPreset& display, float eye_separation_mm) {
+  if (display.view_cone_deg == 0) return 1;
+  const float half = display.view_cone_deg * std::numbers::pi_v<float> / 360;
+  return 2 * display.viewing_distance_mm * std::tan(half) / eye_separation_mm;
+}
+
+Rig rig_of(const DisplayPreset& display, float eye_separation_mm) {
+  return evenly_spaced(display.view_width_px, display.view_height_px, display.views,
+                       span_of(display, eye_separation_mm));
+}
+
+}  // namespace wheatstone
