@@ -1,18 +1,26 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "command.h"
 #include "disparity_argument.h"
 #include "match_options.h"
+#include "numbers_argument.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
+#include "wheatstone/app/paint_views.h"
 #include "wheatstone/app/redraw.h"
 #include "wheatstone/app/write_results.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
+#include "wheatstone/image/write_image.h"
 #include "wheatstone/painting/painting_file.h"
 #include "wheatstone/painting/style_parameters.h"
 
@@ -27,6 +35,9 @@ struct Arguments {
   std::string zero_parallax = "nearest";
   std::string zero_parallax_at;
   double scale = 1;
+  std::string display, size;
+  int views = 0;
+  float span = 0;
   bool measure = false;
   bool html = false;
   MatchArguments matching;
@@ -75,6 +86,70 @@ void print_summary(const PaintedPhotograph& result, const PaintingMeasures* meas
   fmt::print("written to       {}\n", arguments.folder);
 }
 
+/// What a display wants, where the user does not say otherwise.
+PaintViewsOptions views_options(const Arguments& arguments, const PaintPhotographOptions& painting) {
+  const DisplayPreset& display = find_display(arguments.display);
+  PaintViewsOptions options{.painting = painting,
+                            .views = arguments.views > 0 ? arguments.views : display.views,
+                            .width = display.view_width_px,
+                            .height = display.view_height_px,
+                            .span = arguments.span,
+                            .widest_span = std::max(span_of(display), 1.f)};
+  if (!arguments.size.empty()) {
+    const std::vector<float> size = parse_numbers("--size", arguments.size, 'x', 2);
+    constexpr float most_pixels = 16384;
+    if (!(size[0] >= 1 && size[1] >= 1 && size[0] <= most_pixels && size[1] <= most_pixels))
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("--size: is '{}', expected 1x1 to {}x{}", arguments.size, most_pixels, most_pixels));
+    options.width = static_cast<int>(size[0]);
+    options.height = static_cast<int>(size[1]);
+  }
+  return options;
+}
+
+/// Writes a quilt where the display takes one, and else a picture a view.
+std::string write_views(const Arguments& arguments, const PaintedViews& result) {
+  const DisplayPreset& display = find_display(arguments.display);
+  const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
+  if (layout.columns * layout.rows == static_cast<int>(result.views.size())) {
+    const std::filesystem::path output = arguments.folder;
+    const std::filesystem::path file =
+        output.has_extension() ? output
+                               : output.parent_path() / quilt_name(output.filename().string(), layout, display.aspect);
+    write_image(file, make_quilt(result.views, layout));
+    return file.string();
+  }
+  OutputFolder folder(arguments.folder);
+  for (std::size_t v = 0; v < result.views.size(); ++v)
+    write_image(folder.file(fmt::format("view_{:03}.png", v)), result.views[v]);
+  folder.commit();
+  return arguments.folder;
+}
+
+void paint_for_display(const Arguments& arguments, const StereoPair& photographs,
+                       const PaintPhotographOptions& painting, const Session& session) {
+  const PaintViewsOptions options = views_options(arguments, painting);
+  const PaintedViews result = paint_views(photographs, options, session.progress);
+  const std::string written = write_views(arguments, result);
+  if (session.json) {
+    const nlohmann::ordered_json facts{{"output", written},
+                                       {"views", result.views.size()},
+                                       {"width", options.width},
+                                       {"height", options.height},
+                                       {"span", result.span},
+                                       {"zero_parallax_px", result.zero_parallax_px},
+                                       {"worst_bare_share", result.worst_bare_share}};
+    fmt::print("{}\n", facts.dump(2));
+    return;
+  }
+  fmt::print("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n",
+             result.views.size(), options.width, options.height, result.span);
+  fmt::print("zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
+  fmt::print("left bare        at most {:.2f} % of a view, filled from its neighbours\n",
+             100 * result.worst_bare_share);
+  fmt::print("written to       {}\n", written);
+}
+
 void paint_photographs(const Arguments& arguments, const Session& session) {
   PaintPhotographOptions options;
   options.style = style_from(arguments.style, session.seed);
@@ -91,6 +166,8 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
     options.left_disparity = truth;
   }
   if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
+
+  if (!arguments.display.empty()) return paint_for_display(arguments, photographs, options, session);
 
   // Before the work, so that a folder that cannot be written to is known at once.
   OutputFolder folder(arguments.folder);
@@ -145,6 +222,17 @@ void add_paint_command(CLI::App& program, const Session& session) {
   command.add_option("--scale", arguments->scale, "Draw a painting.wst this many times as large")
       ->check(CLI::Range(0.01, 32.0))
       ->capture_default_str();
+  std::string names;
+  for (const DisplayPreset& display : display_presets()) names += fmt::format(" {}", display.name);
+  auto* display = command.add_option("--display", arguments->display,
+                                     "Paint the views of a display, as one quilt where it takes one:" + names);
+  command.add_option("--views", arguments->views, "How many, instead of the display's")
+      ->check(CLI::Range(1, 1000))
+      ->needs(display);
+  command.add_option("--size", arguments->size, "WIDTHxHEIGHT of a view, instead of the display's")->needs(display);
+  command.add_option("--span", arguments->span, "Eye separations from the first view to the last; chosen if not given")
+      ->check(CLI::Range(0.01, 20.0))
+      ->needs(display);
   command.add_flag("--report", arguments->measure, "Measure how well the painting's two eyes fit together");
   command.add_flag("--html", arguments->html, "Also write index.html, which shows the pictures");
   add_style_options(command, arguments->style);
@@ -153,8 +241,9 @@ void add_paint_command(CLI::App& program, const Session& session) {
       "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, "
       "painting.wst\n"
       "(the strokes), SVG for each eye, disparity, occlusion, and report.json.\n\n"
-      "Example:\n  wheatstone synth still -o still\n"
-      "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted");
+      "Examples:\n  wheatstone synth still -o still\n"
+      "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
+      "  wheatstone paint still/left.png still/right.png --display looking-glass-portrait -o still");
   command.callback([arguments, &session] { run(*arguments, session); });
 }
 

@@ -11,8 +11,10 @@
 #include <opencv2/calib3d.hpp>
 
 #include "stopwatch.h"
+#include "wheatstone/depth/rig.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/wide_painting.h"
 #include "wheatstone/stereo/synthetic_still.h"
 
 namespace wheatstone::bench {
@@ -70,6 +72,19 @@ void print_row(const Size& size) {
       independent / one.total_s, size.paper_ratio > 0 ? fmt::format("{:.2f}", size.paper_ratio) : "-", share,
       std::min(1.1 * share, 1.5), verdict(strokes <= std::min(1.1 * share, 1.5) * one.total_s),
       verdict(raster <= 1.15 * one.total_s));
+}
+
+/// Planning included: a painting for one view alone, against a painting for 48.
+void print_many_views() {
+  const SyntheticStill still = make_synthetic_still({.width = 560, .height = 420, .samples_a_side = 1});
+  const double one = median_seconds([&] { paint_view(still.pictures.left, still.geometry.left_disparity, 0, {}); });
+  const Rig rig = evenly_spaced(560, 420, 48, 2);
+  const double many = median_seconds([&] {
+    draw_views(widen(plan_painting(still.pictures, still.geometry, {}), still.pictures, still.geometry, {}, {-1, 1}),
+               rig.positions);
+  });
+  fmt::print("\n48 views of 560x420 over two eye separations: {:.0f} ms, one view alone {:.0f} ms: {:.1f} x, <= 6 {}\n",
+             1000 * many, 1000 * one, many / one, verdict(many <= 6 * one));
 }
 
 void print_against_matching() {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/error.h"
@@ -25,6 +26,8 @@ StereoGeometry given_geometry(const StereoPair& photographs, const PaintPhotogra
   return geometry_from_both(*options.left_disparity, *options.right_disparity);
 }
 
+}  // namespace
+
 float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometry) {
   if (wanted.disparity_px) return *wanted.disparity_px;
   if (wanted.at) {
@@ -39,22 +42,25 @@ float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometr
   return disparity_percentile(geometry.left_disparity, nearest_share);
 }
 
-}  // namespace
-
-PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
-                                   const Progress& progress) {
-  check_style(options.style);
+FoundGeometry find_geometry(const StereoPair& photographs, const PaintPhotographOptions& options,
+                            const Progress& progress) {
   if (!same_size(photographs.left, photographs.right))
     throw Error(ErrorKind::bad_input, fmt::format("the right photograph is {}x{} pixels, expected the left one's {}x{}",
                                                   photographs.right.width(), photographs.right.height(),
                                                   photographs.left.width(), photographs.left.height()));
+  if (options.left_disparity) return {given_geometry(photographs, options), std::nullopt};
+  MatchedPair matched = match(photographs, options.matching, progress);
+  StereoGeometry geometry = std::exchange(matched.geometry, {});
+  return {std::move(geometry), std::move(matched)};
+}
+
+PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
+                                   const Progress& progress) {
+  check_style(options.style);
   PaintedPhotograph result;
-  if (options.left_disparity) {
-    result.geometry = given_geometry(photographs, options);
-  } else {
-    result.matched = match(photographs, options.matching, progress);
-    result.geometry = std::exchange(result.matched->geometry, {});
-  }
+  FoundGeometry found = find_geometry(photographs, options, progress);
+  result.geometry = std::move(found.geometry);
+  result.matched = std::move(found.matched);
   result.painted = paint(photographs, result.geometry, options.style, progress);
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
   return result;

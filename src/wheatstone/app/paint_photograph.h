@@ -39,6 +39,19 @@ struct PaintedPhotograph {
 PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
                                    const Progress& progress = {});
 
+/// What there is to paint from, and how it was found.
+struct FoundGeometry {
+  StereoGeometry geometry;
+  std::optional<MatchedPair> matched;  ///< without its geometry; none where disparity was given
+};
+
+/// Matches the photographs, or takes the disparity that is given. Throws as paint_photograph does.
+FoundGeometry find_geometry(const StereoPair& photographs, const PaintPhotographOptions& options,
+                            const Progress& progress = {});
+
+/// The disparity that is to lie on the screen. Throws Error{wrong_usage} for a point outside the picture.
+float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometry);
+
 /// How consistent one pair of pictures is, by the measures that need no strokes.
 struct PairMeasures {
   LeftRightDifference difference;

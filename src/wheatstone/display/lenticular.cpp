@@ -57,7 +57,7 @@ void take(std::span<const std::uint8_t* const> rows, std::span<const std::uint16
 int view_of_subpixel(const LenticularScreen& screen, int views, int x, int y, int channel) {
   const Phases phases = phases_of_row(screen, y);
   const int place = screen.blue_first ? 2 - channel : channel;
-  const auto from_left = static_cast<std::uint64_t>(3 * x + place);
+  const auto from_left = 3 * static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(place);
   return view_at(phases.first + from_left * phases.a_subpixel, static_cast<std::uint32_t>(views));
 }
 

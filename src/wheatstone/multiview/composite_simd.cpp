@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::CappedTag<float, 16>;
 using Vec = hn::Vec<Floats>;
-constexpr int lanes = hn::MaxLanes(Floats());
+constexpr std::ptrdiff_t lanes = hn::MaxLanes(Floats());
 
 // Columns composited at a time: their light of all planes fits in a first-level cache, and their sums in registers.
 constexpr int block_width = 4 * 16;
@@ -171,7 +171,7 @@ void composite_block(const UnpackedBlock& block, int x, std::span<const Shift> s
   const Floats d;
   for (int channel = 0; channel < 3; ++channel) {
     Vec sum[vectors];
-    for (int i = 0; i < vectors; ++i) sum[i] = hn::Zero(d);
+    for (Vec& zero : sum) zero = hn::Zero(d);
     for (const int plane : block.lit) {
       const Shift& shift = shifts[plane];
       const float* from = block.at(plane, channel) + (x + shift.whole - block.first[plane]);

@@ -13,7 +13,7 @@ struct Workload {
   float splat_px = 4;  ///< typical diameter
   int views = 2;
   int planes = 36;
-  std::uint64_t pixels = 640 * 360;  ///< of a view
+  std::uint64_t pixels = std::uint64_t{640} * 360;  ///< of a view
 };
 
 /// Estimated times of one thread in seconds. Their ratios are what matters: they were fitted to bench/multiview, whose

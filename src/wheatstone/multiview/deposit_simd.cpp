@@ -16,7 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // A vector is a few pixels of four channels: up to four.
 using Floats = hn::CappedTag<float, 16>;
 using Vec = hn::Vec<Floats>;
-constexpr int lanes = static_cast<int>(hn::MaxLanes(Floats()));
+constexpr std::ptrdiff_t lanes = hn::MaxLanes(Floats());
 constexpr int most_rows = 48;
 
 HWY_INLINE int rounded_up(float x) {

@@ -14,7 +14,7 @@ namespace wheatstone {
 class LightBand {
  public:
   static constexpr int margin = 48;  ///< the widest splat, and a vector
-  static constexpr int channels = 4;
+  static constexpr std::ptrdiff_t channels = 4;
 
   LightBand() = default;
   /// Bands that are written in turn lie at different places within a page (see `friendly`). `number` tells them apart.
@@ -33,8 +33,7 @@ class LightBand {
   std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(lines_a_row_) * 16; }  ///< floats a row
   /// Column `left()` of a row; columns from −margin to width + margin may be written. Aligned as cache lines are.
   float* row(int row) {
-    return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values +
-           static_cast<std::ptrdiff_t>(margin) * channels;
+    return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values + margin * channels;
   }
   const float* row(int row) const { return const_cast<LightBand*>(this)->row(row); }
   void darken() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/painting/rasterise_internal.h"
@@ -17,13 +18,14 @@ void OpenBlocks::clamp(int row, int& begin, int& end) const {
   end = std::min(end, (last + 1) * Glazing::block_px);
 }
 
-Glazing::Glazing(int row_count, int canvas_width)
+Glazing::Glazing(int row_count, int canvas_width, bool with_disparity)
     : width(canvas_width),
       stride(canvas_width + 2 * Canvas::widest_vector),
       red(static_cast<std::size_t>(row_count) * stride),
       green(red.size()),
       blue(red.size()),
       light(red.size(), 1.f),
+      disparity(with_disparity ? red.size() : 0, std::numeric_limits<float>::quiet_NaN()),
       open(row_count, stride / block_px + 1) {
   // Nothing is to be drawn in the padding.
   for (int row = 0; row < row_count; ++row)
@@ -51,19 +53,25 @@ class Backdrop {
 
 /// Writes a finished band and returns how many of its pixels let more light through than `bare_light`.
 std::size_t finish_band(const Glazing& glazing, const DistanceBand& band, const Backdrop& backdrop, float bare_light,
-                        Image<Rgb8>& picture) {
+                        DrawnView& drawn) {
   std::size_t bare = 0;
   const auto rounded = [](float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); };
   for (int row = 0; row < band.row_count; ++row) {
     const std::size_t offset = static_cast<std::size_t>(row) * glazing.stride;
-    const auto to = picture.row(band.top + row);
+    const auto to = drawn.picture.row(band.top + row);
+    const auto bare_to = drawn.bare.row(band.top + row);
+    if (!drawn.disparity.empty())
+      std::copy_n(glazing.disparity.begin() + static_cast<std::ptrdiff_t>(offset), glazing.width,
+                  drawn.disparity.row(band.top + row).begin());
     for (int x = 0; x < glazing.width; ++x) {
       const std::size_t i = offset + static_cast<std::size_t>(x);
       const float light = glazing.light[i];
       const Rgb8 behind = backdrop(x, band.top + row);
       to[x] = {rounded(glazing.red[i] + light * behind.r), rounded(glazing.green[i] + light * behind.g),
                rounded(glazing.blue[i] + light * behind.b)};
-      bare += light > bare_light ? 1 : 0;
+      const bool is_bare = light > bare_light;
+      bare_to[x] = is_bare ? 255 : 0;
+      bare += is_bare ? 1 : 0;
     }
   }
   return bare;
@@ -79,7 +87,8 @@ float bare_light_of(const Painting& painting) {
 
 }  // namespace
 
-DrawnView draw(const Painting& painting, float view, ImageView<const Rgb8> background) {
+DrawnView draw(const Painting& painting, float view, const DrawOptions& options) {
+  const ImageView<const Rgb8> background = options.background;
   assert(background.empty() || (background.width() == painting.width && background.height() == painting.height));
   std::vector<BandedLayer> layers(painting.layers.size());
   tbb::parallel_for(std::size_t{0}, layers.size(), [&](std::size_t i) {
@@ -87,21 +96,23 @@ DrawnView draw(const Painting& painting, float view, ImageView<const Rgb8> backg
     layers[i].bands = strokes_by_band(layers[i].flat, painting.height);
   });
 
-  DrawnView drawn{Image<Rgb8>(painting.width, painting.height), 0};
+  DrawnView drawn{Image<Rgb8>(painting.width, painting.height), 0, Image<std::uint8_t>(painting.width, painting.height),
+                  Image<float>()};
+  if (options.with_disparity) drawn.disparity = Image<float>(painting.width, painting.height);
   const Backdrop backdrop(painting.canvas_colour, background);
   const float bare_light = bare_light_of(painting);
   const int bands = (painting.height + band_rows - 1) / band_rows;
   std::vector<std::size_t> bare(bands);
   tbb::parallel_for(0, bands, [&](int i) {
     DistanceBand band(i * band_rows, painting.width, painting.height);
-    Glazing glazing(band.row_count, painting.width);
+    Glazing glazing(band.row_count, painting.width, options.with_disparity);
     for (std::size_t above = layers.size(); above-- > 0;) {
       const BandedLayer& layer = layers[above];
       const std::vector<std::uint32_t>& strokes = layer.bands[i];
       for (std::size_t nearer = strokes.size(); nearer-- > 0;)
         draw_stroke_under(layer.flat, layer.flat.strokes[strokes[nearer]], band, glazing);
     }
-    bare[i] = finish_band(glazing, band, backdrop, bare_light, drawn.picture);
+    bare[i] = finish_band(glazing, band, backdrop, bare_light, drawn);
   });
   std::size_t bare_pixels = 0;
   for (const std::size_t count : bare) bare_pixels += count;

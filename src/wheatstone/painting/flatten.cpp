@@ -83,6 +83,7 @@ FlatLayer flatten(const Layer& layer, float view) {
     const Stroke& source = *shown[i];
     stroke.radius_px = source.radius_px;
     stroke.opacity = source.opacity;
+    stroke.disparity = source.disparity;
     stroke.red = source.colour.r;
     stroke.green = source.colour.g;
     stroke.blue = source.colour.b;

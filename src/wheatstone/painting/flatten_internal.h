@@ -14,7 +14,8 @@ struct FlatStroke {
   float radius_px = 0;
   float opacity = 1;
   float red = 0, green = 0, blue = 0;  ///< 0..255
-  float top = 0, bottom = 0;           ///< the rows its chain spans, without the radius
+  float disparity = 0;
+  float top = 0, bottom = 0;  ///< the rows its chain spans, without the radius
 };
 
 /// The strokes of one layer that one view shows, in drawing order; vertices as a structure of arrays.

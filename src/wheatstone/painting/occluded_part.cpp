@@ -13,7 +13,7 @@ namespace {
 
 constexpr int reduction = 2;
 
-/// What the right eye sees, at half size; an odd last row or column is left to its neighbours' strokes.
+/// What the view sees, at half size; an odd last row or column is left to its neighbours' strokes.
 struct HalfView {
   explicit HalfView(int width, int height)
       : photograph(width / reduction, height / reduction),
@@ -49,16 +49,17 @@ HalfView halved(const Image<Rgb8>& photograph, const Image<float>& disparity, co
 
 }  // namespace
 
-Painting plan_occluded_part(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
-  const int width = photographs.right.width(), height = photographs.right.height();
+Painting plan_occluded_part(const Image<Rgb8>& photograph, const Image<float>& disparity,
+                            const Image<std::uint8_t>& occlusion, float view, const Style& style) {
+  const int width = photograph.width(), height = photograph.height();
   const float largest_radius_px = ScaledStyle(style, width).radii_px.front();
-  const Image<std::uint8_t> seeds = dilate_occlusion(
-      geometry.right_occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
-  const HalfView half = halved(photographs.right, geometry.right_disparity, seeds);
+  const Image<std::uint8_t> seeds =
+      dilate_occlusion(occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
+  const HalfView half = halved(photograph, disparity, seeds);
   Painting part{width, height, style.canvas_colour, std::vector<Layer>(style.radii_px.size())};
   if (half.photograph.empty()) return part;
 
-  Easel easel(half.photograph, half.disparity, right_eye, style);
+  Easel easel(half.photograph, half.disparity, view, style);
   easel.avoid_mixed_colours = false;  // no other eye sees them
   part.layers = plan_alone(easel, style, ScaledStyle(style, width, reduction), half.seeds).layers;
   for (Layer& layer : part.layers) resize_strokes(layer, reduction);

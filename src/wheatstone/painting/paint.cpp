@@ -32,7 +32,9 @@ class Stopwatch {
 
 /// Draws the finished painting for one eye, over what the style wants behind it.
 DrawnView draw_over(ImageView<const Rgb8> photograph, const Painting& painting, float view, const Style& style) {
-  return draw(painting, view, style.background == Background::photograph ? photograph : ImageView<const Rgb8>());
+  DrawOptions over;
+  if (style.background == Background::photograph) over.background = photograph;
+  return draw(painting, view, over);
 }
 
 /// Plans one eye from its photograph alone.
@@ -40,6 +42,10 @@ Painting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float>
                         const Style& style, const Progress& progress) {
   Easel easel(photograph, disparity, view, style);
   return plan_alone(easel, style, ScaledStyle(style, photograph.width()), {}, progress);
+}
+
+Painting plan_right_only(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
+  return plan_occluded_part(photographs.right, geometry.right_disparity, geometry.right_occlusion, right_eye, style);
 }
 
 /// Stavrakis & Gelautz 2005, sec. 3.2: each layer is planned in the left eye and carried to the right; what only the
@@ -50,7 +56,7 @@ Painting plan_with_strokes(const StereoPair& photographs, const StereoGeometry& 
   Easel left(photographs.left, geometry.left_disparity, left_eye, style);
   Painting right_only;
   Layer planned;
-  tbb::parallel_invoke([&] { right_only = plan_occluded_part(photographs, geometry, style); },
+  tbb::parallel_invoke([&] { right_only = plan_right_only(photographs, geometry, style); },
                        [&] { planned = plan_on(left, style, scaled, 0); });
   Painting painting{photographs.left.width(), photographs.left.height(), style.canvas_colour, {}};
   const int layers = static_cast<int>(scaled.radii_px.size());
@@ -98,7 +104,7 @@ Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, con
       [&] { left = plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress); },
       [&] {
         right = style.propagation == Propagation::raster
-                    ? plan_occluded_part(photographs, geometry, style)
+                    ? plan_right_only(photographs, geometry, style)
                     : plan_by_itself(photographs.right, geometry.right_disparity, right_eye, style, {});
       });
   return joined(std::move(left), right);
@@ -124,14 +130,19 @@ void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {
 
 }  // namespace
 
-PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                  const Progress& progress) {
+Painting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                       const Progress& progress) {
   check_style(style);
   check_fits(photographs, geometry);
+  return plan(photographs, geometry, style, progress);
+}
+
+PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                  const Progress& progress) {
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);
-    result.painting = plan(photographs, geometry, style, progress);
+    result.painting = plan_painting(photographs, geometry, style, progress);
   }
   const Stopwatch watch(result.times.rasterising_s);
   draw_both(photographs, style, result);

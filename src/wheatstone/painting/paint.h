@@ -24,6 +24,10 @@ struct PaintedPair {
   PaintingTimes times;
 };
 
+/// The strokes of a rectified pair's painting, not drawn. What it takes and throws is as for `paint`.
+Painting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                       const Progress& progress = {});
+
 /// Paints a rectified pair so that its strokes fuse. The geometry must have the pair's size and no unknown disparity.
 /// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not
 /// fit.

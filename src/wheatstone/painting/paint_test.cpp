@@ -46,8 +46,8 @@ TEST(Paint, CoversBothEyes) {
 TEST(Paint, PicturesAreWhatDrawMakesOfTheMarks) {
   const StereoPair photographs = test_scene::photographs();
   const PaintedPair painted = paint(photographs, test_scene::geometry(), small_style());
-  EXPECT_EQ(draw(painted.painting, left_eye, photographs.left).picture, painted.pictures.left);
-  EXPECT_EQ(draw(painted.painting, right_eye, photographs.right).picture, painted.pictures.right);
+  EXPECT_EQ(draw(painted.painting, left_eye, {.background = photographs.left}).picture, painted.pictures.left);
+  EXPECT_EQ(draw(painted.painting, right_eye, {.background = photographs.right}).picture, painted.pictures.right);
 }
 
 TEST(Paint, GivesTheSameBytesOnAnyNumberOfThreads) {

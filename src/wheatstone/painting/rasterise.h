@@ -13,12 +13,18 @@ void rasterise(const Layer& layer, float view, Canvas& canvas);
 /// A painting as one view sees it.
 struct DrawnView {
   Image<Rgb8> picture;
-  double bare_share = 0;  ///< share of the pixels, 0..1, of which strokes cover less than half
+  double bare_share = 0;     ///< share of the pixels, 0..1, of which strokes cover less than half
+  Image<std::uint8_t> bare;  ///< 255 for those pixels, 0 for the others
+  Image<float> disparity;    ///< of the stroke that covers half of a pixel, NaN where none does; empty unless asked for
 };
 
-/// Draws a whole painting for one view over `background`, which has the painting's size, or over the painting's canvas
-/// colour where `background` is empty. Works from the nearest stroke to the farthest and leaves out what is hidden; the
-/// picture is that of `rasterise`, layer by layer, within rounding.
-DrawnView draw(const Painting& painting, float view, ImageView<const Rgb8> background = {});
+struct DrawOptions {
+  ImageView<const Rgb8> background;  ///< of the painting's size; empty: the painting's canvas colour
+  bool with_disparity = false;
+};
+
+/// Draws a whole painting for one view over its background. Works from the nearest stroke to the farthest and leaves
+/// out what is hidden; the picture is that of `rasterise`, layer by layer, within rounding.
+DrawnView draw(const Painting& painting, float view, const DrawOptions& options = {});
 
 }  // namespace wheatstone

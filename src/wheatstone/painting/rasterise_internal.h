@@ -77,11 +77,12 @@ struct Glazing {
   static constexpr int block_px = Canvas::widest_vector;
   static constexpr float dark = 1.f / 1024;  ///< light below this changes an 8-bit value by less than a quarter step
 
-  Glazing(int row_count, int canvas_width);
+  Glazing(int row_count, int canvas_width, bool with_disparity = false);
 
   int width;
   int stride;
   std::vector<float> red, green, blue, light;
+  std::vector<float> disparity;  ///< of the stroke that took the light below a half; empty where nobody wants it
   OpenBlocks open;
 };
 

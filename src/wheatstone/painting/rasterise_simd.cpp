@@ -165,6 +165,9 @@ void slide_under_row(const FlatStroke& stroke, const Cover& cover, const Distanc
   const auto stroke_red = hn::Set(f, stroke.red);
   const auto stroke_green = hn::Set(f, stroke.green);
   const auto stroke_blue = hn::Set(f, stroke.blue);
+  float* disparity = glazing.disparity.empty() ? nullptr : glazing.disparity.data() + offset;
+  const auto stroke_disparity = hn::Set(f, stroke.disparity);
+  const auto half = hn::Set(f, 0.5f);
   for (int x = band.begin[row]; x < band.end[row]; x += lanes) {
     const auto distance = hn::LoadU(f, squared + x);
     if (cover.is_zero(distance)) continue;
@@ -177,7 +180,11 @@ void slide_under_row(const FlatStroke& stroke, const Cover& cover, const Distanc
     lay(red, stroke_red);
     lay(green, stroke_green);
     lay(blue, stroke_blue);
-    hn::StoreU(hn::Sub(through, share), f, light + x);
+    const auto left = hn::Sub(through, share);
+    hn::StoreU(left, f, light + x);
+    if (disparity == nullptr) continue;
+    const auto covers_half = hn::And(hn::Gt(through, half), hn::Le(left, half));
+    hn::StoreU(hn::IfThenElse(covers_half, stroke_disparity, hn::LoadU(f, disparity + x)), f, disparity + x);
   }
 }
 

@@ -53,8 +53,8 @@ std::string read_header(const std::filesystem::path& path, std::uint64_t& begin)
   std::array<unsigned char, 12> lead{};
   file.read(reinterpret_cast<char*>(lead.data()), lead.size());
   const bool long_length = lead[6] >= 2;
-  const std::size_t length =
-      lead[8] + 256u * lead[9] + (long_length ? 65536u * lead[10] + 16777216u * std::size_t{lead[11]} : 0u);
+  const std::size_t length = lead[8] + 256u * lead[9] +
+                             (long_length ? 65536u * std::size_t{lead[10]} + 16777216u * std::size_t{lead[11]} : 0u);
   begin = (long_length ? 12 : 10) + length;
   if (!file || length > longest_header)
     throw Error(ErrorKind::bad_input, fmt::format("{}: its NumPy header is damaged or cut short", path.string()));

@@ -14,28 +14,35 @@ namespace {
 /// Neighbours that differ by more than this are different surfaces.
 constexpr float joined_px = 1;
 
-/// Where on the other eye's scan line a pixel's centre lands.
-float target_of(int x, float disparity, Eye from) {
-  return static_cast<float>(x) + 0.5f + (from == Eye::left ? -disparity : disparity);
+/// Without SSE 4.1, which not every processor has, std::floor is a call for every pixel.
+int floor_of(float value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
 }
 
-/// Calls `land(x_in_other, disparity, x, t)` for every pixel centre of the other eye's scan line that the surface of
-/// this one covers: between the pixels x and x + 1, at the fraction t. Not z-tested; a pixel may be landed on often.
+/// From one eye to the other, in eye separations.
+float step_from(Eye eye) { return eye == Eye::left ? 1.f : -1.f; }
+
+/// Calls `land(x_in_other, disparity, x, t)` for every pixel centre of another view's scan line that the surface of
+/// this one covers: between the pixels x and x + 1, at the fraction t. The other view is `step` eye separations to the
+/// right. Not z-tested; a pixel may be landed on often.
 template <class Land>
-void warp_row(std::span<const float> disparity, Eye from, Land land) {
+void warp_row(std::span<const float> disparity, float step, Land land) {
+  const auto target_of = [step](int x, float d) { return static_cast<float>(x) + 0.5f - step * d; };
   const int width = static_cast<int>(disparity.size());
   const auto land_inside = [&](int target, float d, int x, float t) {
     if (target >= 0 && target < width) land(target, d, x, t);
   };
   for (int x = 0; x < width; ++x) {
     if (!std::isfinite(disparity[x])) continue;
-    const float here = target_of(x, disparity[x], from);
-    land_inside(static_cast<int>(std::floor(here)), disparity[x], x, 0);
+    const float here = target_of(x, disparity[x]);
+    if (!(std::abs(here) < 1e9f)) continue;  // nowhere near the picture
+    land_inside(floor_of(here), disparity[x], x, 0);
     if (x + 1 == width || !(std::abs(disparity[x + 1] - disparity[x]) <= joined_px)) continue;
 
     // The surface between two pixels covers the centres between the places where they land.
-    const float next = target_of(x + 1, disparity[x + 1], from);
-    const int first = static_cast<int>(std::ceil(here - 0.5f)), last = static_cast<int>(std::floor(next - 0.5f));
+    const float next = target_of(x + 1, disparity[x + 1]);
+    const int first = -floor_of(0.5f - here), last = floor_of(next - 0.5f);
     for (int target = first; target <= last; ++target) {
       const float t = next > here ? (static_cast<float>(target) + 0.5f - here) / (next - here) : 0;
       land_inside(target, disparity[x] + t * (disparity[x + 1] - disparity[x]), x, t);
@@ -52,18 +59,26 @@ Rgb8 blend(Rgb8 a, Rgb8 b, float t) {
 
 }  // namespace
 
-Image<float> warp_disparity(ImageView<const float> disparity, Eye from) {
-  Image<float> warped(disparity.width(), disparity.height(), std::numeric_limits<float>::quiet_NaN());
+void warp_disparity_over(ImageView<const float> disparity, float step, Image<float>& nearest) {
   tbb::parallel_for(0, disparity.height(), [&](int y) {
-    const auto to = warped.row(y);
-    warp_row(disparity.row(y), from, [&](int target, float d, int, float) {
+    const auto to = nearest.row(y);
+    warp_row(disparity.row(y), step, [&](int target, float d, int, float) {
       if (!(to[target] >= d)) to[target] = d;
     });
   });
+}
+
+Image<float> warp_disparity(ImageView<const float> disparity, Eye from) {
+  Image<float> warped(disparity.width(), disparity.height(), std::numeric_limits<float>::quiet_NaN());
+  warp_disparity_over(disparity, step_from(from), warped);
   return warped;
 }
 
 WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float> disparity, Eye from) {
+  return warp_picture(picture, disparity, step_from(from));
+}
+
+WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float> disparity, float step) {
   const int width = picture.width();
   WarpedPicture warped{Image<Rgb8>(width, picture.height()), Image<std::uint8_t>(width, picture.height())};
   tbb::parallel_for(tbb::blocked_range<int>(0, picture.height()), [&](const tbb::blocked_range<int>& rows) {
@@ -73,7 +88,7 @@ WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float>
       const auto colours = picture.row(y);
       const auto to = warped.picture.row(y);
       const auto covered = warped.covered.row(y);
-      warp_row(disparity.row(y), from, [&](int target, float d, int x, float t) {
+      warp_row(disparity.row(y), step, [&](int target, float d, int x, float t) {
         if (d <= nearest[target]) return;
         nearest[target] = d;
         to[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];
@@ -82,6 +97,31 @@ WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float>
     }
   });
   return warped;
+}
+
+void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> disparity, float step, float tolerance_px,
+                       Composition& composition) {
+  constexpr float farthest = -std::numeric_limits<float>::infinity();
+  tbb::parallel_for(tbb::blocked_range<int>(0, picture.height()), [&](const tbb::blocked_range<int>& rows) {
+    std::vector<float> nearest(picture.width());
+    std::vector<Rgb8> warped(picture.width());
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      std::ranges::fill(nearest, farthest);
+      const auto colours = picture.row(y);
+      warp_row(disparity.row(y), step, [&](int target, float d, int x, float t) {
+        if (d <= nearest[target]) return;
+        nearest[target] = d;
+        warped[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];
+      });
+      const auto to = composition.picture.row(y);
+      const auto there = composition.nearest.row(y);
+      for (std::size_t x = 0; x < nearest.size(); ++x) {
+        if (nearest[x] == farthest || there[x] + tolerance_px >= nearest[x]) continue;
+        to[x] = warped[x];
+        there[x] = nearest[x];
+      }
+    }
+  });
 }
 
 void lay_over(const WarpedPicture& warped, Image<Rgb8>& picture) {
