@@ -118,6 +118,7 @@ int main(int argument_count, char** arguments) {
   fmt::print("size         one eye  strokes raster  each    paper   (P+2R)/(P+R)\n");
   for (const bench::Size& size : bench::sizes) bench::print_row(size);
   bench::print_against_matching();
+  bench::print_many_views();
   bench::print_memory();
   return 0;
 }
