@@ -1,0 +1,76 @@
+#pragma once
+
+// The frames of one film file, one after the other, and what went wrong with them.
+
+#include <optional>
+
+#include "wheatstone/video/film_reader.h"
+#include "wheatstone/video/libav_internal.h"
+#include "wheatstone/video/picture_conversion_internal.h"
+
+namespace wheatstone {
+
+/// When a frame is shown, in ticks of the film's time base.
+struct FrameTime {
+  std::int64_t pts = 0;
+  std::int64_t duration = 0;
+};
+
+class DecodedFilm {
+ public:
+  /// Opens the film and decodes its first frame, which tells what the container may not. Throws Error{bad_input}.
+  DecodedFilm(std::filesystem::path path, int threads);
+
+  const FilmFacts& facts() const { return facts_; }
+
+  /// Goes to the key frame at or before this moment, if the film can be searched. The first `step` then gives its
+  /// frame.
+  void seek_before(double seconds);
+
+  /// Decodes the next frame. False after the last.
+  bool step();
+  FrameTime time() const { return time_; }
+  /// The frame that `step` came to.
+  void convert(Image<Rgb8>& picture);
+
+  std::optional<std::string> loss() const;
+
+ private:
+  void open();
+  void open_decoder(const AVStream& stream);
+  void gather_facts();
+  void gather_layout();
+  bool decode();
+  void decode_afresh();
+  bool feed();
+  void note_time();
+  void check_size() const;
+  double stated_end_s() const;
+
+  std::filesystem::path path_;
+  int threads_;
+  OwnedInput input_;
+  OwnedCodec decoder_;
+  AVStream* stream_ = nullptr;
+  OwnedPacket packet_ = new_packet();
+  OwnedFrame frame_ = new_frame();
+  RgbFromFrame rgb_from_frame_;
+  Image<Rgb8> lying_;  ///< before it is turned
+  FilmFacts facts_;
+  Orientation orientation_;
+  FrameTime time_;
+
+  bool peeked_ = false;    ///< the frame at hand was decoded before it was asked for
+  bool fed_all_ = false;   ///< the decoder was told that nothing follows
+  bool at_end_ = false;    ///< no frame follows
+  bool searched_ = false;  ///< frames were passed over: their number says nothing
+  bool first_ = true;
+  int stored_width_ = 0;
+  int stored_height_ = 0;
+  std::int64_t packets_ = 0;
+  std::int64_t frames_ = 0;
+  std::int64_t damaged_ = 0;
+  int read_error_ = 0;  ///< that ended the reading, where it was not the end of the file
+};
+
+}  // namespace wheatstone

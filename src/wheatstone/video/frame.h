@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// A fraction, as films give their rates and their ticks; 0/1 where unknown.
+struct Rational {
+  int numerator = 0;
+  int denominator = 1;
+
+  double value() const { return static_cast<double>(numerator) / denominator; }
+  friend bool operator==(const Rational&, const Rational&) = default;
+};
+
+/// One picture of a film and when it is shown. Times count ticks of `time_base` seconds, as the film itself counts
+/// them.
+struct Frame {
+  Image<Rgb8> picture;
+  std::int64_t pts = 0;  ///< presentation time
+  Rational time_base{1, 1};
+  std::int64_t duration = 0;  ///< 0 where unknown
+
+  double seconds() const { return static_cast<double>(pts) * time_base.value(); }
+};
+
+}  // namespace wheatstone

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <mutex>
+#include <new>
+#include <system_error>
+
+extern "C" {
+#include <libavutil/log.h>
+}
+
+#include "wheatstone/error.h"
+#include "wheatstone/video/libav_internal.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* containers =
+    "mov,mp4,matroska,webm,avi,mpegts,mpeg,mpegvideo,m4v,h264,hevc,asf,flv,ogg,nut,mxf,ivf,obu,dv,wtv,rm,yuv4mpegpipe";
+
+void check_readable(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) refuse_film(path, "no such file, expected a film");
+  if (fs::is_directory(status)) refuse_film(path, "is a folder, expected a film");
+  if (::access(path.c_str(), R_OK) != 0) {
+    throw Error(ErrorKind::cannot_read_write,
+                fmt::format("{}: cannot read: {}", path.string(), std::generic_category().message(errno)));
+  }
+  if (fs::is_regular_file(status) && fs::file_size(path, error) == 0) refuse_film(path, "is empty, expected a film");
+}
+
+}  // namespace
+
+OwnedFrame new_frame() {
+  OwnedFrame frame(av_frame_alloc());
+  if (!frame) throw std::bad_alloc();
+  return frame;
+}
+
+OwnedPacket new_packet() {
+  OwnedPacket packet(av_packet_alloc());
+  if (!packet) throw std::bad_alloc();
+  return packet;
+}
+
+void silence_libav() {
+  static std::once_flag once;
+  std::call_once(once, [] { av_log_set_level(AV_LOG_QUIET); });
+}
+
+std::string libav_reason(int error) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(error, text.data(), text.size());
+  return text.data();
+}
+
+void refuse_film(const fs::path& path, std::string_view what) {
+  throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), what));
+}
+
+void fail_to_write_film(const fs::path& path, int error) {
+  throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write: {}", path.string(), libav_reason(error)));
+}
+
+OwnedInput open_input(const fs::path& path) {
+  silence_libav();
+  check_readable(path);
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "format_whitelist", containers, 0);
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  AVFormatContext* opened = nullptr;
+  // With the protocol said, a colon in a file's name is nothing special.
+  const int error = avformat_open_input(&opened, ("file:" + path.string()).c_str(), nullptr, &options);
+  av_dict_free(&options);
+  if (error < 0) {
+    refuse_film(path, fmt::format("no film, or a damaged one ({}); expected MP4, Matroska, AVI, MPEG or the like",
+                                  libav_reason(error)));
+  }
+  OwnedInput input(opened);
+  const int unknown = avformat_find_stream_info(input.get(), nullptr);
+  if (unknown < 0) refuse_film(path, fmt::format("its streams cannot be read: {}", libav_reason(unknown)));
+  return input;
+}
+
+int video_stream_of(const AVFormatContext& input) {
+  for (unsigned i = 0; i < input.nb_streams; ++i) {
+    const AVStream& stream = *input.streams[i];
+    if (stream.codecpar->codec_type != AVMEDIA_TYPE_VIDEO) continue;
+    if ((stream.disposition & AV_DISPOSITION_ATTACHED_PIC) == 0) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace wheatstone

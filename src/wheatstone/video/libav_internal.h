@@ -1,0 +1,59 @@
+#pragma once
+
+// libav's objects with owners, its errors with words. Seen by .cpp files only, never installed.
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/frame.h>
+#include <libswscale/swscale.h>
+}
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "wheatstone/video/frame.h"
+
+namespace wheatstone {
+
+struct LibavDeleter {
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+};
+using OwnedFrame = std::unique_ptr<AVFrame, LibavDeleter>;
+using OwnedPacket = std::unique_ptr<AVPacket, LibavDeleter>;
+using OwnedCodec = std::unique_ptr<AVCodecContext, LibavDeleter>;
+using OwnedScaler = std::unique_ptr<SwsContext, LibavDeleter>;
+
+struct InputDeleter {
+  void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
+};
+using OwnedInput = std::unique_ptr<AVFormatContext, InputDeleter>;
+
+OwnedFrame new_frame();
+OwnedPacket new_packet();
+
+/// Keeps libav from writing to the terminal: what matters comes as an Error. Once is enough, more does no harm.
+void silence_libav();
+
+/// What libav's error number means, in its words.
+std::string libav_reason(int error);
+
+[[noreturn]] void refuse_film(const std::filesystem::path& path, std::string_view what);
+[[noreturn]] void fail_to_write_film(const std::filesystem::path& path, int error);
+
+/// Opens a film and finds its streams. Only formats that hold everything in the one file are let in: none that names
+/// other files or addresses, none that takes any text for a film. Throws Error{bad_input}.
+OwnedInput open_input(const std::filesystem::path& path);
+
+/// The first stream of moving pictures (a cover is none), or −1.
+int video_stream_of(const AVFormatContext& input);
+
+inline AVRational as_av(Rational r) { return {r.numerator, r.denominator}; }
+inline Rational from_av(AVRational r) { return r.den == 0 ? Rational{} : Rational{r.num, r.den}; }
+
+}  // namespace wheatstone

@@ -1,0 +1,60 @@
+#pragma once
+
+// Between libav's frames and our pictures: colour matrix and range, chroma's place, and turning.
+
+#include <array>
+#include <filesystem>
+
+#include "wheatstone/image/image.h"
+#include "wheatstone/video/colour_tags.h"
+#include "wheatstone/video/libav_internal.h"
+
+namespace wheatstone {
+
+ColourTags colour_tags_of(AVColorSpace matrix, AVColorRange range, AVColorPrimaries primaries,
+                          AVColorTransferCharacteristic transfer);
+
+/// The matrix that a picture is converted with: its tag's or, as players do where there is none, BT.709 from 1280
+/// columns or 577 rows on and BT.601 below.
+AVColorSpace matrix_in_use(AVColorSpace tagged, int width, int height);
+
+/// Converts frames of one size to RGB. Makes its tables anew when format or tags change.
+class RgbFromFrame {
+ public:
+  void convert(const AVFrame& frame, Image<Rgb8>& picture);
+
+ private:
+  OwnedScaler scaler_;
+  OwnedFrame rgb_;
+  std::array<int, 6> made_for_{};
+};
+
+/// Converts RGB pictures of one size to an encoder's format, repeating the last column and row where that is larger.
+class FrameFromRgb {
+ public:
+  FrameFromRgb(int width, int height, AVPixelFormat format, AVColorSpace matrix, AVColorRange range);
+  /// The frame is fresh each time: encoders keep what they are given.
+  OwnedFrame convert(ImageView<const Rgb8> picture);
+
+ private:
+  OwnedScaler scaler_;
+  OwnedFrame rgb_;
+  AVPixelFormat format_;
+};
+
+/// One of the eight ways to lie: where a pixel of the stored picture goes. Rows of the matrix as in
+/// libavutil/display.h.
+struct Orientation {
+  int a = 1, b = 0, c = 0, d = 1;
+  bool is_upright() const { return a == 1 && d == 1; }
+  bool swaps_sides() const { return a == 0; }
+  /// Clockwise quarter turns times 90; flips are not counted.
+  int degrees() const;
+};
+
+/// The orientation that a display matrix asks for, rounded to quarter turns.
+Orientation orientation_of(const std::int32_t* display_matrix);
+
+Image<Rgb8> turned(const Image<Rgb8>& picture, Orientation orientation);
+
+}  // namespace wheatstone

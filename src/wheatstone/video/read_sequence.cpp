@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "wheatstone/error.h"
+#include "wheatstone/image/read_image.h"
+#include "wheatstone/video/read_sequence_internal.h"
+
+namespace wheatstone {
+
+PictureSequence::PictureSequence(const std::filesystem::path& path, FramePattern pattern, Rational rate)
+    : pattern_(std::move(pattern)) {
+  const std::vector<std::int64_t> numbers = numbers_of(pattern_);
+  if (numbers.empty()) refuse_film(path, "no picture has such a name, expected a numbered sequence");
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (numbers[i] == numbers[i - 1] + 1) continue;
+    refuse_film(
+        path, fmt::format("{} is missing, the next there is {}", pattern_.file(numbers[i - 1] + 1).filename().string(),
+                          pattern_.file(numbers[i]).filename().string()));
+  }
+  first_ = numbers.front();
+  count_ = static_cast<std::int64_t>(numbers.size());
+  const Image<Rgb8> first = read_image(pattern_.file(first_));
+  facts_.container = "sequence";
+  facts_.codec = path.extension().empty() ? "" : path.extension().string().substr(1);
+  facts_.pixel_format = "rgb24";
+  facts_.width = first.width();
+  facts_.height = first.height();
+  facts_.frame_rate = rate;
+  facts_.time_base = {rate.denominator, rate.numerator};
+  facts_.duration_s = static_cast<double>(count_) / rate.value();
+  facts_.frame_count = count_;
+}
+
+void PictureSequence::seek_before(double seconds) {
+  const double frame = std::floor(seconds * facts_.frame_rate.value());
+  next_ = static_cast<std::int64_t>(std::clamp(frame, 0.0, static_cast<double>(count_)));
+}
+
+bool PictureSequence::step() {
+  if (next_ >= count_) return false;
+  ++next_;
+  return true;
+}
+
+void PictureSequence::convert(Image<Rgb8>& picture) const {
+  const std::filesystem::path file = pattern_.file(first_ + next_ - 1);
+  picture = read_image(file);
+  if (picture.width() == facts_.width && picture.height() == facts_.height) return;
+  refuse_film(file, fmt::format("{}x{} pixels, expected {}x{} like the first of its sequence", picture.width(),
+                                picture.height(), facts_.width, facts_.height));
+}
+
+}  // namespace wheatstone
