@@ -59,10 +59,9 @@ bool is_damaged(const AVFrame& frame) {
 
 DecodedFilm::DecodedFilm(std::filesystem::path path, int threads) : path_(std::move(path)), threads_(threads) {
   open();
-  const bool any = decode();
-  if (!any) refuse_film(path_, "no frame of it can be decoded");
+  look_ahead();
+  if (!time_ahead_) refuse_film(path_, "no frame of it can be decoded");
   gather_facts();
-  peeked_ = true;
 }
 
 void DecodedFilm::open() {
@@ -95,9 +94,9 @@ void DecodedFilm::open_decoder(const AVStream& stream) {
 
 void DecodedFilm::gather_facts() {
   const AVCodecParameters& coded = *stream_->codecpar;
-  const char* format = av_get_pix_fmt_name(static_cast<AVPixelFormat>(frame_->format));
-  stored_width_ = frame_->width;
-  stored_height_ = frame_->height;
+  const char* format = av_get_pix_fmt_name(static_cast<AVPixelFormat>(ahead_->format));
+  stored_width_ = ahead_->width;
+  stored_height_ = ahead_->height;
   if (stream_->side_data != nullptr) {
     std::size_t size = 0;
     const std::uint8_t* matrix = av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, &size);
@@ -112,13 +111,13 @@ void DecodedFilm::gather_facts() {
   facts_.width = orientation_.swaps_sides() ? stored_height_ : stored_width_;
   facts_.height = orientation_.swaps_sides() ? stored_width_ : stored_height_;
   facts_.rotation_degrees = orientation_.degrees();
-  const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream_, frame_.get());
+  const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream_, ahead_.get());
   facts_.pixel_aspect = aspect.num > 0 && aspect.den > 0 ? from_av(aspect) : Rational{1, 1};
   facts_.frame_rate = from_av(stream_->avg_frame_rate.num > 0 ? stream_->avg_frame_rate : stream_->r_frame_rate);
   facts_.time_base = from_av(stream_->time_base);
   facts_.duration_s = stated_end_s();
   if (stream_->nb_frames > 0) facts_.frame_count = stream_->nb_frames;
-  facts_.colour = colour_tags_of(frame_->colorspace, frame_->color_range, frame_->color_primaries, frame_->color_trc);
+  facts_.colour = colour_tags_of(ahead_->colorspace, ahead_->color_range, ahead_->color_primaries, ahead_->color_trc);
   facts_.side_streams = side_streams_of(*input_);
   gather_layout();
 }
@@ -133,7 +132,7 @@ void DecodedFilm::gather_layout() {
                                                                                : "the container's stereo mode";
     return;
   }
-  const AVFrameSideData* of_frame = av_frame_get_side_data(frame_.get(), AV_FRAME_DATA_STEREO3D);
+  const AVFrameSideData* of_frame = av_frame_get_side_data(ahead_.get(), AV_FRAME_DATA_STEREO3D);
   if (of_frame == nullptr) return;
   facts_.layout =
       layout_of(*reinterpret_cast<const AVStereo3D*>(of_frame->data), stored_width_, stored_height_, aspect);
@@ -155,12 +154,12 @@ double DecodedFilm::stated_end_s() const {
 
 void DecodedFilm::seek_before(double seconds) {
   const auto target = static_cast<std::int64_t>(std::floor(seconds / av_q2d(stream_->time_base)));
-  if (time_.pts >= target) return;
+  if (time_ahead_ && time_ahead_->pts >= target) return;
   searched_ = true;
   if (av_seek_frame(input_.get(), stream_->index, target, AVSEEK_FLAG_BACKWARD) >= 0) {
     avcodec_flush_buffers(decoder_.get());
     decode_afresh();
-    if (peeked_ && time_.pts <= target) return;
+    if (time_ahead_ && time_ahead_->pts <= target) return;
   }
   // Searching failed or went too far: from the beginning, then.
   open();
@@ -169,72 +168,78 @@ void DecodedFilm::seek_before(double seconds) {
 
 void DecodedFilm::decode_afresh() {
   fed_all_ = at_end_ = false;
-  first_ = true;
   read_error_ = 0;
-  peeked_ = decode();
+  time_ahead_.reset();
+  look_ahead();
 }
 
 bool DecodedFilm::step() {
-  if (std::exchange(peeked_, false)) return true;
-  return decode();
+  if (!time_ahead_) {
+    at_end_ = true;
+    return false;
+  }
+  std::swap(frame_, ahead_);
+  time_ = *time_ahead_;
+  check_size();
+  look_ahead();
+  if (time_ahead_) time_.duration = time_ahead_->pts - time_.pts;
+  return true;
 }
 
 /// Gives the decoder the next packet, or the word that none follows.
-bool DecodedFilm::feed() {
-  while (true) {
+void DecodedFilm::feed() {
+  bool ours = false;
+  while (!ours) {
     const int error = av_read_frame(input_.get(), packet_.get());
     if (error < 0) {
       if (error != AVERROR_EOF) read_error_ = error;
       fed_all_ = true;
       avcodec_send_packet(decoder_.get(), nullptr);
-      return true;
+      return;
     }
-    const bool ours = packet_->stream_index == stream_->index;
+    ours = packet_->stream_index == stream_->index;
     if (ours) {
       ++packets_;
-      if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) ++damaged_;
-      if (avcodec_send_packet(decoder_.get(), packet_.get()) == AVERROR_INVALIDDATA) ++damaged_;
+      const bool is_corrupt = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
+      const bool is_refused = avcodec_send_packet(decoder_.get(), packet_.get()) == AVERROR_INVALIDDATA;
+      if (is_corrupt || is_refused) ++damaged_;
     }
     av_packet_unref(packet_.get());
-    if (ours) return true;
   }
 }
 
-bool DecodedFilm::decode() {
-  while (!at_end_) {
-    const int error = avcodec_receive_frame(decoder_.get(), frame_.get());
+void DecodedFilm::look_ahead() {
+  while (true) {
+    const int error = avcodec_receive_frame(decoder_.get(), ahead_.get());
     if (error == 0) {
-      if (is_damaged(*frame_)) ++damaged_;
-      note_time();
-      check_size();
-      ++frames_;
-      return true;
+      if (is_damaged(*ahead_)) ++damaged_;
+      time_ahead_ = time_of(*ahead_);
+      return;
     }
     if (error == AVERROR(EAGAIN) && !fed_all_) {
       feed();
     } else if (error == AVERROR_INVALIDDATA) {
       ++damaged_;
     } else {
-      at_end_ = true;
+      time_ahead_.reset();
+      return;
     }
   }
-  return false;
 }
 
-void DecodedFilm::note_time() {
-  const FrameTime before = time_;
-  time_.duration = std::max<std::int64_t>(0, frame_->pkt_duration);
+FrameTime DecodedFilm::time_of(const AVFrame& frame) const {
+  FrameTime time{frame.best_effort_timestamp, std::max<std::int64_t>(0, frame.pkt_duration)};
   const AVRational rate = stream_->avg_frame_rate;
-  if (time_.duration == 0 && rate.num > 0) time_.duration = av_rescale_q(1, av_inv_q(rate), stream_->time_base);
-  time_.pts = frame_->best_effort_timestamp;
-  if (time_.pts == AV_NOPTS_VALUE) time_.pts = first_ ? 0 : before.pts + std::max<std::int64_t>(1, before.duration);
+  if (time.duration == 0 && rate.num > 0) time.duration = av_rescale_q(1, av_inv_q(rate), stream_->time_base);
+  const FrameTime* before = time_ahead_ ? &*time_ahead_ : nullptr;
+  if (time.pts == AV_NOPTS_VALUE) time.pts = before ? before->pts + std::max<std::int64_t>(1, before->duration) : 0;
   // Two frames at one moment, or time that runs backwards, could not be written again.
-  if (!first_) time_.pts = std::max(time_.pts, before.pts + 1);
-  first_ = false;
+  if (before) time.pts = std::max(time.pts, before->pts + 1);
+  return time;
 }
 
 void DecodedFilm::check_size() const {
-  if (stored_width_ == 0 || (frame_->width == stored_width_ && frame_->height == stored_height_)) return;
+  if (frame_->width == stored_width_ && frame_->height == stored_height_) return;
   refuse_film(path_, fmt::format("its pictures change from {}x{} to {}x{} pixels after {:.2f} s, expected one size",
                                  stored_width_, stored_height_, frame_->width, frame_->height,
                                  static_cast<double>(time_.pts) * av_q2d(stream_->time_base)));

@@ -40,10 +40,10 @@ class DecodedFilm {
   void open_decoder(const AVStream& stream);
   void gather_facts();
   void gather_layout();
-  bool decode();
   void decode_afresh();
-  bool feed();
-  void note_time();
+  void look_ahead();
+  void feed();
+  FrameTime time_of(const AVFrame& frame) const;
   void check_size() const;
   double stated_end_s() const;
 
@@ -53,22 +53,21 @@ class DecodedFilm {
   OwnedCodec decoder_;
   AVStream* stream_ = nullptr;
   OwnedPacket packet_ = new_packet();
-  OwnedFrame frame_ = new_frame();
+  OwnedFrame frame_ = new_frame();  ///< the one at hand
+  OwnedFrame ahead_ = new_frame();  ///< the one after it: only its time tells how long this one is shown
   RgbFromFrame rgb_from_frame_;
   Image<Rgb8> lying_;  ///< before it is turned
   FilmFacts facts_;
   Orientation orientation_;
   FrameTime time_;
+  std::optional<FrameTime> time_ahead_;  ///< nothing where no frame follows
 
-  bool peeked_ = false;    ///< the frame at hand was decoded before it was asked for
   bool fed_all_ = false;   ///< the decoder was told that nothing follows
-  bool at_end_ = false;    ///< no frame follows
+  bool at_end_ = false;    ///< the last frame was passed
   bool searched_ = false;  ///< frames were passed over: their number says nothing
-  bool first_ = true;
   int stored_width_ = 0;
   int stored_height_ = 0;
   std::int64_t packets_ = 0;
-  std::int64_t frames_ = 0;
   std::int64_t damaged_ = 0;
   int read_error_ = 0;  ///< that ended the reading, where it was not the end of the file
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -52,10 +53,11 @@ struct FilmReader::Implementation {
   /// Goes to the next frame that is wanted.
   bool advance() {
     while (!past_end && std::visit([](auto& film) { return film.step(); }, source)) {
-      // Half a tick of mercy: 1/3 s is no number of milliseconds.
-      const double seconds = (static_cast<double>(time().pts) + 0.5) * facts().time_base.value();
+      // Some mercy: 1/3 s is no number of milliseconds.
+      const double tick = facts().time_base.value();
+      const double seconds = static_cast<double>(time().pts) * tick + std::min(0.5 * tick, 0.0005);
       if (options.from_s && seconds < *options.from_s) continue;
-      if (options.to_s && seconds >= *options.to_s + facts().time_base.value()) break;
+      if (options.to_s && seconds >= *options.to_s) break;
       if (wanted_seen++ % options.every == 0) return true;
     }
     past_end = true;

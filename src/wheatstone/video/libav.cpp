@@ -48,6 +48,12 @@ OwnedPacket new_packet() {
   return packet;
 }
 
+OwnedParameters parameters_of(const AVCodecContext& encoder) {
+  OwnedParameters parameters(avcodec_parameters_alloc());
+  if (!parameters || avcodec_parameters_from_context(parameters.get(), &encoder) < 0) throw std::bad_alloc();
+  return parameters;
+}
+
 void silence_libav() {
   static std::once_flag once;
   std::call_once(once, [] { av_log_set_level(AV_LOG_QUIET); });

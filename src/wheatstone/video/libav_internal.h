@@ -22,11 +22,13 @@ struct LibavDeleter {
   void operator()(AVFrame* frame) const { av_frame_free(&frame); }
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
   void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  void operator()(AVCodecParameters* parameters) const { avcodec_parameters_free(&parameters); }
   void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
 };
 using OwnedFrame = std::unique_ptr<AVFrame, LibavDeleter>;
 using OwnedPacket = std::unique_ptr<AVPacket, LibavDeleter>;
 using OwnedCodec = std::unique_ptr<AVCodecContext, LibavDeleter>;
+using OwnedParameters = std::unique_ptr<AVCodecParameters, LibavDeleter>;
 using OwnedScaler = std::unique_ptr<SwsContext, LibavDeleter>;
 
 struct InputDeleter {
@@ -36,6 +38,8 @@ using OwnedInput = std::unique_ptr<AVFormatContext, InputDeleter>;
 
 OwnedFrame new_frame();
 OwnedPacket new_packet();
+/// What an opened encoder makes.
+OwnedParameters parameters_of(const AVCodecContext& encoder);
 
 /// Keeps libav from writing to the terminal: what matters comes as an Error. Once is enough, more does no harm.
 void silence_libav();

@@ -123,7 +123,8 @@ void RgbFromFrame::convert(const AVFrame& frame, Image<Rgb8>& picture) {
 
   // Not straight into the picture: swscale's vectors may write past the end of an unpadded row.
   sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, rgb_->data, rgb_->linesize);
-  if (picture.width() != frame.width || picture.height() != frame.height) {
+  // A picture that was moved from still tells its size, but has no pixels.
+  if (picture.width() != frame.width || picture.height() != frame.height || picture.empty()) {
     picture = Image<Rgb8>(frame.width, frame.height);
   }
   for (int y = 0; y < frame.height; ++y) {

@@ -37,9 +37,13 @@ bool is_squeezed(Arrangement arrangement, int width, int height, AVRational pixe
 }  // namespace
 
 FilmLayout layout_of(const AVStereo3D& stereo, int width, int height, AVRational pixel_aspect) {
-  if (stereo.view != AV_STEREO3D_VIEW_PACKED) return FilmLayout::mono;
   const Arrangement arrangement = arrangement_of(stereo.type);
-  const bool right_first = (stereo.flags & AV_STEREO3D_FLAG_INVERT) != 0;
+  bool right_first = (stereo.flags & AV_STEREO3D_FLAG_INVERT) != 0;
+  if (stereo.view != AV_STEREO3D_VIEW_PACKED) {
+    // Only the first of two frames says which eye it is.
+    if (arrangement != Arrangement::in_time) return FilmLayout::mono;
+    right_first = stereo.view == AV_STEREO3D_VIEW_RIGHT;
+  }
   return layout_with(arrangement, right_first, is_squeezed(arrangement, width, height, pixel_aspect));
 }
 

@@ -1,0 +1,137 @@
+#include "wheatstone/video/film_file_internal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <utility>
+
+#include "wheatstone/error.h"
+#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/video/stereo_metadata_internal.h"
+
+namespace wheatstone {
+namespace {
+
+enum class Container { mp4, quicktime, matroska, other };
+
+Container container_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  if (ending == ".mp4" || ending == ".m4v") return Container::mp4;
+  if (ending == ".mov") return Container::quicktime;
+  if (ending == ".mkv" || ending == ".mk3d") return Container::matroska;
+  return Container::other;
+}
+
+const char* format_of(Container container) {
+  if (container == Container::mp4) return "mp4";
+  return container == Container::quicktime ? "mov" : "matroska";
+}
+
+}  // namespace
+
+void check_container(const std::filesystem::path& path, const FilmWriterOptions& options) {
+  const Container container = container_of(path);
+  if (container == Container::other) {
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: films are written to .mp4, .m4v, .mov, .mkv, or numbered pictures like out_%04d.png",
+                            path.string()));
+  }
+  if (options.codec == "ffv1" && container != Container::matroska) {
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: ffv1 is held only by Matroska, expected .mkv", path.string()));
+  }
+}
+
+FilmFile::FilmFile(std::filesystem::path path, const FilmWriterOptions& options, std::vector<std::string>& notes)
+    : path_(std::move(path)), options_(options), file_(path_), notes_(notes) {
+  silence_libav();
+  const int error =
+      avformat_alloc_output_context2(&output_, nullptr, format_of(container_of(path_)), file_.path().c_str());
+  if (error < 0) fail_to_write_film(path_, error);
+  // The same input gives the same bytes; and stereo boxes and some codecs in MP4 count as experiments.
+  output_->flags |= AVFMT_FLAG_BITEXACT;
+  output_->strict_std_compliance = FF_COMPLIANCE_EXPERIMENTAL;
+}
+
+FilmFile::~FilmFile() {
+  side_streams_.reset();
+  if (output_->pb != nullptr) avio_closep(&output_->pb);
+  avformat_free_context(output_);
+}
+
+void FilmFile::check(int error) const {
+  if (error < 0) fail_to_write_film(path_, error);
+}
+
+void FilmFile::begin(const AVCodecParameters& coded, Rational time_base) {
+  stream_ = avformat_new_stream(output_, nullptr);
+  if (stream_ == nullptr || avcodec_parameters_copy(stream_->codecpar, &coded) < 0) throw std::bad_alloc();
+  const Container container = container_of(path_);
+  // The tag by which Apple's players know HEVC.
+  const bool is_apple_hevc = coded.codec_id == AV_CODEC_ID_HEVC && container != Container::matroska;
+  stream_->codecpar->codec_tag = is_apple_hevc ? MKTAG('h', 'v', 'c', '1') : 0;
+  stream_->sample_aspect_ratio = coded.sample_aspect_ratio;
+  time_base_ = as_av(time_base);
+  stream_->time_base = time_base_;
+  shift_ = std::llround(options_.start_s / av_q2d(time_base_));
+  say_layout(*stream_);
+  if (!options_.side_streams_from.empty()) side_streams_.emplace(options_, *output_, notes_);
+
+  check(avio_open(&output_->pb, ("file:" + file_.path().string()).c_str(), AVIO_FLAG_WRITE));
+  AVDictionary* settings = nullptr;
+  // The index in front: a film that arrives slowly, or not to its end, can be shown.
+  if (container != Container::matroska) av_dict_set(&settings, "movflags", "+faststart", 0);
+  const int error = avformat_write_header(output_, &settings);
+  av_dict_free(&settings);
+  check(error);
+}
+
+void FilmFile::say_layout(AVStream& stream) {
+  const std::optional<AVStereo3D> stereo = stereo_of(options_.layout);
+  if (!stereo) return;
+  const Container container = container_of(path_);
+  const LayoutTraits& traits = traits_of(options_.layout);
+  if (container == Container::matroska) {
+    av_dict_set(&stream.metadata, "stereo_mode", traits.matroska, 0);
+    return;
+  }
+  const bool in_box = container == Container::mp4 && !traits.right_first &&
+                      (stereo->type == AV_STEREO3D_SIDEBYSIDE || stereo->type == AV_STEREO3D_TOPBOTTOM);
+  const bool in_pictures = options_.codec == "h264" && frame_packing_of(options_.layout).has_value();
+  if (in_box) {
+    std::uint8_t* data = av_stream_new_side_data(&stream, AV_PKT_DATA_STEREO3D, sizeof(AVStereo3D));
+    if (data == nullptr) throw std::bad_alloc();
+    std::memcpy(data, &*stereo, sizeof(AVStereo3D));
+  } else if (!in_pictures) {
+    notes_.push_back(fmt::format("the layout {} cannot be said in {} with {}; Matroska can say it", traits.name,
+                                 format_of(container), options_.codec));
+  }
+}
+
+void FilmFile::add(AVPacket& packet) {
+  if (packet.pts != AV_NOPTS_VALUE) packet.pts -= shift_;
+  if (packet.dts != AV_NOPTS_VALUE) packet.dts -= shift_;
+  if (side_streams_) check(side_streams_->copy_until(static_cast<double>(packet.dts) * av_q2d(time_base_)));
+  const std::int64_t pts = packet.pts;
+  av_packet_rescale_ts(&packet, time_base_, stream_->time_base);
+  if (!rounds_times_ && av_compare_ts(pts, time_base_, packet.pts, stream_->time_base) != 0) {
+    notes_.emplace_back("Matroska keeps times to the nearest millisecond");
+    rounds_times_ = true;
+  }
+  packet.stream_index = stream_->index;
+  packet.pos = -1;
+  check(av_interleaved_write_frame(output_, &packet));
+}
+
+void FilmFile::finish() {
+  if (side_streams_) check(side_streams_->copy_until({}));
+  check(av_write_trailer(output_));
+  check(output_->pb->error);
+  check(avio_closep(&output_->pb));
+  file_.commit();
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wheatstone/video/colour_tags.h"
+#include "wheatstone/video/film_layout.h"
+#include "wheatstone/video/frame.h"
+
+namespace wheatstone {
+
+/// How a film is coded and what it carries. FilmFacts of a source give colour, frame_rate and pixel_aspect.
+struct FilmWriterOptions {
+  std::string codec = "h264";     ///< "h264", "hevc", or "ffv1" (lossless, Matroska only)
+  std::optional<double> crf;      ///< quality of h264 and hevc, 0 (best) to 51; 16 and 18 where not given
+  std::string preset = "medium";  ///< effort of h264 and hevc: "ultrafast" to "placebo"
+  std::string pixel_format;       ///< "yuv420p", "yuv422p", "yuv444p"; "bgr0" (ffv1: RGB). Empty: yuv420p, ffv1 bgr0
+  FilmLayout layout = FilmLayout::mono;  ///< written wherever the container and the codec can say it
+  Rational frame_rate;          ///< on average, for the encoder's planning; each frame's own time is what counts
+  Rational pixel_aspect{1, 1};  ///< what the layout asks for goes before it
+  ColourTags colour;            ///< RGB is converted with this matrix and range, and tagged so
+
+  std::filesystem::path side_streams_from;  ///< film whose audio and subtitles are copied, bit for bit; empty: none
+  double start_s = 0;                       ///< this moment of the source becomes the film's beginning
+  std::optional<double> end_s;              ///< of the source: side streams end here
+};
+
+/// Writes a film (.mp4, .m4v, .mov, .mkv), or numbered pictures where the name holds one %d, %04d or the like (from 1
+/// on). The film appears under its name when it is whole; destroyed before `finish`, the writer leaves nothing. The
+/// same frames and options give the same bytes on any machine with the same libraries.
+class FilmWriter {
+ public:
+  /// Throws Error{wrong_usage} where options do not fit together or the ending, or where pictures of such names exist;
+  /// Error{cannot_read_write} where the folder cannot be written.
+  explicit FilmWriter(const std::filesystem::path& path, const FilmWriterOptions& options = {});
+  FilmWriter(FilmWriter&&) noexcept;
+  FilmWriter& operator=(FilmWriter&&) noexcept;
+  ~FilmWriter();
+
+  /// Adds a frame. The first one settles size and time base. Times are kept exactly in MP4 and QuickTime, to the
+  /// nearest millisecond in Matroska. Throws Error{wrong_usage} where size or time base change or time does not
+  /// advance, Error{cannot_read_write} where the disk is full.
+  void write(const Frame& frame);
+
+  /// Ends the film and gives it its name. Throws Error{cannot_read_write}, and Error{wrong_usage} where no frame was
+  /// written.
+  void finish();
+
+  /// What the user should know: padding, streams left out, metadata that the container cannot hold.
+  const std::vector<std::string>& notes() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace wheatstone

@@ -1,0 +1,319 @@
+#include "wheatstone/video/film_writer.h"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "throws_error.h"
+#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/video/libav_internal.h"
+#include "wheatstone/video/moving_picture_internal.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Times that no constant rate has.
+std::vector<Frame> uneven_frames(Rational time_base, std::int64_t unit) {
+  std::vector<Frame> frames;
+  std::int64_t pts = 0;
+  for (int i = 0; i < 40; ++i) {
+    const std::int64_t duration = unit * (1 + (i * i) % 7);
+    frames.push_back({moving_picture(64, 48, i), pts, time_base, duration});
+    pts += duration;
+  }
+  return frames;
+}
+
+void write_film(const fs::path& path, const std::vector<Frame>& frames, const FilmWriterOptions& options = {}) {
+  FilmWriter writer(path, options);
+  for (const Frame& frame : frames) writer.write(frame);
+  writer.finish();
+}
+
+struct SidePacket {
+  std::string bytes;
+  double seconds = 0;
+};
+
+std::vector<SidePacket> side_packets(const fs::path& path, AVMediaType type) {
+  const OwnedInput input = open_input(path);
+  const OwnedPacket packet = new_packet();
+  std::vector<SidePacket> found;
+  while (av_read_frame(input.get(), packet.get()) >= 0) {
+    const AVStream& stream = *input->streams[packet->stream_index];
+    if (stream.codecpar->codec_type == type) {
+      found.push_back({{reinterpret_cast<const char*>(packet->data), static_cast<std::size_t>(packet->size)},
+                       static_cast<double>(packet->pts) * av_q2d(stream.time_base)});
+    }
+    av_packet_unref(packet.get());
+  }
+  return found;
+}
+
+TEST(FilmWriter, Ffv1IsExact) {
+  const TemporaryFolder folder;
+  for (const int width : {64, 63}) {
+    make_film(folder / "a.mkv", 10, {.codec = "ffv1"}, width, 47);
+    const std::vector<Frame> frames = frames_of(folder / "a.mkv");
+    ASSERT_EQ(frames.size(), 10u);
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(frames[i].picture, moving_picture(width, 47, i)) << i;
+  }
+}
+
+TEST(FilmWriter, H264AndHevcAreClose) {
+  const TemporaryFolder folder;
+  for (const char* codec : {"h264", "hevc"}) {
+    for (const char* format : {"yuv420p", "yuv444p"}) {
+      make_film(folder / "a.mp4", 24, {.codec = codec, .pixel_format = format}, 320, 192);
+      const std::vector<Frame> frames = frames_of(folder / "a.mp4");
+      ASSERT_EQ(frames.size(), 24u);
+      double worst = 1000;
+      for (int i = 0; i < 24; ++i) worst = std::min(worst, psnr(frames[i].picture, moving_picture(320, 192, i)));
+      EXPECT_GE(worst, 38) << codec << " " << format;
+      RecordProperty(std::string(codec) + "_" + format + "_db", std::to_string(worst));
+    }
+  }
+  // The measure can come out badly.
+  make_film(folder / "a.mp4", 24, {.crf = 45}, 320, 192);
+  EXPECT_LT(psnr(frames_of(folder / "a.mp4")[12].picture, moving_picture(320, 192, 12)), 34);
+}
+
+TEST(FilmWriter, UnevenTimesSurvive) {
+  const TemporaryFolder folder;
+  struct Case {
+    const char* name;
+    Rational time_base;
+    std::int64_t unit;
+    const char* codec;
+  };
+  for (const Case& c : {Case{"a.mp4", {1, 90000}, 1501, "h264"}, Case{"a.mov", {1, 600}, 7, "h264"},
+                        Case{"a.mp4", {1001, 30000}, 1, "hevc"}, Case{"a.mkv", {1, 1000}, 17, "h264"},
+                        Case{"a.mkv", {1, 1000}, 17, "ffv1"}, Case{"a.mp4", {1, 1000}, 17, "h264"}}) {
+    const std::vector<Frame> frames = uneven_frames(c.time_base, c.unit);
+    write_film(folder / c.name, frames, {.codec = c.codec});
+    const std::vector<Frame> once = frames_of(folder / c.name);
+    ASSERT_EQ(once.size(), frames.size());
+    write_film(folder / (std::string("again_") + c.name), once, {.codec = c.codec});
+    const std::vector<Frame> twice = frames_of(folder / (std::string("again_") + c.name));
+    ASSERT_EQ(twice.size(), frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      EXPECT_DOUBLE_EQ(once[i].seconds(), frames[i].seconds()) << c.name << " " << i;
+      EXPECT_DOUBLE_EQ(twice[i].seconds(), frames[i].seconds()) << c.name << " " << i;
+      EXPECT_NEAR(static_cast<double>(twice[i].duration) * twice[i].time_base.value(),
+                  static_cast<double>(frames[i].duration) * c.time_base.value(), i + 1 < frames.size() ? 1e-12 : 1)
+          << c.name << " " << i;
+    }
+  }
+}
+
+TEST(FilmWriter, MatroskaRoundsToMillisecondsAndSaysSo) {
+  const TemporaryFolder folder;
+  const std::vector<Frame> frames = uneven_frames({1, 90000}, 1501);
+  FilmWriter writer(folder / "a.mkv");
+  for (const Frame& frame : frames) writer.write(frame);
+  writer.finish();
+  EXPECT_THAT(writer.notes(), testing::ElementsAre(testing::HasSubstr("millisecond")));
+  const std::vector<Frame> read = frames_of(folder / "a.mkv");
+  for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_NEAR(read[i].seconds(), frames[i].seconds(), 0.0005001);
+}
+
+TEST(FilmWriter, CopiesSoundAndSubtitlesBitForBit) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  put_bytes(folder / "s.srt", "1\n00:00:00,200 --> 00:00:00,900\nHello\n\n2\n00:00:01,200 --> 00:00:01,500\nagain\n\n");
+  ffmpeg("-f lavfi -i testsrc=d=2:s=64x48 -f lavfi -i sine=d=2.3 -i " + (folder / "s.srt").string() +
+         " -map 0 -map 1 -map 2 -c:a aac -c:s mov_text -metadata:s:a:0 language=fra " +
+         (folder / "source.mp4").string());
+  ffmpeg("-i " + (folder / "source.mp4").string() + " -map 0 -c copy -c:s srt " + (folder / "source.mkv").string());
+  for (const char* source : {"source.mp4", "source.mkv"}) {
+    for (const char* name : {"a.mp4", "a.mkv", "a.mov"}) {
+      const std::string what = std::string(source) + " to " + name;
+      const std::vector<Frame> frames = frames_of(folder / source);
+      FilmWriter writer(folder / name, {.side_streams_from = folder / source});
+      for (const Frame& frame : frames) writer.write(frame);
+      writer.finish();
+      const std::vector<SidePacket> was = side_packets(folder / source, AVMEDIA_TYPE_AUDIO);
+      const std::vector<SidePacket> is = side_packets(folder / name, AVMEDIA_TYPE_AUDIO);
+      ASSERT_EQ(is.size(), was.size()) << what;
+      // Matroska cannot begin before zero: there all moves by an encoder's run-up, pictures too.
+      const double moved = is.front().seconds - was.front().seconds;
+      for (std::size_t i = 0; i < is.size(); ++i) {
+        EXPECT_EQ(is[i].bytes, was[i].bytes) << what << " " << i;
+        EXPECT_NEAR(is[i].seconds, was[i].seconds + moved, 0.0011) << what << " " << i;
+      }
+      const std::vector<Frame> pictures = frames_of(folder / name);
+      ASSERT_EQ(pictures.size(), frames.size());
+      EXPECT_NEAR(pictures[20].seconds(), frames[20].seconds() + moved, 0.0011) << what;
+      const std::vector<SideStream> streams = open_film(folder / name).facts().side_streams;
+      ASSERT_FALSE(streams.empty());
+      EXPECT_EQ(streams[0].codec, "aac");
+      EXPECT_EQ(streams[0].language, "fra");
+      const bool fits = (source == std::string("source.mkv")) == (name == std::string("a.mkv"));
+      EXPECT_EQ(streams.size(), fits ? 2u : 1u) << what;
+      EXPECT_EQ(writer.notes().size(), fits ? 0u : 1u) << what;
+      for (const std::string& note : writer.notes()) EXPECT_THAT(note, testing::HasSubstr("subtitle stream 2")) << what;
+    }
+  }
+}
+
+TEST(FilmWriter, APartOfAFilmBringsItsPartOfTheSound) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  ffmpeg("-f lavfi -i testsrc=d=3:s=64x48 -f lavfi -i sine=d=3 -c:a pcm_s16le " + (folder / "source.mkv").string());
+  const std::vector<Frame> frames = frames_of(folder / "source.mkv", {.from_s = 1, .to_s = 2});
+  ASSERT_EQ(frames.size(), 25u);
+  write_film(folder / "a.mov", frames, {.side_streams_from = folder / "source.mkv", .start_s = 1, .end_s = 2});
+  const std::vector<SidePacket> sound = side_packets(folder / "a.mov", AVMEDIA_TYPE_AUDIO);
+  std::size_t bytes = 0;
+  for (const SidePacket& packet : sound) bytes += packet.bytes.size();
+  EXPECT_NEAR(static_cast<double>(bytes), 44100 * 2, 44100 * 2 * 0.05);
+  EXPECT_NEAR(sound.front().seconds, 0, 0.03);
+  EXPECT_EQ(frames_of(folder / "a.mov").front().seconds(), 0);
+}
+
+TEST(FilmWriter, LayoutsComeBackAndAreShownToOthers) {
+  const TemporaryFolder folder;
+  const bool has_ffprobe = has_program("ffprobe");
+  for (const LayoutTraits& traits : all_layouts()) {
+    for (const char* name : {"a.mkv", "a.mp4", "a.mov"}) {
+      FilmWriter writer(folder / name, {.layout = traits.layout});
+      for (int i = 0; i < 3; ++i) writer.write(moving_frame(64, 48, i));
+      writer.finish();
+      const FilmFacts facts = open_film(folder / name).facts();
+      const std::string what = std::string(name) + " " + traits.name;
+      const bool unsaid = !writer.notes().empty();
+      EXPECT_EQ(facts.layout, unsaid ? FilmLayout::mono : traits.layout) << what;
+      // Matroska can say all; the others cannot say that the right eye comes first.
+      EXPECT_EQ(unsaid, name != std::string("a.mkv") && traits.right_first) << what;
+      if (!has_ffprobe || unsaid || traits.layout == FilmLayout::mono) continue;
+      const std::string shown =
+          ffprobe("-show_streams -show_frames -read_intervals %+#1 " + (folder / name).string(), folder);
+      EXPECT_THAT(shown, testing::HasSubstr("Stereo 3D")) << what;
+    }
+  }
+}
+
+TEST(FilmWriter, HevcInMp4SaysItsLayoutInABox) {
+  const TemporaryFolder folder;
+  make_film(folder / "a.mp4", 3, {.codec = "hevc", .layout = FilmLayout::top_bottom_half});
+  EXPECT_EQ(open_film(folder / "a.mp4").facts().layout, FilmLayout::top_bottom_half);
+  EXPECT_THAT(bytes_of(folder / "a.mp4"), testing::HasSubstr("st3d"));
+  EXPECT_THAT(bytes_of(folder / "a.mp4"), testing::HasSubstr("hvc1"));
+}
+
+TEST(FilmWriter, ColourTagsAreKept) {
+  const TemporaryFolder folder;
+  const ColourTags tags{"bt2020nc", "tv", "bt2020", "smpte2084"};
+  for (const char* name : {"a.mp4", "a.mkv"}) {
+    for (const char* codec : {"h264", "hevc"}) {
+      make_film(folder / name, 3, {.codec = codec, .colour = tags});
+      EXPECT_EQ(open_film(folder / name).facts().colour, tags) << name << " " << codec;
+    }
+  }
+}
+
+TEST(FilmWriter, OddSizesArePaddedAndSaid) {
+  const TemporaryFolder folder;
+  FilmWriter writer(folder / "a.mp4");
+  for (int i = 0; i < 3; ++i) writer.write(moving_frame(63, 47, i));
+  writer.finish();
+  EXPECT_THAT(writer.notes(), testing::ElementsAre(testing::HasSubstr("63x47 pixels become 64x48")));
+  const Image<Rgb8> picture = frames_of(folder / "a.mp4")[1].picture;
+  ASSERT_EQ(picture.width(), 64);
+  ASSERT_EQ(picture.height(), 48);
+  EXPECT_NEAR(picture(63, 20).g, picture(62, 20).g, 8);
+
+  make_film(folder / "b.mp4", 3, {.pixel_format = "yuv444p"}, 63, 47);
+  EXPECT_EQ(frames_of(folder / "b.mp4")[0].picture.width(), 63);
+}
+
+TEST(FilmWriter, NumberedPictures) {
+  const TemporaryFolder folder;
+  {
+    FilmWriter abandoned(folder / "f_%03d.png");
+    abandoned.write(moving_frame(20, 10, 0));
+  }
+  EXPECT_TRUE(folder.is_empty());
+  make_film(folder / "f_%03d.png", 4, {}, 20, 10);
+  EXPECT_TRUE(fs::exists(folder / "f_004.png"));
+  const std::vector<Frame> frames = frames_of(folder / "f_%03d.png");
+  ASSERT_EQ(frames.size(), 4u);
+  EXPECT_EQ(frames[3].picture, moving_picture(20, 10, 3));
+  expect_error(ErrorKind::wrong_usage, "f_001.png exists already", [&] { FilmWriter(folder / "f_%03d.png"); });
+}
+
+TEST(FilmWriter, RefusesWhatMakesNoSense) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const char* name, const FilmWriterOptions& options, const char* part) {
+    expect_error(ErrorKind::wrong_usage, part, [&] { FilmWriter(folder / name, options); });
+  };
+  refused("a.avi", {}, "films are written to");
+  refused("a.mp4", {.codec = "vp9"}, "expected h264, hevc or ffv1");
+  refused("a.mp4", {.codec = "ffv1"}, "expected .mkv");
+  refused("a.mp4", {.crf = 70}, "crf: 70");
+  refused("a.mkv", {.codec = "ffv1", .crf = 10}, "lossless");
+  refused("a.mp4", {.preset = "hurry"}, "preset: hurry");
+  refused("a.mp4", {.pixel_format = "bgr0"}, "pixel format: bgr0");
+  expect_error(ErrorKind::cannot_read_write, "a.mp4: cannot write", [&] { FilmWriter(folder / "no" / "a.mp4"); });
+
+  FilmWriter writer(folder / "a.mp4");
+  expect_error(ErrorKind::wrong_usage, "no frame", [&] { writer.finish(); });
+  writer.write(moving_frame(64, 48, 5));
+  expect_error(ErrorKind::wrong_usage, "62x48", [&] { writer.write(moving_frame(62, 48, 6)); });
+  expect_error(ErrorKind::wrong_usage, "tick 5 after one at 5", [&] { writer.write(moving_frame(64, 48, 5)); });
+}
+
+TEST(FilmWriter, TheSameFramesGiveTheSameBytes) {
+  const TemporaryFolder folder;
+  for (const char* codec : {"h264", "hevc", "ffv1"}) {
+    make_film(folder / "a.mkv", 20, {.codec = codec});
+    for (std::size_t i = 1; i < 6; ++i) {
+      // Memory that was used: an encoder that reads what it did not write is found out.
+      std::vector<std::vector<int>> used(200 * i, std::vector<int>(1000 + 97 * i, static_cast<int>(0x01010101 * i)));
+      used.clear();
+      make_film(folder / "b.mkv", 20, {.codec = codec});
+      EXPECT_TRUE(bytes_of(folder / "a.mkv") == bytes_of(folder / "b.mkv")) << codec;
+    }
+  }
+}
+
+TEST(FilmWriter, AnAbandonedFilmLeavesNothing) {
+  const TemporaryFolder folder;
+  {
+    FilmWriter writer(folder / "a.mp4");
+    for (int i = 0; i < 30; ++i) writer.write(moving_frame(64, 48, i));
+  }
+  EXPECT_TRUE(folder.is_empty());
+}
+
+TEST(FilmWriter, AFullDiskIsNoticedAndLeavesNothing) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.mp4", "a.mkv", "a_%02d.png"}) {
+    const bool is_sequence = name == std::string("a_%02d.png");
+    std::uintmax_t length = 2000;
+    if (!is_sequence) {
+      make_film(folder / name, 30);
+      length = fs::file_size(folder / name);
+      fs::remove(folder / name);
+    }
+    // A limit on the size of files stands in for the end of the disk.
+    rlimit usual{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &usual), 0);
+    const auto usual_action = std::signal(SIGXFSZ, SIG_IGN);
+    for (const std::uintmax_t most : {std::uintmax_t{0}, std::uintmax_t{100}, length / 2, length - 1}) {
+      const rlimit tight{.rlim_cur = most, .rlim_max = usual.rlim_max};
+      setrlimit(RLIMIT_FSIZE, &tight);
+      SCOPED_TRACE(std::string(name) + " within " + std::to_string(most) + " bytes");
+      expect_error(ErrorKind::cannot_read_write, "cannot", [&] { make_film(folder / name, 30); });
+    }
+    setrlimit(RLIMIT_FSIZE, &usual);
+    std::signal(SIGXFSZ, usual_action);
+    EXPECT_TRUE(folder.is_empty()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wheatstone/progress.h"
+#include "wheatstone/video/film_writer.h"
+
+namespace wheatstone {
+
+/// Makes one film of the segments 0 .. count − 1 of a folder, without coding again, with the options' layout and side
+/// streams. Throws Error{bad_input} where a segment is damaged or was coded otherwise than the first.
+void join_segments(const std::filesystem::path& folder, std::int64_t count, const std::filesystem::path& film,
+                   const FilmWriterOptions& options, std::vector<std::string>& notes, const Progress& progress);
+
+}  // namespace wheatstone

@@ -1,0 +1,91 @@
+#pragma once
+
+// Films for tests: made by formula, written by our own writer; and the ffmpeg program, where it is installed.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "temporary_folder.h"
+#include "wheatstone/video/film_reader.h"
+#include "wheatstone/video/film_writer.h"
+
+namespace wheatstone {
+
+/// Coloured hills that wander with the frames; moderate detail, every frame differs from every other.
+inline Image<Rgb8> moving_picture(int width, int height, int frame, double shift = 0) {
+  Image<Rgb8> picture(width, height);
+  const auto level = [](double value) { return static_cast<std::uint8_t>(std::lround(128 + 100 * value)); };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double u = x + shift + 1.7 * frame, v = y + 0.6 * frame;
+      picture(x, y) = {level(std::sin(u * 0.11) * std::cos(v * 0.07)), level(std::sin(u * 0.05 + v * 0.09)),
+                       level(std::cos(v * 0.13 - u * 0.03 + frame * 0.2))};
+    }
+  }
+  return picture;
+}
+
+inline double psnr(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  if (!same_size(a, b)) return 0;
+  double sum = 0;
+  const auto square = [](int difference) { return static_cast<double>(difference) * difference; };
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
+    sum += square(p.r - q.r) + square(p.g - q.g) + square(p.b - q.b);
+  }
+  const double mean = sum / (3.0 * static_cast<double>(a.pixels().size()));
+  return mean == 0 ? std::numeric_limits<double>::infinity() : 10 * std::log10(255.0 * 255.0 / mean);
+}
+
+inline Frame moving_frame(int width, int height, int number, Rational time_base = {1, 25}) {
+  return {moving_picture(width, height, number), number, time_base, 1};
+}
+
+/// Writes `count` frames of moving_picture at 25 a second.
+inline void make_film(const std::filesystem::path& path, int count, const FilmWriterOptions& options = {},
+                      int width = 64, int height = 48) {
+  FilmWriter writer(path, options);
+  for (int i = 0; i < count; ++i) writer.write(moving_frame(width, height, i));
+  writer.finish();
+}
+
+inline std::vector<Frame> frames_of(FilmReader reader) {
+  std::vector<Frame> frames;
+  for (Frame frame; reader.read(frame);) frames.push_back(frame);
+  return frames;
+}
+
+inline std::vector<Frame> frames_of(const std::filesystem::path& path, const FilmReaderOptions& options = {}) {
+  return frames_of(open_film(path, options));
+}
+
+inline std::vector<std::int64_t> pts_of(const std::vector<Frame>& frames) {
+  std::vector<std::int64_t> pts;
+  for (const Frame& frame : frames) pts.push_back(frame.pts);
+  return pts;
+}
+
+inline bool has_program(const std::string& name) {
+  return std::system((name + " -version >/dev/null 2>&1").c_str()) == 0;  // NOLINT(bugprone-command-processor)
+}
+
+/// Runs the ffmpeg program quietly; `arguments` as in a shell.
+inline void ffmpeg(const std::string& arguments) {
+  const std::string command = "ffmpeg -nostdin -v error -y " + arguments;
+  ASSERT_EQ(std::system(command.c_str()), 0) << command;  // NOLINT(bugprone-command-processor)
+}
+
+/// What ffprobe prints.
+inline std::string ffprobe(const std::string& arguments, const TemporaryFolder& folder) {
+  const std::string command = "ffprobe -v error " + arguments + " >" + (folder / "probe.txt").string();
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;  // NOLINT(bugprone-command-processor)
+  return bytes_of(folder / "probe.txt");
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wheatstone/progress.h"
+#include "wheatstone/video/film_writer.h"
+
+namespace wheatstone {
+
+struct SegmentOptions {
+  int frames_per_segment = 48;  ///< what a killed run loses at most
+  std::string made_by;          ///< any text that says what else decides the frames: style, seed, version
+  std::vector<std::filesystem::path> made_from;  ///< sources: files or patterns. Their sizes and samples are compared
+};
+
+/// A film that takes long to make and may be killed at any moment. Beside `out.mp4` lies a folder `out.mp4.part` with a
+/// manifest and closed files of `frames_per_segment` frames each, every one coded afresh. `finish` joins them, without
+/// coding again, into the film, copies the side streams, and removes the folder. Destroyed before, it leaves the
+/// folder, and whoever opens the same film with the same options goes on from there: the finished film is the same,
+/// byte for byte, as if nothing had happened. Numbered pictures go through lossless segments.
+class SegmentedFilm {
+ public:
+  /// Throws as FilmWriter, and Error{wrong_usage} where the folder belongs to a run with other options or sources, or
+  /// to one that is still going on.
+  SegmentedFilm(const std::filesystem::path& path, const FilmWriterOptions& options, const SegmentOptions& segments);
+  SegmentedFilm(SegmentedFilm&&) noexcept;
+  SegmentedFilm& operator=(SegmentedFilm&&) noexcept;
+  ~SegmentedFilm();
+
+  /// How many frames an earlier run has left: the caller passes over them (FilmReader::skip).
+  std::int64_t frames_done() const;
+
+  /// As FilmWriter::write.
+  void write(const Frame& frame);
+
+  /// As FilmWriter::finish. A failure leaves the folder: what is done is not lost.
+  void finish(const Progress& progress = {});
+
+  const std::vector<std::string>& notes() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// The folder beside a film: "out.mp4.part".
+std::filesystem::path segment_folder(const std::filesystem::path& film);
+
+}  // namespace wheatstone

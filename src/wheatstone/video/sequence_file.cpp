@@ -1,0 +1,49 @@
+#include "wheatstone/video/sequence_file_internal.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <system_error>
+#include <utility>
+
+#include "wheatstone/error.h"
+#include "wheatstone/image/write_image.h"
+
+namespace wheatstone {
+
+namespace fs = std::filesystem;
+
+SequenceFile::SequenceFile(const fs::path& path, FramePattern pattern)
+    : pattern_(std::move(pattern)), hidden_(pattern_) {
+  const auto existing = numbers_of(pattern_);
+  if (!existing.empty()) {
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: {} exists already, and frames of two runs would mix; expected no such file",
+                            path.string(), pattern_.file(existing.front()).filename().string()));
+  }
+  hidden_.folder = pattern_.folder / fmt::format(".{}{}.{}.partial", pattern_.before, "frames", ::getpid());
+  std::error_code error;
+  fs::create_directory(hidden_.folder, error);
+  if (error) {
+    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write: {}", path.string(), error.message()));
+  }
+}
+
+SequenceFile::~SequenceFile() {
+  std::error_code ignored;
+  fs::remove_all(hidden_.folder, ignored);
+}
+
+void SequenceFile::add(ImageView<const Rgb8> picture) { write_image(hidden_.file(++count_), picture); }
+
+void SequenceFile::finish() {
+  for (std::int64_t number = 1; number <= count_; ++number) {
+    std::error_code error;
+    fs::rename(hidden_.file(number), pattern_.file(number), error);
+    if (!error) continue;
+    throw Error(ErrorKind::cannot_read_write,
+                fmt::format("{}: cannot write: {}", pattern_.file(number).string(), error.message()));
+  }
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,29 @@
+#pragma once
+
+// Numbered pictures that appear together when all are there.
+
+#include <filesystem>
+
+#include "wheatstone/image/image.h"
+#include "wheatstone/video/frame_sequence.h"
+
+namespace wheatstone {
+
+class SequenceFile {
+ public:
+  /// Throws Error{wrong_usage} where pictures of such names exist already: two runs would mix.
+  SequenceFile(const std::filesystem::path& path, FramePattern pattern);
+  ~SequenceFile();
+  SequenceFile(const SequenceFile&) = delete;
+  SequenceFile& operator=(const SequenceFile&) = delete;
+
+  void add(ImageView<const Rgb8> picture);
+  void finish();
+
+ private:
+  FramePattern pattern_;
+  FramePattern hidden_;  ///< the same in a folder of its own, until all are there
+  std::int64_t count_ = 0;
+};
+
+}  // namespace wheatstone

@@ -1,0 +1,157 @@
+#include "wheatstone/video/stereo_film.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "wheatstone/error.h"
+#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/video/guess_layout.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int frames_to_guess_from = 6;
+constexpr int frames_between = 8;
+
+GuessedLayout guess_of(const std::filesystem::path& path, const FilmReaderOptions& options) {
+  FilmReader reader = open_film(path, options);
+  std::vector<Image<Rgb8>> frames;
+  for (Frame frame; frames.size() < frames_to_guess_from && reader.read(frame); reader.skip(frames_between - 1)) {
+    frames.push_back(frame.picture);
+  }
+  return guess_layout(frames);
+}
+
+}  // namespace
+
+struct StereoFilmReader::Implementation {
+  Implementation(FilmReader of_left, const std::filesystem::path& path, GuessedLayout found)
+      : left(std::move(of_left)), layout(std::move(found)), left_path(path) {}
+
+  FilmReader left;
+  std::optional<FilmReader> right;
+  GuessedLayout layout;
+  std::filesystem::path left_path;
+  std::filesystem::path right_path;
+  std::int64_t delivered = 0;
+  Frame frame;
+  Frame other;
+
+  bool is_alternating() const { return traits_of(layout.layout).arrangement == Arrangement::in_time; }
+
+  /// One eye ended and the other did not: says how many frames each has.
+  [[noreturn]] void refuse_shorter_eye(bool left_ended) {
+    FilmReader& longer = left_ended ? *right : left;
+    const std::int64_t rest = 1 + longer.skip(std::numeric_limits<std::int64_t>::max());
+    const std::int64_t left_count = delivered + (left_ended ? 0 : rest);
+    const std::int64_t right_count = delivered + (left_ended ? rest : 0);
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {} frames, expected {} like {}", right_path.string(),
+                                                  right_count, left_count, left_path.string()));
+  }
+
+  bool read_both() {
+    const bool has_left = left.read(frame);
+    const bool has_right = right->read(other);
+    if (has_left != has_right) refuse_shorter_eye(!has_left);
+    return has_left;
+  }
+
+  bool read(StereoFrame& eyes) {
+    if (right) {
+      if (!read_both()) return false;
+      std::swap(eyes.left, frame.picture);
+      std::swap(eyes.right, other.picture);
+    } else if (is_alternating()) {
+      // A last frame without its partner is no moment.
+      if (!left.read(frame) || !left.read(other)) return false;
+      frame.duration += other.duration;
+      std::swap(eyes.left, frame.picture);
+      std::swap(eyes.right, other.picture);
+      if (traits_of(layout.layout).right_first) std::swap(eyes.left, eyes.right);
+    } else {
+      if (!left.read(frame)) return false;
+      eyes = split(frame.picture, layout.layout);
+    }
+    eyes.pts = frame.pts;
+    eyes.time_base = frame.time_base;
+    eyes.duration = frame.duration;
+    ++delivered;
+    return true;
+  }
+};
+
+StereoFilmReader::StereoFilmReader(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+StereoFilmReader::StereoFilmReader(StereoFilmReader&&) noexcept = default;
+StereoFilmReader& StereoFilmReader::operator=(StereoFilmReader&&) noexcept = default;
+StereoFilmReader::~StereoFilmReader() = default;
+
+const FilmFacts& StereoFilmReader::facts() const { return implementation_->left.facts(); }
+FilmLayout StereoFilmReader::layout() const { return implementation_->layout.layout; }
+const std::string& StereoFilmReader::layout_how() const { return implementation_->layout.how; }
+bool StereoFilmReader::read(StereoFrame& frame) { return implementation_->read(frame); }
+
+std::int64_t StereoFilmReader::skip(std::int64_t frames) {
+  Implementation& own = *implementation_;
+  std::int64_t skipped = own.left.skip(own.is_alternating() ? 2 * frames : frames);
+  if (own.is_alternating()) skipped /= 2;
+  if (own.right) {
+    const std::int64_t of_right = own.right->skip(skipped);
+    own.delivered += of_right;
+    if (of_right < skipped) {
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: {} frames, expected {} or more like {}", own.right_path.string(), own.delivered,
+                              own.delivered - of_right + skipped, own.left_path.string()));
+    }
+    return skipped;
+  }
+  own.delivered += skipped;
+  return skipped;
+}
+
+std::optional<std::string> StereoFilmReader::loss() const {
+  const std::optional<std::string> left = implementation_->left.loss();
+  const std::optional<std::string> right = implementation_->right ? implementation_->right->loss() : std::nullopt;
+  if (left && right) return *left + "; " + *right;
+  return left ? left : right;
+}
+
+StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::optional<FilmLayout> layout,
+                                  const FilmReaderOptions& options) {
+  FilmReader reader = open_film(packed, options);
+  GuessedLayout found;
+  if (layout) {
+    found = {*layout, "as asked"};
+  } else if (!reader.facts().layout_how.empty()) {
+    found = {reader.facts().layout, reader.facts().layout_how};
+  } else {
+    found = guess_of(packed, options);
+  }
+  return StereoFilmReader(
+      std::make_unique<StereoFilmReader::Implementation>(std::move(reader), packed, std::move(found)));
+}
+
+StereoFilmReader open_stereo_film(const std::filesystem::path& left, const std::filesystem::path& right,
+                                  const FilmReaderOptions& options) {
+  FilmReader left_reader = open_film(left, options), right_reader = open_film(right, options);
+  const FilmFacts& a = left_reader.facts();
+  const FilmFacts& b = right_reader.facts();
+  if (a.width != b.width || a.height != b.height) {
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {}x{} pixels, expected {}x{} like {}", right.string(), b.width,
+                                                  b.height, a.width, a.height, left.string()));
+  }
+  if (a.frame_count && b.frame_count && *a.frame_count != *b.frame_count) {
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {} frames, expected {} like {}", right.string(), *b.frame_count,
+                                                  *a.frame_count, left.string()));
+  }
+  auto both = std::make_unique<StereoFilmReader::Implementation>(std::move(left_reader), left,
+                                                                 GuessedLayout{FilmLayout::mono, "a film an eye"});
+  both->right = std::move(right_reader);
+  both->right_path = right;
+  return StereoFilmReader(std::move(both));
+}
+
+}  // namespace wheatstone

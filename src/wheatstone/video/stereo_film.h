@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "wheatstone/video/film_layout.h"
+#include "wheatstone/video/film_reader.h"
+
+namespace wheatstone {
+
+/// Delivers the eyes of a film, frame by frame: of one film in any layout, or of a film an eye.
+class StereoFilmReader {
+ public:
+  StereoFilmReader(StereoFilmReader&&) noexcept;
+  StereoFilmReader& operator=(StereoFilmReader&&) noexcept;
+  ~StereoFilmReader();
+
+  /// Of the packed film, or of the left eye's.
+  const FilmFacts& facts() const;
+  FilmLayout layout() const;              ///< mono where there is a film an eye
+  const std::string& layout_how() const;  ///< how it is known, for the user
+
+  /// The next moment; of an alternating film, two frames. `right` stays empty where the film is mono. Throws
+  /// Error{bad_input} where one eye ends before the other, with both counts.
+  bool read(StereoFrame& frame);
+
+  /// As FilmReader, counted in moments.
+  std::int64_t skip(std::int64_t frames);
+
+  /// As FilmReader, of both films.
+  std::optional<std::string> loss() const;
+
+ private:
+  struct Implementation;
+  explicit StereoFilmReader(std::unique_ptr<Implementation> implementation);
+  friend StereoFilmReader open_stereo_film(const std::filesystem::path&, std::optional<FilmLayout>,
+                                           const FilmReaderOptions&);
+  friend StereoFilmReader open_stereo_film(const std::filesystem::path&, const std::filesystem::path&,
+                                           const FilmReaderOptions&);
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Opens a film, or numbered pictures, that hold both eyes: in the layout given, else in the one that the film says,
+/// else in the one that its first frames let guess (guess_layout). Throws as open_film.
+StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::optional<FilmLayout> layout = {},
+                                  const FilmReaderOptions& options = {});
+
+/// Opens a film, or numbered pictures, an eye. Throws as open_film, and Error{bad_input} where the eyes differ in size
+/// or, as far as the films say, in their number of frames. Times are the left eye's.
+StereoFilmReader open_stereo_film(const std::filesystem::path& left, const std::filesystem::path& right,
+                                  const FilmReaderOptions& options = {});
+
+}  // namespace wheatstone

@@ -1,0 +1,99 @@
+#include "wheatstone/video/stereo_film.h"
+
+#include <gmock/gmock.h>
+
+#include "throws_error.h"
+#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/video/moving_picture_internal.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr double eye_shift = 7;
+
+void make_stereo_film(const std::filesystem::path& path, FilmLayout layout, bool say_it) {
+  FilmWriter writer(path, {.codec = "ffv1", .layout = say_it ? layout : FilmLayout::mono});
+  const LayoutTraits& traits = traits_of(layout);
+  for (int i = 0; i < 12; ++i) {
+    const Image<Rgb8> left = moving_picture(96, 54, i), right = moving_picture(96, 54, i, eye_shift);
+    if (traits.arrangement == Arrangement::in_time) {
+      writer.write({traits.right_first ? right : left, 2 * i, {1, 50}, 1});
+      writer.write({traits.right_first ? left : right, 2 * i + 1, {1, 50}, 1});
+    } else {
+      writer.write({join(left, right, layout), i, {1, 25}, 1});
+    }
+  }
+  writer.finish();
+}
+
+TEST(StereoFilm, EveryLayoutDeliversBothEyes) {
+  const TemporaryFolder folder;
+  for (const LayoutTraits& traits : all_layouts()) {
+    make_stereo_film(folder / "a.mkv", traits.layout, true);
+    StereoFilmReader reader = open_stereo_film(folder / "a.mkv", traits.layout);
+    EXPECT_EQ(reader.layout_how(), "as asked");
+    EXPECT_EQ(reader.skip(3), 3);
+    StereoFrame eyes;
+    int count = 3;
+    for (; reader.read(eyes); ++count) {
+      EXPECT_GT(psnr(eyes.left, moving_picture(96, 54, count)), traits.half ? 26 : 1000) << traits.name;
+      EXPECT_NEAR(static_cast<double>(eyes.pts) * eyes.time_base.value(), count / 25.0, 1e-9) << traits.name;
+      if (traits.layout == FilmLayout::mono) {
+        EXPECT_TRUE(eyes.right.empty());
+      } else {
+        EXPECT_GT(psnr(eyes.right, moving_picture(96, 54, count, eye_shift)), traits.half ? 26 : 1000) << traits.name;
+        EXPECT_LT(psnr(eyes.right, moving_picture(96, 54, count)), 22) << traits.name;
+      }
+    }
+    EXPECT_EQ(count, 12) << traits.name;
+  }
+}
+
+TEST(StereoFilm, KnowsTheLayoutFromTheFileOrGuessesIt) {
+  const TemporaryFolder folder;
+  make_stereo_film(folder / "said.mkv", FilmLayout::right_left, true);
+  EXPECT_EQ(open_stereo_film(folder / "said.mkv").layout(), FilmLayout::right_left);
+  EXPECT_EQ(open_stereo_film(folder / "said.mkv").layout_how(), "the container's stereo mode");
+  make_stereo_film(folder / "unsaid.mkv", FilmLayout::top_bottom, false);
+  const StereoFilmReader guessed = open_stereo_film(folder / "unsaid.mkv");
+  EXPECT_EQ(guessed.layout(), FilmLayout::top_bottom);
+  EXPECT_THAT(guessed.layout_how(), testing::HasSubstr("halves are alike"));
+}
+
+TEST(StereoFilm, AFilmAnEye) {
+  const TemporaryFolder folder;
+  make_film(folder / "l.mkv", 10, {.codec = "ffv1"});
+  make_film(folder / "r_%02d.png", 10);
+  StereoFilmReader reader = open_stereo_film(folder / "l.mkv", folder / "r_%02d.png");
+  StereoFrame eyes;
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(reader.read(eyes));
+    EXPECT_EQ(eyes.left, moving_picture(64, 48, i));
+    EXPECT_EQ(eyes.right, moving_picture(64, 48, i));
+  }
+  EXPECT_FALSE(reader.read(eyes));
+  EXPECT_EQ(reader.loss(), std::nullopt);
+}
+
+TEST(StereoFilm, AnEyeThatMissesFramesIsRefusedWithBothCounts) {
+  const TemporaryFolder folder;
+  make_film(folder / "l.mp4", 10);
+  make_film(folder / "r.mp4", 8);
+  expect_error(ErrorKind::bad_input, "r.mp4: 8 frames, expected 10 like",
+               [&] { open_stereo_film(folder / "l.mp4", folder / "r.mp4"); });
+
+  // Matroska does not say how many frames it has: that shows at the end.
+  make_film(folder / "l.mkv", 8);
+  make_film(folder / "r.mkv", 10);
+  StereoFilmReader reader = open_stereo_film(folder / "l.mkv", folder / "r.mkv");
+  StereoFrame eyes;
+  for (int i = 0; i < 8; ++i) ASSERT_TRUE(reader.read(eyes));
+  expect_error(ErrorKind::bad_input, "r.mkv: 10 frames, expected 8 like", [&] { reader.read(eyes); });
+
+  make_film(folder / "small.mp4", 10, {}, 32, 32);
+  expect_error(ErrorKind::bad_input, "small.mp4: 32x32 pixels, expected 64x48",
+               [&] { open_stereo_film(folder / "l.mp4", folder / "small.mp4"); });
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,45 @@
+#pragma once
+
+// Pictures to packets of H.264, HEVC or FFV1. Nothing of files.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "wheatstone/video/decoded_film_internal.h"
+#include "wheatstone/video/film_writer.h"
+#include "wheatstone/video/libav_internal.h"
+#include "wheatstone/video/picture_conversion_internal.h"
+
+namespace wheatstone {
+
+/// Takes a coded picture; its times are in the encoder's time base.
+using PacketSink = std::function<void(AVPacket& packet)>;
+
+/// Throws Error{wrong_usage} where codec, quality, preset or pixel format make no sense, alone or together.
+void check_encoding(const FilmWriterOptions& options);
+
+class VideoEncoder {
+ public:
+  /// Throws Error{wrong_usage} where the encoder refuses.
+  VideoEncoder(const FilmWriterOptions& options, int width, int height, Rational time_base);
+
+  /// Codes a picture of the size given; packets come when the encoder has looked far enough ahead. Later pictures have
+  /// larger pts.
+  void send(ImageView<const Rgb8> picture, FrameTime time, const PacketSink& sink);
+  /// Gives what is still inside.
+  void drain(const PacketSink& sink);
+
+  const AVCodecContext& context() const { return *codec_; }
+
+ private:
+  void receive(const PacketSink& sink);
+
+  OwnedCodec codec_;
+  std::optional<FrameFromRgb> frame_from_rgb_;
+  OwnedPacket packet_ = new_packet();
+  std::map<std::int64_t, std::int64_t> durations_;  ///< of frames inside, by pts: encoders forget them
+};
+
+}  // namespace wheatstone
