@@ -10,6 +10,7 @@
 #include <string>
 
 #include "command.h"
+#include "film_facts.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/describe_image.h"
 #include "wheatstone/image/disparity_file.h"
@@ -116,6 +117,7 @@ bool is_particles(const fs::path& path) {
 }
 
 ordered_json facts_of(const fs::path& path, std::optional<float> scale, const std::string& type) {
+  if (is_film(path)) return facts_of_film(path);
   if (path.extension() == ".wst") return facts_of_painting(path);
   if (is_particles(path)) return facts_of_particles(path, type);
   if (scale) return facts_of_disparity(path, scale);
@@ -158,11 +160,12 @@ void add_info_command(CLI::App& program, const Session& session) {
     std::string type = "gas";
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      program.add_subcommand("info", "Tell what is in a picture, a disparity file, a painting, particles or slices");
+  CLI::App* command = program.add_subcommand(
+      "info", "Tell what is in a picture, a disparity file, a film, a painting, particles or slices");
   command
       ->add_option("FILE", arguments->file,
-                   "Picture, disparity (.pfm, .exr, or any with --scale), painting (.wst), particles or slices")
+                   "Picture, disparity (.pfm, .exr, or any with --scale), film, numbered pictures (frame_%04d.png), "
+                   "painting (.wst), particles or slices")
       ->required();
   command->add_option("--scale", arguments->scale, "Read the picture as disparities: value / SCALE pixels")
       ->check(CLI::PositiveNumber);

@@ -8,6 +8,7 @@
 #include "wheatstone/image/disparity_file.h"
 #include "wheatstone/image/write_image.h"
 #include "wheatstone/painting/painting_file.h"
+#include "wheatstone/video/film_writer.h"
 
 namespace wheatstone {
 namespace {
@@ -59,6 +60,33 @@ TEST(Info, TellsOfAPainting) {
   EXPECT_EQ(facts["strokes"], 1);
   EXPECT_EQ(facts["nearest_disparity_px"], 7);
   EXPECT_EQ(facts["layers"].size(), 1u);
+}
+
+TEST(Info, TellsOfAFilm) {
+  const TemporaryFolder folder;
+  FilmWriter writer(folder / "f.mkv", {.layout = FilmLayout::right_left, .frame_rate = {25, 1}});
+  for (int i = 0; i < 5; ++i) writer.write({Image<Rgb8>(64, 32), i, {1, 25}, 1});
+  writer.finish();
+  const nlohmann::json facts = facts_of(folder / "f.mkv");
+  EXPECT_EQ(facts["kind"], "film");
+  EXPECT_EQ(facts["codec"], "h264");
+  EXPECT_EQ(facts["width"], 64);
+  EXPECT_EQ(facts["height"], 32);
+  EXPECT_EQ(facts["layout"], "right-left");
+  EXPECT_NEAR(facts["frames_per_second"], 25, 1e-9);
+  EXPECT_NEAR(facts["duration_s"], 0.2, 1e-9);
+}
+
+TEST(Info, TellsOfNumberedPictures) {
+  const TemporaryFolder folder;
+  for (const char* name : {"f_1.png", "f_2.png"}) write_image(folder / name, Image<Rgb8>(7, 5));
+  const nlohmann::json facts = facts_of(folder / "f_%d.png");
+  EXPECT_EQ(facts["container"], "sequence");
+  EXPECT_EQ(facts["frames"], 2);
+  write_image(folder / "f_4.png", Image<Rgb8>(7, 5));
+  const ProgramResult result = run_program({"info", folder / "f_%d.png"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.errors, testing::HasSubstr("f_3.png is missing, the next there is f_4.png"));
 }
 
 TEST(Info, SpeaksInLinesWithoutJson) {

@@ -139,7 +139,8 @@ void DecodedFilm::gather_layout() {
   facts_.layout_how = "the pictures' frame packing message";
 }
 
-double DecodedFilm::stated_end_s() const {
+double DecodedFilm::stated_end_s() {
+  stream_states_end_ = true;
   if (stream_->duration != AV_NOPTS_VALUE && stream_->duration > 0) {
     return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
   }
@@ -149,6 +150,7 @@ double DecodedFilm::stated_end_s() const {
   const std::string tag = tag_of(stream_->metadata, "DURATION");
   if (std::sscanf(tag.c_str(), "%d:%d:%lf", &hours, &minutes, &seconds) == 3)
     return hours * 3600 + minutes * 60 + seconds;
+  stream_states_end_ = input_->nb_streams == 1;
   return input_->duration == AV_NOPTS_VALUE ? 0 : static_cast<double>(input_->duration) / AV_TIME_BASE;
 }
 
@@ -266,7 +268,7 @@ std::optional<std::string> DecodedFilm::loss() const {
   const double tolerance = std::max(0.1, 3 * static_cast<double>(time_.duration) * av_q2d(stream_->time_base));
   if (whole_count && packets_ < *facts_.frame_count) {
     add(fmt::format("breaks off after {} of {} frames", packets_, *facts_.frame_count));
-  } else if (!whole_count && facts_.side_streams.empty() && facts_.duration_s > 0 && end < stated - tolerance) {
+  } else if (!whole_count && stream_states_end_ && facts_.duration_s > 0 && end < stated - tolerance) {
     add(fmt::format("breaks off after {:.2f} of {:.2f} s", end, facts_.duration_s));
   } else if (read_error_ != 0) {
     add(fmt::format("breaks off after {:.2f} s: {}", end, libav_reason(read_error_)));

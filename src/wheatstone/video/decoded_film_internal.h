@@ -45,7 +45,7 @@ class DecodedFilm {
   void feed();
   FrameTime time_of(const AVFrame& frame) const;
   void check_size() const;
-  double stated_end_s() const;
+  double stated_end_s();
 
   std::filesystem::path path_;
   int threads_;
@@ -69,7 +69,8 @@ class DecodedFilm {
   int stored_height_ = 0;
   std::int64_t packets_ = 0;
   std::int64_t damaged_ = 0;
-  int read_error_ = 0;  ///< that ended the reading, where it was not the end of the file
+  bool stream_states_end_ = false;  ///< the length is the pictures' own, not the longest stream's
+  int read_error_ = 0;              ///< that ended the reading, where it was not the end of the file
 };
 
 }  // namespace wheatstone

@@ -267,6 +267,23 @@ TEST(FilmReader, DeliversWhatIsLeftOfATruncatedFilmAndSaysSo) {
   }
 }
 
+TEST(FilmReader, ATruncatedFilmWithSoundIsNoticedToo) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  for (const char* name : {"a.mkv", "a.mp4"}) {
+    const std::string film = (folder / name).string();
+    ffmpeg("-f lavfi -i testsrc=d=3:s=64x48 -f lavfi -i sine=d=4 -c:v libx264 -c:a aac -movflags faststart " + film);
+    FilmReader whole = open_film(folder / name);
+    EXPECT_EQ(whole.skip(1000), 75);
+    EXPECT_EQ(whole.loss(), std::nullopt) << name << " " << *whole.loss();
+    const std::string bytes = bytes_of(folder / name);
+    put_bytes(folder / name, bytes.substr(0, bytes.size() / 2));
+    FilmReader part = open_film(folder / name);
+    EXPECT_LT(part.skip(1000), 75);
+    EXPECT_TRUE(part.loss().has_value()) << name;
+  }
+}
+
 TEST(FilmReader, AWholeFilmHasNoLoss) {
   const TemporaryFolder folder;
   for (const char* name : {"a.mp4", "a.mkv", "a.mov"}) {

@@ -49,7 +49,7 @@ class FolderLock {
 
 fs::path made_folder(const fs::path& film) {
   std::error_code error;
-  const fs::path folder = segment_folder(film);
+  fs::path folder = segment_folder(film);
   fs::create_directory(folder, error);
   if (error) fail_to_write_film(film, AVERROR(error.value()));
   return folder;

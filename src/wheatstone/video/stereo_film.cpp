@@ -40,6 +40,9 @@ struct StereoFilmReader::Implementation {
   Frame frame;
   Frame other;
 
+  FilmReaderOptions options;  ///< of moments, where a moment is two frames
+  std::int64_t pairs_seen = 0;
+
   bool is_alternating() const { return traits_of(layout.layout).arrangement == Arrangement::in_time; }
 
   /// One eye ended and the other did not: says how many frames each has.
@@ -59,18 +62,26 @@ struct StereoFilmReader::Implementation {
     return has_left;
   }
 
+  /// Two frames that belong together. Counted from the film's beginning: a search could begin with the wrong eye.
+  bool read_pair() {
+    // A last frame without its partner is no moment.
+    while (left.read(frame) && left.read(other)) {
+      constexpr double mercy_s = 0.0005;
+      if (options.from_s && frame.seconds() + mercy_s < *options.from_s) continue;
+      if (options.to_s && frame.seconds() + mercy_s >= *options.to_s) return false;
+      if (pairs_seen++ % options.every != 0) continue;
+      frame.duration = (frame.duration + other.duration) * options.every;
+      if (traits_of(layout.layout).right_first) std::swap(frame.picture, other.picture);
+      return true;
+    }
+    return false;
+  }
+
   bool read(StereoFrame& eyes) {
-    if (right) {
-      if (!read_both()) return false;
+    if (right || is_alternating()) {
+      if (!(right ? read_both() : read_pair())) return false;
       std::swap(eyes.left, frame.picture);
       std::swap(eyes.right, other.picture);
-    } else if (is_alternating()) {
-      // A last frame without its partner is no moment.
-      if (!left.read(frame) || !left.read(other)) return false;
-      frame.duration += other.duration;
-      std::swap(eyes.left, frame.picture);
-      std::swap(eyes.right, other.picture);
-      if (traits_of(layout.layout).right_first) std::swap(eyes.left, eyes.right);
     } else {
       if (!left.read(frame)) return false;
       eyes = split(frame.picture, layout.layout);
@@ -96,8 +107,12 @@ bool StereoFilmReader::read(StereoFrame& frame) { return implementation_->read(f
 
 std::int64_t StereoFilmReader::skip(std::int64_t frames) {
   Implementation& own = *implementation_;
-  std::int64_t skipped = own.left.skip(own.is_alternating() ? 2 * frames : frames);
-  if (own.is_alternating()) skipped /= 2;
+  std::int64_t skipped = 0;
+  if (own.is_alternating()) {
+    while (skipped < frames && own.read_pair()) ++skipped;
+  } else {
+    skipped = own.left.skip(frames);
+  }
   if (own.right) {
     const std::int64_t of_right = own.right->skip(skipped);
     own.delivered += of_right;
@@ -130,12 +145,16 @@ StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::opti
   } else {
     found = guess_of(packed, options);
   }
-  return StereoFilmReader(
-      std::make_unique<StereoFilmReader::Implementation>(std::move(reader), packed, std::move(found)));
+  auto both = std::make_unique<StereoFilmReader::Implementation>(std::move(reader), packed, std::move(found));
+  if (both->is_alternating()) {
+    both->options = options;
+    both->left = open_film(packed, {.threads = options.threads, .sequence_rate = options.sequence_rate});
+  }
+  return StereoFilmReader(std::move(both));
 }
 
-StereoFilmReader open_stereo_film(const std::filesystem::path& left, const std::filesystem::path& right,
-                                  const FilmReaderOptions& options) {
+StereoFilmReader open_eye_films(const std::filesystem::path& left, const std::filesystem::path& right,
+                                const FilmReaderOptions& options) {
   FilmReader left_reader = open_film(left, options), right_reader = open_film(right, options);
   const FilmFacts& a = left_reader.facts();
   const FilmFacts& b = right_reader.facts();

@@ -38,8 +38,8 @@ class StereoFilmReader {
   explicit StereoFilmReader(std::unique_ptr<Implementation> implementation);
   friend StereoFilmReader open_stereo_film(const std::filesystem::path&, std::optional<FilmLayout>,
                                            const FilmReaderOptions&);
-  friend StereoFilmReader open_stereo_film(const std::filesystem::path&, const std::filesystem::path&,
-                                           const FilmReaderOptions&);
+  friend StereoFilmReader open_eye_films(const std::filesystem::path&, const std::filesystem::path&,
+                                         const FilmReaderOptions&);
   std::unique_ptr<Implementation> implementation_;
 };
 
@@ -50,7 +50,7 @@ StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::opti
 
 /// Opens a film, or numbered pictures, an eye. Throws as open_film, and Error{bad_input} where the eyes differ in size
 /// or, as far as the films say, in their number of frames. Times are the left eye's.
-StereoFilmReader open_stereo_film(const std::filesystem::path& left, const std::filesystem::path& right,
-                                  const FilmReaderOptions& options = {});
+StereoFilmReader open_eye_films(const std::filesystem::path& left, const std::filesystem::path& right,
+                                const FilmReaderOptions& options = {});
 
 }  // namespace wheatstone

@@ -49,6 +49,21 @@ TEST(StereoFilm, EveryLayoutDeliversBothEyes) {
   }
 }
 
+TEST(StereoFilm, OfAlternatingFilmsWholeMomentsAreChosen) {
+  const TemporaryFolder folder;
+  make_stereo_film(folder / "a.mkv", FilmLayout::alternating_right_first, true);
+  // 0.1 s lies between the two frames of a moment.
+  StereoFilmReader reader = open_stereo_film(folder / "a.mkv", {}, {.from_s = 0.1, .to_s = 0.36, .every = 2});
+  EXPECT_EQ(reader.layout(), FilmLayout::alternating_right_first);
+  StereoFrame eyes;
+  for (const int number : {3, 5, 7}) {
+    ASSERT_TRUE(reader.read(eyes));
+    EXPECT_EQ(eyes.left, moving_picture(96, 54, number));
+    EXPECT_EQ(eyes.right, moving_picture(96, 54, number, eye_shift));
+  }
+  EXPECT_FALSE(reader.read(eyes));
+}
+
 TEST(StereoFilm, KnowsTheLayoutFromTheFileOrGuessesIt) {
   const TemporaryFolder folder;
   make_stereo_film(folder / "said.mkv", FilmLayout::right_left, true);
@@ -64,7 +79,7 @@ TEST(StereoFilm, AFilmAnEye) {
   const TemporaryFolder folder;
   make_film(folder / "l.mkv", 10, {.codec = "ffv1"});
   make_film(folder / "r_%02d.png", 10);
-  StereoFilmReader reader = open_stereo_film(folder / "l.mkv", folder / "r_%02d.png");
+  StereoFilmReader reader = open_eye_films(folder / "l.mkv", folder / "r_%02d.png");
   StereoFrame eyes;
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(reader.read(eyes));
@@ -80,19 +95,19 @@ TEST(StereoFilm, AnEyeThatMissesFramesIsRefusedWithBothCounts) {
   make_film(folder / "l.mp4", 10);
   make_film(folder / "r.mp4", 8);
   expect_error(ErrorKind::bad_input, "r.mp4: 8 frames, expected 10 like",
-               [&] { open_stereo_film(folder / "l.mp4", folder / "r.mp4"); });
+               [&] { open_eye_films(folder / "l.mp4", folder / "r.mp4"); });
 
   // Matroska does not say how many frames it has: that shows at the end.
   make_film(folder / "l.mkv", 8);
   make_film(folder / "r.mkv", 10);
-  StereoFilmReader reader = open_stereo_film(folder / "l.mkv", folder / "r.mkv");
+  StereoFilmReader reader = open_eye_films(folder / "l.mkv", folder / "r.mkv");
   StereoFrame eyes;
   for (int i = 0; i < 8; ++i) ASSERT_TRUE(reader.read(eyes));
   expect_error(ErrorKind::bad_input, "r.mkv: 10 frames, expected 8 like", [&] { reader.read(eyes); });
 
   make_film(folder / "small.mp4", 10, {}, 32, 32);
   expect_error(ErrorKind::bad_input, "small.mp4: 32x32 pixels, expected 64x48",
-               [&] { open_stereo_film(folder / "l.mp4", folder / "small.mp4"); });
+               [&] { open_eye_films(folder / "l.mp4", folder / "small.mp4"); });
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+#include "film_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "wheatstone/video/film_reader.h"
+#include "wheatstone/video/frame_sequence.h"
+
+namespace wheatstone::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+void put(ordered_json& facts, const char* name, const std::string& value) {
+  if (!value.empty()) facts[name] = value;
+}
+
+ordered_json facts_of_side_streams(const FilmFacts& film) {
+  ordered_json all = ordered_json::array();
+  for (const SideStream& stream : film.side_streams) {
+    ordered_json facts = {{"kind", stream.kind}, {"codec", stream.codec}};
+    put(facts, "language", stream.language);
+    if (stream.channels > 0) facts["channels"] = stream.channels;
+    if (stream.sample_rate > 0) facts["sample_rate"] = stream.sample_rate;
+    all.push_back(std::move(facts));
+  }
+  return all;
+}
+
+}  // namespace
+
+bool is_film(const std::filesystem::path& path) {
+  constexpr const char* endings[] = {".mp4", ".m4v",  ".mov", ".mkv", ".mk3d", ".webm", ".avi",
+                                     ".mpg", ".mpeg", ".m2v", ".ts",  ".m2ts", ".wmv",  ".flv",
+                                     ".ogv", ".mxf",  ".nut", ".y4m", ".dv",   ".h264", ".hevc"};
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  return std::ranges::find(endings, ending) != std::end(endings) || frame_pattern(path).has_value();
+}
+
+ordered_json facts_of_film(const std::filesystem::path& path) {
+  const FilmReader reader = open_film(path);
+  const FilmFacts& film = reader.facts();
+  ordered_json facts = {{"kind", "film"}, {"container", film.container}};
+  put(facts, "codec", film.codec);
+  put(facts, "pixel_format", film.pixel_format);
+  facts["width"] = film.width;
+  facts["height"] = film.height;
+  if (film.pixel_aspect != Rational{1, 1}) {
+    facts["pixel_aspect"] = fmt::format("{}:{}", film.pixel_aspect.numerator, film.pixel_aspect.denominator);
+  }
+  if (film.rotation_degrees != 0) facts["rotation_applied_degrees"] = film.rotation_degrees;
+  facts["layout"] = film.layout_how.empty() ? "unsaid" : name_of(film.layout);
+  put(facts, "layout_from", film.layout_how);
+  if (film.frame_rate.numerator > 0) facts["frames_per_second"] = film.frame_rate.value();
+  if (film.frame_count) facts["frames"] = *film.frame_count;
+  if (film.duration_s > 0) facts["duration_s"] = film.duration_s;
+  put(facts, "colour_matrix", film.colour.matrix);
+  put(facts, "colour_range", film.colour.range);
+  put(facts, "colour_primaries", film.colour.primaries);
+  put(facts, "colour_transfer", film.colour.transfer);
+  if (!film.side_streams.empty()) facts["side_streams"] = facts_of_side_streams(film);
+  return facts;
+}
+
+}  // namespace wheatstone::cli
