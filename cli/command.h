@@ -18,6 +18,8 @@ struct Session {
 
 // Each adds its command to the program. A command throws wheatstone::Error; main turns that into one line and the
 // exit code. The session outlives the commands and is filled when their callbacks run.
+void add_calibrate_command(CLI::App& program, const Session& session);
+void add_rectify_command(CLI::App& program, const Session& session);
 void add_match_command(CLI::App& program, const Session& session);
 void add_paint_command(CLI::App& program, const Session& session);
 void add_render_command(CLI::App& program, const Session& session);

@@ -60,6 +60,8 @@ std::unique_ptr<CLI::App> make_program(SharedOptions& options) {
   add_shared_options(*program, options);
 
   const Session& session = options.session;
+  add_calibrate_command(*program, session);
+  add_rectify_command(*program, session);
   add_match_command(*program, session);
   add_paint_command(*program, session);
   add_render_command(*program, session);

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "numbers_argument.h"
+#include "wheatstone/error.h"
+#include "wheatstone/stereo/calibration.h"
+
+namespace wheatstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string folder;
+  std::vector<std::string> left, right;
+  std::string board = "11x7";
+  std::string square = "30mm";
+  std::string output = "calibration.yml";
+};
+
+double millimetres(const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, double>, 5> units{
+      {{"", 1}, {"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}}};
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{})
+    for (const auto& [unit, length] : units)
+      if (text.substr(static_cast<std::size_t>(stop - text.data())) == unit && value > 0) return value * length;
+  throw Error(ErrorKind::wrong_usage, fmt::format("--square: is '{}', expected a length, as 30mm or 1.2in", text));
+}
+
+Checkerboard board_from(const Arguments& arguments) {
+  const std::vector<float> sides = parse_numbers("--board", arguments.board, 'x', 2);
+  if (!std::ranges::all_of(sides, [](float side) { return side >= 3 && side <= 200 && side == std::floor(side); }))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--board: is '{}', expected inner corners COLUMNSxROWS, 3 to 200", arguments.board));
+  return {static_cast<int>(sides[0]), static_cast<int>(sides[1]), millimetres(arguments.square)};
+}
+
+/// left* and right* with the same rest of the name.
+std::vector<PictureFiles> pairs_in(const fs::path& folder) {
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+  if (error)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: cannot be read ({}), expected a folder of pictures",
+                                                  folder.string(), error.message()));
+  std::map<std::string, PictureFiles> by_rest;
+  for (const fs::directory_entry& entry : entries) {
+    if (!entry.is_regular_file(error)) continue;
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("left")) by_rest[name.substr(4)].left = entry.path();
+    if (name.starts_with("right")) by_rest[name.substr(5)].right = entry.path();
+  }
+  std::vector<PictureFiles> pairs;
+  for (const auto& [rest, files] : by_rest) {
+    if (files.left.empty() || files.right.empty())
+      throw Error(ErrorKind::bad_input, fmt::format("{}: has no partner, expected {}{} beside it",
+                                                    (files.left.empty() ? files.right : files.left).string(),
+                                                    files.left.empty() ? "left" : "right", rest));
+    pairs.push_back(files);
+  }
+  if (pairs.empty())
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: holds no pairs of pictures, expected left_01.png, right_01.png and so on", folder.string()));
+  return pairs;
+}
+
+std::vector<PictureFiles> files_from(const Arguments& arguments) {
+  const bool lists = !arguments.left.empty() || !arguments.right.empty();
+  if (lists == !arguments.folder.empty())
+    throw Error(ErrorKind::wrong_usage, "calibrate needs a folder, or --left and --right with a list of pictures each");
+  if (!lists) return pairs_in(arguments.folder);
+  if (arguments.left.size() != arguments.right.size())
+    throw Error(ErrorKind::wrong_usage, fmt::format("--left lists {} pictures and --right {}, expected as many",
+                                                    arguments.left.size(), arguments.right.size()));
+  std::vector<PictureFiles> pairs;
+  for (std::size_t i = 0; i < arguments.left.size(); ++i) pairs.push_back({arguments.left[i], arguments.right[i]});
+  return pairs;
+}
+
+void print_json(const CalibrationResult& result, const Arguments& arguments) {
+  nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
+  for (const CalibrationPair& pair : result.pairs)
+    pairs.push_back({{"left", pair.left_name},
+                     {"right", pair.right_name},
+                     {"used", pair.used},
+                     {"why_not", pair.why_not},
+                     {"left_error_px", pair.left_error_px},
+                     {"right_error_px", pair.right_error_px}});
+  const nlohmann::ordered_json facts{
+      {"file", arguments.output},
+      {"reprojection_error_px", result.calibration.reprojection_error_px},
+      {"row_difference_px", result.row_difference_px},
+      {"baseline_mm", std::hypot(result.calibration.translation[0], result.calibration.translation[1],
+                                 result.calibration.translation[2])},
+      {"eyes_swapped", eyes_swapped(result.calibration)},
+      {"pairs", pairs}};
+  fmt::print("{}\n", facts.dump(2));
+}
+
+void print_summary(const CalibrationResult& result, const Arguments& arguments) {
+  for (const CalibrationPair& pair : result.pairs) {
+    const std::string names = fmt::format("{}, {}", pair.left_name, pair.right_name);
+    if (pair.used) {
+      fmt::print("{}: {:.3f} and {:.3f} px\n", names, pair.left_error_px, pair.right_error_px);
+    } else {
+      fmt::print("{}: left out: {}\n", names, pair.why_not);
+    }
+  }
+  const auto used = std::ranges::count_if(result.pairs, &CalibrationPair::used);
+  const auto& [x, y, z] = result.calibration.translation;
+  fmt::print("used                  {} of {} pairs\n", used, result.pairs.size());
+  fmt::print("reprojection error    {:.3f} px\n", result.calibration.reprojection_error_px);
+  fmt::print("rows differ           {:.3f} px after rectification, median of the corners\n", result.row_difference_px);
+  fmt::print("eye separation        {:.2f} mm\n", std::hypot(x, y, z));
+  if (eyes_swapped(result.calibration))
+    fmt::print(
+        "note                  the left pictures are those of the camera on the right: left and right are "
+        "swapped\n");
+  fmt::print("written to            {}\n", arguments.output);
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  const Checkerboard board = board_from(arguments);
+  const std::vector<PictureFiles> files = files_from(arguments);
+  const std::vector<BoardSighting> sightings = find_checkerboards(files, board, session.progress);
+  const CalibrationResult result = calibrate(sightings, board, {}, session.progress);
+  write_stereo_calibration(arguments.output, result.calibration);
+  if (session.json) {
+    print_json(result, arguments);
+  } else {
+    print_summary(result, arguments);
+  }
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& program, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = *program.add_subcommand("calibrate", "A stereo rig's cameras from photographs of a checkerboard");
+  command.add_option("DIR", arguments->folder, "Folder with left_*.png and right_*.png, or any other format");
+  command.add_option("--left", arguments->left, "The left pictures, instead of a folder");
+  command.add_option("--right", arguments->right, "The right pictures, in the same order");
+  command.add_option("--board", arguments->board, "Inner corners of the board, where four squares meet: COLUMNSxROWS")
+      ->capture_default_str();
+  command.add_option("--square", arguments->square, "Side of a square: 30mm, 3cm, 1.2in")->capture_default_str();
+  command.add_option("-o,--output", arguments->output, "StereoCalibration file, as OpenCV's FileStorage reads it")
+      ->capture_default_str();
+  command.footer(
+      "Needs the board in at least 3 pairs, better a dozen, tilted in several directions. Pairs without it and those\n"
+      "that fit far worse than the rest are left out and named.\n\n"
+      "Example:\n  wheatstone calibrate rig --board 11x7 --square 30mm -o calibration.yml\n"
+      "  wheatstone rectify left.png right.png --calibration calibration.yml -o rectified");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

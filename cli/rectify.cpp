@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "stereo_arguments.h"
+#include "wheatstone/app/output_folder.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/stereo/rectify.h"
+
+namespace wheatstone::cli {
+namespace {
+
+struct Arguments {
+  std::string left, right;
+  std::string folder = "rectified";
+  std::string calibration;
+  bool match_colour = true;
+};
+
+/// The library knows pictures, not files; what it says of them gets their names.
+RectifiedPair rectified(const Arguments& arguments, const Session& session) {
+  const StereoPair photographs = read_pair(arguments.left, arguments.right);
+  const RectifyOptions options{.match_colour = arguments.match_colour};
+  std::optional<StereoCalibration> calibration;
+  if (!arguments.calibration.empty()) calibration = read_stereo_calibration(arguments.calibration);
+  try {
+    return calibration ? rectify(photographs, *calibration, options, session.progress)
+                       : rectify(photographs, options, session.progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_input) throw;
+    throw Error(error.kind(), fmt::format("{}, {}: {}", arguments.left, arguments.right, error.what()));
+  }
+}
+
+void print_json(const RectifiedPair& pair, const Arguments& arguments) {
+  const auto vertical = [&](const VerticalDisparity& of) -> nlohmann::ordered_json {
+    if (pair.measured_matches == 0) return nullptr;
+    return {{"median_px", of.median_px}, {"percentile_95_px", of.percentile_95_px}};
+  };
+  nlohmann::ordered_json facts{{"folder", arguments.folder},
+                               {"width", pair.pictures.left.width()},
+                               {"height", pair.pictures.left.height()},
+                               {"measured_matches", pair.measured_matches},
+                               {"vertical_disparity_before", vertical(pair.before)},
+                               {"vertical_disparity_after", vertical(pair.after)},
+                               {"shift_px", pair.shift_px},
+                               {"eyes_swapped", pair.eyes_swapped},
+                               {"colour", nullptr},
+                               {"homographies", nullptr}};
+  if (pair.colour) facts["colour"] = {{"gain", pair.colour->gain}, {"gamma", pair.colour->gamma}};
+  if (pair.homographies)
+    facts["homographies"] = {{"left", pair.homographies->left}, {"right", pair.homographies->right}};
+  fmt::print("{}\n", facts.dump(2));
+}
+
+void print_summary(const RectifiedPair& pair, const Arguments& arguments) {
+  if (pair.measured_matches == 0) {
+    fmt::print("rows                  not measured: the pictures have too few features in common\n");
+  } else {
+    fmt::print("rows differed by      {:.2f} px, median; {:.2f} px, 95th percentile of {} feature matches\n",
+               pair.before.median_px, pair.before.percentile_95_px, pair.measured_matches);
+    fmt::print("rows differ by        {:.2f} px, median; {:.2f} px, 95th percentile\n", pair.after.median_px,
+               pair.after.percentile_95_px);
+  }
+  fmt::print("kept                  {}x{} pixels\n", pair.pictures.left.width(), pair.pictures.left.height());
+  if (pair.shift_px > 0) {
+    fmt::print("horizontal shift      {:.0f} px, so that all disparities are at least 0\n", pair.shift_px);
+  } else {
+    fmt::print("horizontal shift      none{}\n", pair.eyes_swapped ? "" : ": all disparities are at least 0");
+  }
+  if (pair.colour) {
+    const auto& [gain, gamma] = *pair.colour;
+    fmt::print("colour of the right   red {:.3f}, green {:.3f}, blue {:.3f} times; gamma {:.3f}, {:.3f}, {:.3f}\n",
+               gain[0], gain[1], gain[2], gamma[0], gamma[1], gamma[2]);
+  } else if (arguments.match_colour) {
+    fmt::print("colour of the right   left as it is: too few features to compare\n");
+  }
+  if (pair.eyes_swapped)
+    fmt::print(
+        "note                  the left picture is that of the camera on the right: left and right are swapped\n");
+  fmt::print("written to            {}\n", arguments.folder);
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  const RectifiedPair pair = rectified(arguments, session);
+  OutputFolder folder(arguments.folder);
+  write_image(folder.file("left.png"), pair.pictures.left);
+  write_image(folder.file("right.png"), pair.pictures.right);
+  folder.commit();
+  if (session.json) {
+    print_json(pair, arguments);
+  } else {
+    print_summary(pair, arguments);
+  }
+}
+
+}  // namespace
+
+void add_rectify_command(CLI::App& program, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command =
+      *program.add_subcommand("rectify", "Turns two photographs so that matching points lie on the same rows");
+  command.add_option("LEFT", arguments->left, "Left photograph")->required();
+  command.add_option("RIGHT", arguments->right, "Right photograph, of the same size")->required();
+  command.add_option("-o,--output", arguments->folder, "Folder for left.png and right.png")->capture_default_str();
+  command.add_option(
+      "--calibration", arguments->calibration,
+      "StereoCalibration file of the rig (wheatstone calibrate, or OpenCV's); without one, matched features "
+      "decide");
+  command
+      .add_option("--match-colour", arguments->match_colour, "Bring the right eye's exposure and colour to the left")
+      ->capture_default_str();
+  command.footer(
+      "Both pictures are cropped to what is filled in both, on the same rows and columns. Disparities (x_left - "
+      "x_right)\n"
+      "stay about what they were; where some would be below 0 the right picture is shifted, and the report says by\n"
+      "how much.\n\n"
+      "Example:\n  wheatstone rectify left.jpg right.jpg -o rectified\n"
+      "  wheatstone paint rectified/left.png rectified/right.png -o painted");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli
