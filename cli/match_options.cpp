@@ -21,15 +21,33 @@ DisparityRange parse_range(const std::string& text) {
   return range;
 }
 
+CLI::IsMember one_of(std::span<const std::string_view> names) {
+  return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
 }  // namespace
 
 void add_match_options(CLI::App& command, MatchArguments& arguments) {
   constexpr auto group = "Matching";
-  const auto names = matcher_names();
   command
-      .add_option("--matcher", arguments.matcher,
-                  "How pixels are matched: sgbm, bm, or dp (scan-line dynamic programming)")
-      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
+      .add_option("--quality", arguments.quality,
+                  "fast (at half the size), good, or best (doubtful places replaced, edges refined)")
+      ->check(one_of(match_quality_names()))
+      ->capture_default_str()
+      ->group(group);
+  CLI::Option* matcher = command.add_option(
+      "--matcher", arguments.matcher,
+      "How pixels are matched: sgbm, bm, dp (scan-line dynamic programming), or onnx (a network, --model)");
+  matcher->check(one_of(matcher_names()))->capture_default_str()->group(group);
+  CLI::Option* model = command.add_option(
+      "--model", arguments.model,
+      "Network for --matcher onnx: takes left and right, 1x3xHxW each or stacked 1x6xHxW; gives a disparity map");
+  model->needs(matcher)->group(group);
+  command
+      .add_option("--model-values", arguments.model_values,
+                  "What the network's pictures consist of: 255 (0..255), 1 (0..1), or imagenet")
+      ->check(one_of(network_values_names()))
+      ->needs(model)
       ->capture_default_str()
       ->group(group);
   command
@@ -40,19 +58,28 @@ void add_match_options(CLI::App& command, MatchArguments& arguments) {
       ->capture_default_str()
       ->group(group);
   command.add_flag("--no-check", arguments.no_check, "Believe what the other view does not confirm")->group(group);
-  command.add_option("--refine", arguments.refine, "Edge-aware refinement: none or wls")
+  command
+      .add_option("--refine", arguments.refine, "Edge-aware refinement: none or wls; as --quality has it if not given")
       ->check(CLI::IsMember({"none", "wls"}))
-      ->capture_default_str()
       ->group(group);
 }
 
 MatchOptions match_options_from(const MatchArguments& arguments) {
-  MatchOptions options;
+  MatchOptions options = match_options_for(*match_quality_by_name(arguments.quality));
   options.matcher = *matcher_by_name(arguments.matcher);
+  if (options.matcher == Matcher::onnx && arguments.model.empty())
+    throw Error(ErrorKind::wrong_usage, "--matcher onnx needs --model FILE");
+  if (options.matcher != Matcher::onnx && !arguments.model.empty())
+    throw Error(ErrorKind::wrong_usage, "--model is for --matcher onnx only");
+  options.model = arguments.model;
+  options.model_values = *network_values_by_name(arguments.model_values);
   if (!arguments.range.empty()) options.range = parse_range(arguments.range);
   options.block_px = arguments.block_px;
   options.left_right_check = !arguments.no_check;
-  options.wls = arguments.refine == "wls";
+  if (!arguments.refine.empty()) {
+    options.wls = arguments.refine == "wls";
+    options.wls_keeps_confirmed = false;
+  }
   return options;
 }
 

@@ -110,9 +110,8 @@ void add_rectify_command(CLI::App& program, const Session& session) {
       "--calibration", arguments->calibration,
       "StereoCalibration file of the rig (wheatstone calibrate, or OpenCV's); without one, matched features "
       "decide");
-  command
-      .add_option("--match-colour", arguments->match_colour, "Bring the right eye's exposure and colour to the left")
-      ->capture_default_str();
+  command.add_flag("--match-colour,!--no-match-colour", arguments->match_colour,
+                   "Bring the right eye's exposure and colour to the left one's; on unless --no-match-colour");
   command.footer(
       "Both pictures are cropped to what is filled in both, on the same rows and columns. Disparities (x_left - "
       "x_right)\n"

@@ -14,6 +14,8 @@ std::vector<std::vector<std::string>> readers(const std::string& file) {
   return {{"info", file},
           {"match", file, "good.png", "-o", "results"},
           {"match", "good.png", file, "-o", "results"},
+          {"rectify", file, "good.png", "-o", "results"},
+          {"rectify", "good.png", file, "-o", "results"},
           {"paint", file, "good.png", "-o", "results"},
           {"paint", "good.png", file, "-o", "results"},
           {"paint", "good.png", "good.png", "--disparity", file, "-o", "results"}};
@@ -56,7 +58,7 @@ TEST(BadInput, EyesOfDifferentSizesAreRefused) {
   const TemporaryFolder folder;
   write_image(folder / "good.png", ramp());
   write_image(folder / "small.png", Image<Rgb8>(32, 24));
-  for (const std::string command : {"match", "paint"}) {
+  for (const std::string command : {"match", "paint", "rectify"}) {
     expect_refused(folder, {command, "good.png", "small.png", "-o", "results"}, 3, "small.png");
   }
 }
@@ -65,7 +67,7 @@ TEST(BadInput, TinyPicturesAreRefused) {
   const TemporaryFolder folder;
   write_image(folder / "1x1.png", Image<Rgb8>(1, 1));
   write_image(folder / "3x2.png", Image<Rgb8>(3, 2));
-  for (const std::string command : {"match", "paint"}) {
+  for (const std::string command : {"match", "paint", "rectify"}) {
     for (const std::string name : {"1x1.png", "3x2.png"}) {
       expect_refused(folder, {command, name, name, "-o", "results", "--quiet"}, 3, name.substr(0, 3));
     }

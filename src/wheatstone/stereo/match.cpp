@@ -15,15 +15,25 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/match_internal.h"
+#include "wheatstone/stereo/match_reliability_internal.h"
 
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 3> names{"sgbm", "bm", "dp"};
+constexpr std::array<std::string_view, 4> names{"sgbm", "bm", "dp", "onnx"};
+constexpr std::array<std::string_view, 3> values_names{"255", "1", "imagenet"};
+constexpr std::array<std::string_view, 3> quality_names{"fast", "good", "best"};
 constexpr int least_side_px = 16;
 constexpr double most_pixels = 12e6;
 constexpr int most_disparities = 512;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+template <class Value>
+std::optional<Value> by_name(std::span<const std::string_view> all, std::string_view name) {
+  const auto found = std::ranges::find(all, name);
+  if (found == all.end()) return {};
+  return static_cast<Value>(found - all.begin());
+}
 
 void check(const StereoPair& pair, const MatchOptions& options) {
   if (!same_size(pair.left, pair.right))
@@ -36,6 +46,11 @@ void check(const StereoPair& pair, const MatchOptions& options) {
   if (options.block_px < 1 || options.block_px > 51 || options.block_px % 2 == 0)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("the matching block is {} pixels wide, expected an odd number, 1 to 51", options.block_px));
+  if (!(options.size > 0 && options.size <= 1))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("the size to match at is {} of the pictures', expected above 0 and up to 1", options.size));
+  if (options.matcher == Matcher::onnx && options.model.empty())
+    throw Error(ErrorKind::wrong_usage, "matching by a network needs its file: an .onnx model");
   if (options.range &&
       (options.range->least >= options.range->largest ||
        std::max(std::abs(options.range->least), std::abs(options.range->largest)) >= pair.left.width()))
@@ -46,6 +61,7 @@ void check(const StereoPair& pair, const MatchOptions& options) {
 
 Image<float> match_one_way(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,
                            const MatchOptions& options) {
+  if (options.matcher == Matcher::onnx) return match_with_network(own, other, options);
   if (options.matcher != Matcher::dp) return match_with_opencv(own, other, range, options);
   cv::Mat own_luminance, other_luminance;
   cv::cvtColor(own, own_luminance, cv::COLOR_RGB2GRAY);
@@ -129,6 +145,30 @@ double finite_share(const Image<float>& disparity) {
   return static_cast<double>(known) / static_cast<double>(disparity.pixels().size());
 }
 
+/// Replaces doubtful places; those that were are NaN in the result, which else is the disparity as it was found. Where
+/// nearly nothing is beyond doubt the disparity stays as it is.
+Image<float> distrust(Image<float>& left, const Image<float>& right, const StereoPair& pair,
+                      const DisparityRange& range) {
+  const Image<std::uint8_t> distinct = find_distinct_matches(as_mat(pair.left), as_mat(pair.right), left, range);
+  constexpr double least_share = 0.05;
+  if (cv::countNonZero(as_mat(distinct)) < least_share * static_cast<double>(distinct.pixels().size())) return left;
+  Image<float> found = left;
+  replace_doubtful(left, right, distinct, range);
+  for (std::size_t i = 0; i < found.pixels().size(); ++i)
+    if (found.pixels()[i] != left.pixels()[i]) found.pixels()[i] = unknown;
+  return found;
+}
+
+/// Refinement knows edges better, but rounds what matching found between whole pixels: where they agree to a pixel,
+/// what was found stays, and so does what replaced doubtful places.
+void keep_confirmed(const Image<float>& before, const Image<float>& found, Image<float>& disparity) {
+  for (std::size_t i = 0; i < before.pixels().size(); ++i) {
+    const float was = before.pixels()[i];
+    const bool replaced = std::isfinite(was) && !std::isfinite(found.pixels()[i]);
+    if (replaced || std::abs(was - disparity.pixels()[i]) <= 1) disparity.pixels()[i] = was;
+  }
+}
+
 MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options) {
   const cv::Mat left_picture = as_mat(pair.left), right_picture = as_mat(pair.right);
   Image<float> left, right;
@@ -149,9 +189,15 @@ MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& ran
   if (matched.left_found_share == 0)
     throw Error(ErrorKind::bad_input, fmt::format("no pixel of the two pictures matches between disparities {} and {}",
                                                   range.least, range.largest));
+  Image<float> found = left;
+  if (options.distrust) found = distrust(left, right, pair, range);
+  const Image<float> before = left;
   fill_from_farther_side(left);
   fill_from_farther_side(right);
-  if (options.wls) left = refined(left, right, left_picture, range, options);
+  if (options.wls) {
+    left = refined(left, right, left_picture, range, options);
+    if (options.wls_keeps_confirmed) keep_confirmed(before, found, left);
+  }
   // Filling goes scan line by scan line; a median across them takes the streaks out and keeps the edges.
   cv::Mat matrix = as_mat(left);
   cv::medianBlur(matrix, matrix, 5);
@@ -186,10 +232,29 @@ Image<float> enlarged(const Image<float>& disparity, int width, int height) {
 
 std::span<const std::string_view> matcher_names() { return names; }
 
-std::optional<Matcher> matcher_by_name(std::string_view name) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] == name) return static_cast<Matcher>(i);
-  return {};
+std::optional<Matcher> matcher_by_name(std::string_view name) { return by_name<Matcher>(names, name); }
+
+std::span<const std::string_view> network_values_names() { return values_names; }
+
+std::optional<NetworkValues> network_values_by_name(std::string_view name) {
+  return by_name<NetworkValues>(values_names, name);
+}
+
+std::span<const std::string_view> match_quality_names() { return quality_names; }
+
+std::optional<MatchQuality> match_quality_by_name(std::string_view name) {
+  return by_name<MatchQuality>(quality_names, name);
+}
+
+MatchOptions match_options_for(MatchQuality quality) {
+  MatchOptions options;
+  if (quality == MatchQuality::fast) options.size = 0.5;
+  if (quality == MatchQuality::best) {
+    options.distrust = true;
+    options.wls = true;
+    options.wls_keeps_confirmed = true;
+  }
+  return options;
 }
 
 MatchedPair match(const StereoPair& pair, const MatchOptions& options, const Progress& progress) {
@@ -197,7 +262,7 @@ MatchedPair match(const StereoPair& pair, const MatchOptions& options, const Pro
   report(progress, "matching", 0);
   const DisparityRange range = options.range ? *options.range : find_disparity_range(pair);
   report(progress, "matching", 0.2);
-  const double scale = reduction_for(pair, range);
+  const double scale = std::min(options.size, reduction_for(pair, range));
   MatchedPair matched;
   if (scale == 1) {
     matched = match_at_this_size(pair, range, options);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -14,10 +15,21 @@ enum class Matcher {
   sgbm,  ///< semi-global matching (OpenCV, MODE_SGBM_3WAY)
   bm,    ///< block matching (OpenCV)
   dp,  ///< dynamic programming along scan lines (Birchfield & Tomasi 1998), one of the two of Stavrakis & Gelautz 2005
+  onnx,  ///< a neural network from a file (OpenCV's DNN module)
 };
 
 std::span<const std::string_view> matcher_names();
 std::optional<Matcher> matcher_by_name(std::string_view name);
+
+/// What a network's pictures consist of; red, green, blue.
+enum class NetworkValues {
+  to_255,    ///< 0..255
+  to_1,      ///< 0..1
+  imagenet,  ///< 0..1 less ImageNet's mean, divided by its deviation
+};
+
+std::span<const std::string_view> network_values_names();
+std::optional<NetworkValues> network_values_by_name(std::string_view name);
 
 /// Disparities looked for, in whole pixels, both ends included; either may be negative.
 struct DisparityRange {
@@ -25,17 +37,37 @@ struct DisparityRange {
   int largest = 64;
 };
 
+/// Presets of MatchOptions.
+enum class MatchQuality {
+  fast,  ///< at half the pictures' size
+  good,  ///< the defaults
+  best,  ///< doubtful places replaced by their surroundings, edges refined
+};
+
+std::span<const std::string_view> match_quality_names();
+std::optional<MatchQuality> match_quality_by_name(std::string_view name);
+
 struct MatchOptions {
   Matcher matcher = Matcher::sgbm;
+  /// For onnx: a network with two inputs of 1×3×H×W, left and right, or one of 1×6×H×W; open sides are the picture's,
+  /// rounded up to 32. It answers with one map of disparities, in pixels of W; where they are mostly negative they are
+  /// taken for a flow and turned round.
+  std::filesystem::path model;
+  NetworkValues model_values = NetworkValues::to_255;
   std::optional<DisparityRange> range;  ///< none: from sparse matches
   int block_px = 3;                     ///< side of the compared windows; odd. bm takes at least 11
   bool left_right_check = true;         ///< drop what the other view does not confirm
   float check_tolerance_px = 1;
   int least_surface_px = 100;  ///< smaller connected patches of like disparity are dropped as speckles
+  double size = 1;             ///< matched in copies of this share of the pictures' width, above 0 and up to 1
+  bool distrust = false;       ///< replace what is on plain surfaces and in repeated patterns from its surroundings
   bool wls = false;            ///< edge-aware refinement (OpenCV ximgproc, weighted least squares)
+  bool wls_keeps_confirmed = false;  ///< ... but for what it would move by no more than a pixel
   double wls_lambda = 2000;
   double wls_sigma = 1;
 };
+
+MatchOptions match_options_for(MatchQuality quality);
 
 /// A matched pair. The shares are of the pixels, 0..1, whose disparity was found and not filled.
 struct MatchedPair {
@@ -48,8 +80,8 @@ struct MatchedPair {
 /// Finds the disparity of every pixel of a rectified pair, in both geometries, and both occlusion masks. Unknown places
 /// are filled from their farther neighbours. Pairs of more than about 12 megapixels, or with more than 512 disparities,
 /// are matched at a reduced size. The same result on every run and any number of threads.
-/// Throws Error{bad_input}: sizes differ, fewer than 16 pixels a side, nothing matches; Error{wrong_usage}: a range or
-/// block that makes no sense.
+/// Throws Error{bad_input}: sizes differ, fewer than 16 pixels a side, nothing matches, the model is missing or no
+/// network that can be run; Error{wrong_usage}: a range or block that makes no sense.
 MatchedPair match(const StereoPair& pair, const MatchOptions& options = {}, const Progress& progress = {});
 
 /// The range of disparities in a pair, from matched corners (ORB) and a coarse match of small copies, with some room at

@@ -20,4 +20,7 @@ Image<float> match_plain_sgbm(const cv::Mat& own, const cv::Mat& other, const Di
 /// The same by dynamic programming, for two luminance pictures: CV_8UC1.
 Image<float> match_scan_lines(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range);
 
+/// The same by the network in `options.model`. Throws Error{bad_input}.
+Image<float> match_with_network(const cv::Mat& own, const cv::Mat& other, const MatchOptions& options);
+
 }  // namespace wheatstone

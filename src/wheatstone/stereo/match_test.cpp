@@ -48,7 +48,7 @@ TEST(Match, EveryMatcherBeatsWhatItFindsUnchecked) {
   const Image<float> unchecked =
       match_with_opencv(as_mat(still().pictures.left), as_mat(still().pictures.right), *naive.range, naive);
   const double naive_bad = bad_2(unchecked, still().geometry.left_disparity);
-  for (const std::string_view name : matcher_names()) {
+  for (const std::string_view name : {"sgbm", "bm", "dp"}) {
     MatchOptions options;
     options.matcher = *matcher_by_name(name);
     const double bad = bad_2_of(options);

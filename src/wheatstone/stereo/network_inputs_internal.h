@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wheatstone {
+
+/// What an ONNX network takes: a name, and sides of which 0 is left open.
+struct NetworkInput {
+  std::string name;
+  std::vector<std::int64_t> sides;
+};
+
+/// The inputs of an ONNX file's graph that are not weights, in their order. Empty where the bytes are no ONNX file with
+/// a graph: damaged, cut off, or something else.
+std::vector<NetworkInput> network_inputs(std::string_view bytes);
+
+}  // namespace wheatstone
