@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/image/embedded_profile_internal.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/image/jpeg_end_internal.h"
 #include "wheatstone/image/open_picture_internal.h"
@@ -21,8 +21,6 @@ namespace wheatstone {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t most_bytes = std::numeric_limits<std::int32_t>::max();
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), what));
@@ -55,7 +53,36 @@ void check_size(const fs::path& path, const OIIO::ImageSpec& spec) {
   }
   const std::uint64_t bytes = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
                               std::max<std::uint64_t>(sizeof(Rgb8), static_cast<std::uint64_t>(spec.pixel_bytes()));
-  if (bytes > most_bytes) refuse(path, fmt::format("{}x{} pixels, expected at most 2 GiB", spec.width, spec.height));
+  if (bytes > most_picture_bytes)
+    refuse(path, fmt::format("{}x{} pixels, expected at most 2 GiB", spec.width, spec.height));
+}
+
+// We composite over white ourselves, in sRGB, as viewers do.
+OIIO::ImageSpec colour_as_it_stands() {
+  OIIO::ImageSpec wish;
+  wish.attribute("oiio:UnassociatedAlpha", 1);
+  return wish;
+}
+
+void open_in_memory(const fs::path& path, const std::string& format, OpenPicture& open) {
+  open.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(open.bytes.data(), open.bytes.size());
+  open.decoder = OIIO::ImageInput::create(format);
+  OIIO::ImageSpec found;
+  if (open.decoder &&
+      !(open.decoder->set_ioproxy(open.memory.get()) && open.decoder->open("", found, colour_as_it_stands()))) {
+    refuse_damaged(path, open.decoder->geterror());
+  }
+}
+
+void check_opened(const fs::path& path, OpenPicture& open) {
+  OIIO::geterror();  // what is not asked for is printed when the program ends
+  if (!open.decoder || !is_picture_format(open.decoder->format_name())) {
+    refuse(path, "not a picture, or a damaged one; expected PNG, JPEG, TIFF, WebP, HEIC, EXR, PPM or BMP");
+  }
+  check_size(path, open.decoder->spec());
+  if (!open.colour_profile.empty()) return;
+  const OIIO::ParamValue* profile = open.decoder->spec().find_attribute("ICCProfile");
+  if (profile != nullptr) open.colour_profile.assign(static_cast<const char*>(profile->data()), profile->datasize());
 }
 
 }  // namespace
@@ -69,30 +96,30 @@ void refuse_damaged(const fs::path& path, std::string reason) {
 OpenPicture open_picture(const fs::path& path) {
   check_readable(path);
   OpenPicture open;
-  open.bytes = read_whole_file(path, most_bytes);
+  open.bytes = read_whole_file(path, most_picture_bytes);
   if (!jpeg_is_whole(open.bytes)) refuse_damaged(path, "it breaks off before its end");
-  OIIO::ImageSpec wish;
-  // Colour as it stands in the file: we composite over white ourselves, in sRGB, as viewers do.
-  wish.attribute("oiio:UnassociatedAlpha", 1);
+  open.colour_profile = embedded_profile(open.bytes);
   if (is_png(open.bytes)) {
     std::optional<std::string> plain = plain_png(open.bytes);
     if (!plain) refuse_damaged(path, "it breaks off before its end, or its checksums are wrong");
     open.bytes = std::move(*plain);
-    open.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(open.bytes.data(), open.bytes.size());
-    open.decoder = OIIO::ImageInput::create("png");
-    OIIO::ImageSpec found;
-    if (open.decoder && !(open.decoder->set_ioproxy(open.memory.get()) && open.decoder->open("", found, wish))) {
-      refuse_damaged(path, open.decoder->geterror());
-    }
+    open_in_memory(path, "png", open);
   } else {
     open.bytes = {};
+    const OIIO::ImageSpec wish = colour_as_it_stands();
     open.decoder = OIIO::ImageInput::open(path.string(), &wish);
   }
-  OIIO::geterror();  // what is not asked for is printed when the program ends
-  if (!open.decoder || !is_picture_format(open.decoder->format_name())) {
-    refuse(path, "not a picture, or a damaged one; expected PNG, JPEG, TIFF, WebP, EXR, PPM or BMP");
-  }
-  check_size(path, open.decoder->spec());
+  check_opened(path, open);
+  return open;
+}
+
+OpenPicture open_jpeg(std::string_view bytes, const fs::path& path) {
+  if (!bytes.starts_with("\xFF\xD8") || !jpeg_is_whole(bytes))
+    refuse_damaged(path, "one of its pictures is no whole JPEG");
+  OpenPicture open;
+  open.bytes = bytes;
+  open_in_memory(path, "jpeg", open);
+  check_opened(path, open);
   return open;
 }
 

@@ -3,15 +3,20 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace wheatstone {
 
 /// A decoder and, where it does not read the file itself, the bytes that it reads.
 struct OpenPicture {
   std::string bytes;
+  std::string colour_profile;  ///< ICC, as it stands in the file; empty where there is none
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
   std::unique_ptr<OIIO::ImageInput> decoder;
 };
@@ -19,6 +24,12 @@ struct OpenPicture {
 /// A picture of a sensible size, opened: its header is read, its pixels are not. Alpha stays unassociated where the
 /// file has it so. Throws Error as read_image.
 OpenPicture open_picture(const std::filesystem::path& path);
+
+/// The same of a JPEG in memory, as it stands among others in a file; `path` stands for it in messages.
+OpenPicture open_jpeg(std::string_view bytes, const std::filesystem::path& path);
+
+/// The longest file that is taken for a picture, in bytes.
+constexpr std::size_t most_picture_bytes = std::numeric_limits<std::int32_t>::max();
 
 /// Throws Error{bad_input} that gives the decoder's reason.
 [[noreturn]] void refuse_damaged(const std::filesystem::path& path, std::string reason);

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "wheatstone/image/colour_profile_internal.h"
 #include "wheatstone/image/open_picture_internal.h"
 
 namespace wheatstone {
@@ -117,16 +118,22 @@ Image<Rgb8> upright(Image<Rgb8> stored, int orientation) {
   return shown;
 }
 
-}  // namespace
-
-Image<Rgb8> read_image(const fs::path& path) {
-  const OpenPicture open = open_picture(path);
+Image<Rgb8> read_opened(const fs::path& path, const OpenPicture& open) {
   const OIIO::ImageSpec spec = open.decoder->spec();
   Image<Rgb8> picture = read_converted(path, *open.decoder, spec);
   // JPEG's decoder complains of stray bytes between the markers: they come from cameras and are harmless.
   const std::string complaint = open.decoder->geterror();
   if (!complaint.empty() && open.decoder->format_name() != std::string_view("jpeg")) refuse_damaged(path, complaint);
+  if (!conversion_of(spec).linear) bring_to_srgb(picture, open.colour_profile, spec.nchannels < 3);
   return upright(std::move(picture), spec.get_int_attribute("Orientation", 1));
+}
+
+}  // namespace
+
+Image<Rgb8> read_image(const fs::path& path) { return read_opened(path, open_picture(path)); }
+
+Image<Rgb8> decode_jpeg(std::string_view bytes, const fs::path& path) {
+  return read_opened(path, open_jpeg(bytes, path));
 }
 
 }  // namespace wheatstone

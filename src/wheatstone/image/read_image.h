@@ -1,14 +1,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "wheatstone/image/image.h"
 
 namespace wheatstone {
 
 /// Reads a photograph as 8-bit sRGB: grey becomes three equal channels, 16-bit and float are rounded, CMYK is
-/// converted, alpha is composited over white, EXIF orientation is applied.
+/// converted, alpha is composited over white, an ICC profile is brought to sRGB, EXIF orientation is applied. A profile
+/// that is damaged or does not fit the picture is left aside, as viewers do.
 /// Throws Error{bad_input} where the file is missing, is no picture, or is truncated.
 Image<Rgb8> read_image(const std::filesystem::path& path);
+
+/// The same of a JPEG in memory; `path` stands for it in messages.
+Image<Rgb8> decode_jpeg(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace wheatstone

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string_view>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// Brings colours that an ICC profile describes to sRGB, relative colorimetric with black point compensation. Leaves
+/// the picture alone where there is no profile, it is damaged, describes other channels (a print's CMYK, which was
+/// converted already), or says sRGB but for rounding. `grey`: the picture came with one channel.
+void bring_to_srgb(Image<Rgb8>& picture, std::string_view profile, bool grey);
+
+}  // namespace wheatstone
