@@ -12,7 +12,6 @@
 #include "wheatstone/image/colour_profile_internal.h"
 #include "wheatstone/image/heif_pictures_internal.h"
 #include "wheatstone/image/open_picture_internal.h"
-#include "wheatstone/image/whole_file.h"
 
 namespace wheatstone {
 namespace {
@@ -84,7 +83,7 @@ std::string heif_profile(std::string_view bytes) {
 }
 
 std::vector<Image<Rgb8>> read_heif_pictures(const fs::path& path) {
-  const std::string bytes = read_whole_file(path, most_picture_bytes);
+  const std::string bytes = read_picture_bytes(path);
   const Context context = open_context(bytes);
   if (!is_heif(bytes) || !context)
     throw Error(ErrorKind::bad_input, fmt::format("{}: not a HEIC file, or a damaged one", path.string()));

@@ -93,10 +93,14 @@ void refuse_damaged(const fs::path& path, std::string reason) {
   refuse(path, reason.empty() ? "damaged or truncated picture" : "damaged or truncated picture: " + reason);
 }
 
-OpenPicture open_picture(const fs::path& path) {
+std::string read_picture_bytes(const fs::path& path) {
   check_readable(path);
+  return read_whole_file(path, most_picture_bytes);
+}
+
+OpenPicture open_picture(const fs::path& path) {
   OpenPicture open;
-  open.bytes = read_whole_file(path, most_picture_bytes);
+  open.bytes = read_picture_bytes(path);
   if (!jpeg_is_whole(open.bytes)) refuse_damaged(path, "it breaks off before its end");
   open.colour_profile = embedded_profile(open.bytes);
   if (is_png(open.bytes)) {

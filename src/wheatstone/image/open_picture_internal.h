@@ -28,6 +28,9 @@ OpenPicture open_picture(const std::filesystem::path& path);
 /// The same of a JPEG in memory, as it stands among others in a file; `path` stands for it in messages.
 OpenPicture open_jpeg(std::string_view bytes, const std::filesystem::path& path);
 
+/// All bytes of what is to be a picture. Throws Error as read_image for what is missing, empty or no file.
+std::string read_picture_bytes(const std::filesystem::path& path);
+
 /// The longest file that is taken for a picture, in bytes.
 constexpr std::size_t most_picture_bytes = std::numeric_limits<std::int32_t>::max();
 

@@ -58,30 +58,53 @@ std::unique_ptr<OIIO::ImageOutput> encoder_for(const fs::path& path) {
   return encoder;
 }
 
-// Encoded in memory and written by us: the encoders do not all notice that a disk is full.
-void write_encoded(const fs::path& path, const std::uint8_t* pixels, int width, int height, int channels,
-                   std::ptrdiff_t row_bytes) {
-  if (width <= 0 || height <= 0) fail_to_encode(path, "it has no pixels");
-  const std::unique_ptr<OIIO::ImageOutput> encoder = encoder_for(path);
+struct Pixels {
+  const std::uint8_t* first = nullptr;
+  int width = 0, height = 0, channels = 0;
+  std::ptrdiff_t row_bytes = 0;
+};
+
+Pixels pixels_of(ImageView<const Rgb8> image) {
+  return {reinterpret_cast<const std::uint8_t*>(image.data()), image.width(), image.height(), 3,
+          image.stride() * static_cast<std::ptrdiff_t>(sizeof(Rgb8))};
+}
+
+std::string encoded(const fs::path& path, const Pixels& pixels, OIIO::ImageOutput& encoder,
+                    const OIIO::ImageSpec& spec) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
-  encoder->set_ioproxy(&memory);
-  if (!encoder->open("picture" + path.extension().string(), spec_of(encoder->format_name(), width, height, channels)) ||
-      !encoder->write_image(OIIO::TypeDesc::UINT8, pixels, OIIO::AutoStride, row_bytes) || !encoder->close()) {
-    fail_to_encode(path, encoder->geterror());
+  encoder.set_ioproxy(&memory);
+  if (!encoder.open("picture" + path.extension().string(), spec) ||
+      !encoder.write_image(OIIO::TypeDesc::UINT8, pixels.first, OIIO::AutoStride, pixels.row_bytes) ||
+      !encoder.close()) {
+    fail_to_encode(path, encoder.geterror());
   }
-  write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// Encoded in memory and written by us: the encoders do not all notice that a disk is full.
+void write_encoded(const fs::path& path, const Pixels& pixels) {
+  if (pixels.width <= 0 || pixels.height <= 0) fail_to_encode(path, "it has no pixels");
+  const std::unique_ptr<OIIO::ImageOutput> encoder = encoder_for(path);
+  const OIIO::ImageSpec spec = spec_of(encoder->format_name(), pixels.width, pixels.height, pixels.channels);
+  write_whole_file(path, encoded(path, pixels, *encoder, spec));
 }
 
 }  // namespace
 
-void write_image(const fs::path& path, ImageView<const Rgb8> image) {
-  write_encoded(path, reinterpret_cast<const std::uint8_t*>(image.data()), image.width(), image.height(), 3,
-                image.stride() * static_cast<std::ptrdiff_t>(sizeof(Rgb8)));
+std::string encode_jpeg(ImageView<const Rgb8> image, int quality) {
+  const fs::path path = "picture.jpg";
+  const Pixels pixels = pixels_of(image);
+  if (image.empty()) fail_to_encode(path, "it has no pixels");
+  OIIO::ImageSpec spec = spec_of("jpeg", pixels.width, pixels.height, pixels.channels);
+  spec.attribute("Compression", fmt::format("jpeg:{}", std::clamp(quality, 1, 100)));
+  return encoded(path, pixels, *encoder_for(path), spec);
 }
 
+void write_image(const fs::path& path, ImageView<const Rgb8> image) { write_encoded(path, pixels_of(image)); }
+
 void write_image(const fs::path& path, ImageView<const std::uint8_t> image) {
-  write_encoded(path, image.data(), image.width(), image.height(), 1, image.stride());
+  write_encoded(path, {image.data(), image.width(), image.height(), 1, image.stride()});
 }
 
 }  // namespace wheatstone

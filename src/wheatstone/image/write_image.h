@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "wheatstone/image/image.h"
 
@@ -10,5 +11,9 @@ namespace wheatstone {
 /// becomes the real one when the file is whole. Throws Error{cannot_read_write}; then nothing is left behind.
 void write_image(const std::filesystem::path& path, ImageView<const Rgb8> image);
 void write_image(const std::filesystem::path& path, ImageView<const std::uint8_t> image);
+
+/// The picture as a baseline JPEG of this quality, 1 to 100, with its chroma at full size (4:4:4).
+/// Throws Error{cannot_read_write}.
+std::string encode_jpeg(ImageView<const Rgb8> image, int quality);
 
 }  // namespace wheatstone

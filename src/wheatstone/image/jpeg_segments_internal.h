@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace wheatstone {
+
+/// One marker segment of a JPEG: what stands behind its marker and length.
+struct JpegSegment {
+  std::uint8_t marker = 0;  ///< 0xE2 is APP2
+  std::size_t begin = 0;    ///< of the segment's marker, in the bytes that were asked
+  std::string_view data;
+};
+
+/// The segments of the JPEG at the start of the bytes, up to its picture data; none where it is no JPEG, and those
+/// before the damage where a length points beyond the bytes. ITU-T T.81, sec. B.1.
+std::vector<JpegSegment> jpeg_segments(std::string_view bytes);
+
+struct JpegSize {
+  int width = 0;
+  int height = 0;
+  friend bool operator==(const JpegSize&, const JpegSize&) = default;
+};
+
+/// The size that a JPEG's frame header tells; none where it has no such header before its picture data.
+std::optional<JpegSize> jpeg_size(std::string_view bytes);
+
+}  // namespace wheatstone

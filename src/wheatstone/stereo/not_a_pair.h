@@ -1,0 +1,22 @@
+#pragma once
+
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone {
+
+/// How well two pictures fit together as two views of one scene.
+struct PairEvidence {
+  int left_features = 0;  ///< SIFT, in copies of a sensible size
+  int right_features = 0;
+  int matches = 0;         ///< features that are clearly each other's
+  int inliers = 0;         ///< of those, on one epipolar geometry (fundamental matrix, RANSAC)
+  double block_share = 0;  ///< of textured blocks, 0..1: found where the other eye would see them
+};
+
+PairEvidence pair_evidence(const StereoPair& pair);
+
+/// Whether the pictures show two different scenes: both have features enough, but hardly any of them fit together, nor
+/// do their blocks. False where there is too little to go by. Rectification is not asked for.
+bool not_a_pair(const StereoPair& pair);
+
+}  // namespace wheatstone

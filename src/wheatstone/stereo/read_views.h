@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wheatstone/stereo/stereo_layout.h"
+
+namespace wheatstone {
+
+/// How it is known where a file has its views.
+enum class HowKnown {
+  given,     ///< by who asks
+  metadata,  ///< by the file itself: MPO's index, JPS's descriptor, PNG's chunk sTER
+  name,      ///< by the file's name
+  halves,    ///< by comparing the picture's halves
+};
+
+/// In words, as "from its metadata".
+std::string_view how_known_words(HowKnown how);
+
+struct ReadViewsOptions {
+  std::optional<StereoLayout> layout;  ///< of a file that holds both views in one picture; none: find it
+  bool swap = false;                   ///< the eyes are the other way round than all else says
+};
+
+/// The views of one file, as read_image gives pictures.
+struct ViewsFile {
+  std::vector<Image<Rgb8>> views;      ///< two or more of the same size, from left to right
+  std::string kind;                    ///< "MPO", "JPS", "HEIC", "JPEG", "PNG" …
+  std::optional<StereoLayout> layout;  ///< as it lies in the file, before `swap`; none: a picture a view
+  HowKnown how_known = HowKnown::metadata;
+  std::string note;  ///< what may be worth a look, one line; else empty
+};
+
+/// In words, as "side by side, left eye left (from its name)" or "2 pictures (from its metadata)".
+std::string describe_views(const ViewsFile& file);
+
+/// Reads the views of a stereo photograph in one file:
+/// - MPO (CIPA DC-007): the JPEGs that its index calls views, ordered by their numbers; large thumbnails are left out.
+///   A JPEG whose index lists anything else than views of one size (a gain map, a panorama) is an ordinary picture.
+/// - JPS: by its descriptor; without one the right eye's picture is on the left. PNS is the same as PNG.
+/// - HEIC with exactly two pictures of one size: left, right.
+/// - any other picture: by the layout that is given, else its metadata, its name, its halves, in this order.
+/// EXIF orientation and ICC profiles are applied to each; squeezed halves are brought back to full size.
+/// Throws Error: bad_input where the file is damaged, holds one view only or cannot be halved; wrong_usage where a
+/// layout is given for a file with a picture a view.
+ViewsFile read_views(const std::filesystem::path& path, const ReadViewsOptions& options = {});
+
+/// The same; none instead of an error where a sound picture gives no sign of holding two views.
+std::optional<ViewsFile> find_views(const std::filesystem::path& path, const ReadViewsOptions& options = {});
+
+}  // namespace wheatstone
