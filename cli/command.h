@@ -11,7 +11,8 @@ namespace wheatstone::cli {
 struct Session {
   bool json = false;  ///< print one JSON object on standard output instead of text
   bool verbose = false;
-  int threads = 0;  ///< 0: as many as the machine has
+  bool quiet = false;  ///< nothing on standard error but errors
+  int threads = 0;     ///< 0: as many as the machine has
   std::uint64_t seed = 1;
   Progress progress;  ///< draws the bar and throws Error{interrupted} after Ctrl-C
 };

@@ -17,6 +17,9 @@
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/painting/painting_file.h"
 #include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/stereo/eye_order.h"
+#include "wheatstone/stereo/not_a_pair.h"
+#include "wheatstone/stereo/read_views.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -84,6 +87,30 @@ ordered_json facts_of_picture(const ImageDescription& picture) {
   return facts;
 }
 
+/// Where a picture's views are and how that is known; nothing of an ordinary picture.
+void put_views(ordered_json& facts, const fs::path& path, const std::string& layout) {
+  ReadViewsOptions options;
+  if (!layout.empty()) options.layout = layout_by_name(layout);
+  try {
+    const std::optional<ViewsFile> file = find_views(path, options);
+    if (!file) return;
+    facts["stereo"] = describe_views(*file);
+    facts["layout"] = file->layout ? std::string(layout_name(*file->layout)) : file->kind;
+    facts["layout_known"] = how_known_words(file->how_known);
+    facts["views"] = file->views.size();
+    facts["view_width"] = file->views.front().width();
+    facts["view_height"] = file->views.front().height();
+    if (file->views.size() != 2) return;
+    const StereoPair pair{file->views[0], file->views[1]};
+    facts["same_scene"] = !not_a_pair(pair);
+    facts["eyes_look_swapped"] = eyes_look_swapped(pair);
+  } catch (const Error& error) {
+    // The picture can be told of, its views cannot: why is what one asks for.
+    if (!layout.empty()) throw;
+    facts["stereo"] = error.what();
+  }
+}
+
 ordered_json facts_of_particles(const fs::path& path, const std::string& type) {
   const CloudSource source = open_cloud(path, {.type = type});
   ordered_json facts = {{"kind", "particles"}, {"format", source.format}};
@@ -116,7 +143,8 @@ bool is_particles(const fs::path& path) {
          (ending.size() > 1 && ending.find_first_not_of("0123456789", 1) == std::string::npos);
 }
 
-ordered_json facts_of(const fs::path& path, std::optional<float> scale, const std::string& type) {
+ordered_json facts_of(const fs::path& path, std::optional<float> scale, const std::string& type,
+                      const std::string& layout) {
   if (is_film(path)) return facts_of_film(path);
   if (path.extension() == ".wst") return facts_of_painting(path);
   if (is_particles(path)) return facts_of_particles(path, type);
@@ -125,7 +153,9 @@ ordered_json facts_of(const fs::path& path, std::optional<float> scale, const st
   if (picture.format == "openexr" && picture.channels == 4) return facts_of_slices(path);
   // One channel of floats is no photograph.
   if (picture.is_float && picture.channels == 1) return facts_of_disparity(path, {});
-  return facts_of_picture(picture);
+  ordered_json facts = facts_of_picture(picture);
+  put_views(facts, path, layout);
+  return facts;
 }
 
 std::string as_text(const ordered_json& value) {
@@ -158,6 +188,7 @@ void add_info_command(CLI::App& program, const Session& session) {
     std::string file;
     std::optional<float> scale;
     std::string type = "gas";
+    std::string layout;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand(
@@ -170,9 +201,10 @@ void add_info_command(CLI::App& program, const Session& session) {
   command->add_option("--scale", arguments->scale, "Read the picture as disparities: value / SCALE pixels")
       ->check(CLI::PositiveNumber);
   command->add_option("--type", arguments->type, "Of a snapshot's particles: gas, halo, disk, bulge, stars or 0 to 5");
+  command->add_option("--layout", arguments->layout, "Of a picture that holds both views, as paint has it");
   command->footer("Example:\n  wheatstone info left.png");
   command->callback([arguments, &session] {
-    const ordered_json facts = facts_of(arguments->file, arguments->scale, arguments->type);
+    const ordered_json facts = facts_of(arguments->file, arguments->scale, arguments->type, arguments->layout);
     if (session.json) {
       fmt::print("{}\n", facts.dump(2));
     } else {

@@ -72,7 +72,7 @@ int run(int argc, const char* const* argv) {
   // Runs when the whole line is understood and before the command does.
   program->parse_complete_callback([&] {
     Session& session = options.session;
-    display.emplace(options.quiet ? ProgressDisplay::Style::none : style_for_standard_error());
+    display.emplace(session.quiet ? ProgressDisplay::Style::none : style_for_standard_error());
     session.progress = [&display](std::string_view step, double done) {
       throw_if_interrupted();
       display->show(step, done);

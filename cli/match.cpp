@@ -15,7 +15,7 @@ namespace wheatstone::cli {
 namespace {
 
 struct Arguments {
-  std::string left, right;
+  StereoArguments photographs;
   std::string folder = "matched";
   MatchArguments matching;
 };
@@ -31,7 +31,7 @@ void write(OutputFolder& output, const StereoGeometry& geometry) {
 }
 
 void run(const Arguments& arguments, const Session& session) {
-  const StereoPair pair = read_pair(arguments.left, arguments.right);
+  const StereoPair pair = read_photographs(arguments.photographs, session);
   OutputFolder folder(arguments.folder);
   const MatchedPair matched = match(pair, match_options_from(arguments.matching), session.progress);
   write(folder, matched.geometry);
@@ -55,15 +55,20 @@ void run(const Arguments& arguments, const Session& session) {
 void add_match_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *program.add_subcommand("match", "Disparity and occlusion of a rectified stereo pair");
-  command.add_option("LEFT", arguments->left, "Left photograph")->required();
-  command.add_option("RIGHT", arguments->right, "Right photograph, of the same size")->required();
+  command
+      .add_option("LEFT", arguments->photographs.left,
+                  "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other")
+      ->required();
+  command.add_option("RIGHT", arguments->photographs.right, "Right photograph, of the same size");
   command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
+  add_stereo_options(command, arguments->photographs);
   add_match_options(command, arguments->matching);
   command.footer(
       "Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is "
       "red),\n"
       "and the occlusion masks (white: the other eye does not see it).\n\n"
-      "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched");
+      "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched\n"
+      "  wheatstone match photograph.mpo -o matched");
   command.callback([arguments, &session] { run(*arguments, session); });
 }
 

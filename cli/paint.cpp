@@ -28,7 +28,7 @@ namespace wheatstone::cli {
 namespace {
 
 struct Arguments {
-  std::string left, right;
+  StereoArguments photographs;
   std::string folder = "painted";
   std::string print_style;
   std::string disparity, right_disparity;
@@ -159,7 +159,7 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
     throw Error(ErrorKind::wrong_usage, "--right-disparity needs --disparity, the left eye's");
   if (!arguments.disparity.empty() && !arguments.matching.range.empty())
     throw Error(ErrorKind::wrong_usage, "--range says how to match, but --disparity gives the disparity: choose one");
-  const StereoPair photographs = read_pair(arguments.left, arguments.right);
+  const StereoPair photographs = read_photographs(arguments.photographs, session);
   std::optional<Image<float>> truth;
   if (!arguments.disparity.empty()) {
     truth = read_disparity_argument(arguments.disparity);
@@ -189,11 +189,11 @@ void run(const Arguments& arguments, const Session& session) {
     fmt::print("{}", style_to_toml(read_style(arguments.print_style)));
     return;
   }
-  if (arguments.left.empty()) throw Error(ErrorKind::wrong_usage, "paint needs two photographs, LEFT and RIGHT");
-  if (!arguments.right.empty()) return paint_photographs(arguments, session);
-  if (!arguments.left.ends_with(".wst"))
-    throw Error(ErrorKind::wrong_usage, "paint needs two photographs, or one painting (.wst) to draw again");
-  draw_again(read_painting(arguments.left), arguments.scale, arguments.folder);
+  const std::string& left = arguments.photographs.left;
+  if (left.empty())
+    throw Error(ErrorKind::wrong_usage, "paint needs two photographs, LEFT and RIGHT, or one file with both views");
+  if (!arguments.photographs.right.empty() || !left.ends_with(".wst")) return paint_photographs(arguments, session);
+  draw_again(read_painting(left), arguments.scale, arguments.folder);
   if (session.json) {
     fmt::print("{{\"folder\": \"{}\"}}\n", arguments.folder);
   } else {
@@ -206,8 +206,10 @@ void run(const Arguments& arguments, const Session& session) {
 void add_paint_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *program.add_subcommand("paint", "A stereo painting from a rectified pair of photographs");
-  command.add_option("LEFT", arguments->left, "Left photograph; or a painting.wst, to draw it again");
-  command.add_option("RIGHT", arguments->right, "Right photograph, of the same size");
+  command.add_option("LEFT", arguments->photographs.left,
+                     "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other; or a "
+                     "painting.wst, to draw it again");
+  command.add_option("RIGHT", arguments->photographs.right, "Right photograph, of the same size");
   command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
   command.add_option("--print-style", arguments->print_style, "Print a style as a file to change, and do nothing else");
   command.add_option(
@@ -235,6 +237,7 @@ void add_paint_command(CLI::App& program, const Session& session) {
       ->needs(display);
   command.add_flag("--report", arguments->measure, "Measure how well the painting's two eyes fit together");
   command.add_flag("--html", arguments->html, "Also write index.html, which shows the pictures");
+  add_stereo_options(command, arguments->photographs);
   add_style_options(command, arguments->style);
   add_match_options(command, arguments->matching);
   command.footer(
@@ -243,7 +246,7 @@ void add_paint_command(CLI::App& program, const Session& session) {
       "(the strokes), SVG for each eye, disparity, occlusion, and report.json.\n\n"
       "Examples:\n  wheatstone synth still -o still\n"
       "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
-      "  wheatstone paint still/left.png still/right.png --display looking-glass-portrait -o still");
+      "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph");
   command.callback([arguments, &session] { run(*arguments, session); });
 }
 

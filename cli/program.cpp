@@ -39,7 +39,7 @@ void add_shared_options(CLI::App& program, SharedOptions& options) {
   program.add_option("--seed", session.seed, "Seed of everything random: the same seed gives the same bytes")
       ->capture_default_str();
   CLI::Option* verbose = program.add_flag("-v,--verbose", session.verbose, "Tell more");
-  program.add_flag("--quiet", options.quiet, "Tell nothing but errors and results")->excludes(verbose);
+  program.add_flag("--quiet", session.quiet, "Tell nothing but errors and results")->excludes(verbose);
   program
       .set_config("--config", "", "TOML file with values for any of these options, and for a command's in [COMMAND]")
       ->type_name("FILE.toml");

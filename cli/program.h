@@ -9,7 +9,6 @@ namespace wheatstone::cli {
 /// What the command line says beside the session.
 struct SharedOptions {
   Session session;
-  bool quiet = false;
 };
 
 /// The program with all its commands. `options` is filled when a line is parsed and must outlive the program.

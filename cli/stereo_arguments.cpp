@@ -1,14 +1,22 @@
 #include "stereo_arguments.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+#include <string_view>
+#include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/read_image.h"
+#include "wheatstone/stereo/eye_order.h"
+#include "wheatstone/stereo/not_a_pair.h"
+#include "wheatstone/stereo/read_views.h"
 
 namespace wheatstone::cli {
+namespace {
 
-StereoPair read_pair(const std::string& left, const std::string& right) {
-  StereoPair pair{read_image(left), read_image(right)};
+void check_sizes(const StereoPair& pair, const std::string& left, const std::string& right) {
   if (!same_size(pair.left, pair.right))
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", right, pair.right.width(), pair.right.height(),
@@ -17,7 +25,78 @@ StereoPair read_pair(const std::string& left, const std::string& right) {
   if (pair.left.width() < least_side_px || pair.left.height() < least_side_px)
     throw Error(ErrorKind::bad_input, fmt::format("{}: is {}x{} pixels, expected at least {}x{}", left,
                                                   pair.left.width(), pair.left.height(), least_side_px, least_side_px));
+}
+
+void tell(const Session& session, std::string_view line) {
+  if (!session.quiet) fmt::print(stderr, "{}\n", line);
+}
+
+/// The two views that are painted or matched: neighbours in the middle where there are more.
+StereoPair middle_pair(ViewsFile& file) {
+  const std::size_t right = file.views.size() / 2;
+  return {std::move(file.views[right - 1]), std::move(file.views[right])};
+}
+
+struct ReadPhotographs {
+  StereoPair pair;
+  std::string how;  ///< how one file was understood
+  bool eyes_known_from_picture = false;
+};
+
+ReadPhotographs read_one_file(const StereoArguments& arguments) {
+  ReadViewsOptions options;
+  if (!arguments.layout.empty()) options.layout = layout_by_name(arguments.layout);
+  options.swap = arguments.swap;
+  ViewsFile file = read_views(arguments.left, options);
+  ReadPhotographs read;
+  read.how = describe_views(file);
+  if (file.views.size() > 2)
+    read.how += fmt::format(", of which {} and {} are taken", file.views.size() / 2, file.views.size() / 2 + 1);
+  if (arguments.swap) read.how += ", swapped";
+  if (!file.note.empty()) read.how += "; " + file.note;
+  read.eyes_known_from_picture = file.how_known == HowKnown::halves;
+  read.pair = middle_pair(file);
+  check_sizes(read.pair, arguments.left, arguments.left);
+  return read;
+}
+
+ReadPhotographs read_two_files(const StereoArguments& arguments) {
+  if (!arguments.layout.empty())
+    throw Error(ErrorKind::wrong_usage, "--layout is for one file that holds both views, but two files are given");
+  ReadPhotographs read{read_pair(arguments.left, arguments.right), {}, false};
+  if (arguments.swap) std::swap(read.pair.left, read.pair.right);
+  return read;
+}
+
+}  // namespace
+
+void add_stereo_options(CLI::App& command, StereoArguments& arguments) {
+  command.add_option(
+      "--layout", arguments.layout,
+      fmt::format("Where one file has both views: {}; found by itself if not given", fmt::join(layout_names(), ", ")));
+  command.add_flag("--swap", arguments.swap, "The left eye's picture is the right one");
+}
+
+StereoPair read_pair(const std::string& left, const std::string& right) {
+  StereoPair pair{read_image(left), read_image(right)};
+  check_sizes(pair, left, right);
   return pair;
+}
+
+StereoPair read_photographs(const StereoArguments& arguments, const Session& session) {
+  const bool one_file = arguments.right.empty();
+  ReadPhotographs read = one_file ? read_one_file(arguments) : read_two_files(arguments);
+  if (not_a_pair(read.pair)) {
+    throw Error(ErrorKind::bad_input,
+                one_file ? fmt::format("{}: its views show different scenes, read as: {}", arguments.left, read.how)
+                         : fmt::format("{}: shows another scene than {}, expected two views of one scene",
+                                       arguments.right, arguments.left));
+  }
+  if (one_file) tell(session, fmt::format("{}: {}", arguments.left, read.how));
+  if (!read.eyes_known_from_picture && eyes_look_swapped(read.pair))
+    tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
+                              arguments.left, arguments.swap ? "leave out" : "add"));
+  return std::move(read.pair);
 }
 
 }  // namespace wheatstone::cli

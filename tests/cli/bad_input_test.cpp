@@ -16,6 +16,8 @@ std::vector<std::vector<std::string>> readers(const std::string& file) {
           {"match", "good.png", file, "-o", "results"},
           {"rectify", file, "good.png", "-o", "results"},
           {"rectify", "good.png", file, "-o", "results"},
+          {"match", file, "-o", "results"},
+          {"paint", file, "-o", "results"},
           {"paint", file, "good.png", "-o", "results"},
           {"paint", "good.png", file, "-o", "results"},
           {"paint", "good.png", "good.png", "--disparity", file, "-o", "results"}};

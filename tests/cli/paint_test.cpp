@@ -151,7 +151,7 @@ TEST(PaintCommand, RefusesParametersThatMakeNoSense) {
   expect_refused(folder, paint_line({"--zero-parallax", "3", "--zero-parallax-at", "3,4"}), 2, "excludes");
   expect_refused(folder, paint_line({"--zero-parallax-at", "3000,4"}), 2, "3000,4");
   expect_refused(folder, paint_line({"--range", "30:10"}), 2, "30:10");
-  expect_refused(folder, {"paint", "left.png"}, 2, "two photographs");
+  expect_refused(folder, {"paint"}, 2, "two photographs");
 }
 
 TEST(PaintCommand, RefusesADamagedPainting) {

@@ -1,0 +1,138 @@
+// Stereo photographs in one file, from the command line: what is understood, what is said of it, what is refused.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/stereo/write_views.h"
+
+namespace wheatstone {
+namespace {
+
+using testing::HasSubstr;
+
+const StereoPair& still() {
+  static const StereoPair pair = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1}).pictures;
+  return pair;
+}
+
+Image<Rgb8> side_by_side(const Image<Rgb8>& first, const Image<Rgb8>& second) {
+  Image<Rgb8> both(2 * first.width(), first.height());
+  for (int y = 0; y < first.height(); ++y)
+    for (int x = 0; x < first.width(); ++x) both(x, y) = first(x, y), both(x + first.width(), y) = second(x, y);
+  return both;
+}
+
+void put_mpo(const std::filesystem::path& path, const Image<Rgb8>& left, const Image<Rgb8>& right) {
+  const ImageView<const Rgb8> views[] = {left, right};
+  write_mpo(path, views);
+}
+
+ProgramResult match_one(const TemporaryFolder& folder, std::vector<std::string> words) {
+  words.insert(words.begin(), "match");
+  words.insert(words.end(), {"-o", "matched"});
+  return run_program(words, {.folder = folder / ""});
+}
+
+TEST(Photograph, OfOneFileIsMatchedAsTwoFilesAre) {
+  const TemporaryFolder folder;
+  write_image(folder / "left.png", still().left);
+  write_image(folder / "right.png", still().right);
+  write_image(folder / "both_sbs.png", side_by_side(still().left, still().right));
+  ProgramResult result = match_one(folder, {"left.png", "right.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors, testing::Not(HasSubstr(".png:")));
+  const std::string two = bytes_of(folder / "matched/left_disparity.pfm");
+  result = match_one(folder, {"both_sbs.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors, testing::StartsWith("both_sbs.png: side by side, left eye left (from its name)\n"));
+  EXPECT_EQ(bytes_of(folder / "matched/left_disparity.pfm"), two);
+  EXPECT_EQ(match_one(folder, {"both_sbs.png", "--quiet"}).errors, "");
+}
+
+TEST(Photograph, OfEachKindSaysHowItWasUnderstood) {
+  const TemporaryFolder folder;
+  put_mpo(folder / "a.mpo", still().left, still().right);
+  write_jps(folder / "a.jps", still().left, still().right);
+  write_image(folder / "a.png", side_by_side(still().left, still().right));
+  const std::pair<std::string, std::string> cases[] = {
+      {"a.mpo", "a.mpo: MPO, 2 pictures (from its metadata)\n"},
+      {"a.jps", "a.jps: side by side, right eye left (from its metadata)\n"},
+      {"a.png", "a.png: side by side, left eye left (from comparing its halves)\n"}};
+  for (const auto& [file, line] : cases) {
+    const ProgramResult result = match_one(folder, {file});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.errors, testing::StartsWith(line));
+    EXPECT_THAT(result.errors, testing::Not(HasSubstr("swapped")));
+  }
+}
+
+TEST(Photograph, IsPaintedFromOneFile) {
+  const TemporaryFolder folder;
+  put_mpo(folder / "a.mpo", still().left, still().right);
+  const ProgramResult result = run_program({"paint", "a.mpo", "-o", "painted"}, {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(files_in(folder / "painted"), testing::IsSupersetOf({"left.png", "right.png", "painting.wst"}));
+}
+
+TEST(Photograph, WithSwappedEyesIsNoticedAndPutRight) {
+  const TemporaryFolder folder;
+  put_mpo(folder / "a.mpo", still().right, still().left);
+  EXPECT_THAT(match_one(folder, {"a.mpo"}).errors, HasSubstr("the eyes look swapped; add --swap"));
+  EXPECT_THAT(match_one(folder, {"a.mpo", "--swap"}).errors, testing::Not(HasSubstr("look swapped")));
+  write_image(folder / "left.png", still().left);
+  write_image(folder / "right.png", still().right);
+  EXPECT_THAT(match_one(folder, {"right.png", "left.png"}).errors, HasSubstr("right.png: the eyes look swapped"));
+  EXPECT_THAT(match_one(folder, {"right.png", "left.png", "--swap"}).errors, testing::Not(HasSubstr("swapped")));
+}
+
+TEST(Photograph, ThatIsNoPairIsRefused) {
+  const TemporaryFolder folder;
+  const StereoPair other = make_synthetic_still({.width = 320, .height = 240, .seed = 9, .samples_a_side = 1}).pictures;
+  Image<Rgb8> turned(320, 240);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) turned(x, y) = other.right((3 * x) % 320, 239 - y);
+  write_image(folder / "left.png", still().left);
+  write_image(folder / "other.png", turned);
+  write_image(folder / "mixed_sbs.png", side_by_side(still().left, turned));
+  for (const std::string command : {"match", "paint"}) {
+    expect_refused(folder, {command, "left.png", "other.png", "-o", "results"}, 3,
+                   "other.png: shows another scene than left.png");
+    expect_refused(folder, {command, "mixed_sbs.png", "-o", "results"}, 3,
+                   "mixed_sbs.png: its views show different scenes, read as: side by side");
+    expect_refused(folder, {command, "left.png", "-o", "results"}, 3, "left.png: is one picture");
+    expect_refused(folder, {command, "left.png", "--layout", "anaglyph", "-o", "results"}, 2, "cannot be taken apart");
+    expect_refused(folder, {command, "left.png", "--layout", "woven", "-o", "results"}, 2, "left-right-half");
+    expect_refused(folder, {command, "left.png", "left.png", "--layout", "tb", "-o", "results"}, 2, "--layout");
+  }
+}
+
+TEST(Photograph, IsToldOfByInfo) {
+  const TemporaryFolder folder;
+  write_jps(folder / "a.jps", still().left, still().right, StereoLayout::top_bottom);
+  ProgramResult result = run_program({"info", folder / "a.jps", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  nlohmann::json facts = nlohmann::json::parse(result.output);
+  EXPECT_EQ(facts["layout"], "top-bottom");
+  EXPECT_EQ(facts["layout_known"], "from its metadata");
+  EXPECT_EQ(facts["views"], 2);
+  EXPECT_EQ(facts["view_width"], 320);
+  EXPECT_EQ(facts["view_height"], 240);
+  EXPECT_EQ(facts["same_scene"], true);
+  EXPECT_EQ(facts["eyes_look_swapped"], false);
+  put_mpo(folder / "a.mpo", still().right, still().left);
+  facts = nlohmann::json::parse(run_program({"info", folder / "a.mpo", "--json"}).output);
+  EXPECT_EQ(facts["layout"], "MPO");
+  EXPECT_EQ(facts["eyes_look_swapped"], true);
+  write_image(folder / "mono.png", still().left);
+  facts = nlohmann::json::parse(run_program({"info", folder / "mono.png", "--json"}).output);
+  EXPECT_FALSE(facts.contains("stereo"));
+}
+
+}  // namespace
+}  // namespace wheatstone
