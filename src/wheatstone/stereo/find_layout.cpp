@@ -114,8 +114,7 @@ std::optional<StereoLayout> layout_from_name(const std::filesystem::path& path, 
 }
 
 std::optional<StereoLayout> layout_from_halves(ImageView<const Rgb8> picture) {
-  // Measured on photographs and their halves (find_layout_test): pairs agree in over half of their blocks, the halves
-  // of one photograph in under a twentieth.
+  // Pairs agree in over half of their blocks; the halves of one photograph in a fiftieth, of a chessboard in a ninth.
   constexpr double least_share = 0.25;
   constexpr int least_blocks = 12;
   const int half_width = picture.width() / 2, half_height = picture.height() / 2;

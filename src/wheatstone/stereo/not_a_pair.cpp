@@ -74,7 +74,7 @@ PairEvidence pair_evidence(const StereoPair& pair) {
 }
 
 bool not_a_pair(const StereoPair& pair) {
-  // Measured (not_a_pair_test): pairs have hundreds of inliers, any two photographs fewer than fifteen.
+  // Pairs have hundreds of inliers, two scenes fewer than ten (not_a_pair_test).
   constexpr int least_features = 100, least_inliers = 20;
   constexpr double least_share = 0.02, least_block_share = 0.1;
   const PairEvidence evidence = pair_evidence(pair);
