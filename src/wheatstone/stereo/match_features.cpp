@@ -86,8 +86,7 @@ FeatureMatches match_features(ImageView<const Rgb8> left, ImageView<const Rgb8> 
   std::ranges::sort(result.matches, {}, [](const FeatureMatch& m) {
     return std::array{m.left.x, m.left.y, m.right.x, m.right.y};
   });
-  const auto repeated = std::ranges::unique(result.matches, same);
-  result.matches.erase(repeated.begin(), repeated.end());
+  result.matches.erase(std::unique(result.matches.begin(), result.matches.end(), same), result.matches.end());
   return result;
 }
 
