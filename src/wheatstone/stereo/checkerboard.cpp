@@ -26,17 +26,53 @@ void check(const Checkerboard& board) {
                 fmt::format("the board's squares are {} mm wide, expected a length above 0", board.square_mm));
 }
 
-/// The older way: finds what the newer one misses when the board has no white rim, but is less exact.
-bool find_by_quads(const cv::Mat& luminance, cv::Size size, std::vector<cv::Point2f>& corners) {
-  constexpr int flags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
-  if (!cv::findChessboardCorners(luminance, size, corners, flags)) return false;
+/// Moves corners to where the edges around them cross.
+void refine(const cv::Mat& luminance, std::vector<cv::Point2f>& corners) {
   // The window must not reach the next corner.
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < corners.size(); ++i) nearest = std::min(nearest, cv::norm(corners[i] - corners[i - 1]));
   const int half = std::clamp(static_cast<int>(nearest / 2.5), 2, 11);
   cv::cornerSubPix(luminance, corners, {half, half}, {-1, -1},
                    {cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 50, 1e-3});
+}
+
+/// The older way: finds what the newer one misses when the board has no white rim, but is less exact.
+bool find_by_quads(const cv::Mat& luminance, cv::Size size, std::vector<cv::Point2f>& corners) {
+  constexpr int flags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
+  if (!cv::findChessboardCorners(luminance, size, corners, flags)) return false;
+  refine(luminance, corners);
   return true;
+}
+
+constexpr int exactly = cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY;
+
+constexpr int search_side_px = 1024;
+
+/// The board in a copy of the picture reduced to a side that is searched quickly, in pixels of the picture itself.
+/// Searching a large picture that shows none would take minutes.
+bool find_roughly(const cv::Mat& luminance, cv::Size size, std::vector<cv::Point2f>& corners) {
+  const double scale = std::min(1.0, static_cast<double>(search_side_px) / std::max(luminance.cols, luminance.rows));
+  cv::Mat small = luminance;
+  if (scale < 1) cv::resize(luminance, small, {}, scale, scale, cv::INTER_AREA);
+  if (!cv::findChessboardCornersSB(small, size, corners, exactly) && !find_by_quads(small, size, corners)) return false;
+  const auto back = static_cast<float>(1 / scale);
+  for (cv::Point2f& corner : corners) corner = (corner + cv::Point2f(0.5f, 0.5f)) * back - cv::Point2f(0.5f, 0.5f);
+  return true;
+}
+
+/// Finds the corners again in the full picture, around where they were found in a reduced one.
+void find_exactly(const cv::Mat& luminance, cv::Size size, std::vector<cv::Point2f>& corners) {
+  const cv::Rect box = cv::boundingRect(corners);
+  const int rim_x = 2 * box.width / size.width + 8, rim_y = 2 * box.height / size.height + 8;
+  const cv::Rect around = cv::Rect(box.x - rim_x, box.y - rim_y, box.width + 2 * rim_x, box.height + 2 * rim_y) &
+                          cv::Rect(0, 0, luminance.cols, luminance.rows);
+  std::vector<cv::Point2f> found;
+  if (!cv::findChessboardCornersSB(luminance(around).clone(), size, found, exactly)) {
+    refine(luminance, corners);
+    return;
+  }
+  for (cv::Point2f& corner : found) corner += cv::Point2f(static_cast<float>(around.x), static_cast<float>(around.y));
+  corners = std::move(found);
 }
 
 /// Corner (column, row) of a board that is turned by a quarter `turns` times.
@@ -88,9 +124,8 @@ std::vector<PicturePoint> find_checkerboard(ImageView<const Rgb8> picture, const
   cv::cvtColor(as_mat(picture), luminance, cv::COLOR_RGB2GRAY);
   const cv::Size size(board.columns, board.rows);
   std::vector<cv::Point2f> corners;
-  constexpr int flags = cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY;
-  if (!cv::findChessboardCornersSB(luminance, size, corners, flags) && !find_by_quads(luminance, size, corners))
-    return {};
+  if (!find_roughly(luminance, size, corners)) return {};
+  if (std::max(luminance.cols, luminance.rows) > search_side_px) find_exactly(luminance, size, corners);
   std::vector<PicturePoint> points;
   points.reserve(corners.size());
   // OpenCV counts from the centre of the first pixel.
