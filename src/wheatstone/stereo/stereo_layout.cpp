@@ -128,4 +128,17 @@ StereoPair cut_apart(ImageView<const Rgb8> picture, StereoLayout layout, const s
   return pair;
 }
 
+Image<Rgb8> put_together(ImageView<const Rgb8> left, ImageView<const Rgb8> right, StereoLayout layout) {
+  const bool side_by_side = is_side_by_side(layout), half = is_half_size(layout);
+  if (!is_left_first(layout)) std::swap(left, right);
+  cv::Size each(left.width(), left.height());
+  if (half) (side_by_side ? each.width : each.height) = ((side_by_side ? each.width : each.height) + 1) / 2;
+  Image<Rgb8> both(side_by_side ? 2 * each.width : each.width, side_by_side ? each.height : 2 * each.height);
+  const cv::Mat whole = as_mat(both);
+  const cv::Point second(side_by_side ? each.width : 0, side_by_side ? 0 : each.height);
+  cv::resize(as_mat(left), whole({{0, 0}, each}), each, 0, 0, cv::INTER_AREA);
+  cv::resize(as_mat(right), whole({second, each}), each, 0, 0, cv::INTER_AREA);
+  return both;
+}
+
 }  // namespace wheatstone

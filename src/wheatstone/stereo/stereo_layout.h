@@ -48,4 +48,7 @@ bool is_left_first(StereoLayout layout);    ///< the left eye's picture is the l
 /// names the picture as `name` where it cannot be halved evenly.
 StereoPair cut_apart(ImageView<const Rgb8> picture, StereoLayout layout, const std::string& name);
 
+/// Both pictures, of one size, in one: what cut_apart takes apart. Squeezing averages the pixels that become one.
+Image<Rgb8> put_together(ImageView<const Rgb8> left, ImageView<const Rgb8> right, StereoLayout layout);
+
 }  // namespace wheatstone

@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/imgproc.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/multi_picture_internal.h"
-#include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/image/stereo_marks_internal.h"
 #include "wheatstone/image/whole_file.h"
 #include "wheatstone/image/write_image.h"
@@ -25,20 +22,6 @@ void check(const std::filesystem::path& path, std::span<const ImageView<const Rg
       throw Error(ErrorKind::wrong_usage,
                   fmt::format("{}: views of {}x{} and {}x{} pixels, expected one size", path.string(),
                               views.front().width(), views.front().height(), view.width(), view.height()));
-}
-
-/// Both pictures in one, as the layout has them.
-Image<Rgb8> laid_out(ImageView<const Rgb8> left, ImageView<const Rgb8> right, StereoLayout layout) {
-  const bool side_by_side = is_side_by_side(layout), half = is_half_size(layout);
-  if (!is_left_first(layout)) std::swap(left, right);
-  cv::Size each(left.width(), left.height());
-  if (half) (side_by_side ? each.width : each.height) = ((side_by_side ? each.width : each.height) + 1) / 2;
-  Image<Rgb8> both(side_by_side ? 2 * each.width : each.width, side_by_side ? each.height : 2 * each.height);
-  const cv::Mat whole = as_mat(both);
-  const cv::Point second(side_by_side ? each.width : 0, side_by_side ? 0 : each.height);
-  cv::resize(as_mat(left), whole({{0, 0}, each}), each, 0, 0, cv::INTER_AREA);
-  cv::resize(as_mat(right), whole({second, each}), each, 0, 0, cv::INTER_AREA);
-  return both;
 }
 
 }  // namespace
@@ -60,7 +43,7 @@ void write_jps(const std::filesystem::path& path, ImageView<const Rgb8> left, Im
       is_side_by_side(layout) ? JpsDescriptor::Arrangement::side_by_side : JpsDescriptor::Arrangement::over_under;
   (is_side_by_side(layout) ? descriptor.half_width : descriptor.half_height) = is_half_size(layout);
   descriptor.left_first = is_left_first(layout);
-  write_whole_file(path, with_jps_descriptor(encode_jpeg(laid_out(left, right, layout), quality), descriptor));
+  write_whole_file(path, with_jps_descriptor(encode_jpeg(put_together(left, right, layout), quality), descriptor));
 }
 
 }  // namespace wheatstone

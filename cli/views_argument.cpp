@@ -1,0 +1,135 @@
+#include "views_argument.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "numbers_argument.h"
+#include "stereo_arguments.h"
+#include "wheatstone/depth/rig.h"
+#include "wheatstone/display/multiview_exr.h"
+#include "wheatstone/display/quilt.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/read_image.h"
+#include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/multiview/slice_file.h"
+#include "wheatstone/painting/painting_file.h"
+#include "wheatstone/painting/rasterise.h"
+#include "wheatstone/stereo/read_views.h"
+#include "wheatstone/stereo/stereo_layout.h"
+
+namespace wheatstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_picture(const fs::path& path) {
+  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(endings, ending) != std::end(endings);
+}
+
+std::vector<std::string> pictures_in(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && is_picture(entry.path())) files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  if (files.size() < 2)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: has {} pictures, expected two views or more", folder, files.size()));
+  return files;
+}
+
+ReadViews read_pictures(const std::vector<std::string>& files) {
+  ReadViews read;
+  read.how = "a file each";
+  for (const std::string& file : files) {
+    read.views.push_back(read_image(file));
+    const Image<Rgb8>& first = read.views.front();
+    const Image<Rgb8>& last = read.views.back();
+    if (!same_size(first, last))
+      throw Error(ErrorKind::bad_input, fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", file, last.width(),
+                                                    last.height(), first.width(), first.height(), files.front()));
+  }
+  return read;
+}
+
+int count_of(const ViewsArguments& arguments, int wanted) {
+  if (arguments.views > 0) return arguments.views;
+  return wanted > 0 ? wanted : 2;
+}
+
+ReadViews draw_painting(const std::string& file, int count) {
+  const Painting painting = read_painting(file);
+  ReadViews read;
+  read.how = "drawn from a painting";
+  for (const float view : evenly_spaced(painting.width, painting.height, count).positions)
+    read.views.push_back(draw(painting, view).picture);
+  return read;
+}
+
+ReadViews render_stack(const std::string& file, int count, float span, const Progress& progress) {
+  const SliceStack stack = read_slices(file);
+  const Rig rig = evenly_spaced(stack.width, stack.height, count, span);
+  return {render_slices(stack, rig, SliceFilter::centroid, progress), "made from slices"};
+}
+
+ReadViews take_quilt(const ViewsArguments& arguments, const std::string& file) {
+  const std::vector<float> numbers = parse_numbers("--from-quilt", arguments.quilt, 'x', 2);
+  const QuiltLayout layout{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+  if (layout.columns < 1 || layout.rows < 1 || layout.columns > 1000 || layout.rows > 1000)
+    throw Error(ErrorKind::wrong_usage, fmt::format("--from-quilt: is '{}', expected COLUMNSxROWS", arguments.quilt));
+  return {views_of_quilt(read_image(file), layout), "taken from a quilt"};
+}
+
+ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const Session& session) {
+  const std::string& file = arguments.files.front();
+  if (fs::is_directory(file)) return read_pictures(pictures_in(file));
+  if (!arguments.quilt.empty()) return take_quilt(arguments, file);
+  if (file.ends_with(".wst")) return draw_painting(file, count_of(arguments, wanted));
+  if (file.ends_with(".exr")) {
+    if (is_multiview_exr(file)) return {read_multiview_exr(file), "a multi-view OpenEXR"};
+    return render_stack(file, count_of(arguments, wanted), arguments.span, session.progress);
+  }
+  ReadViewsOptions options;
+  if (!arguments.layout.empty()) options.layout = layout_by_name(arguments.layout);
+  ViewsFile found = read_views(file, options);
+  std::string how = describe_views(found);
+  return {std::move(found.views), std::move(how)};
+}
+
+}  // namespace
+
+void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
+  command
+      .add_option("VIEWS", arguments.files,
+                  "Pictures from left to right; a folder of them; or one file: MPO, JPS, both views in one picture, "
+                  "multi-view OpenEXR, painting (.wst), slices (.exr)")
+      ->required();
+  command.add_option("--layout", arguments.layout,
+                     fmt::format("Where one picture has both views: {}; found by itself if not given",
+                                 fmt::join(layout_names(), ", ")));
+  command.add_option("--from-quilt", arguments.quilt, "The picture is a quilt of COLUMNSxROWS views");
+  command.add_flag("--swap", arguments.swap, "The views are from right to left");
+  command.add_option("--views", arguments.views, "How many to make of a painting or slices")
+      ->check(CLI::Range(1, 1000));
+  command.add_option("--span", arguments.span, "Eye separations between the outermost, of slices")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+}
+
+ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const Session& session) {
+  const bool one_file = arguments.files.size() == 1;
+  if (!one_file && !(arguments.layout.empty() && arguments.quilt.empty()))
+    throw Error(ErrorKind::wrong_usage, "--layout and --from-quilt are for one file that holds all views");
+  ReadViews read = one_file ? read_one_file(arguments, wanted, session) : read_pictures(arguments.files);
+  if (arguments.swap) std::ranges::reverse(read.views);
+  return read;
+}
+
+}  // namespace wheatstone::cli

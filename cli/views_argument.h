@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "wheatstone/image/image.h"
+
+namespace wheatstone::cli {
+
+/// Views as they are typed: pictures, a folder of them, one file that holds several, a painting or slices.
+struct ViewsArguments {
+  std::vector<std::string> files;
+  std::string layout;  ///< of one picture that holds two
+  std::string quilt;   ///< COLUMNSxROWS of one picture that is a quilt
+  bool swap = false;   ///< right to left
+  int views = 0;       ///< of a painting or slices; 0: what the packing wants
+  float span = 1;      ///< of slices, in eye separations
+};
+
+void add_views_arguments(CLI::App& command, ViewsArguments& arguments);
+
+struct ReadViews {
+  std::vector<Image<Rgb8>> views;  ///< left to right, of one size
+  std::string how;                 ///< in words, where they come from
+};
+
+/// Reads or makes the views. `wanted` is how many the packing needs where they are made; 0: no matter.
+/// Throws Error: bad_input, wrong_usage.
+ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const Session& session);
+
+}  // namespace wheatstone::cli

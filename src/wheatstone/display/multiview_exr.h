@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// The names of so many views, from left to right, as other programs know them: "left" and "right" for two, "view00",
+/// "view01" … for more.
+std::vector<std::string> view_names(std::size_t count);
+
+/// Writes views as one multi-view OpenEXR, half float, linear light: the first view is the default one, the channels of
+/// the others are called after them ("right.R"), the attribute "multiView" names all. Appears only when it is whole.
+/// Throws Error: wrong_usage where views are fewer than two or of different sizes, cannot_read_write.
+void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb8>> views);
+
+/// The views of such a file, as sRGB. Throws Error{bad_input} where it has none.
+std::vector<Image<Rgb8>> read_multiview_exr(const std::filesystem::path& path);
+
+/// Whether the file is an OpenEXR that names several views.
+bool is_multiview_exr(const std::filesystem::path& path);
+
+}  // namespace wheatstone

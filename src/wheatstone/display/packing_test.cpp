@@ -1,0 +1,213 @@
+// Anaglyphs, animations and files of many views.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "temporary_folder.h"
+#include "throws_error.h"
+#include "wheatstone/display/anaglyph.h"
+#include "wheatstone/display/arrange.h"
+#include "wheatstone/display/interlaced.h"
+#include "wheatstone/display/multiview_exr.h"
+#include "wheatstone/display/wiggle.h"
+#include "wheatstone/image/read_image.h"
+#include "wheatstone/image/whole_file.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/stereo/stereo_layout.h"
+
+namespace wheatstone {
+namespace {
+
+/// Colours of every kind, most of which no matrix leaves within range.
+Image<Rgb8> noise(int width, int height, unsigned seed) {
+  std::mt19937 random(seed);
+  Image<Rgb8> picture(width, height);
+  for (Rgb8& pixel : picture.pixels()) {
+    const auto bits = random();
+    pixel = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8),
+             static_cast<std::uint8_t>(bits >> 16)};
+  }
+  return picture;
+}
+
+StereoPair noisy_pair() { return {noise(64, 48, 1), noise(64, 48, 2)}; }
+
+int largest_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  if (!same_size(a, b)) return 256;
+  int most = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
+    most = std::max({most, std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
+  }
+  return most;
+}
+
+bool has_ffmpeg() { return std::system("ffmpeg -version >/dev/null 2>&1") == 0; }
+
+/// What ffmpeg's filter makes of a side-by-side picture.
+Image<Rgb8> by_ffmpeg(const TemporaryFolder& folder, const StereoPair& pair, const std::string& mode) {
+  write_image(folder / "in.png", side_by_side(pair));
+  const std::string line = "ffmpeg -v error -y -i '" + (folder / "in.png").string() + "' -vf stereo3d=sbsl:" + mode +
+                           ",format=rgb24 '" + (folder / "out.png").string() + "'";
+  EXPECT_EQ(std::system(line.c_str()), 0) << mode;
+  return read_image(folder / "out.png");
+}
+
+Image<Rgb8> repeated(const Image<Rgb8>& picture, int columns, int rows) {
+  Image<Rgb8> large(columns * picture.width(), rows * picture.height());
+  for (int y = 0; y < large.height(); ++y)
+    for (int x = 0; x < large.width(); ++x) large(x, y) = picture(x / columns, y / rows);
+  return large;
+}
+
+TEST(Packing, AnaglyphsAreAsFfmpegMakesThem) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  const TemporaryFolder folder;
+  const StereoPair pair = noisy_pair();
+  int compared = 0;
+  for (const AnaglyphKind& kind : anaglyph_kinds()) {
+    if (kind.ffmpeg.empty()) continue;
+    // For these ffmpeg gives amber to the right eye, other than its documentation and its own Dubois mode have it.
+    const bool swapped = kind.ffmpeg == "aybg" || kind.ffmpeg == "aybh" || kind.ffmpeg == "aybc";
+    const StereoPair theirs = swapped ? StereoPair{pair.right, pair.left} : pair;
+    EXPECT_LE(largest_difference(anaglyph(pair, kind), by_ffmpeg(folder, theirs, std::string(kind.ffmpeg))), 1)
+        << kind.name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 14);
+  // Dubois' own way is another one: in linear light.
+  EXPECT_GT(largest_difference(anaglyph(pair), by_ffmpeg(folder, pair, "arcd")), 10);
+}
+
+TEST(Packing, LayoutsAndRowsAreAsFfmpegMakesThem) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  const TemporaryFolder folder;
+  const StereoPair pair = noisy_pair();
+  for (const auto& [layout, mode] : {std::pair{StereoLayout::left_right, "sbsl"},
+                                     {StereoLayout::right_left, "sbsr"},
+                                     {StereoLayout::top_bottom, "abl"},
+                                     {StereoLayout::bottom_top, "abr"}})
+    EXPECT_EQ(put_together(pair.left, pair.right, layout), by_ffmpeg(folder, pair, mode)) << mode;
+  // ffmpeg keeps all pixels of both, and its picture is twice as large: a screen of that size, on which the views were
+  // doubled, shows the same.
+  const auto interleaved = [&](int columns, int rows, Interlacing interlacing) {
+    return interlaced(repeated(pair.left, columns, rows), repeated(pair.right, columns, rows), interlacing);
+  };
+  EXPECT_EQ(interleaved(2, 1, Interlacing::columns), by_ffmpeg(folder, pair, "icl"));
+  EXPECT_EQ(interleaved(2, 1, Interlacing::checkerboard), by_ffmpeg(folder, pair, "chl"));
+  EXPECT_EQ(interleaved(1, 2, Interlacing::rows), by_ffmpeg(folder, pair, "irl"));
+}
+
+TEST(Packing, LayoutsComeApartAgain) {
+  const StereoPair pair = noisy_pair();
+  for (const std::string_view name : layout_names()) {
+    const StereoLayout layout = layout_by_name(name);
+    if (is_half_size(layout)) continue;
+    const StereoPair back = cut_apart(put_together(pair.left, pair.right, layout), layout, "it");
+    EXPECT_EQ(back.left, pair.left) << name;
+    EXPECT_EQ(back.right, pair.right) << name;
+  }
+}
+
+TEST(Anaglyph, IsFoundByEitherName) {
+  EXPECT_EQ(find_anaglyph("half-colour").ffmpeg, "arch");
+  EXPECT_EQ(find_anaglyph("arch").name, "half-colour");
+  expect_error(ErrorKind::wrong_usage, "expected one of: red-cyan", [] { find_anaglyph("mauve"); });
+}
+
+TEST(MultiviewExr, GivesTheViewsBack) {
+  const TemporaryFolder folder;
+  for (const std::size_t count : {2u, 9u}) {
+    std::vector<Image<Rgb8>> views;
+    for (std::size_t v = 0; v < count; ++v) views.push_back(noise(37, 21, static_cast<unsigned>(v)));
+    write_multiview_exr(folder / "views.exr", views);
+    EXPECT_TRUE(is_multiview_exr(folder / "views.exr"));
+    const std::vector<Image<Rgb8>> back = read_multiview_exr(folder / "views.exr");
+    ASSERT_EQ(back.size(), count);
+    // Half floats have eleven bits: every 8-bit value comes back.
+    for (std::size_t v = 0; v < count; ++v) EXPECT_EQ(back[v], views[v]) << v;
+  }
+  EXPECT_EQ(view_names(2), (std::vector<std::string>{"left", "right"}));
+}
+
+TEST(MultiviewExr, RefusesWhatItIsNot) {
+  const TemporaryFolder folder;
+  const std::vector<Image<Rgb8>> views{noise(8, 8, 1), noise(8, 8, 2)};
+  write_multiview_exr(folder / "views.exr", views);
+  const std::string whole = read_whole_file(folder / "views.exr", 1 << 20);
+  for (std::size_t length = 0; length < whole.size(); length += 7) {
+    write_whole_file(folder / "cut.exr", whole.substr(0, length));
+    expect_error(ErrorKind::bad_input, "cut.exr: ", [&] { read_multiview_exr(folder / "cut.exr"); });
+  }
+  expect_error(ErrorKind::wrong_usage, "1 views",
+               [&] { write_multiview_exr(folder / "one.exr", std::span(views).first(1)); });
+  EXPECT_FALSE(is_multiview_exr(folder / "nothing.exr"));
+}
+
+TEST(Wiggle, GoesThereAndBack) {
+  const TemporaryFolder folder;
+  const std::vector<Image<Rgb8>> views{Image<Rgb8>(20, 10, {255, 0, 0}), Image<Rgb8>(20, 10, {0, 255, 0}),
+                                       Image<Rgb8>(20, 10, {0, 0, 255})};
+  write_wiggle(folder / "a.gif", views);
+  const std::string gif = read_whole_file(folder / "a.gif", 1 << 20);
+  EXPECT_TRUE(gif.starts_with("GIF89a"));
+  // Three views, four frames: each has an image descriptor of the whole size.
+  const std::string descriptor{",\0\0\0\0\x14\0\n\0", 9};
+  int frames = 0;
+  for (std::size_t at = gif.find(descriptor); at != std::string::npos; at = gif.find(descriptor, at + 1)) ++frames;
+  EXPECT_EQ(frames, 4);
+  write_wiggle(folder / "a.webp", views);
+  const std::string webp = read_whole_file(folder / "a.webp", 1 << 20);
+  EXPECT_NE(webp.find("ANIM"), std::string::npos);
+  EXPECT_EQ(read_image(folder / "a.webp")(5, 5), (Rgb8{255, 0, 0}));
+}
+
+TEST(Wiggle, RefusesOtherEndingsAndLoneViews) {
+  const TemporaryFolder folder;
+  const std::vector<Image<Rgb8>> views{noise(8, 8, 1), noise(8, 8, 2)};
+  expect_error(ErrorKind::wrong_usage, ".gif or .webp", [&] { write_wiggle(folder / "a.png", views); });
+  expect_error(ErrorKind::wrong_usage, "1 views", [&] { write_wiggle(folder / "a.gif", std::span(views).first(1)); });
+  expect_error(ErrorKind::cannot_read_write, "nowhere", [&] { write_wiggle(folder / "nowhere" / "a.gif", views); });
+}
+
+TEST(ShiftedViews, BringOneDisparityToTheSameColumn) {
+  for (const int disparity : {4, -3, 0}) {
+    std::vector<Image<Rgb8>> views;
+    for (int v = 0; v < 5; ++v) {
+      views.emplace_back(60, 2);
+      views.back()(30 - v * disparity, 1) = {255, 255, 255};
+    }
+    const std::vector<Image<Rgb8>> moved = shifted_views(views, static_cast<float>(disparity));
+    EXPECT_EQ(moved.front().width(), 60 - 4 * std::abs(disparity));
+    for (const Image<Rgb8>& view : moved) EXPECT_EQ(view, moved.front());
+  }
+}
+
+TEST(FloatingWindow, BlackensTheOuterEdgesOnly) {
+  StereoPair pair{Image<Rgb8>(10, 1, {9, 9, 9}), Image<Rgb8>(10, 1, {9, 9, 9})};
+  put_floating_window(pair, 2, 3);
+  for (int x = 0; x < 10; ++x) {
+    EXPECT_EQ(pair.left(x, 0).r, x < 2 ? 0 : 9);
+    EXPECT_EQ(pair.right(x, 0).r, x < 7 ? 9 : 0);
+  }
+}
+
+TEST(DepthBeside, IsWhiteWhereItIsNear) {
+  Image<float> disparity(100, 2);
+  for (int x = 0; x < 100; ++x) disparity(x, 0) = disparity(x, 1) = static_cast<float>(x);
+  const Image<Rgb8> both = depth_beside(Image<Rgb8>(100, 2, {1, 2, 3}), disparity);
+  EXPECT_EQ(both.width(), 200);
+  EXPECT_EQ(both(50, 1), (Rgb8{1, 2, 3}));
+  EXPECT_EQ(both(199, 0).g, 255);
+  EXPECT_EQ(both(100, 0).g, 0);
+  EXPECT_NEAR(both(150, 0).g, 128, 3);
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,99 @@
+#include "wheatstone/display/wiggle.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <webp/encode.h>
+#include <webp/mux.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "wheatstone/error.h"
+#include "wheatstone/image/temporary_file.h"
+#include "wheatstone/image/whole_file.h"
+
+namespace wheatstone {
+namespace {
+
+[[noreturn]] void refuse_writing(const std::filesystem::path& path, const std::string& why) {
+  throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write: {}", path.string(), why));
+}
+
+/// There and back: each of the two ends is shown once.
+std::vector<const Image<Rgb8>*> there_and_back(std::span<const Image<Rgb8>> views) {
+  std::vector<const Image<Rgb8>*> frames;
+  for (const Image<Rgb8>& view : views) frames.push_back(&view);
+  for (std::size_t i = views.size() - 1; i-- > 1;) frames.push_back(&views[i]);
+  return frames;
+}
+
+void write_gif(const std::filesystem::path& path, std::span<const Image<Rgb8>* const> frames, double seconds) {
+  TemporaryFile file(path);
+  const std::string name = file.path().string();
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("gif");
+  if (!output) refuse_writing(path, "this OpenImageIO has no GIF");
+  const Image<Rgb8>& first = *frames.front();
+  OIIO::ImageSpec spec(first.width(), first.height(), 3, OIIO::TypeDesc::UINT8);
+  const int frames_a_second = std::max(1, static_cast<int>(std::lround(static_cast<double>(frames.size()) / seconds)));
+  const int rate[2] = {frames_a_second, 1};
+  spec.attribute("FramesPerSecond", OIIO::TypeRational, rate);
+  spec.attribute("gif:LoopCount", 0);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto mode = i == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage;
+    if (!output->open(name, spec, mode) || !output->write_image(OIIO::TypeDesc::UINT8, frames[i]->pixels().data()))
+      refuse_writing(path, output->geterror());
+  }
+  if (!output->close()) refuse_writing(path, output->geterror());
+  file.commit();
+}
+
+void write_webp(const std::filesystem::path& path, std::span<const Image<Rgb8>* const> frames, double seconds) {
+  const Image<Rgb8>& first = *frames.front();
+  WebPAnimEncoderOptions options;
+  WebPConfig config;
+  if (WebPAnimEncoderOptionsInit(&options) == 0 || WebPConfigInit(&config) == 0)
+    refuse_writing(path, "this libwebp is another version");
+  config.lossless = 1;
+  config.method = 2;  // of 0, fast, to 6, small
+  const std::unique_ptr<WebPAnimEncoder, decltype(&WebPAnimEncoderDelete)> encoder(
+      WebPAnimEncoderNew(first.width(), first.height(), &options), WebPAnimEncoderDelete);
+  if (!encoder) refuse_writing(path, "a WebP of this size cannot be made");
+  double time_ms = 0;
+  for (const Image<Rgb8>* frame : frames) {
+    WebPPicture picture;
+    if (WebPPictureInit(&picture) == 0) refuse_writing(path, "this libwebp is another version");
+    const std::unique_ptr<WebPPicture, decltype(&WebPPictureFree)> held(&picture, WebPPictureFree);
+    picture.use_argb = 1;
+    picture.width = frame->width();
+    picture.height = frame->height();
+    const bool added = WebPPictureImportRGB(&picture, &frame->pixels().data()->r, 3 * frame->width()) != 0 &&
+                       WebPAnimEncoderAdd(encoder.get(), &picture, static_cast<int>(time_ms), &config) != 0;
+    if (!added) refuse_writing(path, WebPAnimEncoderGetError(encoder.get()));
+    time_ms += 1000 * seconds / static_cast<double>(frames.size());
+  }
+  WebPData data;
+  WebPDataInit(&data);
+  const std::unique_ptr<WebPData, decltype(&WebPDataClear)> held(&data, WebPDataClear);
+  if (WebPAnimEncoderAdd(encoder.get(), nullptr, static_cast<int>(time_ms), nullptr) == 0 ||
+      WebPAnimEncoderAssemble(encoder.get(), &data) == 0)
+    refuse_writing(path, WebPAnimEncoderGetError(encoder.get()));
+  write_whole_file(path, {reinterpret_cast<const char*>(data.bytes), data.size});
+}
+
+}  // namespace
+
+void write_wiggle(const std::filesystem::path& path, std::span<const Image<Rgb8>> views, double seconds) {
+  if (views.size() < 2)
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: {} views, expected two or more", path.string(), views.size()));
+  for (const Image<Rgb8>& view : views)
+    if (view.empty() || !same_size(view, views.front()))
+      throw Error(ErrorKind::wrong_usage, fmt::format("{}: views of different sizes, expected one", path.string()));
+  const std::vector<const Image<Rgb8>*> frames = there_and_back(views);
+  if (path.extension() == ".gif") return write_gif(path, frames, seconds);
+  if (path.extension() == ".webp") return write_webp(path, frames, seconds);
+  throw Error(ErrorKind::wrong_usage, fmt::format("{}: expected an animation's ending, .gif or .webp", path.string()));
+}
+
+}  // namespace wheatstone
