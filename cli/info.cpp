@@ -11,6 +11,10 @@
 
 #include "command.h"
 #include "film_facts.h"
+#include "wheatstone/depth/comfort.h"
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/describe_image.h"
 #include "wheatstone/image/disparity_file.h"
@@ -18,6 +22,7 @@
 #include "wheatstone/painting/painting_file.h"
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/stereo/eye_order.h"
+#include "wheatstone/stereo/match.h"
 #include "wheatstone/stereo/not_a_pair.h"
 #include "wheatstone/stereo/read_views.h"
 
@@ -87,8 +92,29 @@ ordered_json facts_of_picture(const ImageDescription& picture) {
   return facts;
 }
 
+/// How deep a pair is, and how that suits who looks at a display, with the middle of its depth on the screen.
+void put_depth(ordered_json& facts, const StereoPair& pair, const std::string& display_name) {
+  constexpr double outliers = 0.01;
+  const Image<float> disparity = match(pair, {}).geometry.left_disparity;
+  const float farthest = disparity_percentile(disparity, outliers);
+  const float nearest = disparity_percentile(disparity, 1 - outliers);
+  facts["farthest_disparity_px"] = farthest;
+  facts["nearest_disparity_px"] = nearest;
+  ViewingGeometry viewing = viewing_of(find_display(display_name));
+  viewing.width_px = pair.left.width();  // the whole picture fills the screen's width
+  const float parallax_mm = (nearest - farthest) / 2 * viewing.pixel_pitch_mm();
+  const float near_mm = -perceived_depth_mm(viewing, -parallax_mm);
+  const float far_mm = perceived_depth_mm(viewing, parallax_mm);
+  facts["display"] = display_name;
+  facts["before_screen_mm"] = near_mm;
+  facts["behind_screen_mm"] = far_mm;
+  facts["total_parallax_percent"] = 100 * (nearest - farthest) / static_cast<float>(pair.left.width());
+  const std::vector<std::string> warnings = discomforts(viewing, near_mm, far_mm);
+  facts["comfort"] = warnings.empty() ? "comfortable" : fmt::format("{}", fmt::join(warnings, "; "));
+}
+
 /// Where a picture's views are and how that is known; nothing of an ordinary picture.
-void put_views(ordered_json& facts, const fs::path& path, const std::string& layout) {
+void put_views(ordered_json& facts, const fs::path& path, const std::string& layout, const std::string& display) {
   ReadViewsOptions options;
   if (!layout.empty()) options.layout = layout_by_name(layout);
   try {
@@ -104,6 +130,7 @@ void put_views(ordered_json& facts, const fs::path& path, const std::string& lay
     const StereoPair pair{file->views[0], file->views[1]};
     facts["same_scene"] = !not_a_pair(pair);
     facts["eyes_look_swapped"] = eyes_look_swapped(pair);
+    if (!display.empty()) put_depth(facts, pair, display);
   } catch (const Error& error) {
     // The picture can be told of, its views cannot: why is what one asks for.
     if (!layout.empty()) throw;
@@ -144,17 +171,21 @@ bool is_particles(const fs::path& path) {
 }
 
 ordered_json facts_of(const fs::path& path, std::optional<float> scale, const std::string& type,
-                      const std::string& layout) {
+                      const std::string& layout, const std::string& display) {
   if (is_film(path)) return facts_of_film(path);
   if (path.extension() == ".wst") return facts_of_painting(path);
   if (is_particles(path)) return facts_of_particles(path, type);
   if (scale) return facts_of_disparity(path, scale);
   const ImageDescription picture = describe_image(path);
+  if (is_multiview_exr(path)) {
+    const std::vector<Image<Rgb8>> views = read_multiview_exr(path);
+    return {{"kind", "views"}, {"views", views.size()}, {"width", views[0].width()}, {"height", views[0].height()}};
+  }
   if (picture.format == "openexr" && picture.channels == 4) return facts_of_slices(path);
   // One channel of floats is no photograph.
   if (picture.is_float && picture.channels == 1) return facts_of_disparity(path, {});
   ordered_json facts = facts_of_picture(picture);
-  put_views(facts, path, layout);
+  put_views(facts, path, layout, display);
   return facts;
 }
 
@@ -189,6 +220,7 @@ void add_info_command(CLI::App& program, const Session& session) {
     std::optional<float> scale;
     std::string type = "gas";
     std::string layout;
+    std::string display;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand(
@@ -202,9 +234,14 @@ void add_info_command(CLI::App& program, const Session& session) {
       ->check(CLI::PositiveNumber);
   command->add_option("--type", arguments->type, "Of a snapshot's particles: gas, halo, disk, bulge, stars or 0 to 5");
   command->add_option("--layout", arguments->layout, "Of a picture that holds both views, as paint has it");
-  command->footer("Example:\n  wheatstone info left.png");
+  command->add_option(
+      "--display", arguments->display,
+      "Also match the views, and tell how deep they are on this display and whether that is comfortable");
+  command->footer("Examples:\n  wheatstone info left.png\n  wheatstone info photograph.mpo --display desk-stereo");
   command->callback([arguments, &session] {
-    const ordered_json facts = facts_of(arguments->file, arguments->scale, arguments->type, arguments->layout);
+    if (!arguments->display.empty()) find_display(arguments->display);
+    const ordered_json facts =
+        facts_of(arguments->file, arguments->scale, arguments->type, arguments->layout, arguments->display);
     if (session.json) {
       fmt::print("{}\n", facts.dump(2));
     } else {

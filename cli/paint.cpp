@@ -159,6 +159,7 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
     throw Error(ErrorKind::wrong_usage, "--right-disparity needs --disparity, the left eye's");
   if (!arguments.disparity.empty() && !arguments.matching.range.empty())
     throw Error(ErrorKind::wrong_usage, "--range says how to match, but --disparity gives the disparity: choose one");
+  if (!arguments.display.empty()) views_options(arguments, options);  // what makes no sense is said at once
   const StereoPair photographs = read_photographs(arguments.photographs, session);
   std::optional<Image<float>> truth;
   if (!arguments.disparity.empty()) {

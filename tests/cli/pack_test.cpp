@@ -1,0 +1,149 @@
+// Views into the formats of displays, from the command line.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/read_image.h"
+#include "wheatstone/image/whole_file.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/stereo/read_views.h"
+#include "wheatstone/stereo/synthetic_still.h"
+
+namespace wheatstone {
+namespace {
+
+using testing::HasSubstr;
+
+const StereoPair& still() {
+  static const StereoPair pair = make_synthetic_still({.width = 240, .height = 180, .samples_a_side = 1}).pictures;
+  return pair;
+}
+
+void put_still(const TemporaryFolder& folder) {
+  write_image(folder / "left.png", still().left);
+  write_image(folder / "right.png", still().right);
+}
+
+ProgramResult run_in(const TemporaryFolder& folder, const std::vector<std::string>& words) {
+  const ProgramResult result = run_program(words, {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  return result;
+}
+
+double psnr(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  if (!same_size(a, b)) return 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
+    sum += std::pow(p.r - q.r, 2) + std::pow(p.g - q.g, 2) + std::pow(p.b - q.b, 2);
+  }
+  return 10 * std::log10(255. * 255 * 3 * static_cast<double>(a.pixels().size()) / sum);
+}
+
+TEST(PackCommand, WhatIsPackedIsReadBack) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  for (const std::string layout : {"left-right", "right-left", "top-bottom", "bottom-top"}) {
+    run_in(folder, {"pack", "left.png", "right.png", "--to", layout, "-o", "both.png"});
+    run_in(folder, {"pack", "both.png", "--layout", layout, "-o", layout});
+    EXPECT_EQ(read_image(folder / (layout + "/view_000.png")), still().left) << layout;
+    EXPECT_EQ(read_image(folder / (layout + "/view_001.png")), still().right) << layout;
+  }
+  run_in(folder, {"pack", "left.png", "right.png", "-o", "views.exr"});
+  run_in(folder, {"pack", "views.exr", "-o", "exr"});
+  EXPECT_EQ(read_image(folder / "exr/view_001.png"), still().right);
+  for (const std::string name : {"both.mpo", "both.jps"}) {
+    run_in(folder, {"pack", "left.png", "right.png", "-o", name});
+    const ViewsFile file = read_views(folder / name);
+    ASSERT_EQ(file.views.size(), 2u);
+    EXPECT_GE(psnr(file.views[0], still().left), 38) << name;
+    EXPECT_GE(psnr(file.views[1], still().right), 38) << name;
+    EXPECT_LT(psnr(file.views[0], still().right), 30) << name;
+  }
+}
+
+TEST(PackCommand, QuiltsComeApartAndAreNamedByConvention) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "right.png", "left.png", "--quilt", "2x2", "-o", "four"});
+  run_in(folder, {"pack", "four_qs2x2a1.3333.png", "--from-quilt", "2x2", "-o", "views"});
+  EXPECT_EQ(read_image(folder / "views/view_000.png"), still().left);
+  EXPECT_EQ(read_image(folder / "views/view_002.png"), still().right);
+}
+
+TEST(PackCommand, MakesWhatScreensShow) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "anaglyph", "--shift", "9", "--floating-window", "4,4", "-o",
+                  "anaglyph.png"});
+  EXPECT_EQ(read_image(folder / "anaglyph.png").width(), 231);
+  EXPECT_EQ(read_image(folder / "anaglyph.png")(1, 90).r, 0);
+  run_in(folder, {"pack", "left.png", "right.png", "--swap", "--to", "irl", "-o", "rows.png"});
+  EXPECT_EQ(read_image(folder / "rows.png")(7, 0), still().right(7, 0));
+  EXPECT_EQ(read_image(folder / "rows.png")(7, 1), still().left(7, 1));
+  run_in(folder, {"pack", "left.png", "right.png", "--screen", "barrier-2", "-o", "screen.png"});
+  run_in(folder, {"pack", "left.png", "right.png", "-o", "wiggle.gif"});
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "rgbd", "-o", "rgbd.png"});
+  EXPECT_EQ(read_image(folder / "rgbd.png").width(), 480);
+}
+
+TEST(PackCommand, PaintingsAndSlicesMakeTheirViews) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"paint", "left.png", "right.png", "-o", "painted"});
+  run_in(folder, {"pack", "painted/painting.wst", "--views", "5", "-o", "five"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "five/view_004.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "five/view_005.png"));
+}
+
+TEST(PackCommand, RefusesWhatDoesNotFit) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  write_image(folder / "small.png", Image<Rgb8>(20, 20));
+  expect_refused(folder, {"pack", "left.png", "right.png", "-o", "out.png"}, 2, "give --to");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--to", "smellovision", "-o", "out.png"}, 2, "checkerboard");
+  expect_refused(folder, {"pack", "left.png", "right.png", "left.png", "--to", "anaglyph", "-o", "out.png"}, 2,
+                 "takes two views, but there are 3");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--to", "quilt", "-o", "out.png"}, 2, "--quilt");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--to", "lenticular", "-o", "out.png"}, 2, "--screen");
+  expect_refused(folder, {"pack", "left.png", "small.png", "--to", "anaglyph", "-o", "out.png"}, 3,
+                 "small.png: is 20x20");
+  expect_refused(folder, {"pack", "left.png", "--to", "anaglyph", "-o", "out.png"}, 3, "left.png");
+  write_whole_file(folder / "visual.json", R"({"screenW": 100})");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--screen", "visual.json", "-o", "out.png"}, 3,
+                 "visual.json");
+}
+
+TEST(PaintCommand, OnePhotographForEveryViewOfADisplay) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "-o", "photo.mpo"});
+  const auto facts = nlohmann::json::parse(
+      run_in(folder, {"paint", "photo.mpo", "--display", "looking-glass-portrait", "-o", "photo", "--json"}).output);
+  EXPECT_EQ(facts["views"], 48);
+  EXPECT_LT(facts["worst_bare_share"].get<double>(), 0.01);
+  const Image<Rgb8> quilt = read_image(folder / "photo_qs8x6a0.75.png");
+  EXPECT_EQ(quilt.width(), 3360);
+  EXPECT_EQ(quilt.height(), 3360);
+  run_in(folder, {"paint", "photo.mpo", "--display", "nine-view", "--views", "3", "--size", "160x90", "-o", "three"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "three/view_002.png"));
+  expect_refused(folder, {"paint", "photo.mpo", "--display", "crystal-ball", "-o", "out"}, 2, "looking-glass-go");
+}
+
+TEST(InfoCommand, TellsHowDeepAPhotographIsOnADisplay) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "-o", "photo.mpo"});
+  const auto facts =
+      nlohmann::json::parse(run_in(folder, {"info", "photo.mpo", "--display", "desk-stereo", "--json"}).output);
+  EXPECT_GT(facts["nearest_disparity_px"], facts["farthest_disparity_px"]);
+  EXPECT_GT(facts["before_screen_mm"].get<double>(), 0);
+  EXPECT_TRUE(facts.contains("comfort"));
+}
+
+}  // namespace
+}  // namespace wheatstone
