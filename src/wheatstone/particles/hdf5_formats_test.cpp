@@ -1,0 +1,220 @@
+// Snapshots and other tables of particles in HDF5.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <array>
+
+#include "temporary_folder.h"
+#include "throws_error.h"
+#include "wheatstone/image/whole_file.h"
+#include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/hdf5_internal.h"
+
+namespace wheatstone {
+namespace {
+
+using testing::ElementsAre;
+using testing::FloatNear;
+
+void expect_three_points(const Cloud& cloud) {
+  EXPECT_THAT(cloud.x, ElementsAre(1, 4, 7));
+  EXPECT_THAT(cloud.y, ElementsAre(2, 5, 8));
+  EXPECT_THAT(cloud.z, ElementsAre(3, 6, 9.5f));
+}
+
+/// Writes HDF5 files as simulation codes do.
+class Hdf5Writer {
+ public:
+  explicit Hdf5Writer(const std::filesystem::path& path)
+      : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {}
+  void group(const std::string& name) {
+    const Hdf5Handle made(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  }
+  void attribute(const std::string& group, const std::string& name, std::vector<double> values) {
+    const Hdf5Handle where(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    const hsize_t size = values.size();
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Hdf5Handle made(H5Acreate2(where, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    H5Awrite(made, H5T_NATIVE_DOUBLE, values.data());
+  }
+  void dataset(const std::string& name, std::vector<float> values, hsize_t width = 1) {
+    const std::array<hsize_t, 2> size{values.size() / width, width};
+    const Hdf5Handle space(H5Screate_simple(width > 1 ? 2 : 1, size.data(), nullptr), H5Sclose);
+    const Hdf5Handle made(H5Dcreate2(file_, name.c_str(), H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                          H5Dclose);
+    H5Dwrite(made, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  }
+  /// A dataset that takes no room in the file.
+  void unwritten(const std::string& name, hsize_t rows, hsize_t width) {
+    const std::array<hsize_t, 2> size{rows, width};
+    const std::array<hsize_t, 2> chunk{1024, width};
+    const Hdf5Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
+    const Hdf5Handle chunked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(chunked, 2, chunk.data());
+    const Hdf5Handle made(H5Dcreate2(file_, name.c_str(), H5T_IEEE_F32LE, space, H5P_DEFAULT, chunked, H5P_DEFAULT),
+                          H5Dclose);
+  }
+
+ private:
+  Hdf5Handle file_;
+};
+
+void write_snapshot(const std::filesystem::path& path, std::size_t header_entries, int files = 1, double total = 3) {
+  Hdf5Writer file(path);
+  file.group("Header");
+  std::vector<double> totals(header_entries, 0.);
+  totals[0] = total;
+  file.attribute("Header", "NumPart_Total", totals);
+  file.attribute("Header", "MassTable", std::vector<double>(header_entries, 1.));
+  file.attribute("Header", "NumFilesPerSnapshot", {static_cast<double>(files)});
+  file.attribute("Header", "BoxSize", {50.});
+  file.attribute("Header", "Redshift", {2.});
+  file.group("PartType0");
+  file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+  file.dataset("PartType0/Density", {10, 20, 30});
+  file.dataset("PartType0/InternalEnergy", {100, 200, 300});
+}
+
+TEST(GadgetHdf5, ReadsHeadersOfAnyNumberOfTypes) {
+  const TemporaryFolder folder;
+  for (const std::size_t entries : {1, 2, 6}) {
+    write_snapshot(folder / "snap.hdf5", entries);
+    const CloudSource source = open_cloud(folder / "snap.hdf5");
+    EXPECT_EQ(source.count, 3u);
+    EXPECT_EQ(source.box_size, 50);
+    EXPECT_EQ(source.redshift, 2);
+    EXPECT_THAT(source.fields, ElementsAre("Coordinates", "Density", "InternalEnergy"));
+    const Cloud cloud = read_cloud(folder / "snap.hdf5");
+    expect_three_points(cloud);
+    EXPECT_THAT(cloud.density, ElementsAre(10, 20, 30));
+    EXPECT_THAT(cloud.temperature, ElementsAre(gas_temperature(100), gas_temperature(200), gas_temperature(300)));
+  }
+}
+
+TEST(GadgetHdf5, ReadsTheNamesOfItsRelatives) {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "swift.hdf5");
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+    file.dataset("PartType0/Densities", {10, 20, 30});
+    file.dataset("PartType0/Temperatures", {1e4f, 2e4f, 3e4f});
+    file.dataset("PartType0/SmoothingLengths", {1, 2, 3});
+  }
+  const Cloud swift = read_cloud(folder / "swift.hdf5");
+  EXPECT_THAT(swift.density, ElementsAre(10, 20, 30));
+  EXPECT_THAT(swift.temperature, ElementsAre(1e4f, 2e4f, 3e4f));
+  EXPECT_THAT(swift.smoothing_length, ElementsAre(1, 2, 3));
+  {
+    Hdf5Writer file(folder / "arepo.hdf5");
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3}, 3);
+    file.dataset("PartType0/Density", {2});
+    file.dataset("PartType0/Masses", {16});
+    file.dataset("PartType0/InternalEnergy", {100});
+    file.dataset("PartType0/ElectronAbundance", {1.158f});
+  }
+  const Cloud arepo = read_cloud(folder / "arepo.hdf5");
+  EXPECT_THAT(arepo.smoothing_length, ElementsAre(FloatNear(2, 1e-5f)));
+  EXPECT_NEAR(arepo.temperature[0], gas_temperature(100), 0.01 * gas_temperature(100));  // wholly ionised
+}
+
+TEST(GadgetHdf5, JoinsPartsAndNamesTheMissingOne) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.0.hdf5", 6, 2, 6);
+  expect_error(ErrorKind::bad_input, "snap.1.hdf5: is missing", [&] { read_cloud(folder / "snap.0.hdf5"); });
+  write_snapshot(folder / "snap.1.hdf5", 6, 2, 6);
+  EXPECT_THAT(read_cloud(folder / "snap.0.hdf5").x, ElementsAre(1, 4, 7, 1, 4, 7));
+  write_snapshot(folder / "snap.hdf5", 6, 2, 6);
+  expect_error(ErrorKind::bad_input, "no number", [&] { read_cloud(folder / "snap.hdf5"); });
+  write_snapshot(folder / "more.hdf5", 6, 1, 1e12);
+  expect_error(ErrorKind::bad_input, "1000000000000 particles, but there are only 3",
+               [&] { read_cloud(folder / "more.hdf5"); });
+}
+
+TEST(GadgetHdf5, JoinsMorePartsThanFilesMayBeOpen) {
+  const TemporaryFolder folder;
+  rlimit usual{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &usual), 0);
+  const rlimit few{.rlim_cur = 24, .rlim_max = usual.rlim_max};
+  for (int i = 0; i < 40; ++i) write_snapshot(folder / ("snap." + std::to_string(i) + ".hdf5"), 6, 40, 120);
+  setrlimit(RLIMIT_NOFILE, &few);
+  EXPECT_EQ(read_cloud(folder / "snap.0.hdf5").size(), 120u);
+  setrlimit(RLIMIT_NOFILE, &usual);
+}
+
+TEST(GadgetHdf5, PartsWithOtherDatasetsAreRefused) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.0.hdf5", 6, 2, 6);
+  {
+    Hdf5Writer file(folder / "snap.1.hdf5");
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+  }
+  expect_error(ErrorKind::bad_input, "snap.1.hdf5: has other datasets than",
+               [&] { read_cloud(folder / "snap.0.hdf5"); });
+}
+
+TEST(GadgetHdf5, RowsThatTheFileCannotHoldAreRefused) {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "claims.hdf5");
+    file.group("PartType0");
+    file.unwritten("PartType0/Coordinates", 1'000'000'000'000, 3);
+  }
+  expect_error(ErrorKind::bad_input, "says 1000000000000 rows, which the file does not hold",
+               [&] { read_cloud(folder / "claims.hdf5"); });
+}
+
+TEST(GadgetHdf5, NamesWhatIsMissingAndWhatThereIs) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.hdf5", 2);
+  expect_error(ErrorKind::bad_input, "'Metallicity' for these particles, but Coordinates, Density, InternalEnergy",
+               [&] { read_cloud(folder / "snap.hdf5", {.temperature = "Metallicity"}); });
+  expect_error(ErrorKind::bad_input, "type 'halo'; by type it has 0: 3",
+               [&] { read_cloud(folder / "snap.hdf5", {.type = "halo"}); });
+  expect_error(ErrorKind::wrong_usage, "--type: is 'jellyfish'",
+               [&] { read_cloud(folder / "snap.hdf5", {.type = "jellyfish"}); });
+}
+
+TEST(GadgetHdf5, CutShortIsRefused) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.hdf5", 2);
+  const std::string bytes = read_whole_file(folder / "snap.hdf5", 1 << 20);
+  for (std::size_t length = 0; length < bytes.size(); length += 97) {
+    write_whole_file(folder / "cut.hdf5", bytes.substr(0, length));
+    expect_error(ErrorKind::bad_input, "cut.hdf5", [&] { read_cloud(folder / "cut.hdf5"); });
+  }
+}
+
+TEST(Hdf5Dataset, ReadsAnyByName) {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "stars.h5");
+    file.group("cat");
+    file.dataset("cat/pos", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+    file.dataset("cat/mag", {7, 8, 9});
+    file.dataset("x", {1, 4, 7});
+  }
+  const Cloud cloud = read_cloud(folder / "stars.h5", {.position = "/cat/pos", .temperature = "/cat/mag"});
+  expect_three_points(cloud);
+  EXPECT_THAT(cloud.temperature, ElementsAre(7, 8, 9));
+  EXPECT_THAT(read_cloud(folder / "stars.h5", {.position = "/x,/x,/cat/mag"}).z, ElementsAre(7, 8, 9));
+  expect_error(ErrorKind::bad_input, "it has /cat/mag, /cat/pos, /x", [&] { read_cloud(folder / "stars.h5"); });
+  expect_error(ErrorKind::bad_input, "no dataset '/y'", [&] { read_cloud(folder / "stars.h5", {.position = "/y"}); });
+  expect_error(ErrorKind::bad_input, "no position", [&] { read_cloud(folder / "stars.h5", {.position = "/x"}); });
+}
+TEST(CloudSource, ChunksAreTheWholeInOrder) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.hdf5", 2);
+  const CloudSource source = open_cloud(folder / "snap.hdf5");
+  EXPECT_THAT(source.next(2).x, ElementsAre(1, 4));
+  EXPECT_THAT(source.next(2).x, ElementsAre(7));
+  EXPECT_EQ(source.next(2).size(), 0u);
+}
+
+}  // namespace
+}  // namespace wheatstone
