@@ -5,17 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <limits>
 #include <string_view>
 #include <vector>
 
 #include "numbers_argument.h"
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/wiggle.h"
 #include "wheatstone/error.h"
+#include "wheatstone/image/disparity_file.h"
 #include "wheatstone/image/write_image.h"
 #include "wheatstone/stereo/match.h"
 #include "wheatstone/stereo/write_views.h"
@@ -29,14 +32,16 @@ struct Named {
   std::string_view name;
   PackingKind kind;
 };
-constexpr std::array<Named, 8> plain{{{"mpo", PackingKind::mpo},
-                                      {"jps", PackingKind::jps},
-                                      {"views", PackingKind::views},
-                                      {"wiggle", PackingKind::wiggle},
-                                      {"quilt", PackingKind::quilt},
-                                      {"lenticular", PackingKind::lenticular},
-                                      {"exr", PackingKind::exr},
-                                      {"rgbd", PackingKind::depth_beside}}};
+constexpr std::array<Named, 10> plain{{{"mpo", PackingKind::mpo},
+                                       {"jps", PackingKind::jps},
+                                       {"views", PackingKind::views},
+                                       {"wiggle", PackingKind::wiggle},
+                                       {"quilt", PackingKind::quilt},
+                                       {"lenticular", PackingKind::lenticular},
+                                       {"exr", PackingKind::exr},
+                                       {"rgbd", PackingKind::depth_beside},
+                                       {"disparity", PackingKind::disparity},
+                                       {"depth", PackingKind::depth}}};
 
 std::string ending_of(const fs::path& path) {
   std::string ending = path.extension().string();
@@ -117,6 +122,17 @@ void write_folder(std::span<const Image<Rgb8>> views, const std::string& output,
   folder.commit();
 }
 
+/// The left view's disparity by matching, or the depth that it means.
+void write_matched(const Packing& packing, const PackingArguments& arguments, std::span<const Image<Rgb8>> views,
+                   const std::string& output, const Session& session) {
+  expect_two(packing, views);
+  Image<float> disparity = match(pair_of(views), {}, session.progress).geometry.left_disparity;
+  if (packing.kind == PackingKind::depth)
+    for (float& d : disparity.pixels())
+      d = d > 0 ? depth_from_disparity(d, arguments.depth_scale) : std::numeric_limits<float>::quiet_NaN();
+  write_disparity(output, disparity);
+}
+
 Image<Rgb8> one_picture(const Packing& packing, const PackingArguments& arguments, std::span<const Image<Rgb8>> views,
                         const Session& session) {
   if (packing.kind == PackingKind::lenticular) return interleave(views, find_lenticular(arguments.screen));
@@ -140,6 +156,11 @@ void add_packing_options(CLI::App& command, PackingArguments& arguments) {
   command.add_option("--display", arguments.display, "Quilt: of this display")->excludes(quilt);
   command.add_option("--quality", arguments.quality, "Of JPEGs in MPO and JPS")
       ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command
+      .add_option("--depth-scale", arguments.depth_scale,
+                  "Depth is this divided by disparity: camera separation times focal length in pixels")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--seconds", arguments.seconds, "Wiggle: there and back")
       ->check(CLI::Range(0.05, 60.0))
@@ -212,6 +233,10 @@ std::string write_packed(const Packing& packing, const PackingArguments& argumen
       break;
     case PackingKind::wiggle:
       write_wiggle(output, views, arguments.seconds);
+      break;
+    case PackingKind::disparity:
+    case PackingKind::depth:
+      write_matched(packing, arguments, views, output, session);
       break;
     case PackingKind::exr:
       write_multiview_exr(output, views);

@@ -17,15 +17,30 @@ namespace wheatstone::cli {
 
 /// A packing as it is typed.
 struct PackingArguments {
-  std::string to;        ///< empty: by the output's ending
-  std::string screen;    ///< of lenticular
-  std::string quilt;     ///< COLUMNSxROWS
-  std::string display;   ///< a preset
-  int quality = 95;      ///< of JPEG, MPO, JPS
-  double seconds = 0.5;  ///< of a wiggle, there and back
+  std::string to;         ///< empty: by the output's ending
+  std::string screen;     ///< of lenticular
+  std::string quilt;      ///< COLUMNSxROWS
+  std::string display;    ///< a preset
+  int quality = 95;       ///< of JPEG, MPO, JPS
+  double seconds = 0.5;   ///< of a wiggle, there and back
+  float depth_scale = 1;  ///< of depth: camera separation times focal length in pixels
 };
 
-enum class PackingKind { anaglyph, layout, interlaced, mpo, jps, views, wiggle, quilt, lenticular, exr, depth_beside };
+enum class PackingKind {
+  anaglyph,
+  layout,
+  interlaced,
+  mpo,
+  jps,
+  views,
+  wiggle,
+  quilt,
+  lenticular,
+  exr,
+  depth_beside,
+  disparity,
+  depth
+};
 
 struct Packing {
   PackingKind kind;

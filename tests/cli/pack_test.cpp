@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "wheatstone/image/disparity_file.h"
 #include "wheatstone/image/read_image.h"
 #include "wheatstone/image/whole_file.h"
 #include "wheatstone/image/write_image.h"
@@ -89,6 +90,10 @@ TEST(PackCommand, MakesWhatScreensShow) {
   run_in(folder, {"pack", "left.png", "right.png", "-o", "wiggle.gif"});
   run_in(folder, {"pack", "left.png", "right.png", "--to", "rgbd", "-o", "rgbd.png"});
   EXPECT_EQ(read_image(folder / "rgbd.png").width(), 480);
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "disparity", "-o", "disparity.png"});
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "depth", "--depth-scale", "600", "-o", "depth.exr"});
+  const float disparity = read_disparity(folder / "disparity.png")(120, 90);
+  EXPECT_NEAR(read_disparity(folder / "depth.exr")(120, 90), 600 / disparity, 0.01 * 600 / disparity);
 }
 
 TEST(PackCommand, PaintingsAndSlicesMakeTheirViews) {
