@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -12,6 +11,7 @@
 
 #include "command.h"
 #include "measure_kinds.h"
+#include "pictures_in_folder.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/read_image.h"
 #include "wheatstone/multiview/view_measures.h"
@@ -27,13 +27,6 @@ struct Arguments {
   ViewMeasuresOptions options;
 };
 
-bool is_picture(const fs::path& path) {
-  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(endings, ending) != std::end(endings);
-}
-
 /// The files named, and in place of a folder its pictures in the order of their names.
 std::vector<fs::path> files_of(const std::vector<std::string>& names) {
   std::vector<fs::path> files;
@@ -42,11 +35,8 @@ std::vector<fs::path> files_of(const std::vector<std::string>& names) {
       files.emplace_back(name);
       continue;
     }
-    std::vector<fs::path> inside;
-    for (const fs::directory_entry& entry : fs::directory_iterator(name))
-      if (entry.is_regular_file() && is_picture(entry.path())) inside.push_back(entry.path());
+    const std::vector<fs::path> inside = pictures_in_folder(name);
     if (inside.empty()) throw Error(ErrorKind::bad_input, fmt::format("{}: has no pictures, expected views", name));
-    std::ranges::sort(inside);
     files.insert(files.end(), inside.begin(), inside.end());
   }
   return files;

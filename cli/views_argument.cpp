@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <utility>
 
 #include "numbers_argument.h"
+#include "pictures_in_folder.h"
 #include "stereo_arguments.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/multiview_exr.h"
@@ -27,18 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_picture(const fs::path& path) {
-  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(endings, ending) != std::end(endings);
-}
-
 std::vector<std::string> pictures_in(const std::string& folder) {
   std::vector<std::string> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && is_picture(entry.path())) files.push_back(entry.path().string());
-  std::ranges::sort(files);
+  for (const fs::path& file : pictures_in_folder(folder)) files.push_back(file.string());
   if (files.size() < 2)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: has {} pictures, expected two views or more", folder, files.size()));
