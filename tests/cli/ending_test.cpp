@@ -17,11 +17,22 @@ namespace {
 const std::vector<std::string> long_run = {"synth", "still",  "-o",      "results", "--views",
                                            "1000",  "--size", "640x480", "--quiet"};
 
+/// Waits until a program has begun to watch for a signal: until then it would just end.
+void wait_until_caught(int process, int signal) {
+  for (int tries = 0; tries < 600; ++tries) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.starts_with("SigCgt:") && (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
 TEST(Ending, OfAnInterruptedRunIsExitCodeFive) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     const ProgramResult result = run_program(long_run, {.folder = folder / "", .while_running = [signal](int process) {
-                                                          std::this_thread::sleep_for(std::chrono::seconds(2));
+                                                          wait_until_caught(process, signal);
+                                                          std::this_thread::sleep_for(std::chrono::seconds(1));
                                                           ::kill(process, signal);
                                                         }});
     EXPECT_EQ(result.exit_code, 5);
