@@ -5,6 +5,9 @@
 #include <signal.h>
 #include <time.h>
 
+#include <chrono>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "cli/run_program.h"
