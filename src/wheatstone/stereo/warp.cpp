@@ -25,20 +25,24 @@ float step_from(Eye eye) { return eye == Eye::left ? 1.f : -1.f; }
 
 /// Calls `land(x_in_other, disparity, x, t)` for every pixel centre of another view's scan line that the surface of
 /// this one covers: between the pixels x and x + 1, at the fraction t. The other view is `step` eye separations to the
-/// right. Not z-tested; a pixel may be landed on often.
-template <class Land>
+/// right. Not z-tested; a pixel may be landed on often. Every pixel lands at least where it is (`every_pixel`), or only
+/// those at a surface's edges, which is all that the surface between its pixels does not cover.
+template <bool every_pixel = true, class Land>
 void warp_row(std::span<const float> disparity, float step, Land land) {
   const auto target_of = [step](int x, float d) { return static_cast<float>(x) + 0.5f - step * d; };
   const int width = static_cast<int>(disparity.size());
   const auto land_inside = [&](int target, float d, int x, float t) {
     if (target >= 0 && target < width) land(target, d, x, t);
   };
+  bool joined_before = false;
   for (int x = 0; x < width; ++x) {
-    if (!std::isfinite(disparity[x])) continue;
+    const bool joined_after = x + 1 < width && std::abs(disparity[x + 1] - disparity[x]) <= joined_px;
+    const bool at_edge = !(joined_before && joined_after);
+    joined_before = joined_after;
     const float here = target_of(x, disparity[x]);
-    if (!(std::abs(here) < 1e9f)) continue;  // nowhere near the picture
-    land_inside(floor_of(here), disparity[x], x, 0);
-    if (x + 1 == width || !(std::abs(disparity[x + 1] - disparity[x]) <= joined_px)) continue;
+    if (!(std::abs(here) < 1e9f)) continue;  // unknown, or nowhere near the picture
+    if (every_pixel || at_edge) land_inside(floor_of(here), disparity[x], x, 0);
+    if (!joined_after) continue;
 
     // The surface between two pixels covers the centres between the places where they land.
     const float next = target_of(x + 1, disparity[x + 1]);
@@ -51,8 +55,9 @@ void warp_row(std::span<const float> disparity, float step, Land land) {
 }
 
 Rgb8 blend(Rgb8 a, Rgb8 b, float t) {
-  const auto mix = [t](std::uint8_t from, std::uint8_t to) {
-    return static_cast<std::uint8_t>(static_cast<float>(from) + t * static_cast<float>(to - from) + 0.5f);
+  const int share = static_cast<int>(256 * t + 0.5f);
+  const auto mix = [share](int from, int to) {
+    return static_cast<std::uint8_t>((256 * from + share * (to - from) + 128) >> 8);
   };
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
@@ -108,7 +113,7 @@ void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> dis
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::ranges::fill(nearest, farthest);
       const auto colours = picture.row(y);
-      warp_row(disparity.row(y), step, [&](int target, float d, int x, float t) {
+      warp_row<false>(disparity.row(y), step, [&](int target, float d, int x, float t) {
         if (d <= nearest[target]) return;
         nearest[target] = d;
         warped[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];
