@@ -8,6 +8,7 @@ void add_synth_command(CLI::App& program, const Session& session) {
   synth.require_subcommand(1);
   synth.get_formatter()->label("SUBCOMMAND", "KIND");
   synth.footer("Example:\n  wheatstone synth still -o still");
+  add_synth_film(synth, session);
   add_synth_still(synth, session);
   add_synth_universe(synth, session);
 }

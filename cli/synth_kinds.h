@@ -5,6 +5,7 @@
 namespace wheatstone::cli {
 
 // The kinds of synthetic input, each in its own file.
+void add_synth_film(CLI::App& synth, const Session& session);
 void add_synth_still(CLI::App& synth, const Session& session);
 void add_synth_universe(CLI::App& synth, const Session& session);
 

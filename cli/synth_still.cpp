@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "command.h"
+#include "size_argument.h"
 #include "synth_kinds.h"
 #include "wheatstone/app/output_folder.h"
-#include "wheatstone/error.h"
 #include "wheatstone/image/disparity_file.h"
 #include "wheatstone/image/write_image.h"
 #include "wheatstone/stereo/synthetic_still.h"
@@ -24,18 +23,6 @@ struct Arguments {
   int views = 2;
   std::optional<float> view;
 };
-
-/// "960x720" as two numbers. Throws Error{wrong_usage}.
-void take_size(const std::string& text, SyntheticStillOptions& options) {
-  const char* const end = text.data() + text.size();
-  const auto [after_width, width_error] = std::from_chars(text.data(), end, options.width);
-  bool whole = width_error == std::errc() && after_width != end && *after_width == 'x';
-  if (whole) {
-    const auto [after_height, height_error] = std::from_chars(after_width + 1, end, options.height);
-    whole = height_error == std::errc() && after_height == end;
-  }
-  if (!whole) throw Error(ErrorKind::wrong_usage, fmt::format("--size: '{}' is no size, expected WIDTHxHEIGHT", text));
-}
 
 void write(const OutputFolder& output, const SyntheticStill& still) {
   write_image(output.file("left.png"), still.pictures.left);
@@ -54,7 +41,7 @@ void write(const OutputFolder& output, const std::string& name, const SyntheticV
 void run(const Arguments& arguments, const Session& session) {
   SyntheticStillOptions options = arguments.still;
   options.seed = session.seed;
-  take_size(arguments.size, options);
+  take_size(arguments.size, options.width, options.height);
 
   OutputFolder output(arguments.folder);
   if (arguments.view) {

@@ -1,7 +1,7 @@
 # The bought libraries that the rooms link, all packaged by Debian 12 (scripts/install-deps). Read by our own build and
 # by the installed package.
 include(CMakeFindDependencyMacro)
-find_dependency(OpenCV COMPONENTS core imgproc calib3d dnn features2d ximgproc)
+find_dependency(OpenCV COMPONENTS core imgproc calib3d dnn features2d video ximgproc)
 find_dependency(OpenImageIO)
 find_dependency(TBB)
 find_dependency(fmt)

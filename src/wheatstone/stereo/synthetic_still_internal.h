@@ -123,6 +123,8 @@ struct CasterReach {
 struct Scene {
   std::vector<Object> objects;
   std::vector<int> groups;  ///< of each object
+  /// Where each object took its light, if that is not where it is: things that move carry it along.
+  std::vector<Pose> lit_poses;
   std::vector<ShadowCaster> casters;
   CasterReach reach;
   std::vector<Mouth> mouths;

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace wheatstone::cli {
+
+/// "960x720" as two numbers, as --size takes them. Throws Error{wrong_usage}.
+void take_size(const std::string& text, int& width, int& height);
+
+}  // namespace wheatstone::cli

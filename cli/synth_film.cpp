@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "size_argument.h"
+#include "synth_kinds.h"
+#include "wheatstone/app/output_folder.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/image/write_image.h"
+#include "wheatstone/motion/flow_file.h"
+#include "wheatstone/motion/synthetic_film.h"
+
+namespace wheatstone::cli {
+namespace {
+
+struct Arguments {
+  std::string folder = "film";
+  std::string size = "960x540";
+  SyntheticFilmOptions film;
+};
+
+void write(const OutputFolder& output, int number, const SyntheticFilmFrame& frame) {
+  const auto file = [&](const char* name, const char* ending) {
+    return output.file(fmt::format("{}_{:04}{}", name, number, ending));
+  };
+  write_image(file("left", ".png"), frame.pictures.left);
+  write_image(file("right", ".png"), frame.pictures.right);
+  write_disparity(file("left_disparity", ".pfm"), frame.geometry.left_disparity);
+  write_disparity(file("right_disparity", ".pfm"), frame.geometry.right_disparity);
+  write_image(file("left_occlusion", ".png"), frame.geometry.left_occlusion);
+  write_image(file("right_occlusion", ".png"), frame.geometry.right_occlusion);
+  write_flow(file("flow_forward", ".flo"), frame.to_next);
+  write_flow(file("flow_backward", ".flo"), frame.to_previous);
+  write_image(file("flow_forward_occlusion", ".png"), frame.next_occlusion);
+  write_image(file("flow_backward_occlusion", ".png"), frame.previous_occlusion);
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  SyntheticFilmOptions options = arguments.film;
+  options.still.seed = session.seed;
+  take_size(arguments.size, options.still.width, options.still.height);
+  const int cut = cut_of(options);
+
+  OutputFolder output(arguments.folder);
+  for (int frame = 0; frame < options.frames; ++frame) {
+    report(session.progress, "frames", static_cast<double>(frame) / options.frames);
+    write(output, frame, make_synthetic_film_frame(options, frame));
+  }
+  output.commit();
+  if (session.json) {
+    const nlohmann::ordered_json facts{
+        {"folder", arguments.folder},   {"frames", options.frames},       {"cut", cut},
+        {"width", options.still.width}, {"height", options.still.height}, {"seed", options.still.seed}};
+    fmt::print("{}\n", facts.dump(2));
+  } else {
+    fmt::print("written to {}\n", arguments.folder);
+  }
+}
+
+}  // namespace
+
+void add_synth_film(CLI::App& synth, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  SyntheticFilmOptions& film = arguments->film;
+  CLI::App& command = *synth.add_subcommand("film", "A stereo film of such still lifes, with its exact flow");
+  command.fallthrough();
+  command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
+  command.add_option("--size", arguments->size, "Of each view: WIDTHxHEIGHT")->capture_default_str();
+  command.add_option("--frames", film.frames, "How many")->check(CLI::Range(1, 100'000))->capture_default_str();
+  command.add_option("--cut", film.cut, "The frame with which another scene begins, 0 for none; half-way if not given");
+  static const std::map<std::string, FilmMotion> motions{{"walk", FilmMotion::walk}, {"pan", FilmMotion::pan}};
+  command
+      .add_option("--motion", film.motion,
+                  "walk: the camera moves and turns, and fruit hops about; pan: the camera turns slowly, no more")
+      ->transform(CLI::CheckedTransformer(motions, CLI::ignore_case).description(""))
+      ->option_text("walk|pan [walk]");
+  command.add_option("--noise", film.noise, "Standard deviation of each frame's own noise, in 0..255")
+      ->check(CLI::Range(0.0, 255.0))
+      ->capture_default_str();
+  command.add_option("--samples", film.still.samples_a_side, "Samples along each side of a pixel")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str();
+  command.footer(
+      "Frames count from 0. Beside left_0000.png and right_0000.png stand left_disparity_0000.pfm,\n"
+      "left_occlusion_0000.png and the right eye's, and of the left eye flow_forward_0000.flo, to the next frame,\n"
+      "flow_backward_0000.flo, to the one before, and their occlusions: all exact, without the noise.\n\n"
+      "Example:\n  wheatstone synth film -o film --cut 25\n"
+      "  wheatstone synth film -o pan --motion pan --cut 0 --noise 4");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,39 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/image/read_image.h"
+#include "wheatstone/motion/flow_file.h"
+
+namespace wheatstone {
+namespace {
+
+TEST(SynthFilmCommand, WritesFramesWithTheirTruth) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({"synth", "film", "-o", "film", "--size", "96x54", "--frames", "4", "--cut",
+                                            "3", "--samples", "1", "--noise", "2", "--motion", "pan", "--json"},
+                                           {.folder = folder / "."});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(nlohmann::json::parse(result.output)["cut"], 3);
+  EXPECT_EQ(files_in(folder / "film").size(), 40u);
+  EXPECT_EQ(read_image(folder / "film/right_0003.png").width(), 96);
+  EXPECT_GT(read_disparity(folder / "film/left_disparity_0001.pfm")(48, 50), 0);
+  EXPECT_FALSE(std::isnan(read_flow(folder / "film/flow_forward_0001.flo").x(48, 27)));
+  EXPECT_TRUE(std::isnan(read_flow(folder / "film/flow_forward_0002.flo").x(48, 27)));
+  EXPECT_TRUE(std::isnan(read_flow(folder / "film/flow_backward_0003.flo").x(48, 27)));
+  EXPECT_EQ(read_image(folder / "film/flow_forward_occlusion_0002.png")(48, 27), (Rgb8{255, 255, 255}));
+}
+
+TEST(SynthFilmCommand, RefusesNonsenseAndLeavesNothing) {
+  const TemporaryFolder folder;
+  expect_refused(folder, {"synth", "film", "-o", "film", "--frames", "4", "--cut", "4"}, 2, "cut at frame 4");
+  expect_refused(folder, {"synth", "film", "-o", "film", "--size", "96"}, 2, "'96' is no size");
+  expect_refused(folder, {"synth", "film", "-o", "film", "--motion", "run"}, 2, "run");
+  expect_refused(folder, {"synth", "film", "-o", "film", "--frames", "0"}, 2, "0");
+}
+
+}  // namespace
+}  // namespace wheatstone
