@@ -10,6 +10,33 @@ struct Flow {
   Image<float> x, y;
 };
 
+/// The flow between two frames in both directions: `forward` belongs to the first frame's pixels, `backward` to the
+/// second's.
+struct FlowPair {
+  Flow forward, backward;
+};
+
+enum class FlowMethod {
+  farneback,  ///< polynomial expansion (Farnebäck 2003): the one that the rotoscoping paper uses
+  dis         ///< dense inverse search (Kroeger et al. 2016): faster, and keeps motion edges better
+};
+
+struct FlowOptions {
+  FlowMethod method = FlowMethod::dis;
+  const FlowPair* start = nullptr;  ///< of the frames before, of the same size: where to start from; borrowed
+};
+
+/// Estimates the flow between two frames, by OpenCV on their luminance. Throws Error{bad_input} where they, or the flow
+/// to start from, differ in size.
+FlowPair estimate_flow(ImageView<const Rgb8> first, ImageView<const Rgb8> second, const FlowOptions& options = {});
+
+/// 255 for the pixels whose flow the other direction confirms, 0 elsewhere (Sundaram et al. 2010; Ruder et al. 2016):
+/// with own flow b at a pixel, and the other frame's flow f where b leads, a pixel is left out where
+/// |f + b|² > 0.01 (|f|² + |b|²) + 0.5, which occlusion does, or |∇b|² > 0.01 |b|² + 0.002, which motion edges do; also
+/// where b is unknown or leads out of the picture. For the first frame's pixels, own is the forward flow. Gradients
+/// are central differences. Throws Error{bad_input} where sizes differ.
+Image<std::uint8_t> confirmed(const Flow& own, const Flow& other);
+
 /// A value between pixels, interpolated bilinearly. (x, y) is a place of the picture, pixel centres at halves; beyond
 /// the outermost centres the border continues. Undefined for NaN; the picture must not be empty.
 float sample(ImageView<const float> image, float x, float y);
@@ -19,5 +46,16 @@ struct SampledColour {
   float r = 0, g = 0, b = 0;
 };
 SampledColour sample(ImageView<const Rgb8> image, float x, float y);
+
+/// How unlike two frames are that follow each other.
+struct FrameChange {
+  double histogram_distance = 0;  ///< share of the pixels that would have to change colour, of 8³ colours: 0..1
+  double confirmed_share = 0;     ///< of the pixels whose flow is confirmed, in small pictures
+  bool cut = false;               ///< another scene begins with the second frame
+};
+
+/// Tells a cut from motion: at a cut the colours change at once and the flow is not confirmed. Throws Error{bad_input}
+/// where the sizes differ.
+FrameChange find_cut(ImageView<const Rgb8> first, ImageView<const Rgb8> second);
 
 }  // namespace wheatstone
