@@ -1,0 +1,245 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "film_argument.h"
+#include "measure_kinds.h"
+#include "wheatstone/app/report.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/motion/film_measures.h"
+#include "wheatstone/motion/flow_file.h"
+#include "wheatstone/stereo/match.h"
+
+namespace wheatstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::vector<std::string> films;
+  std::string source;
+  std::string layout;
+  std::string truth;
+  int frames = 0;  ///< 0: all
+  int stereo_every = 1;
+};
+
+/// A film that is being measured, frame by frame.
+struct MeasuredFilm {
+  std::string name;
+  StereoFilmReader reader;
+  StereoFrame now{}, before{};
+  TemporalError temporal{};
+  Json pairs = Json::array();
+  std::vector<Json> stereo{};  ///< a frame each
+};
+
+/// The mean of like objects of numbers, number by number.
+Json mean_of(const std::vector<Json>& objects) {
+  if (!objects.front().is_object()) {
+    double sum = 0;
+    for (const Json& number : objects) sum += number.get<double>();
+    return sum / static_cast<double>(objects.size());
+  }
+  Json mean;
+  for (const auto& item : objects.front().items()) {
+    std::vector<Json> values;
+    for (const Json& object : objects) values.push_back(object.at(item.key()));
+    mean[item.key()] = mean_of(values);
+  }
+  return mean;
+}
+
+/// Reads the next frame of the source and of every film. False where the source ends.
+bool read_frames(std::vector<MeasuredFilm>& films, int frame) {
+  const MeasuredFilm& source = films.front();
+  bool more = false;
+  for (MeasuredFilm& film : films) {
+    std::swap(film.before, film.now);
+    const bool is_source = &film == &source, read = film.reader.read(film.now);
+    if (is_source) more = read;
+    if (read != more)
+      throw Error(ErrorKind::bad_input, fmt::format("{}: {} after {} frames, expected as many as {}", film.name,
+                                                    read ? "goes on" : "ends", frame, source.name));
+    if (read && !same_size(film.now.left, source.now.left))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", film.name, film.now.left.width(),
+                              film.now.left.height(), source.now.left.width(), source.now.left.height(), source.name));
+  }
+  return more;
+}
+
+fs::path truth_file(const Arguments& arguments, const char* name, int frame, const char* ending) {
+  return fs::path(arguments.truth) / fmt::format("{}_{:04}{}", name, frame, ending);
+}
+
+template <class Picture>
+void expect_size(const Picture& truth, const fs::path& file, const MeasuredFilm& source) {
+  const Image<Rgb8>& picture = source.now.left;
+  if (!same_size(truth, picture))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", file.string(), truth.width(), truth.height(),
+                            picture.width(), picture.height(), source.name));
+}
+
+/// How the frame before and this one belong together, in the source.
+FramePair pair_of(const Arguments& arguments, const MeasuredFilm& source, int frame) {
+  if (arguments.truth.empty()) return relate_frames(source.before.left, source.now.left);
+  const fs::path forward_file = truth_file(arguments, "flow_forward", frame - 1, ".flo");
+  const fs::path backward_file = truth_file(arguments, "flow_backward", frame, ".flo");
+  FlowPair truth{read_flow(forward_file), read_flow(backward_file)};
+  expect_size(truth.forward.x, forward_file, source);
+  expect_size(truth.backward.x, backward_file, source);
+  return relate_frames(std::move(truth));
+}
+
+void measure_stereo(const Arguments& arguments, std::vector<MeasuredFilm>& films, int frame) {
+  const MeasuredFilm& source = films.front();
+  if (std::ranges::none_of(films, [](const MeasuredFilm& film) { return !film.now.right.empty(); })) return;
+  Image<float> disparity;
+  if (!arguments.truth.empty()) {
+    const fs::path file = truth_file(arguments, "left_disparity", frame, ".pfm");
+    disparity = read_disparity(file);
+    expect_size(disparity, file, source);
+  } else if (!source.now.right.empty()) {
+    disparity = match({source.now.left, source.now.right}).geometry.left_disparity;
+  } else {
+    return;
+  }
+  for (MeasuredFilm& film : films) {
+    if (film.now.right.empty()) continue;
+    Json facts = Json::parse(pair_measures_json(measure_pair({film.now.left, film.now.right}, disparity)));
+    film.stereo.push_back(std::move(facts));
+  }
+}
+
+void measure_temporal(std::vector<MeasuredFilm>& films, const FramePair& pair, int frame) {
+  for (MeasuredFilm& film : films) {
+    const std::optional<WarpError> error = film.temporal.add(film.before.left, film.now.left, pair);
+    Json facts{{"frame", frame - 1}, {"cut", pair.cut}};
+    if (error) facts.update(Json{{"temporal_error", error->error}, {"compared_share", error->compared_share}});
+    film.pairs.push_back(std::move(facts));
+  }
+}
+
+Json to_json(const MeasuredFilm& film) {
+  Json facts{{"film", film.name}, {"pairs", film.temporal.pairs()}};
+  if (film.temporal.pairs() > 0) {
+    facts["temporal_error"] = film.temporal.mean();
+    facts["compared_share"] = film.temporal.compared_share();
+  }
+  if (!film.stereo.empty()) {
+    facts["stereo_frames"] = film.stereo.size();
+    facts["stereo"] = mean_of(film.stereo);
+    facts["stereo_a_frame"] = film.stereo;
+  }
+  facts["pair"] = film.pairs;
+  return facts;
+}
+
+Json to_json(const Arguments& arguments, const std::vector<MeasuredFilm>& films, int frames,
+             const std::vector<int>& cuts) {
+  Json facts{{"frames", frames},
+             {"cuts", cuts},
+             {"flow", arguments.truth.empty() ? "estimated" : "true"},
+             {"source", to_json(films.front())},
+             {"films", Json::array()}};
+  for (std::size_t i = 1; i < films.size(); ++i) facts["films"].push_back(to_json(films[i]));
+  return facts;
+}
+
+void print_table(const std::vector<MeasuredFilm>& films, const std::vector<int>& cuts) {
+  std::size_t width = 16;
+  for (const MeasuredFilm& film : films) width = std::max(width, film.name.size());
+  constexpr auto line = "{:<{}}{:>14}{:>12}{:>11}{:>14}{:>14}\n";
+  fmt::print(line, "", width, "E_warp x 1000", "of source", "compared", "left - right", "depth found");
+  const double source_error = films.front().temporal.mean();
+  for (const MeasuredFilm& film : films) {
+    const TemporalError& error = film.temporal;
+    const bool stereo = !film.stereo.empty(), temporal = error.pairs() > 0;
+    const Json mean = stereo ? mean_of(film.stereo) : Json();
+    fmt::print(line, film.name, width, temporal ? fmt::format("{:.4f}", 1000 * error.mean()) : "",
+               source_error > 0 ? fmt::format("{:.2f}", error.mean() / source_error) : "",
+               temporal ? fmt::format("{:.1f} %", 100 * error.compared_share()) : "",
+               stereo ? fmt::format("{:.2f}", mean.at("left_right_mean_absolute").get<double>()) : "",
+               stereo ? fmt::format("{:.1f} %", 100 * mean.at("survival_density").get<double>()) : "");
+  }
+  if (!cuts.empty()) fmt::print("cuts before frame {}\n", fmt::join(cuts, ", "));
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  std::optional<FilmLayout> layout;
+  if (!arguments.layout.empty()) {
+    layout = film_layout_named(arguments.layout);
+    if (!layout)
+      throw Error(ErrorKind::wrong_usage, fmt::format("--layout: there is no layout '{}', expected one of {}",
+                                                      arguments.layout, film_layout_names()));
+  }
+  std::vector<MeasuredFilm> films;
+  films.push_back({arguments.source, open_film_argument(arguments.source, layout)});
+  for (const std::string& name : arguments.films) films.push_back({name, open_film_argument(name, layout)});
+
+  const std::int64_t known = films.front().reader.facts().frame_count.value_or(0);
+  const double expected = static_cast<double>(arguments.frames > 0 ? arguments.frames : known);
+  std::vector<int> cuts;
+  int frame = 0;
+  for (; (arguments.frames == 0 || frame < arguments.frames) && read_frames(films, frame); ++frame) {
+    report(session.progress, "frames", expected > 0 ? std::min(frame / expected, 1.0) : 0);
+    if (frame % arguments.stereo_every == 0) measure_stereo(arguments, films, frame);
+    if (frame == 0) continue;
+    const FramePair pair = pair_of(arguments, films.front(), frame);
+    if (pair.cut) cuts.push_back(frame);
+    measure_temporal(films, pair, frame);
+  }
+  if (session.json) {
+    fmt::print("{}\n", to_json(arguments, films, frame, cuts).dump(2));
+  } else {
+    print_table(films, cuts);
+  }
+}
+
+}  // namespace
+
+void add_measure_film(CLI::App& measure, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command =
+      *measure.add_subcommand("film", "How much films flicker, and how well their eyes belong together");
+  command.fallthrough();
+  command
+      .add_option("FILMS", arguments->films,
+                  "Films, numbered pictures (left_%04d.png), folders of them, or an eye each: LEFT,RIGHT")
+      ->required();
+  command.add_option("--against", arguments->source, "The film that they were made from, in the same forms")
+      ->required();
+  command.add_option("--truth", arguments->truth,
+                     "Folder as synth film writes it, of the source's true flow and disparities, frames from 0;\n"
+                     "without it flow and disparities are estimated from the source");
+  command.add_option("--layout", arguments->layout, "How films hold two eyes, if they do not say");
+  command.add_option("--frames", arguments->frames, "Only so many, from the first; 0 for all")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  command.add_option("--stereo-every", arguments->stereo_every, "The eyes of each so many-th frame are compared")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command.footer(
+      "E_warp is the mean squared difference, of 0..1, of each frame and the next warped back along the source's "
+      "flow,\n"
+      "where that flow is confirmed; cuts are left out. Of the left eye. Blurring wins on it: look at the gradient\n"
+      "energy in --json, too.\n\n"
+      "Example:\n  wheatstone synth film -o film\n"
+      "  wheatstone measure film painted --against film --truth film");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli
