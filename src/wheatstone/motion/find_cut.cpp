@@ -31,7 +31,7 @@ Image<Rgb8> shrunk(ImageView<const Rgb8> picture) {
 std::vector<int> histogram(const Image<Rgb8>& picture) {
   std::vector<int> counts(std::size_t{8} * 8 * 8);
   for (const Rgb8 pixel : picture.pixels())
-    ++counts[static_cast<std::size_t>(pixel.r >> 5) * 64 + (pixel.g >> 5) * 8 + (pixel.b >> 5)];
+    ++counts[static_cast<std::size_t>((pixel.r >> 5) << 6 | (pixel.g >> 5) << 3 | pixel.b >> 5)];
   return counts;
 }
 
