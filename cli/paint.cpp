@@ -72,8 +72,13 @@ void print_summary(const PaintedPhotograph& result, const PaintingMeasures* meas
   const PaintedPair& painted = result.painted;
   std::size_t strokes = 0;
   for (const Layer& layer : painted.painting.layers) strokes += layer.strokes.size();
-  fmt::print("painted          {} strokes in {} layers, {:.2f} s\n", strokes, painted.painting.layers.size(),
-             painted.times.planning_s + painted.times.rasterising_s);
+  const double seconds = painted.times.planning_s + painted.times.rasterising_s;
+  if (painted.areas.marks.empty()) {
+    fmt::print("painted          {} strokes in {} layers, {:.2f} s\n", strokes, painted.painting.layers.size(),
+               seconds);
+  } else {
+    fmt::print("painted          {} areas, {:.2f} s\n", painted.areas.marks.size(), seconds);
+  }
   fmt::print("left bare        {:.2f} % of the left eye, {:.2f} % of the right\n", 100 * painted.left_bare_share,
              100 * painted.right_bare_share);
   fmt::print("zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);

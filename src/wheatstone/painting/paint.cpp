@@ -4,12 +4,13 @@
 #include <tbb/parallel_invoke.h>
 
 #include <chrono>
-#include <cmath>
 
 #include "wheatstone/error.h"
 #include "wheatstone/painting/easel_internal.h"
+#include "wheatstone/painting/fitting_pair_internal.h"
 #include "wheatstone/painting/layer_order_internal.h"
 #include "wheatstone/painting/occluded_part_internal.h"
+#include "wheatstone/painting/posterise.h"
 #include "wheatstone/painting/propagate_internal.h"
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/stereo/warp.h"
@@ -110,22 +111,43 @@ Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, con
   return joined(std::move(left), right);
 }
 
-void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {
-  const auto check = [&](const auto& image, std::string_view name) {
-    if (!same_size(image, photographs.left))
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{} is {}x{} pixels, expected the photographs' {}x{}", name, image.width(),
-                              image.height(), photographs.left.width(), photographs.left.height()));
-  };
-  if (photographs.left.empty()) throw Error(ErrorKind::bad_input, "the left picture has no pixels");
-  check(photographs.right, "the right picture");
-  check(geometry.left_disparity, "the left disparity");
-  check(geometry.right_disparity, "the right disparity");
-  check(geometry.left_occlusion, "the left occlusion mask");
-  check(geometry.right_occlusion, "the right occlusion mask");
-  for (const Image<float>* disparity : {&geometry.left_disparity, &geometry.right_disparity})
-    for (const float value : disparity->pixels())
-      if (!std::isfinite(value)) throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
+/// The areas of the kinds of marks that are not strokes.
+PolygonPainting plan_areas(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
+  return plan_posterised(photographs, geometry, style);
+}
+
+/// Draws both eyes of planned areas.
+void draw_areas(PaintedPair& result) {
+  DrawnView left, right;
+  tbb::parallel_invoke([&] { left = draw(result.areas, left_eye); }, [&] { right = draw(result.areas, right_eye); });
+  result.pictures = {std::move(left.picture), std::move(right.picture)};
+  result.left_bare_share = left.bare_share;
+  result.right_bare_share = right.bare_share;
+}
+
+PaintedPair paint_areas(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                        const Progress& progress) {
+  PaintedPair result;
+  result.painting.width = photographs.left.width();
+  result.painting.height = photographs.left.height();
+  report(progress, "painting", 0);
+  {
+    const Stopwatch watch(result.times.planning_s);
+    result.areas = plan_areas(photographs, geometry, style);
+  }
+  report(progress, "painting", 0.5);
+  const Stopwatch watch(result.times.rasterising_s);
+  draw_areas(result);
+  report(progress, "painting", 1);
+  return result;
+}
+
+void check_is_of_strokes(const Style& style) {
+  if (style.marks != Marks::strokes)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("style: {} are not brush strokes, and only those can be painted for other views than the "
+                            "two eyes",
+                            name_of(style.marks)));
 }
 
 }  // namespace
@@ -133,12 +155,14 @@ void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {
 Painting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                        const Progress& progress) {
   check_style(style);
+  check_is_of_strokes(style);
   check_fits(photographs, geometry);
   return plan(photographs, geometry, style, progress);
 }
 
 PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                   const Progress& progress) {
+  if (style.marks != Marks::strokes) return paint_areas(photographs, geometry, style, progress);
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);
@@ -153,6 +177,7 @@ PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry,
 PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
                        const Style& style, const Progress& progress) {
   check_style(style);
+  check_is_of_strokes(style);
   PaintedView result;
   {
     const Stopwatch watch(result.times.planning_s);

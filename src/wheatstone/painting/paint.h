@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wheatstone/painting/painting.h"
+#include "wheatstone/painting/polygon_mark.h"
 #include "wheatstone/painting/style.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
@@ -15,20 +16,22 @@ struct PaintingTimes {
 };
 
 /// A painting of both eyes and its two pictures. With Propagation::raster the right picture is made from pixels and is
-/// not what `draw` makes of the marks.
+/// not what `draw` makes of the marks. A style's marks are strokes, in `painting`, or areas; the other is empty.
 struct PaintedPair {
   Painting painting;
+  PolygonPainting areas;
   StereoPair pictures;
-  double left_bare_share = 0;  ///< of the pixels, 0..1, that no stroke covers
+  double left_bare_share = 0;  ///< of the pixels, 0..1, that no mark covers
   double right_bare_share = 0;
   PaintingTimes times;
 };
 
-/// The strokes of a rectified pair's painting, not drawn. What it takes and throws is as for `paint`.
+/// The strokes of a rectified pair's painting, not drawn. What it takes and throws is as for `paint`, but a style whose
+/// marks are not strokes is Error{wrong_usage}.
 Painting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                        const Progress& progress = {});
 
-/// Paints a rectified pair so that its strokes fuse. The geometry must have the pair's size and no unknown disparity.
+/// Paints a rectified pair so that its marks fuse. The geometry must have the pair's size and no unknown disparity.
 /// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not
 /// fit.
 PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
@@ -42,7 +45,7 @@ struct PaintedView {
   PaintingTimes times;
 };
 
-/// Paints one view from its photograph and disparity, for itself alone.
+/// Paints one view from its photograph and disparity, for itself alone, with strokes.
 PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
                        const Style& style, const Progress& progress = {});
 

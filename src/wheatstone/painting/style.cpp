@@ -12,8 +12,11 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 5> preset_names{"impressionist", "expressionist", "colorist-wash", "pointillist",
-                                                       "psychedelic"};
+constexpr std::array<std::string_view, 6> preset_names{"impressionist", "expressionist", "colorist-wash",
+                                                       "pointillist",   "psychedelic",   "posterise"};
+
+constexpr std::array kinds_of_marks{std::pair{Marks::strokes, std::string_view("strokes")},
+                                    std::pair{Marks::areas, std::string_view("areas")}};
 
 constexpr std::array propagations{std::pair{Propagation::strokes, std::string_view("strokes")},
                                   std::pair{Propagation::raster, std::string_view("raster")},
@@ -88,6 +91,10 @@ Style style_by_name(std::string_view name) {
     style.jitter.saturation = 0.25f;
     return style;
   }
+  if (name == "posterise") {
+    style.marks = Marks::areas;
+    return style;
+  }
   throw Error(ErrorKind::wrong_usage,
               fmt::format("style: there is no '{}', expected {}", name, fmt::join(preset_names, ", ")));
 }
@@ -109,6 +116,11 @@ void check_style(const Style& style) {
     refuse("min-length", static_cast<float>(style.min_length), fmt::format("at most max-length, {}", style.max_length));
   const ColourJitter& j = style.jitter;
   for (const float amount : {j.hue, j.saturation, j.value, j.red, j.green, j.blue}) check_range("jitter", amount, 0, 1);
+  check_range("colours", static_cast<float>(style.colours), 2, 256);
+  if (style.marks != Marks::strokes && style.propagation == Propagation::raster)
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("style: propagation is raster, expected strokes or independent for {}", name_of(style.marks)));
   check_range("depth-threshold", style.depth_threshold_px, 0.01f, 1000);
   check_range("occlusion-dilation", style.occlusion_dilation, 0, 10);
 }
@@ -118,10 +130,12 @@ float style_scale(const Style& style, int width) {
   return style.absolute_radii ? 1 : static_cast<float>(width) / nominal_width;
 }
 
+std::string_view name_of(Marks marks) { return find_name(kinds_of_marks, marks); }
 std::string_view name_of(Propagation propagation) { return find_name(propagations, propagation); }
 std::string_view name_of(Orientation orientation) { return find_name(orientations, orientation); }
 std::string_view name_of(ReferenceFilter filter) { return find_name(reference_filters, filter); }
 std::string_view name_of(Background background) { return find_name(backgrounds, background); }
+std::optional<Marks> marks_by_name(std::string_view name) { return find_value(kinds_of_marks, name); }
 std::optional<Propagation> propagation_by_name(std::string_view name) { return find_value(propagations, name); }
 std::optional<Orientation> orientation_by_name(std::string_view name) { return find_value(orientations, name); }
 std::optional<ReferenceFilter> reference_filter_by_name(std::string_view name) {

@@ -37,6 +37,12 @@ struct ColourJitter {
   friend bool operator==(const ColourJitter&, const ColourJitter&) = default;
 };
 
+/// What a painting is made of.
+enum class Marks {
+  strokes,  ///< of a brush
+  areas,    ///< of few colours: posterisation
+};
+
 /// Every parameter of a painting. The symbols are Hertzmann's (1998) and Stavrakis & Gelautz's (2004).
 struct Style {
   std::string name = "impressionist";
@@ -50,6 +56,9 @@ struct Style {
   int min_length = 4;                    ///< control points before a stroke may end by the colour criterion
   int max_length = 16;                   ///< control points at most; 0 paints dots
   ColourJitter jitter;
+
+  Marks marks = Marks::strokes;
+  int colours = 14;  ///< k: of a posterised picture
 
   bool depth_test = true;             ///< end strokes at depth discontinuities
   float depth_threshold_px = 2;       ///< T_depth, as a difference in disparity, for a picture 640 pixels wide
@@ -65,7 +74,7 @@ struct Style {
   friend bool operator==(const Style&, const Style&) = default;
 };
 
-/// The names of the presets, Hertzmann's (1998, sec. 3.2).
+/// The names of the presets: Hertzmann's (1998, sec. 3.2), then those of Bukenberger et al. (2015, sec. 4).
 std::span<const std::string_view> style_names();
 
 /// A preset by name. Throws Error{wrong_usage} that lists the names where there is none such.
@@ -77,10 +86,12 @@ void check_style(const Style& style);
 /// Pixels of a picture `width` wide for one pixel of a 640-pixel-wide one; 1 with absolute radii.
 float style_scale(const Style& style, int width);
 
+std::string_view name_of(Marks marks);
 std::string_view name_of(Propagation propagation);
 std::string_view name_of(Orientation orientation);
 std::string_view name_of(ReferenceFilter filter);
 std::string_view name_of(Background background);
+std::optional<Marks> marks_by_name(std::string_view name);
 std::optional<Propagation> propagation_by_name(std::string_view name);
 std::optional<Orientation> orientation_by_name(std::string_view name);
 std::optional<ReferenceFilter> reference_filter_by_name(std::string_view name);

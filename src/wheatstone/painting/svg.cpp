@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <vector>
 
 #include "wheatstone/image/whole_file.h"
 #include "wheatstone/painting/rasterise_internal.h"
@@ -50,6 +52,20 @@ void add_layer(Text& text, const Layer& layer, float view) {
   add(text, "</g>\n");
 }
 
+void add_area(Text& text, const PolygonPainting& painting, const PolygonMark& mark, float view) {
+  add(text, "<path fill=\"#{0:02x}{1:02x}{2:02x}\" stroke=\"#{0:02x}{1:02x}{2:02x}\" d=\"", mark.colour.r,
+      mark.colour.g, mark.colour.b);
+  for (const Ring& ring : painting.rings_of(mark)) {
+    char command = 'M';
+    for (const ControlPoint& point : painting.points_of(ring)) {
+      add(text, "{}{:.2f} {:.2f}", command, x_in_view(point, mark.reference_view, view), point.y);
+      command = 'L';
+    }
+    add(text, "Z");
+  }
+  add(text, "\"/>\n");
+}
+
 }  // namespace
 
 std::string svg_of(const Painting& painting, float view) {
@@ -65,7 +81,26 @@ std::string svg_of(const Painting& painting, float view) {
   return fmt::to_string(text);
 }
 
+std::string svg_of(const PolygonPainting& painting, float view) {
+  Text text;
+  add(text,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+      "fill-rule=\"evenodd\" stroke-width=\"0.5\" stroke-linejoin=\"round\">\n",
+      painting.width, painting.height);
+  std::vector<const PolygonMark*> marks;
+  for (const PolygonMark& mark : painting.marks)
+    if (mark.views.contains(view)) marks.push_back(&mark);
+  std::ranges::stable_sort(marks, {}, &PolygonMark::disparity);
+  for (const PolygonMark* mark : marks) add_area(text, painting, *mark, view);
+  add(text, "</svg>\n");
+  return fmt::to_string(text);
+}
+
 void write_svg(const std::filesystem::path& path, const Painting& painting, float view) {
+  write_whole_file(path, svg_of(painting, view));
+}
+
+void write_svg(const std::filesystem::path& path, const PolygonPainting& painting, float view) {
   write_whole_file(path, svg_of(painting, view));
 }
 

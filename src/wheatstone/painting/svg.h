@@ -4,6 +4,7 @@
 #include <string>
 
 #include "wheatstone/painting/painting.h"
+#include "wheatstone/painting/polygon_mark.h"
 
 namespace wheatstone {
 
@@ -11,7 +12,12 @@ namespace wheatstone {
 /// B-spline written as the Bézier curves that are equal to it. The brush's soft rim becomes a hard edge at half cover.
 std::string svg_of(const Painting& painting, float view);
 
+/// Areas as one view sees them, far to near: every mark a path, its holes left out. Seams between neighbours are closed
+/// by a thin line of the mark's colour.
+std::string svg_of(const PolygonPainting& painting, float view);
+
 /// Throws Error{cannot_read_write}.
 void write_svg(const std::filesystem::path& path, const Painting& painting, float view);
+void write_svg(const std::filesystem::path& path, const PolygonPainting& painting, float view);
 
 }  // namespace wheatstone

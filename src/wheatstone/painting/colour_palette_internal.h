@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// The colours that stand best for a picture's: k-means in RGB, begun as k-means++ (Arthur & Vassilvitskii 2007). At
+/// most `count`; fewer where the picture has fewer. The same for the same seed.
+std::vector<Rgb8> find_palette(ImageView<const Rgb8> picture, int count, std::uint64_t seed);
+
+/// The index of the palette's colour that is nearest in RGB; the palette is not empty.
+std::size_t nearest_colour(const std::vector<Rgb8>& palette, Rgb8 colour);
+
+}  // namespace wheatstone

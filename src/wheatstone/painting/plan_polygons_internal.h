@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+
+#include "wheatstone/painting/polygon_mark.h"
+#include "wheatstone/painting/regions_internal.h"
+#include "wheatstone/painting/style.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone {
+
+/// What one view's areas are cut from. All pictures are of one size.
+struct ViewToCut {
+  ImageView<const Rgb8> photograph;
+  ImageView<const float> disparity;
+  ImageView<const std::uint8_t> mask;  ///< cut only where it is not 0; empty: everywhere
+  ImageView<const Rgb8> colours_from;  ///< the photograph that a palette is chosen from
+  float view = left_eye;
+  ViewRange views;  ///< in which its marks may be drawn
+  std::uint64_t seed = 1;
+  float scale = 1;               ///< pixels for one of a picture 640 pixels wide
+  float depth_threshold_px = 2;  ///< T_depth in pixels of this picture
+};
+
+/// Appends one view's marks, in any order.
+using CutView = std::function<void(const ViewToCut&, const Style&, PolygonPainting&)>;
+
+/// Cuts the left view into marks that both eyes show, and what only the right eye sees into marks of its own; or, where
+/// the style says so, each eye for itself. Throws Error{bad_input} where pictures and geometry do not fit together,
+/// wrong_usage for a style that cannot be painted with.
+PolygonPainting plan_polygons(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                              const CutView& cut);
+
+/// The photograph without its grain, its edges kept: what areas are cut from.
+Image<Rgb8> without_grain(ImageView<const Rgb8> photograph, float scale);
+
+/// The disparity without single outliers.
+Image<float> without_outliers(ImageView<const float> disparity);
+
+}  // namespace wheatstone

@@ -1,0 +1,163 @@
+// Posterised pictures and mosaics of a small scene: both eyes must show the same areas.
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+
+#include "throws_error.h"
+#include "wheatstone/error.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/two_surfaces_internal.h"
+#include "wheatstone/stereo/consistency.h"
+
+namespace wheatstone {
+namespace {
+
+/// The scene as two cameras take it: each eye has grain of its own, and the right camera's picture is a little lighter.
+StereoPair as_photographed() {
+  StereoPair pair = test_scene::photographs();
+  std::uint64_t eye = 0;
+  for (Image<Rgb8>* picture : {&pair.left, &pair.right}) {
+    ++eye;
+    for (std::size_t i = 0; i < picture->pixels().size(); ++i) {
+      const float gain = eye == 2 ? 1.06f : 1.f;
+      const auto grainy = [&](std::uint8_t level, std::uint64_t channel) {
+        const float noise = 16 * (unit_float(hash({eye, i, channel})) - 0.5f);
+        return static_cast<std::uint8_t>(std::clamp(gain * static_cast<float>(level) + noise, 0.f, 255.f));
+      };
+      Rgb8& pixel = picture->pixels()[i];
+      pixel = {grainy(pixel.r, 0), grainy(pixel.g, 1), grainy(pixel.b, 2)};
+    }
+  }
+  return pair;
+}
+
+Style small_style(std::string_view name, Propagation propagation = Propagation::strokes) {
+  Style style = style_by_name(name);
+  style.absolute_radii = true;
+  style.propagation = propagation;
+  return style;
+}
+
+PaintedPair paint_scene(const Style& style) { return paint(as_photographed(), test_scene::geometry(), style); }
+
+double difference_of(const PaintedPair& painted) {
+  return measure_left_right_difference(painted.pictures, test_scene::geometry().left_disparity).mean_absolute;
+}
+
+class PolygonStyle : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(PolygonStyle, FusesWhereIndependentEyesDoNot) {
+  const double both = difference_of(paint_scene(small_style(GetParam())));
+  const double independent = difference_of(paint_scene(small_style(GetParam(), Propagation::independent)));
+  RecordProperty("both", std::to_string(both));
+  RecordProperty("independent", std::to_string(independent));
+  EXPECT_LT(both, 0.35 * independent);
+}
+
+TEST_P(PolygonStyle, CoversBothEyes) {
+  const PaintedPair painted = paint_scene(small_style(GetParam()));
+  EXPECT_LT(painted.left_bare_share, 0.005);
+  EXPECT_LT(painted.right_bare_share, 0.005);
+}
+
+TEST_P(PolygonStyle, LeavesTheRightEyeBareWithoutWhatOnlyItSees) {
+  PolygonPainting areas = paint_scene(small_style(GetParam())).areas;
+  std::erase_if(areas.marks, [](const PolygonMark& mark) { return mark.reference_view == right_eye; });
+  EXPECT_GT(draw(areas, right_eye).bare_share, 0.02);
+  EXPECT_LT(draw(areas, left_eye).bare_share, 0.005);
+}
+
+TEST_P(PolygonStyle, GivesTheSameBytesOnAnyNumberOfThreads) {
+  PaintedPair first;
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    PaintedPair painted = paint_scene(small_style(GetParam()));
+    if (first.areas.marks.empty()) first = painted;
+    EXPECT_EQ(painted.areas, first.areas);
+    EXPECT_EQ(painted.pictures.left, first.pictures.left);
+    EXPECT_EQ(painted.pictures.right, first.pictures.right);
+  }
+}
+
+/// How many marks have points of both surfaces.
+std::size_t spanning_marks(const PolygonPainting& areas) {
+  return static_cast<std::size_t>(std::ranges::count_if(areas.marks, [&](const PolygonMark& mark) {
+    float least = 1e9f, most = -1e9f;
+    for (const Ring& ring : areas.rings_of(mark)) {
+      for (const ControlPoint& point : areas.points_of(ring)) {
+        least = std::min(least, point.disparity);
+        most = std::max(most, point.disparity);
+      }
+    }
+    return most - least > 1;
+  }));
+}
+
+TEST_P(PolygonStyle, NoPolygonSpansTwoSurfacesUnlessDepthIsIgnored) {
+  Style style = small_style(GetParam());
+  const PolygonPainting areas = paint_scene(style).areas;
+  EXPECT_EQ(spanning_marks(areas), 0u);
+  for (const Ring& ring : areas.rings) EXPECT_GE(ring.point_count, 3u);
+  style.depth_threshold_px = 100;
+  EXPECT_GT(spanning_marks(paint_scene(style).areas), 0u);
+}
+
+TEST_P(PolygonStyle, StaysWhatItIsOnPicturesOfAnySize) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {1, 7}, {9, 5}}) {
+    const StereoPair tiny{Image<Rgb8>(width, height, {9, 99, 199}), Image<Rgb8>(width, height, {9, 99, 199})};
+    const PaintedPair painted =
+        paint(tiny, geometry_from_left(Image<float>(width, height, 0)), small_style(GetParam()));
+    EXPECT_EQ(painted.pictures.left, tiny.left) << width << "x" << height;
+  }
+}
+
+TEST_P(PolygonStyle, RefusesWhatDoesNotFit) {
+  StereoGeometry geometry = test_scene::geometry();
+  geometry.left_disparity = Image<float>(3, 3);
+  expect_error(ErrorKind::bad_input, "3x3",
+               [&] { paint(test_scene::photographs(), geometry, small_style(GetParam())); });
+  expect_error(ErrorKind::wrong_usage, "raster", [&] { paint_scene(small_style(GetParam(), Propagation::raster)); });
+  expect_error(ErrorKind::wrong_usage, "not brush strokes",
+               [&] { plan_painting(test_scene::photographs(), test_scene::geometry(), small_style(GetParam())); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PolygonStyle, testing::Values("posterise"));
+
+TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
+  Style style = small_style("posterise");
+  style.colours = 3;
+  std::vector<std::uint32_t> colours;
+  for (const PolygonMark& mark : paint_scene(style).areas.marks)
+    colours.push_back(mark.colour.r * 65536u + mark.colour.g * 256u + mark.colour.b);
+  std::ranges::sort(colours);
+  colours.erase(std::unique(colours.begin(), colours.end()), colours.end());
+  EXPECT_EQ(colours.size(), 3u);
+}
+
+TEST(DrawPolygons, LeavesHolesAndHidesByDepth) {
+  // A far square with a hole, and a nearer one that moves over it.
+  PolygonPainting painting{20, 20, {}, {}, {}};
+  const auto add_square = [&](float low, float high, float disparity) {
+    painting.rings.push_back({static_cast<std::uint32_t>(painting.points.size()), 4});
+    for (const auto& [x, y] : {std::pair{low, low}, {high, low}, {high, high}, {low, high}})
+      painting.points.push_back({x, y, disparity});
+  };
+  add_square(2, 18, 0);
+  add_square(8, 12, 0);
+  add_square(14, 16, 4);
+  painting.marks = {{.first_ring = 0, .ring_count = 2, .colour = {200, 0, 0}},
+                    {.first_ring = 2, .ring_count = 1, .colour = {0, 200, 0}, .disparity = 4}};
+  const DrawnView left = draw(painting, left_eye), right = draw(painting, right_eye);
+  EXPECT_EQ(left.picture(15, 15), (Rgb8{0, 200, 0}));
+  EXPECT_EQ(right.picture(11, 15), (Rgb8{0, 200, 0}));
+  EXPECT_EQ(right.picture(15, 15), (Rgb8{200, 0, 0}));
+  EXPECT_EQ(left.bare(10, 10), 255);
+  EXPECT_EQ(left.bare(5, 5), 0);
+  std::ranges::reverse(painting.marks);  // what is nearer hides what is farther, whatever the order
+  EXPECT_EQ(draw(painting, right_eye).picture(11, 15), (Rgb8{0, 200, 0}));
+}
+
+}  // namespace
+}  // namespace wheatstone
