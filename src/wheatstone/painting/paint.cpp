@@ -9,6 +9,7 @@
 #include "wheatstone/painting/easel_internal.h"
 #include "wheatstone/painting/fitting_pair_internal.h"
 #include "wheatstone/painting/layer_order_internal.h"
+#include "wheatstone/painting/mosaic.h"
 #include "wheatstone/painting/occluded_part_internal.h"
 #include "wheatstone/painting/posterise.h"
 #include "wheatstone/painting/propagate_internal.h"
@@ -113,7 +114,8 @@ Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, con
 
 /// The areas of the kinds of marks that are not strokes.
 PolygonPainting plan_areas(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
-  return plan_posterised(photographs, geometry, style);
+  return style.marks == Marks::tiles ? plan_mosaic(photographs, geometry, style)
+                                     : plan_posterised(photographs, geometry, style);
 }
 
 /// Draws both eyes of planned areas.

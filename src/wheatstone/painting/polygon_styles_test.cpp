@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "throws_error.h"
 #include "wheatstone/error.h"
@@ -109,7 +110,8 @@ TEST_P(PolygonStyle, StaysWhatItIsOnPicturesOfAnySize) {
     const StereoPair tiny{Image<Rgb8>(width, height, {9, 99, 199}), Image<Rgb8>(width, height, {9, 99, 199})};
     const PaintedPair painted =
         paint(tiny, geometry_from_left(Image<float>(width, height, 0)), small_style(GetParam()));
-    EXPECT_EQ(painted.pictures.left, tiny.left) << width << "x" << height;
+    EXPECT_EQ(painted.left_bare_share, 0) << width << "x" << height;
+    EXPECT_EQ(painted.pictures.left, painted.pictures.right) << width << "x" << height;
   }
 }
 
@@ -123,7 +125,7 @@ TEST_P(PolygonStyle, RefusesWhatDoesNotFit) {
                [&] { plan_painting(test_scene::photographs(), test_scene::geometry(), small_style(GetParam())); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, PolygonStyle, testing::Values("posterise"));
+INSTANTIATE_TEST_SUITE_P(Of, PolygonStyle, testing::Values("posterise", "mosaic"));
 
 TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
   Style style = small_style("posterise");
@@ -134,6 +136,35 @@ TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
   std::ranges::sort(colours);
   colours.erase(std::unique(colours.begin(), colours.end()), colours.end());
   EXPECT_EQ(colours.size(), 3u);
+}
+
+/// How far the joints inside a diagonal stripe run along it or across: 1 all, 0 they stand anyhow, −1 none.
+double diagonal_order(const PolygonPainting& areas) {
+  double order = 0, all = 0;
+  for (const Ring& ring : areas.rings) {
+    const auto points = areas.points_of(ring);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const ControlPoint &a = points[i], &b = points[(i + 1) % points.size()];
+      constexpr float inside = 20;
+      if (std::abs(a.x - a.y) > inside || std::abs(b.x - b.y) > inside) continue;
+      const double dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y);
+      order -= std::hypot(dx, dy) * std::cos(4 * std::atan2(dy, dx));
+      all += std::hypot(dx, dy);
+    }
+  }
+  return order / all;
+}
+
+TEST(Mosaic, TurnsItsTilesAlongTheEdgesOfThePicture) {
+  constexpr int size = 120;
+  Image<Rgb8> stripe(size, size), flat(size, size, {220, 200, 60});
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) stripe(x, y) = std::abs(x - y) < 30 ? Rgb8{220, 200, 60} : Rgb8{40, 60, 160};
+  Style style = small_style("mosaic");
+  style.tile_px = 12;
+  const StereoGeometry geometry = geometry_from_left(Image<float>(size, size, 0));
+  EXPECT_GT(diagonal_order(paint({stripe, stripe}, geometry, style).areas), 0.1);
+  EXPECT_LT(diagonal_order(paint({flat, flat}, geometry, style).areas), -0.1);
 }
 
 TEST(DrawPolygons, LeavesHolesAndHidesByDepth) {

@@ -12,11 +12,12 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 6> preset_names{"impressionist", "expressionist", "colorist-wash",
-                                                       "pointillist",   "psychedelic",   "posterise"};
+constexpr std::array<std::string_view, 7> preset_names{"impressionist", "expressionist", "colorist-wash", "pointillist",
+                                                       "psychedelic",   "posterise",     "mosaic"};
 
 constexpr std::array kinds_of_marks{std::pair{Marks::strokes, std::string_view("strokes")},
-                                    std::pair{Marks::areas, std::string_view("areas")}};
+                                    std::pair{Marks::areas, std::string_view("areas")},
+                                    std::pair{Marks::tiles, std::string_view("tiles")}};
 
 constexpr std::array propagations{std::pair{Propagation::strokes, std::string_view("strokes")},
                                   std::pair{Propagation::raster, std::string_view("raster")},
@@ -95,6 +96,10 @@ Style style_by_name(std::string_view name) {
     style.marks = Marks::areas;
     return style;
   }
+  if (name == "mosaic") {
+    style.marks = Marks::tiles;
+    return style;
+  }
   throw Error(ErrorKind::wrong_usage,
               fmt::format("style: there is no '{}', expected {}", name, fmt::join(preset_names, ", ")));
 }
@@ -117,6 +122,7 @@ void check_style(const Style& style) {
   const ColourJitter& j = style.jitter;
   for (const float amount : {j.hue, j.saturation, j.value, j.red, j.green, j.blue}) check_range("jitter", amount, 0, 1);
   check_range("colours", static_cast<float>(style.colours), 2, 256);
+  check_range("tile", style.tile_px, 2, 500);
   if (style.marks != Marks::strokes && style.propagation == Propagation::raster)
     throw Error(
         ErrorKind::wrong_usage,

@@ -41,6 +41,7 @@ struct ColourJitter {
 enum class Marks {
   strokes,  ///< of a brush
   areas,    ///< of few colours: posterisation
+  tiles,    ///< of a mosaic
 };
 
 /// Every parameter of a painting. The symbols are Hertzmann's (1998) and Stavrakis & Gelautz's (2004).
@@ -58,7 +59,8 @@ struct Style {
   ColourJitter jitter;
 
   Marks marks = Marks::strokes;
-  int colours = 14;  ///< k: of a posterised picture
+  int colours = 14;    ///< k: of a posterised picture
+  float tile_px = 14;  ///< width of a mosaic's tiles, for a picture 640 pixels wide
 
   bool depth_test = true;             ///< end strokes at depth discontinuities
   float depth_threshold_px = 2;       ///< T_depth, as a difference in disparity, for a picture 640 pixels wide
