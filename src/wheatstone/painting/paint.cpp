@@ -14,6 +14,7 @@
 #include "wheatstone/painting/posterise.h"
 #include "wheatstone/painting/propagate_internal.h"
 #include "wheatstone/painting/rasterise.h"
+#include "wheatstone/painting/relief.h"
 #include "wheatstone/stereo/warp.h"
 
 namespace wheatstone {
@@ -32,11 +33,17 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// Height of the paint's ridges, for a picture 640 pixels wide.
+constexpr float relief_depth_px = 1.1f;
+
 /// Draws the finished painting for one eye, over what the style wants behind it.
 DrawnView draw_over(ImageView<const Rgb8> photograph, const Painting& painting, float view, const Style& style) {
   DrawOptions over;
   if (style.background == Background::photograph) over.background = photograph;
-  return draw(painting, view, over);
+  DrawnView drawn = draw(painting, view, over);
+  if (style.texture)
+    light_relief(relief_of(painting, view), relief_depth_px * style_scale(style, painting.width), drawn.picture);
+  return drawn;
 }
 
 /// Plans one eye from its photograph alone.

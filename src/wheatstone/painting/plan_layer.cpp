@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/painting/dual_stroke_internal.h"
 #include "wheatstone/painting/jitter_internal.h"
 #include "wheatstone/painting/layer_order_internal.h"
 #include "wheatstone/painting/seed_internal.h"
@@ -119,6 +120,7 @@ void add_stroke(const LayerPlan& plan, const Style& style, Place place, const Se
   stroke.reference_view = plan.view;
   stroke.views = {plan.view, plan.view};
   layer.strokes.push_back(stroke);
+  if (style.dual) make_dual(plan, layer);
 }
 
 Target target_of(const LayerPlan& plan, const Style& style, Place place, const Grid& grid, int column, int row) {

@@ -12,8 +12,8 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 7> preset_names{"impressionist", "expressionist", "colorist-wash", "pointillist",
-                                                       "psychedelic",   "posterise",     "mosaic"};
+constexpr std::array<std::string_view, 8> preset_names{"impressionist", "expressionist", "colorist-wash", "pointillist",
+                                                       "psychedelic",   "dual",          "posterise",     "mosaic"};
 
 constexpr std::array kinds_of_marks{std::pair{Marks::strokes, std::string_view("strokes")},
                                     std::pair{Marks::areas, std::string_view("areas")},
@@ -92,6 +92,10 @@ Style style_by_name(std::string_view name) {
     style.jitter.saturation = 0.25f;
     return style;
   }
+  if (name == "dual") {
+    style.dual = true;
+    return style;
+  }
   if (name == "posterise") {
     style.marks = Marks::areas;
     return style;
@@ -127,6 +131,8 @@ void check_style(const Style& style) {
     throw Error(
         ErrorKind::wrong_usage,
         fmt::format("style: propagation is raster, expected strokes or independent for {}", name_of(style.marks)));
+  if (style.marks != Marks::strokes && style.texture)
+    throw Error(ErrorKind::wrong_usage, fmt::format("style: texture is for strokes, not for {}", name_of(style.marks)));
   check_range("depth-threshold", style.depth_threshold_px, 0.01f, 1000);
   check_range("occlusion-dilation", style.occlusion_dilation, 0, 10);
 }

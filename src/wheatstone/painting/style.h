@@ -57,6 +57,8 @@ struct Style {
   int min_length = 4;                    ///< control points before a stroke may end by the colour criterion
   int max_length = 16;                   ///< control points at most; 0 paints dots
   ColourJitter jitter;
+  bool texture = false;  ///< the finished strokes' paint stands up from the canvas, lit from one side
+  bool dual = false;     ///< strokes of two colours, side by side
 
   Marks marks = Marks::strokes;
   int colours = 14;    ///< k: of a posterised picture

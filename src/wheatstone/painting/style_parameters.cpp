@@ -103,6 +103,8 @@ std::vector<StyleParameter> make_parameters() {
       jitter("jitter-red", "random change of red, 0..1", &ColourJitter::red),
       jitter("jitter-green", "random change of green, 0..1", &ColourJitter::green),
       jitter("jitter-blue", "random change of blue, 0..1", &ColourJitter::blue),
+      toggle("dual", "strokes of two colours, side by side", &Style::dual),
+      toggle("texture", "paint stands up from the canvas and is lit from one side", &Style::texture),
       choice("marks", "what the picture is made of: strokes, areas of few colours, or tiles of a mosaic", &Style::marks,
              marks_by_name, "strokes, areas or tiles"),
       number("colours", "k: how many a posterised picture has", &Style::colours),

@@ -44,6 +44,8 @@ void add_layer(Text& text, const Layer& layer, float view) {
   for (const Stroke& stroke : layer.strokes) {
     if (!stroke.views.contains(view)) continue;
     add(text, "<path stroke=\"#{:02x}{:02x}{:02x}\"", stroke.colour.r, stroke.colour.g, stroke.colour.b);
+    if (stroke.radius_px != layer.radius_px)
+      add(text, " stroke-width=\"{:.2f}\"", 2 * BrushProfile(stroke.radius_px).middle_px);
     if (stroke.opacity < 1) add(text, " stroke-opacity=\"{:.3g}\"", stroke.opacity);
     add(text, " d=\"");
     add_spline(text, ClampedSpline(layer.points_of(stroke), stroke.reference_view, view));
