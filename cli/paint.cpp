@@ -73,7 +73,9 @@ void print_summary(const PaintedPhotograph& result, const PaintingMeasures* meas
   std::size_t strokes = 0;
   for (const Layer& layer : painted.painting.layers) strokes += layer.strokes.size();
   const double seconds = painted.times.planning_s + painted.times.rasterising_s;
-  if (painted.areas.marks.empty()) {
+  if (!painted.curves.lines.empty()) {
+    fmt::print("painted          {} lines beside edges, {:.2f} s\n", painted.curves.lines.size(), seconds);
+  } else if (painted.areas.marks.empty()) {
     fmt::print("painted          {} strokes in {} layers, {:.2f} s\n", strokes, painted.painting.layers.size(),
                seconds);
   } else {

@@ -61,6 +61,7 @@ std::string report_json(const PaintedPhotograph& result, const Style& style, con
               {"seed", style.seed},
               {"layers", layers_json(painting)},
               {"areas", result.painted.areas.marks.size()},
+              {"curves", result.painted.curves.lines.size()},
               {"zero_parallax_px", rounded(result.zero_parallax_px)},
               {"left_occluded_share", occluded_share(result.geometry.left_occlusion)},
               {"right_occluded_share", occluded_share(result.geometry.right_occlusion)},

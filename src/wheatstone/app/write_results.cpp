@@ -46,6 +46,9 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
     outputs.push_back({"painting.wst", [&](const Path& path) { write_painting(path, painting); }});
     outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }});
     outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }});
+  } else if (style.marks == Marks::curves) {
+    outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, result.painted.curves, left_eye); }});
+    outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, result.painted.curves, right_eye); }});
   } else {
     outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, result.painted.areas, left_eye); }});
     outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, result.painted.areas, right_eye); }});

@@ -119,34 +119,39 @@ Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, con
   return joined(std::move(left), right);
 }
 
-/// The areas of the kinds of marks that are not strokes.
-PolygonPainting plan_areas(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
-  return style.marks == Marks::tiles ? plan_mosaic(photographs, geometry, style)
-                                     : plan_posterised(photographs, geometry, style);
+/// Plans the kinds of marks that are not strokes.
+void plan_other_marks(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                      PaintedPair& result) {
+  if (style.marks == Marks::areas) result.areas = plan_posterised(photographs, geometry, style);
+  if (style.marks == Marks::tiles) result.areas = plan_mosaic(photographs, geometry, style);
+  if (style.marks == Marks::curves) result.curves = plan_diffusion(photographs, geometry, style);
 }
 
-/// Draws both eyes of planned areas.
-void draw_areas(PaintedPair& result) {
+/// Draws both eyes of what was planned.
+void draw_other_marks(const Style& style, PaintedPair& result) {
+  const auto drawn = [&](float view) {
+    return style.marks == Marks::curves ? draw(result.curves, view) : draw(result.areas, view);
+  };
   DrawnView left, right;
-  tbb::parallel_invoke([&] { left = draw(result.areas, left_eye); }, [&] { right = draw(result.areas, right_eye); });
+  tbb::parallel_invoke([&] { left = drawn(left_eye); }, [&] { right = drawn(right_eye); });
   result.pictures = {std::move(left.picture), std::move(right.picture)};
   result.left_bare_share = left.bare_share;
   result.right_bare_share = right.bare_share;
 }
 
-PaintedPair paint_areas(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                        const Progress& progress) {
+PaintedPair paint_other_marks(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                              const Progress& progress) {
   PaintedPair result;
   result.painting.width = photographs.left.width();
   result.painting.height = photographs.left.height();
   report(progress, "painting", 0);
   {
     const Stopwatch watch(result.times.planning_s);
-    result.areas = plan_areas(photographs, geometry, style);
+    plan_other_marks(photographs, geometry, style, result);
   }
   report(progress, "painting", 0.5);
   const Stopwatch watch(result.times.rasterising_s);
-  draw_areas(result);
+  draw_other_marks(style, result);
   report(progress, "painting", 1);
   return result;
 }
@@ -171,7 +176,7 @@ Painting plan_painting(const StereoPair& photographs, const StereoGeometry& geom
 
 PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                   const Progress& progress) {
-  if (style.marks != Marks::strokes) return paint_areas(photographs, geometry, style, progress);
+  if (style.marks != Marks::strokes) return paint_other_marks(photographs, geometry, style, progress);
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheatstone/painting/diffusion_curves.h"
 #include "wheatstone/painting/painting.h"
 #include "wheatstone/painting/polygon_mark.h"
 #include "wheatstone/painting/style.h"
@@ -16,10 +17,11 @@ struct PaintingTimes {
 };
 
 /// A painting of both eyes and its two pictures. With Propagation::raster the right picture is made from pixels and is
-/// not what `draw` makes of the marks. A style's marks are strokes, in `painting`, or areas; the other is empty.
+/// not what `draw` makes of the marks. A style's marks are strokes, areas or curves; the others are empty.
 struct PaintedPair {
   Painting painting;
-  PolygonPainting areas;
+  PolygonPainting areas;  ///< of a posterised picture or a mosaic
+  DiffusionPainting curves;
   StereoPair pictures;
   double left_bare_share = 0;  ///< of the pixels, 0..1, that no mark covers
   double right_bare_share = 0;

@@ -15,25 +15,6 @@
 namespace wheatstone {
 namespace {
 
-/// The scene as two cameras take it: each eye has grain of its own, and the right camera's picture is a little lighter.
-StereoPair as_photographed() {
-  StereoPair pair = test_scene::photographs();
-  std::uint64_t eye = 0;
-  for (Image<Rgb8>* picture : {&pair.left, &pair.right}) {
-    ++eye;
-    for (std::size_t i = 0; i < picture->pixels().size(); ++i) {
-      const float gain = eye == 2 ? 1.06f : 1.f;
-      const auto grainy = [&](std::uint8_t level, std::uint64_t channel) {
-        const float noise = 16 * (unit_float(hash({eye, i, channel})) - 0.5f);
-        return static_cast<std::uint8_t>(std::clamp(gain * static_cast<float>(level) + noise, 0.f, 255.f));
-      };
-      Rgb8& pixel = picture->pixels()[i];
-      pixel = {grainy(pixel.r, 0), grainy(pixel.g, 1), grainy(pixel.b, 2)};
-    }
-  }
-  return pair;
-}
-
 Style small_style(std::string_view name, Propagation propagation = Propagation::strokes) {
   Style style = style_by_name(name);
   style.absolute_radii = true;
@@ -41,7 +22,9 @@ Style small_style(std::string_view name, Propagation propagation = Propagation::
   return style;
 }
 
-PaintedPair paint_scene(const Style& style) { return paint(as_photographed(), test_scene::geometry(), style); }
+PaintedPair paint_scene(const Style& style) {
+  return paint(test_scene::as_photographed(), test_scene::geometry(), style);
+}
 
 double difference_of(const PaintedPair& painted) {
   return measure_left_right_difference(painted.pictures, test_scene::geometry().left_disparity).mean_absolute;

@@ -12,12 +12,13 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 8> preset_names{"impressionist", "expressionist", "colorist-wash", "pointillist",
-                                                       "psychedelic",   "dual",          "posterise",     "mosaic"};
+constexpr std::array<std::string_view, 9> preset_names{"impressionist", "expressionist", "colorist-wash",
+                                                       "pointillist",   "psychedelic",   "dual",
+                                                       "posterise",     "mosaic",        "diffusion"};
 
-constexpr std::array kinds_of_marks{std::pair{Marks::strokes, std::string_view("strokes")},
-                                    std::pair{Marks::areas, std::string_view("areas")},
-                                    std::pair{Marks::tiles, std::string_view("tiles")}};
+constexpr std::array kinds_of_marks{
+    std::pair{Marks::strokes, std::string_view("strokes")}, std::pair{Marks::areas, std::string_view("areas")},
+    std::pair{Marks::tiles, std::string_view("tiles")}, std::pair{Marks::curves, std::string_view("curves")}};
 
 constexpr std::array propagations{std::pair{Propagation::strokes, std::string_view("strokes")},
                                   std::pair{Propagation::raster, std::string_view("raster")},
@@ -98,6 +99,10 @@ Style style_by_name(std::string_view name) {
   }
   if (name == "posterise") {
     style.marks = Marks::areas;
+    return style;
+  }
+  if (name == "diffusion") {
+    style.marks = Marks::curves;
     return style;
   }
   if (name == "mosaic") {

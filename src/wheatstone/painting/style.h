@@ -42,6 +42,7 @@ enum class Marks {
   strokes,  ///< of a brush
   areas,    ///< of few colours: posterisation
   tiles,    ///< of a mosaic
+  curves,   ///< along edges, whose colours spread between them: diffusion curves
 };
 
 /// Every parameter of a painting. The symbols are Hertzmann's (1998) and Stavrakis & Gelautz's (2004).

@@ -68,6 +68,25 @@ void add_area(Text& text, const PolygonPainting& painting, const PolygonMark& ma
   add(text, "\"/>\n");
 }
 
+void add_line(Text& text, const DiffusionPainting& painting, const ColourLine& line, float view) {
+  const auto points = painting.points_of(line);
+  std::size_t red = 0, green = 0, blue = 0;
+  for (const ColourPoint& point : points) {
+    red += point.colour.r;
+    green += point.colour.g;
+    blue += point.colour.b;
+  }
+  add(text, "<path stroke=\"#{:02x}{:02x}{:02x}\" d=\"", red / points.size(), green / points.size(),
+      blue / points.size());
+  char command = 'M';
+  for (const ColourPoint& point : points) {
+    add(text, "{}{:.2f} {:.2f}", command, x_in_view(point.at, line.reference_view, view), point.at.y);
+    command = 'L';
+  }
+  if (points.size() == 1) add(text, "h0");
+  add(text, "\"/>\n");
+}
+
 }  // namespace
 
 std::string svg_of(const Painting& painting, float view) {
@@ -98,11 +117,27 @@ std::string svg_of(const PolygonPainting& painting, float view) {
   return fmt::to_string(text);
 }
 
+std::string svg_of(const DiffusionPainting& painting, float view) {
+  Text text;
+  add(text,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" fill=\"none\" "
+      "stroke-width=\"1\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
+      painting.width, painting.height);
+  for (const ColourLine& line : painting.lines)
+    if (line.views.contains(view)) add_line(text, painting, line, view);
+  add(text, "</svg>\n");
+  return fmt::to_string(text);
+}
+
 void write_svg(const std::filesystem::path& path, const Painting& painting, float view) {
   write_whole_file(path, svg_of(painting, view));
 }
 
 void write_svg(const std::filesystem::path& path, const PolygonPainting& painting, float view) {
+  write_whole_file(path, svg_of(painting, view));
+}
+
+void write_svg(const std::filesystem::path& path, const DiffusionPainting& painting, float view) {
   write_whole_file(path, svg_of(painting, view));
 }
 

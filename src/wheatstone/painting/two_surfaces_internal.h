@@ -2,6 +2,7 @@
 
 // A small pair with known truth, for the painting room's tests: a textured far wall and a nearer square before it.
 
+#include <algorithm>
 #include <cmath>
 
 #include "wheatstone/random.h"
@@ -51,6 +52,25 @@ inline StereoGeometry geometry() {
     }
   }
   return geometry_from_both(left, right, {.least_occlusion_px = 1});
+}
+
+/// The scene as two cameras take it: each eye has grain of its own, and the right camera's picture is a little lighter.
+inline StereoPair as_photographed() {
+  StereoPair pair = photographs();
+  std::uint64_t eye = 0;
+  for (Image<Rgb8>* picture : {&pair.left, &pair.right}) {
+    ++eye;
+    for (std::size_t i = 0; i < picture->pixels().size(); ++i) {
+      const float gain = eye == 2 ? 1.06f : 1.f;
+      const auto grainy = [&](std::uint8_t level, std::uint64_t channel) {
+        const float noise = 16 * (unit_float(hash({eye, i, channel})) - 0.5f);
+        return static_cast<std::uint8_t>(std::clamp(gain * static_cast<float>(level) + noise, 0.f, 255.f));
+      };
+      Rgb8& pixel = picture->pixels()[i];
+      pixel = {grainy(pixel.r, 0), grainy(pixel.g, 1), grainy(pixel.b, 2)};
+    }
+  }
+  return pair;
 }
 
 }  // namespace wheatstone::test_scene
