@@ -60,6 +60,27 @@ TEST(PaintCommand, WritesAPaintingAndItsReport) {
                              "right.svg", "disparity.png", "left_occlusion.png", "report.json", "index.html"}));
 }
 
+TEST(PaintCommand, PaintsWithOtherMarksThanStrokes) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  for (const std::string style : {"posterise", "mosaic", "diffusion"}) {
+    const ProgramResult result =
+        run_program(paint_line({"--disparity", "disparity.pfm", "--style", style, "--json"}), {.folder = folder / ""});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const auto report = nlohmann::json::parse(result.output);
+    EXPECT_GT(report[style == "diffusion" ? "curves" : "areas"], 1);
+    EXPECT_LT(report["right_bare_share"], 0.005);
+    const auto files = files_in(folder / "painted");
+    EXPECT_THAT(files, testing::IsSupersetOf({"left.png", "right.png", "side_by_side.png", "anaglyph.png", "left.svg",
+                                              "right.svg", "report.json"}));
+    EXPECT_THAT(files, testing::Not(testing::Contains("painting.wst")));
+  }
+  expect_refused(folder, paint_line({"--style", "mosaic", "--propagation", "raster"}), 2, "raster");
+  expect_refused(folder, paint_line({"--style", "mosaic", "--texture"}), 2, "texture");
+  expect_refused(folder, paint_line({"--style", "mosaic", "--display", "looking-glass-go"}), 2, "strokes");
+  expect_refused(folder, paint_line({"--style", "posterise", "--colours", "1"}), 2, "colours is 1");
+}
+
 TEST(PaintCommand, SaysTheSameForTheSameSeedOnAnyNumberOfThreads) {
   const TemporaryFolder folder;
   write_pair(folder);
