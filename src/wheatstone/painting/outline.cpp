@@ -12,7 +12,7 @@ namespace {
 /// A corner between four pixels.
 struct Corner {
   int x = 0, y = 0;
-  friend auto operator<=>(const Corner&, const Corner&) = default;
+  friend bool operator==(const Corner&, const Corner&) = default;
 };
 
 /// A piece of the border between two regions, from one corner where three meet to the next, or once round.
@@ -207,7 +207,7 @@ class RingBuilder {
       : regions_(regions), disparity_(disparity), options_(options), arcs_(arcs), painting_(painting) {}
 
   void add_rings(std::int32_t region, std::vector<Side>& sides) {
-    std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.start, s.arc, s.reversed); });
+    std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.start.x, s.start.y, s.arc, s.reversed); });
     std::vector<std::uint8_t> used(sides.size());
     for (std::size_t first = 0; first < sides.size(); ++first) {
       if (used[first] != 0) continue;
@@ -236,7 +236,10 @@ class RingBuilder {
   }
 
   static std::size_t next_side(const std::vector<Side>& sides, const std::vector<std::uint8_t>& used, Corner at) {
-    auto next = static_cast<std::size_t>(std::ranges::lower_bound(sides, at, {}, &Side::start) - sides.begin());
+    auto next = static_cast<std::size_t>(
+        std::ranges::lower_bound(sides, std::pair(at.x, at.y), {},
+                                 [](const Side& s) { return std::pair(s.start.x, s.start.y); }) -
+        sides.begin());
     for (; next < sides.size() && sides[next].start == at; ++next)
       if (used[next] == 0) return next;
     return sides.size();
