@@ -55,8 +55,8 @@ void add_layer(Text& text, const Layer& layer, float view) {
 }
 
 void add_area(Text& text, const PolygonPainting& painting, const PolygonMark& mark, float view) {
-  add(text, "<path fill=\"#{0:02x}{1:02x}{2:02x}\" stroke=\"#{0:02x}{1:02x}{2:02x}\" d=\"", mark.colour.r,
-      mark.colour.g, mark.colour.b);
+  add(text, R"(<path fill="#{0:02x}{1:02x}{2:02x}" stroke="#{0:02x}{1:02x}{2:02x}" d=")", mark.colour.r, mark.colour.g,
+      mark.colour.b);
   for (const Ring& ring : painting.rings_of(mark)) {
     char command = 'M';
     for (const ControlPoint& point : painting.points_of(ring)) {
@@ -76,7 +76,7 @@ void add_line(Text& text, const DiffusionPainting& painting, const ColourLine& l
     green += point.colour.g;
     blue += point.colour.b;
   }
-  add(text, "<path stroke=\"#{:02x}{:02x}{:02x}\" d=\"", red / points.size(), green / points.size(),
+  add(text, R"(<path stroke="#{:02x}{:02x}{:02x}" d=")", red / points.size(), green / points.size(),
       blue / points.size());
   char command = 'M';
   for (const ColourPoint& point : points) {
