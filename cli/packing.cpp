@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "numbers_argument.h"
-#include "wheatstone/app/output_folder.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/arrange.h"
@@ -22,6 +21,7 @@
 #include "wheatstone/image/write_image.h"
 #include "wheatstone/stereo/match.h"
 #include "wheatstone/stereo/write_views.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -101,26 +101,6 @@ void expect_two(const Packing& packing, std::span<const Image<Rgb8>> views) {
 }
 
 StereoPair pair_of(std::span<const Image<Rgb8>> views) { return {views[0], views[1]}; }
-
-std::string write_quilt(const Packing& packing, std::span<const Image<Rgb8>> views, const fs::path& output) {
-  const QuiltLayout layout = *packing.quilt;
-  const double aspect =
-      packing.aspect > 0 ? packing.aspect : static_cast<double>(views.front().width()) / views.front().height();
-  // A name with an ending is taken as it is.
-  const fs::path file =
-      output.has_extension() ? output : output.parent_path() / quilt_name(output.filename().string(), layout, aspect);
-  write_image(file, make_quilt(views, layout));
-  return file.string();
-}
-
-void write_folder(std::span<const Image<Rgb8>> views, const std::string& output, const Progress& progress) {
-  OutputFolder folder(output);
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    report(progress, "writing", static_cast<double>(v) / static_cast<double>(views.size()));
-    write_image(folder.file(fmt::format("view_{:03}.png", v)), views[v]);
-  }
-  folder.commit();
-}
 
 /// The left view's disparity by matching, or the depth that it means.
 void write_matched(const Packing& packing, const PackingArguments& arguments, std::span<const Image<Rgb8>> views,
@@ -218,9 +198,9 @@ std::string write_packed(const Packing& packing, const PackingArguments& argumen
                          const std::string& output, const Session& session) {
   switch (packing.kind) {
     case PackingKind::quilt:
-      return write_quilt(packing, views, output);
+      return write_quilt(views, *packing.quilt, packing.aspect, output);
     case PackingKind::views:
-      write_folder(views, output, session.progress);
+      write_view_folder(views, output, session.progress);
       break;
     case PackingKind::mpo: {
       const std::vector<ImageView<const Rgb8>> all(views.begin(), views.end());

@@ -12,6 +12,7 @@
 #include "disparity_argument.h"
 #include "match_options.h"
 #include "numbers_argument.h"
+#include "size_argument.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
 #include "wheatstone/app/paint_views.h"
@@ -23,6 +24,7 @@
 #include "wheatstone/image/write_image.h"
 #include "wheatstone/painting/painting_file.h"
 #include "wheatstone/painting/style_parameters.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -103,13 +105,7 @@ PaintViewsOptions views_options(const Arguments& arguments, const PaintPhotograp
                             .span = arguments.span,
                             .widest_span = std::max(span_of(display), 1.f)};
   if (!arguments.size.empty()) {
-    const std::vector<float> size = parse_numbers("--size", arguments.size, 'x', 2);
-    constexpr float most_pixels = 16384;
-    if (!(size[0] >= 1 && size[1] >= 1 && size[0] <= most_pixels && size[1] <= most_pixels))
-      throw Error(ErrorKind::wrong_usage,
-                  fmt::format("--size: is '{}', expected 1x1 to {}x{}", arguments.size, most_pixels, most_pixels));
-    options.width = static_cast<int>(size[0]);
-    options.height = static_cast<int>(size[1]);
+    take_view_size(arguments.size, options.width, options.height);
   }
   return options;
 }
@@ -118,18 +114,9 @@ PaintViewsOptions views_options(const Arguments& arguments, const PaintPhotograp
 std::string write_views(const Arguments& arguments, const PaintedViews& result) {
   const DisplayPreset& display = find_display(arguments.display);
   const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
-  if (layout.columns * layout.rows == static_cast<int>(result.views.size())) {
-    const std::filesystem::path output = arguments.folder;
-    const std::filesystem::path file =
-        output.has_extension() ? output
-                               : output.parent_path() / quilt_name(output.filename().string(), layout, display.aspect);
-    write_image(file, make_quilt(result.views, layout));
-    return file.string();
-  }
-  OutputFolder folder(arguments.folder);
-  for (std::size_t v = 0; v < result.views.size(); ++v)
-    write_image(folder.file(fmt::format("view_{:03}.png", v)), result.views[v]);
-  folder.commit();
+  if (layout.columns * layout.rows == static_cast<int>(result.views.size()))
+    return write_quilt(result.views, layout, display.aspect, arguments.folder);
+  write_view_folder(result.views, arguments.folder);
   return arguments.folder;
 }
 

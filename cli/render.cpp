@@ -9,7 +9,7 @@
 
 #include "command.h"
 #include "numbers_argument.h"
-#include "wheatstone/app/output_folder.h"
+#include "size_argument.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/lenticular.h"
@@ -18,6 +18,7 @@
 #include "wheatstone/image/write_image.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -108,14 +109,8 @@ Arguments for_display(const Arguments& given, const CLI::App& command) {
 
 RenderParticlesOptions options_of(const Arguments& arguments) {
   RenderParticlesOptions options = arguments.options;
-  const std::vector<float> size = parse_numbers("--size", arguments.size, 'x', 2);
   const std::vector<float> splat = parse_numbers("--splat", arguments.splat, ',', 2);
-  constexpr float most_pixels = 16384;
-  if (!(size[0] >= 1 && size[1] >= 1 && size[0] <= most_pixels && size[1] <= most_pixels))
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--size: is '{}', expected 1x1 to {}x{}", arguments.size, most_pixels, most_pixels));
-  options.width = static_cast<int>(size[0]);
-  options.height = static_cast<int>(size[1]);
+  take_view_size(arguments.size, options.width, options.height);
   options.appearance.smallest_px = splat[0];
   options.appearance.largest_px = splat[1];
   if (!arguments.centre.empty()) {
@@ -191,21 +186,9 @@ std::string write_output(const Arguments& arguments, const RenderedParticles& re
   const std::vector<Image<Rgb8>>& views = result.rendered.views;
   if (!arguments.quilt.empty()) {
     const QuiltLayout layout = parse_quilt(arguments.quilt, static_cast<int>(views.size()));
-    const std::filesystem::path output = arguments.output;
-    const double aspect =
-        arguments.aspect > 0 ? arguments.aspect : static_cast<double>(views.front().width()) / views.front().height();
-    // A name with an ending is taken as it is.
-    const std::filesystem::path file =
-        output.has_extension() ? output : output.parent_path() / quilt_name(output.filename().string(), layout, aspect);
-    write_image(file, make_quilt(views, layout));
-    return file.string();
+    return write_quilt(views, layout, arguments.aspect, arguments.output);
   }
-  OutputFolder folder(arguments.output);
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    report(session.progress, "writing", static_cast<double>(v) / static_cast<double>(views.size()));
-    write_image(folder.file(fmt::format("view_{:03}.png", v)), views[v]);
-  }
-  folder.commit();
+  write_view_folder(views, arguments.output, session.progress);
   return arguments.output;
 }
 

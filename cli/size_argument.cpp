@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <vector>
 
+#include "numbers_argument.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::cli {
@@ -17,6 +19,16 @@ void take_size(const std::string& text, int& width, int& height) {
     whole = height_error == std::errc() && after_height == end;
   }
   if (!whole) throw Error(ErrorKind::wrong_usage, fmt::format("--size: '{}' is no size, expected WIDTHxHEIGHT", text));
+}
+
+void take_view_size(const std::string& text, int& width, int& height) {
+  constexpr float most_pixels = 16384;
+  const std::vector<float> size = parse_numbers("--size", text, 'x', 2);
+  if (!(size[0] >= 1 && size[1] >= 1 && size[0] <= most_pixels && size[1] <= most_pixels))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--size: is '{}', expected 1x1 to {}x{}", text, most_pixels, most_pixels));
+  width = static_cast<int>(size[0]);
+  height = static_cast<int>(size[1]);
 }
 
 }  // namespace wheatstone::cli
