@@ -104,6 +104,21 @@ WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float>
   return warped;
 }
 
+WarpedColumns warp_columns(ImageView<const float> disparity, float step) {
+  constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
+  WarpedColumns warped{Image<float>(disparity.width(), disparity.height(), nowhere),
+                       Image<float>(disparity.width(), disparity.height(), nowhere)};
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    const auto column = warped.column.row(y), nearest = warped.disparity.row(y);
+    warp_row(disparity.row(y), step, [&](int target, float d, int x, float t) {
+      if (nearest[target] >= d) return;
+      nearest[target] = d;
+      column[target] = static_cast<float>(x) + t;
+    });
+  });
+  return warped;
+}
+
 void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> disparity, float step, float tolerance_px,
                        Composition& composition) {
   constexpr float farthest = -std::numeric_limits<float>::infinity();

@@ -28,6 +28,13 @@ WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float>
 /// The same into the view `step` eye separations to the right.
 WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float> disparity, float step);
 
+/// For every pixel of the view `step` eye separations to the right: the column of this view, counted in pixel centres
+/// from 0, whose point is seen there, and its disparity; both NaN where nothing lands.
+struct WarpedColumns {
+  Image<float> column, disparity;
+};
+WarpedColumns warp_columns(ImageView<const float> disparity, float step);
+
 /// A picture that is being put together from several views, and the disparity of what it shows; NaN where nothing is.
 struct Composition {
   Image<Rgb8> picture;

@@ -1,0 +1,153 @@
+#include "wheatstone/stereo/central_view.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "wheatstone/error.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/stereo/warp.h"
+
+namespace wheatstone {
+namespace {
+
+/// From an eye to the central view, in eye separations to the right.
+constexpr float from_left = 0.5f, from_right = -0.5f;
+
+/// Disparities of one surface differ by no more.
+constexpr float same_surface_px = 1;
+
+/// What one eye shows of the central view.
+struct MappedEye {
+  Image<Rgb8> picture;
+  Image<float> disparity;  ///< NaN where the eye shows nothing
+};
+
+MappedEye map_forward(const Image<Rgb8>& picture, const Image<float>& disparity, float step) {
+  WarpedColumns warped = warp_columns(disparity, step);
+  cv::Mat rows(picture.height(), picture.width(), CV_32F);
+  for (int y = 0; y < rows.rows; ++y) rows.row(y).setTo(static_cast<float>(y));
+  cv::Mat columns = as_mat(warped.column);
+  cv::patchNaNs(columns, 0);
+  MappedEye mapped{Image<Rgb8>(picture.width(), picture.height()), std::move(warped.disparity)};
+  cv::Mat target = as_mat(mapped.picture);
+  cv::remap(as_mat(picture), target, columns, rows, cv::INTER_LANCZOS4, cv::BORDER_REPLICATE);
+  return mapped;
+}
+
+/// Gives what nothing was mapped to the colour and the disparity of the farther of its neighbours on the scan line.
+void fill_from_farther_neighbour(MappedEye& mapped) {
+  tbb::parallel_for(0, mapped.picture.height(), [&](int y) {
+    const auto disparity = mapped.disparity.row(y);
+    const auto colours = mapped.picture.row(y);
+    const std::size_t width = disparity.size();
+    for (std::size_t begin = 0; begin < width; ++begin) {
+      if (!std::isnan(disparity[begin])) continue;
+      std::size_t end = begin;
+      while (end < width && std::isnan(disparity[end])) ++end;
+      if (begin == 0 && end == width) return;  // an eye that shows nothing of this row
+      const bool after = begin == 0 || (end < width && disparity[end] < disparity[begin - 1]);
+      const std::size_t from = after ? end : begin - 1;
+      std::fill(disparity.begin() + static_cast<std::ptrdiff_t>(begin),
+                disparity.begin() + static_cast<std::ptrdiff_t>(end), disparity[from]);
+      std::fill(colours.begin() + static_cast<std::ptrdiff_t>(begin),
+                colours.begin() + static_cast<std::ptrdiff_t>(end), colours[from]);
+      begin = end;
+    }
+  });
+}
+
+Rgb8 blend(Rgb8 a, Rgb8 b, float share_of_b) {
+  const auto channel = [share_of_b](std::uint8_t from, std::uint8_t to) {
+    return static_cast<std::uint8_t>(static_cast<float>(from) +
+                                     share_of_b * (static_cast<float>(to) - static_cast<float>(from)) + 0.5f);
+  };
+  return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
+}
+
+/// How much of the right eye's colour is taken where both see a point: half where they agree, none where they do not,
+/// so that what shines in one eye only, or is matched wrongly, is not doubled.
+float share_of_right(Rgb8 left, Rgb8 right) {
+  constexpr float agree = 24, disagree = 60;
+  const int difference = std::max({std::abs(left.r - right.r), std::abs(left.g - right.g), std::abs(left.b - right.b)});
+  return 0.5f * std::clamp((disagree - static_cast<float>(difference)) / (disagree - agree), 0.f, 1.f);
+}
+
+/// Puts the right eye's part into the left eye's: what both see is blended, what one sees is taken from it.
+void merge_visible(const MappedEye& right, MappedEye& left) {
+  tbb::parallel_for(0, left.picture.height(), [&](int y) {
+    for (int x = 0; x < left.picture.width(); ++x) {
+      float& near = left.disparity(x, y);
+      const float other = right.disparity(x, y);
+      if (std::isnan(other) || near > other + same_surface_px) continue;
+      Rgb8& colour = left.picture(x, y);
+      if (near >= other - same_surface_px) {
+        colour = blend(colour, right.picture(x, y), share_of_right(colour, right.picture(x, y)));
+        near = 0.5f * (near + other);
+      } else {
+        colour = right.picture(x, y);
+        near = other;
+      }
+    }
+  });
+}
+
+/// Eqs. 2 and 4 as they stand.
+void merge_average(const MappedEye& right, MappedEye& left) {
+  tbb::parallel_for(0, left.picture.height(), [&](int y) {
+    for (int x = 0; x < left.picture.width(); ++x) {
+      left.picture(x, y) = blend(left.picture(x, y), right.picture(x, y), 0.5f);
+      left.disparity(x, y) = 0.5f * (left.disparity(x, y) + right.disparity(x, y));
+    }
+  });
+}
+
+/// The pixels of an eye whose points the central view hides or leaves out.
+Image<std::uint8_t> hidden_from_centre(const Image<float>& disparity, float step, const Image<float>& centre) {
+  Image<std::uint8_t> hidden(disparity.width(), disparity.height());
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    const auto nearest = centre.row(y);
+    for (int x = 0; x < disparity.width(); ++x) {
+      const float d = disparity(x, y), place = static_cast<float>(x) + 0.5f - step * d;
+      const bool inside = place >= 0 && place < static_cast<float>(centre.width());
+      hidden(x, y) = inside && nearest[static_cast<std::size_t>(place)] <= d + same_surface_px ? 0 : 255;
+    }
+  });
+  constexpr int least_px = 12;
+  remove_occlusion_specks(hidden, least_px);
+  return hidden;
+}
+
+void check_fits(const StereoPair& pair, const StereoGeometry& geometry) {
+  if (!same_size(pair.left, pair.right) || !same_size(pair.left, geometry.left_disparity) ||
+      !same_size(pair.left, geometry.right_disparity))
+    throw Error(ErrorKind::bad_input, "pictures and disparities of different sizes, expected one size");
+}
+
+}  // namespace
+
+CentralView make_central_view(const StereoPair& pair, const StereoGeometry& geometry, CentralMerge merge) {
+  check_fits(pair, geometry);
+  MappedEye left, right;
+  tbb::parallel_invoke([&] { left = map_forward(pair.left, geometry.left_disparity, from_left); },
+                       [&] { right = map_forward(pair.right, geometry.right_disparity, from_right); });
+  if (merge == CentralMerge::visible) {
+    merge_visible(right, left);
+    fill_from_farther_neighbour(left);
+  } else {
+    fill_from_farther_neighbour(left);
+    fill_from_farther_neighbour(right);
+    merge_average(right, left);
+  }
+  CentralView centre{std::move(left.picture), std::move(left.disparity), {}, {}};
+  tbb::parallel_invoke(
+      [&] { centre.left_only = hidden_from_centre(geometry.left_disparity, from_left, centre.disparity); },
+      [&] { centre.right_only = hidden_from_centre(geometry.right_disparity, from_right, centre.disparity); });
+  return centre;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "wheatstone/stereo/central_view.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone {
+
+/// One view of a scene, whole or the part that the reference view does not show. Borrows its images, which are of one
+/// size.
+struct SceneView {
+  ImageView<const Rgb8> picture;
+  ImageView<const float> disparity;         ///< no unknowns
+  ImageView<const std::uint8_t> only_here;  ///< 255 for what the reference view does not show; empty: all is wanted
+  float position = 0;                       ///< left eye −½, cyclopean 0, right eye +½
+};
+
+/// The left eye as reference view, and what only the right one sees.
+std::vector<SceneView> scene_from_left(const StereoPair& pair, const StereoGeometry& geometry);
+
+/// The central view as reference, and what only the left and only the right eye sees.
+std::vector<SceneView> scene_from_centre(const CentralView& centre, const StereoPair& pair,
+                                         const StereoGeometry& geometry);
+
+}  // namespace wheatstone
