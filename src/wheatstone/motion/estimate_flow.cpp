@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -93,8 +94,11 @@ FlowPair estimate_flow(ImageView<const Rgb8> first, ImageView<const Rgb8> second
       for (const Image<float>* image : {&flow->x, &flow->y}) expect_size(*image, first, "flow to start from");
   const cv::Mat a = luminance(first), b = luminance(second);
   const FlowPair* start = options.start;
-  return {estimate(a, b, options.method, start == nullptr ? nullptr : &start->forward),
-          estimate(b, a, options.method, start == nullptr ? nullptr : &start->backward)};
+  FlowPair flow;
+  tbb::parallel_invoke(
+      [&] { flow.forward = estimate(a, b, options.method, start == nullptr ? nullptr : &start->forward); },
+      [&] { flow.backward = estimate(b, a, options.method, start == nullptr ? nullptr : &start->backward); });
+  return flow;
 }
 
 }  // namespace wheatstone

@@ -77,11 +77,12 @@ std::size_t finish_band(const Glazing& glazing, const DistanceBand& band, const 
   return bare;
 }
 
-/// One stroke that covers half a pixel leaves this much light, for the most transparent paint there is.
+/// One stroke that covers half a pixel leaves this much light. Strokes that are fading do not say how opaque the paint
+/// is.
 float bare_light_of(const Painting& painting) {
-  float opacity = 1;
+  float opacity = 0;
   for (const Layer& layer : painting.layers)
-    for (const Stroke& stroke : layer.strokes) opacity = std::min(opacity, stroke.opacity);
+    for (const Stroke& stroke : layer.strokes) opacity = std::max(opacity, stroke.opacity);
   return 1 - opacity / 2;
 }
 

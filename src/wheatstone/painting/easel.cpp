@@ -1,14 +1,12 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "wheatstone/painting/depth_edges_internal.h"
 #include "wheatstone/painting/easel_internal.h"
 #include "wheatstone/painting/layer_order_internal.h"
 #include "wheatstone/painting/plan_layer_internal.h"
 #include "wheatstone/painting/rasterise.h"
-#include "wheatstone/painting/reference_picture_internal.h"
 #include "wheatstone/random.h"
 
 namespace wheatstone {
@@ -28,46 +26,41 @@ Easel::Easel(ImageView<const Rgb8> photograph_, ImageView<const float> disparity
                  ? make_canvas(photograph)
                  : Canvas(photograph.width(), photograph.height(), style.canvas_colour)) {}
 
-namespace {
+LayerSight look(const Easel& easel, const Style& style, const ScaledStyle& scaled, int layer) {
+  const float radius = scaled.radii_px[layer], threshold = scaled.depth_threshold_px;
+  const bool finest = layer + 1 == static_cast<int>(scaled.radii_px.size());
+  LayerSight sight;
+  tbb::parallel_invoke([&] { sight.reference = make_reference(easel.photograph, radius, style); },
+                       [&] {
+                         if (!style.depth_test) return;
+                         sight.depth_edges = near_depth_edge(easel.disparity, radius, threshold);
+                         if (!finest) return;
+                         sight.edge_distance = distance_to_depth_edge(easel.disparity, threshold, radius + 1);
+                         if (easel.avoid_mixed_colours)
+                           sight.mixed_colours = behind_depth_edge(easel.disparity, radius / 2, threshold);
+                       });
+  return sight;
+}
 
-/// What the depth test of one layer looks at.
-struct DepthTest {
-  DepthTest(const Easel& easel, float radius_px, float threshold_px, bool finest)
-      : edges(near_depth_edge(easel.disparity, radius_px, threshold_px)) {
-    if (!finest) return;
-    distance = distance_to_depth_edge(easel.disparity, threshold_px, radius_px + 1);
-    if (easel.avoid_mixed_colours) mixed_colours = behind_depth_edge(easel.disparity, radius_px / 2, threshold_px);
-  }
-  Image<std::uint8_t> edges, mixed_colours;
-  Image<float> distance;
-};
-
-}  // namespace
+Layer plan_on(const Easel& easel, const LayerSight& sight, const Style& style, const ScaledStyle& scaled, int layer,
+              ImageView<const std::uint8_t> seeds) {
+  const LayerPlan plan{.reference = sight.reference,
+                       .canvas = easel.canvas,
+                       .disparity = easel.disparity,
+                       .seeds = seeds,
+                       .view = easel.view,
+                       .radius_px = scaled.radii_px[layer],
+                       .layer = layer,
+                       .depth_threshold_px = scaled.depth_threshold_px,
+                       .depth_edges = sight.depth_edges,
+                       .edge_distance = sight.edge_distance,
+                       .mixed_colours = sight.mixed_colours};
+  return plan_layer(plan, style);
+}
 
 Layer plan_on(const Easel& easel, const Style& style, const ScaledStyle& scaled, int layer,
               ImageView<const std::uint8_t> seeds) {
-  const float radius = scaled.radii_px[layer];
-  const bool finest = layer + 1 == static_cast<int>(scaled.radii_px.size());
-  ReferencePicture reference;
-  std::optional<DepthTest> depth;
-  tbb::parallel_invoke([&] { reference = make_reference(easel.photograph, radius, style); },
-                       [&] {
-                         if (style.depth_test) depth.emplace(easel, radius, scaled.depth_threshold_px, finest);
-                       });
-  LayerPlan plan{.reference = reference,
-                 .canvas = easel.canvas,
-                 .disparity = easel.disparity,
-                 .seeds = seeds,
-                 .view = easel.view,
-                 .radius_px = radius,
-                 .layer = layer,
-                 .depth_threshold_px = scaled.depth_threshold_px};
-  if (depth) {
-    plan.depth_edges = depth->edges;
-    plan.edge_distance = depth->distance;
-    plan.mixed_colours = depth->mixed_colours;
-  }
-  return plan_layer(plan, style);
+  return plan_on(easel, look(easel, style, scaled, layer), style, scaled, layer, seeds);
 }
 
 void order_strokes(Layer& strokes, const Style& style, int layer) {

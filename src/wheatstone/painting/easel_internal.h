@@ -4,6 +4,7 @@
 
 #include "wheatstone/painting/canvas.h"
 #include "wheatstone/painting/painting.h"
+#include "wheatstone/painting/reference_picture_internal.h"
 #include "wheatstone/painting/style.h"
 #include "wheatstone/progress.h"
 
@@ -28,7 +29,19 @@ struct Easel {
   bool avoid_mixed_colours = true;
 };
 
+/// What one layer of one eye looks at, whatever is on the canvas. Of the depth test, all are empty where the style
+/// wants none.
+struct LayerSight {
+  ReferencePicture reference;
+  Image<std::uint8_t> depth_edges, mixed_colours;
+  Image<float> edge_distance;
+};
+
+LayerSight look(const Easel& easel, const Style& style, const ScaledStyle& scaled, int layer);
+
 /// Plans layer number `layer` of one eye, with strokes that begin only on the seeds, or anywhere where there are none.
+Layer plan_on(const Easel& easel, const LayerSight& sight, const Style& style, const ScaledStyle& scaled, int layer,
+              ImageView<const std::uint8_t> seeds);
 Layer plan_on(const Easel& easel, const Style& style, const ScaledStyle& scaled, int layer,
               ImageView<const std::uint8_t> seeds = {});
 

@@ -36,4 +36,23 @@ void sort_far_to_near(Layer& layer, std::uint64_t seed) {
   layer.strokes = std::move(sorted);
 }
 
+void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed) {
+  struct Place {
+    float depth;
+    std::uint32_t stroke;
+  };
+  std::vector<Place> places(layer.strokes.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const Stroke& stroke = layer.strokes[i];
+    places[i] = {stroke.disparity + unit_float(hash({seed, stroke.number})), i};
+  }
+  std::ranges::sort(places, [](const Place& a, const Place& b) {
+    return a.depth != b.depth ? a.depth < b.depth : a.stroke < b.stroke;
+  });
+  std::vector<Stroke> sorted;
+  sorted.reserve(places.size());
+  for (const Place& place : places) sorted.push_back(layer.strokes[place.stroke]);
+  layer.strokes = std::move(sorted);
+}
+
 }  // namespace wheatstone

@@ -14,4 +14,8 @@ void append_strokes(const Layer& part, Layer& whole);
 /// order, whatever the view.
 void sort_far_to_near(Layer& layer, std::uint64_t seed);
 
+/// The same for strokes with numbers: each lies up to half a pixel of disparity nearer or farther than it is, as its
+/// number decides, so that strokes that move together keep their order from frame to frame.
+void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed);
+
 }  // namespace wheatstone

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
 
-#include <chrono>
-
 #include "wheatstone/error.h"
+#include "wheatstone/painting/draw_in_style_internal.h"
 #include "wheatstone/painting/easel_internal.h"
 #include "wheatstone/painting/fitting_pair_internal.h"
 #include "wheatstone/painting/layer_order_internal.h"
@@ -14,37 +13,11 @@
 #include "wheatstone/painting/posterise.h"
 #include "wheatstone/painting/propagate_internal.h"
 #include "wheatstone/painting/rasterise.h"
-#include "wheatstone/painting/relief.h"
+#include "wheatstone/painting/stopwatch_internal.h"
 #include "wheatstone/stereo/warp.h"
 
 namespace wheatstone {
 namespace {
-
-/// Adds the time until it goes out of scope.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_;
-};
-
-/// Height of the paint's ridges, for a picture 640 pixels wide.
-constexpr float relief_depth_px = 1.1f;
-
-/// Draws the finished painting for one eye, over what the style wants behind it.
-DrawnView draw_over(ImageView<const Rgb8> photograph, const Painting& painting, float view, const Style& style) {
-  DrawOptions over;
-  if (style.background == Background::photograph) over.background = photograph;
-  DrawnView drawn = draw(painting, view, over);
-  if (style.texture)
-    light_relief(relief_of(painting, view), relief_depth_px * style_scale(style, painting.width), drawn.picture);
-  return drawn;
-}
 
 /// Plans one eye from its photograph alone.
 Painting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
@@ -91,8 +64,8 @@ Painting joined(Painting left, const Painting& right) {
 /// Draws both eyes of a planned painting.
 void draw_both(const StereoPair& photographs, const Style& style, PaintedPair& result) {
   DrawnView left, right;
-  tbb::parallel_invoke([&] { left = draw_over(photographs.left, result.painting, left_eye, style); },
-                       [&] { right = draw_over(photographs.right, result.painting, right_eye, style); });
+  tbb::parallel_invoke([&] { left = draw_in_style(photographs.left, result.painting, left_eye, style); },
+                       [&] { right = draw_in_style(photographs.right, result.painting, right_eye, style); });
   result.pictures = {std::move(left.picture), std::move(right.picture)};
   result.left_bare_share = left.bare_share;
   result.right_bare_share = right.bare_share;
@@ -198,7 +171,7 @@ PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> 
     result.painting = plan_by_itself(photograph, disparity, view, style, progress);
   }
   const Stopwatch watch(result.times.rasterising_s);
-  DrawnView drawn = draw_over(photograph, result.painting, view, style);
+  DrawnView drawn = draw_in_style(photograph, result.painting, view, style);
   result.picture = std::move(drawn.picture);
   result.bare_share = drawn.bare_share;
   return result;

@@ -39,6 +39,7 @@ struct Stroke {
   float disparity = 0;              ///< the stroke's depth: the disparity of the point where it was begun
   float reference_view = left_eye;  ///< the view in which its points stand
   ViewRange views;
+  std::uint32_t number = 0;  ///< names the stroke across the frames of a film, from 1; 0: none
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 

@@ -51,9 +51,12 @@ struct SeenLayer {
 SeenLayer seen_layer(const Layer& layer, float view, int height, std::uint64_t number) {
   SeenLayer seen{flatten(layer, view), {}, {}};
   seen.bands = strokes_by_band(seen.flat, height);
-  // The stroke's place among all of its layer, seen or not, tells its bristles in every view.
-  for (std::size_t i = 0; i < layer.strokes.size(); ++i)
-    if (layer.strokes[i].views.contains(view)) seen.seeds.push_back(hash({number, i}));
+  // A stroke's number tells its bristles in every view and frame; without one, its place among all of its layer, seen
+  // or not.
+  for (std::size_t i = 0; i < layer.strokes.size(); ++i) {
+    const Stroke& stroke = layer.strokes[i];
+    if (stroke.views.contains(view)) seen.seeds.push_back(hash({number, stroke.number != 0 ? stroke.number : i}));
+  }
   return seen;
 }
 

@@ -1,0 +1,135 @@
+#include "wheatstone/app/rotoscope.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "wheatstone/error.h"
+#include "wheatstone/motion/central_flow.h"
+#include "wheatstone/motion/film_measures.h"
+#include "wheatstone/stereo/scene_view.h"
+
+namespace wheatstone {
+namespace {
+
+template <class Work>
+auto timed(double& seconds, Work work) {
+  const auto start = std::chrono::steady_clock::now();
+  auto result = work();
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+/// A frame as it is painted from.
+struct FrameAtWork {
+  StereoGeometry geometry;
+  CentralView centre;
+  std::vector<SceneView> views;
+};
+
+void check_sizes(const StereoPair& eyes, const RotoscopeState& state) {
+  if (!eyes.right.empty() && !same_size(eyes.left, eyes.right))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the right eye's picture is {}x{} pixels, expected the left one's {}x{}",
+                            eyes.right.width(), eyes.right.height(), eyes.left.width(), eyes.left.height()));
+  if (!state.left_before.empty() && !same_size(eyes.left, state.left_before))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the frame is {}x{} pixels, expected {}x{} as before", eyes.left.width(),
+                            eyes.left.height(), state.left_before.width(), state.left_before.height()));
+}
+
+/// The disparities to look for: those of the scene's first frame, widened by what later frames show, with some room,
+/// so that nothing moves out of them between two looks.
+DisparityRange scene_range(const StereoPair& eyes, RotoscopeState& state) {
+  constexpr std::int64_t frames_between_looks = 24;
+  if (state.range && state.frames_of_scene % frames_between_looks != 0) return *state.range;
+  DisparityRange found = find_disparity_range(eyes);
+  const int room = std::max((found.largest - found.least) / 8, 2);
+  found = {found.least - room, found.largest + room};
+  if (state.range && state.frames_of_scene > 0)
+    found = {std::min(found.least, state.range->least), std::max(found.largest, state.range->largest)};
+  const int most = eyes.left.width() - 1;
+  state.range = DisparityRange{std::max(found.least, -most), std::min(found.largest, most)};
+  return *state.range;
+}
+
+StereoGeometry find_geometry(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state) {
+  MatchOptions matching = options.matching;
+  if (!matching.range) matching.range = scene_range(eyes, state);
+  return match(eyes, matching).geometry;
+}
+
+/// A film of one eye: all on the screen.
+FrameAtWork single_view(const StereoPair& eyes) {
+  FrameAtWork frame;
+  frame.centre.disparity = Image<float>(eyes.left.width(), eyes.left.height());
+  frame.centre.picture = eyes.left;
+  frame.geometry.left_disparity = frame.centre.disparity;
+  return frame;
+}
+
+bool all_unknown(const FlowPair& flow) {
+  return std::ranges::all_of(flow.forward.x.pixels(), [](float value) { return std::isnan(value); });
+}
+
+bool scene_begins(const StereoPair& eyes, const RotoscopeState& state, const KnownFrame* known) {
+  if (state.left_before.empty()) return true;
+  if (known != nullptr && known->flow) return all_unknown(*known->flow);
+  return find_cut(state.left_before, eyes.left).cut;
+}
+
+FlowPair find_flow(const FrameAtWork& frame, const RotoscopeOptions& options, const RotoscopeState& state,
+                   const KnownFrame* known) {
+  if (known != nullptr && known->flow)
+    return central_flow(*known->flow, {state.left_disparity_before, state.central_disparity_before},
+                        {frame.geometry.left_disparity, frame.centre.disparity});
+  const FlowPair* start = state.flow_before.forward.x.empty() ? nullptr : &state.flow_before;
+  return estimate_flow(state.central_before, frame.centre.picture, {options.flow, start});
+}
+
+FrameAtWork look_at(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
+                    const KnownFrame* known, RotoscopeTimes& times) {
+  if (eyes.right.empty()) return single_view(eyes);
+  FrameAtWork frame;
+  frame.geometry =
+      timed(times.matching_s, [&] { return known != nullptr ? known->geometry : find_geometry(eyes, options, state); });
+  frame.centre = timed(times.central_s, [&] { return make_central_view(eyes, frame.geometry, options.central); });
+  return frame;
+}
+
+}  // namespace
+
+RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
+                                const KnownFrame* known) {
+  check_sizes(eyes, state);
+  RotoscopedFrame result;
+  result.scene_begins = scene_begins(eyes, state, known);
+  if (result.scene_begins) {
+    state.frames_of_scene = 0;
+    state.flow_before = {};
+  }
+  FrameAtWork frame = look_at(eyes, options, state, known, result.times);
+  frame.views = eyes.right.empty() ? std::vector<SceneView>{{frame.centre.picture, frame.centre.disparity, {}, 0}}
+                                   : scene_from_centre(frame.centre, eyes, frame.geometry);
+  if (!result.scene_begins && !options.anew)
+    state.flow_before = timed(result.times.flow_s, [&] { return find_flow(frame, options, state, known); });
+  const bool carries = !result.scene_begins && !options.anew;
+  PaintedMoment moment = paint_moment({frame.views, carries ? &state.flow_before : nullptr}, options.style,
+                                      options.carrying, state.memory);
+  result.painted = std::move(moment.painted);
+  result.counts = moment.counts;
+
+  ++state.frames;
+  ++state.frames_of_scene;
+  state.left_before = eyes.left;
+  state.left_disparity_before = std::move(frame.geometry.left_disparity);
+  state.central_before = std::move(frame.centre.picture);
+  state.central_disparity_before = std::move(frame.centre.disparity);
+  return result;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "wheatstone/motion/flow.h"
+#include "wheatstone/painting/paint_moment.h"
+#include "wheatstone/stereo/central_view.h"
+#include "wheatstone/stereo/match.h"
+
+namespace wheatstone {
+
+struct RotoscopeOptions {
+  Style style;
+  MatchOptions matching;  ///< where it has no range, one is found for each scene
+  FlowMethod flow = FlowMethod::farneback;
+  CentralMerge central = CentralMerge::visible;
+  CarryOptions carrying;
+  bool anew = false;  ///< every frame as if a scene began: the naive method, to be measured against
+};
+
+/// What is known of a frame beforehand and need not be estimated.
+struct KnownFrame {
+  StereoGeometry geometry;
+  /// Of the left view: forward from the frame before, backward to it. All unknown where a scene begins.
+  std::optional<FlowPair> flow;
+};
+
+/// All that the next frame of a film depends on. Empty before the first.
+struct RotoscopeState {
+  std::int64_t frames = 0;
+  std::int64_t frames_of_scene = 0;
+  Image<Rgb8> left_before;     ///< the left eye's picture
+  Image<Rgb8> central_before;  ///< the central view's
+  Image<float> left_disparity_before, central_disparity_before;
+  FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
+  std::optional<DisparityRange> range;
+  MomentMemory memory;
+};
+
+struct RotoscopeTimes {
+  double matching_s = 0;
+  double central_s = 0;
+  double flow_s = 0;
+};
+
+struct RotoscopedFrame {
+  PaintedPair painted;  ///< of a film of one eye, `pictures.right` is empty
+  StrokeCounts counts;
+  bool scene_begins = false;
+  RotoscopeTimes times;  ///< beside those of painting
+};
+
+/// Paints the next frame of a film (Bukenberger et al. 2015): finds its disparity, merges the eyes into the central
+/// view, finds the flow there from the frame before, and paints what that flow carries on. `eyes.right` is empty for a
+/// film of one eye. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size, wrong_usage for
+/// options that make no sense.
+RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
+                                const KnownFrame* known = nullptr);
+
+}  // namespace wheatstone

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "wheatstone/painting/rasterise.h"
+#include "wheatstone/painting/style.h"
+
+namespace wheatstone {
+
+/// Draws the finished strokes for one view, over what the style wants behind them, lit where it wants texture.
+DrawnView draw_in_style(ImageView<const Rgb8> photograph, const Painting& painting, float view, const Style& style);
+
+}  // namespace wheatstone
