@@ -24,6 +24,7 @@ void add_rectify_command(CLI::App& program, const Session& session);
 void add_match_command(CLI::App& program, const Session& session);
 void add_paint_command(CLI::App& program, const Session& session);
 void add_pack_command(CLI::App& program, const Session& session);
+void add_rotoscope_command(CLI::App& program, const Session& session);
 void add_render_command(CLI::App& program, const Session& session);
 void add_depth_command(CLI::App& program, const Session& session);
 void add_measure_command(CLI::App& program, const Session& session);

@@ -179,16 +179,10 @@ void print_table(const std::vector<MeasuredFilm>& films, const std::vector<int>&
 }
 
 void run(const Arguments& arguments, const Session& session) {
-  std::optional<FilmLayout> layout;
-  if (!arguments.layout.empty()) {
-    layout = film_layout_named(arguments.layout);
-    if (!layout)
-      throw Error(ErrorKind::wrong_usage, fmt::format("--layout: there is no layout '{}', expected one of {}",
-                                                      arguments.layout, film_layout_names()));
-  }
+  const std::optional<FilmLayout> layout = film_layout_option("--layout", arguments.layout);
   std::vector<MeasuredFilm> films;
-  films.push_back({arguments.source, open_film_argument(arguments.source, layout)});
-  for (const std::string& name : arguments.films) films.push_back({name, open_film_argument(name, layout)});
+  films.push_back({arguments.source, open_film(find_film(arguments.source, layout))});
+  for (const std::string& name : arguments.films) films.push_back({name, open_film(find_film(name, layout))});
 
   const std::int64_t known = films.front().reader.facts().frame_count.value_or(0);
   const double expected = static_cast<double>(arguments.frames > 0 ? arguments.frames : known);

@@ -65,6 +65,7 @@ std::unique_ptr<CLI::App> make_program(SharedOptions& options) {
   add_match_command(*program, session);
   add_paint_command(*program, session);
   add_pack_command(*program, session);
+  add_rotoscope_command(*program, session);
   add_render_command(*program, session);
   add_depth_command(*program, session);
   add_measure_command(*program, session);

@@ -12,7 +12,10 @@ namespace wheatstone::cli {
 namespace {
 
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
+constexpr auto line_interval = std::chrono::seconds(10);
 constexpr int bar_width = 30;
+
+std::string_view first_word(std::string_view text) { return text.substr(0, text.find(' ')); }
 
 // Progress is a courtesy: where standard error is closed the run goes on.
 void put(std::string_view text) {
@@ -24,14 +27,18 @@ void put(std::string_view text) {
 
 void ProgressDisplay::show(std::string_view step, double done) {
   if (style_ == Style::none) return;
+  const auto now = std::chrono::steady_clock::now();
   const bool new_step = step_ != step;
+  // "painting frame 3 of 9" and "painting frame 4 of 9" are news of one kind.
+  const bool new_kind = !step_ || first_word(*step_) != first_word(step);
   step_ = std::string(step);
   if (style_ == Style::lines) {
-    if (new_step) put(fmt::format("{}\n", step));
+    if (!new_kind && (!new_step || now - drawn_ < line_interval)) return;
+    drawn_ = now;
+    put(fmt::format("{}\n", step));
     return;
   }
-  const auto now = std::chrono::steady_clock::now();
-  if (!new_step && done < 1 && now - drawn_ < redraw_interval) return;
+  if (!new_kind && done < 1 && now - drawn_ < redraw_interval) return;
   drawn_ = now;
   draw_bar(step, done);
 }

@@ -101,6 +101,23 @@ FrameAtWork look_at(const StereoPair& eyes, const RotoscopeOptions& options, Rot
   return frame;
 }
 
+/// Compares the frame with the one before and adds it to the film's sums.
+void take_stock(const RotoscopeOptions& options, RotoscopeState& state, RotoscopedFrame& result) {
+  const std::vector<Layer>& layers = result.painted.painting.layers;
+  const double largest_step =
+      1.0 / std::max(std::min(options.carrying.fade_in_frames, options.carrying.fade_out_frames), 1);
+  if (!result.scene_begins) result.changes = compare_strokes(state.layers_before, layers, largest_step);
+  RotoscopeTotals& totals = state.totals;
+  totals.scenes += result.scene_begins ? 1 : 0;
+  totals.whole_strokes += result.changes.whole;
+  totals.survived_strokes += result.changes.survived;
+  totals.popped_strokes += result.changes.popped;
+  for (const Layer& layer : layers) totals.strokes += static_cast<std::int64_t>(layer.strokes.size());
+  totals.worst_bare_share =
+      std::max({totals.worst_bare_share, result.painted.left_bare_share, result.painted.right_bare_share});
+  state.layers_before = layers;
+}
+
 }  // namespace
 
 RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
@@ -122,6 +139,8 @@ RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& 
                                       options.carrying, state.memory);
   result.painted = std::move(moment.painted);
   result.counts = moment.counts;
+
+  take_stock(options, state, result);
 
   ++state.frames;
   ++state.frames_of_scene;

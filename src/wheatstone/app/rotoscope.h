@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "wheatstone/motion/flow.h"
 #include "wheatstone/painting/paint_moment.h"
+#include "wheatstone/painting/strokes_between_frames.h"
 #include "wheatstone/stereo/central_view.h"
 #include "wheatstone/stereo/match.h"
 
@@ -26,6 +28,17 @@ struct KnownFrame {
   std::optional<FlowPair> flow;
 };
 
+/// Sums over the frames of a film so far; a cut's first frame has nothing to be compared with.
+struct RotoscopeTotals {
+  std::int64_t scenes = 0;
+  std::int64_t whole_strokes = 0;     ///< as StrokeChanges, frame by frame
+  std::int64_t survived_strokes = 0;  ///< of these
+  std::int64_t popped_strokes = 0;
+  std::int64_t strokes = 0;
+  double worst_bare_share = 0;  ///< of an eye's pixels, 0..1
+  friend bool operator==(const RotoscopeTotals&, const RotoscopeTotals&) = default;
+};
+
 /// All that the next frame of a film depends on. Empty before the first.
 struct RotoscopeState {
   std::int64_t frames = 0;
@@ -36,6 +49,8 @@ struct RotoscopeState {
   FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
   std::optional<DisparityRange> range;
   MomentMemory memory;
+  std::vector<Layer> layers_before;  ///< the strokes as they were drawn, to tell what became of them
+  RotoscopeTotals totals;
 };
 
 struct RotoscopeTimes {
@@ -47,6 +62,7 @@ struct RotoscopeTimes {
 struct RotoscopedFrame {
   PaintedPair painted;  ///< of a film of one eye, `pictures.right` is empty
   StrokeCounts counts;
+  StrokeChanges changes;  ///< from the frame before; nothing where a scene begins
   bool scene_begins = false;
   RotoscopeTimes times;  ///< beside those of painting
 };

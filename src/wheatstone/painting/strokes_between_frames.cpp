@@ -9,9 +9,9 @@ namespace {
 
 using Opacities = std::unordered_map<std::uint32_t, float>;
 
-Opacities opacities_of(const Painting& painting) {
+Opacities opacities_of(std::span<const Layer> layers) {
   Opacities opacities;
-  for (const Layer& layer : painting.layers)
+  for (const Layer& layer : layers)
     for (const Stroke& stroke : layer.strokes) {
       float& opacity = opacities[stroke.number];
       opacity = std::max(opacity, stroke.opacity);
@@ -27,7 +27,7 @@ float largest(const Opacities& opacities) {
 
 }  // namespace
 
-StrokeChanges compare_strokes(const Painting& first, const Painting& second, double largest_step) {
+StrokeChanges compare_strokes(std::span<const Layer> first, std::span<const Layer> second, double largest_step) {
   const Opacities before = opacities_of(first), now = opacities_of(second);
   constexpr float rounding = 1e-3f;
   const float paint = std::max(largest(before), largest(now)), whole = paint - rounding;

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "wheatstone/painting/painting.h"
 
 namespace wheatstone {
 
-/// What became of the strokes from one frame of a painted film to the next, told from the two paintings alone, by the
+/// What became of the strokes from one frame of a painted film to the next, told from what is drawn alone, by the
 /// strokes' numbers. A stroke's opacity is the largest of its parts'.
 struct StrokeChanges {
   std::int64_t whole = 0;     ///< strokes of the first frame that are not fading, that is, as opaque as the paint is
@@ -16,6 +17,6 @@ struct StrokeChanges {
 };
 
 /// `largest_step` is a share of the paint's opacity: 1/fade, of the shorter fade. Strokes need numbers.
-StrokeChanges compare_strokes(const Painting& first, const Painting& second, double largest_step);
+StrokeChanges compare_strokes(std::span<const Layer> first, std::span<const Layer> second, double largest_step);
 
 }  // namespace wheatstone

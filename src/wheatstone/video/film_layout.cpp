@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "wheatstone/video/film_layout_internal.h"
 
@@ -34,6 +35,10 @@ constexpr LayoutTraits table[] = {
     {L::alternating_right_first, "alternating-right-first", "ar", A::in_time, true, false, "block_rl"},
 };
 
+/// What players and editors call the usual ones.
+constexpr std::pair<std::string_view, FilmLayout> short_names[] = {
+    {"sbs", L::left_right}, {"sbs-half", L::left_right_half}, {"tb", L::top_bottom}, {"tb-half", L::top_bottom_half}};
+
 }  // namespace
 
 std::span<const LayoutTraits> all_layouts() { return table; }
@@ -56,6 +61,8 @@ std::optional<FilmLayout> film_layout_named(std::string_view name) {
   for (const LayoutTraits& traits : table) {
     if (name == traits.name || name == traits.ffmpeg) return traits.layout;
   }
+  for (const auto& [short_name, layout] : short_names)
+    if (name == short_name) return layout;
   return {};
 }
 
@@ -64,6 +71,8 @@ std::string film_layout_names() {
   for (const LayoutTraits& traits : table) {
     names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", traits.name, traits.ffmpeg);
   }
+  names += "; or short";
+  for (const auto& [short_name, layout] : short_names) names += fmt::format(" {}", short_name);
   return names;
 }
 

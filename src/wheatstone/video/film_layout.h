@@ -35,7 +35,8 @@ enum class FilmLayout {
 /// "left-right" and so on: the enumerator with hyphens.
 const char* name_of(FilmLayout layout);
 
-/// The layout of that name, or of ffmpeg's alias ("sbsl", "ab2r", …); nothing where there is none.
+/// The layout of that name, of ffmpeg's alias ("sbsl", "ab2r", …) or of a short name ("sbs", "tb-half", …); nothing
+/// where there is none.
 std::optional<FilmLayout> film_layout_named(std::string_view name);
 
 /// All names with ffmpeg's aliases, for help and error messages: "mono (ml), left-right (sbsl), …".

@@ -1,0 +1,264 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "film_argument.h"
+#include "match_options.h"
+#include "style_options.h"
+#include "time_argument.h"
+#include "wheatstone/app/rotoscope_film.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/motion/flow_file.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/video/frame_sequence.h"
+
+namespace wheatstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string film, right;
+  std::string output = "painted.mp4";
+  std::string layout, output_layout;
+  std::string from, to;
+  int every = 1;
+  std::string truth;
+  RotoscopeFilmOptions options;
+  MatchArguments matching;
+  StyleArguments style;
+};
+
+/// A frame of a film that `synth film` made.
+KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
+  const auto file = [&](const char* name, std::int64_t number, const char* ending) {
+    return folder / fmt::format("{}_{:04}{}", name, number, ending);
+  };
+  KnownFrame known;
+  known.geometry = geometry_from_both(read_disparity(file("left_disparity", frame, ".pfm")),
+                                      read_disparity(file("right_disparity", frame, ".pfm")));
+  if (frame > 0)
+    known.flow =
+        FlowPair{read_flow(file("flow_forward", frame - 1, ".flo")), read_flow(file("flow_backward", frame, ".flo"))};
+  return known;
+}
+
+/// How the eyes lie in a painted frame: as in the source, where a frame can hold them so.
+FilmLayout layout_of_output(const Arguments& arguments, const StereoFilmReader& source, bool two_films) {
+  if (const auto asked = film_layout_option("--output-layout", arguments.output_layout)) {
+    if (source.layout() == FilmLayout::mono && !two_films && *asked != FilmLayout::mono)
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("--output-layout: is '{}', but the film has one eye", arguments.output_layout));
+    return *asked;
+  }
+  const bool in_time =
+      source.layout() == FilmLayout::alternating || source.layout() == FilmLayout::alternating_right_first;
+  return two_films || in_time ? FilmLayout::left_right : source.layout();
+}
+
+FilmWriterOptions writing_options(const Arguments& arguments, const FilmArgument& film, const StereoFilmReader& source,
+                                  const FilmReaderOptions& reading) {
+  FilmWriterOptions writing = arguments.options.writing;
+  const FilmFacts& facts = source.facts();
+  writing.layout = layout_of_output(arguments, source, !film.right.empty());
+  writing.frame_rate = facts.frame_rate;
+  writing.pixel_aspect = facts.pixel_aspect;
+  writing.colour = facts.colour;
+  if (!frame_pattern(film.film)) writing.side_streams_from = film.film;
+  writing.start_s = reading.from_s.value_or(0);
+  writing.end_s = reading.to_s;
+  return writing;
+}
+
+/// How many frames there will be, as far as the film says; 0 where it does not.
+std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& reading) {
+  if (!facts.frame_count) return 0;
+  auto frames = static_cast<double>(*facts.frame_count);
+  const double rate = facts.frame_rate.value();
+  if (rate > 0) {
+    const double end_s = std::min(reading.to_s.value_or(frames / rate), frames / rate);
+    frames = std::max(end_s - reading.from_s.value_or(0), 0.0) * rate;
+  }
+  return static_cast<std::int64_t>(std::ceil(frames / reading.every));
+}
+
+nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm& film) {
+  const RotoscopeTotals& totals = film.totals;
+  const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
+  nlohmann::ordered_json facts{{"output", arguments.output},
+                               {"frames", film.frames},
+                               {"resumed_frames", film.resumed_frames},
+                               {"scenes", totals.scenes},
+                               {"strokes_a_frame", film.frames > 0 ? totals.strokes / film.frames : 0},
+                               {"worst_bare_share", totals.worst_bare_share},
+                               {"popped_strokes", totals.popped_strokes}};
+  if (totals.whole_strokes > 0)
+    facts["survival"] = static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes);
+  facts["seconds_a_frame"] = film.seconds / painted;
+  facts["core_seconds_a_frame"] = film.core_seconds / painted;
+  facts["matching_seconds_a_frame"] = film.times.matching_s / painted;
+  facts["central_view_seconds_a_frame"] = film.times.central_s / painted;
+  facts["flow_seconds_a_frame"] = film.times.flow_s / painted;
+  facts["planning_seconds_a_frame"] = film.painting_times.planning_s / painted;
+  facts["drawing_seconds_a_frame"] = film.painting_times.rasterising_s / painted;
+  facts["notes"] = film.notes;
+  if (film.loss) facts["loss"] = *film.loss;
+  return facts;
+}
+
+void print_summary(const Arguments& arguments, const RotoscopedFilm& film) {
+  const RotoscopeTotals& totals = film.totals;
+  const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
+  fmt::print("painted          {} frames in {} scenes", film.frames, totals.scenes);
+  if (film.resumed_frames > 0) fmt::print(", the first {} by an earlier run", film.resumed_frames);
+  fmt::print("\ntime             {:.2f} s a frame, {:.2f} core-seconds\n", film.seconds / painted,
+             film.core_seconds / painted);
+  if (totals.whole_strokes > 0)
+    fmt::print("carried          {:.1f} % of the strokes from frame to frame, {} popped\n",
+               100 * static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes),
+               totals.popped_strokes);
+  fmt::print("left bare        at most {:.3f} % of an eye\n", 100 * totals.worst_bare_share);
+  if (film.loss) fmt::print("source           {}\n", *film.loss);
+  for (const std::string& note : film.notes) fmt::print("note             {}\n", note);
+  fmt::print("written to       {}\n", arguments.output);
+}
+
+void run(const Arguments& arguments, const Session& session) {
+  RotoscopeFilmOptions options = arguments.options;
+  options.frames.style = style_from(arguments.style, session.seed);
+  options.frames.matching = match_options_from(arguments.matching);
+  options.made_by = fmt::format("wheatstone {} every {}", WHEATSTONE_VERSION, arguments.every);
+  if (!arguments.truth.empty()) {
+    if (!arguments.from.empty() || arguments.every != 1)
+      throw Error(ErrorKind::wrong_usage, "--truth counts all frames from the first: leave out --from and --every");
+    options.known = [folder = arguments.truth](std::int64_t frame) { return read_known_frame(folder, frame); };
+    options.made_by += " truth " + arguments.truth;
+  }
+  FilmArgument film = find_film(arguments.film, film_layout_option("--layout", arguments.layout));
+  if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
+  const FilmReaderOptions reading{.from_s = time_option("--from", arguments.from),
+                                  .to_s = time_option("--to", arguments.to),
+                                  .every = arguments.every,
+                                  .threads = session.threads};
+  StereoFilmReader source = open_film(film, reading);
+  if (session.verbose && film.right.empty())
+    fmt::print(stderr, "layout: {} ({})\n", name_of(source.layout()), source.layout_how());
+  options.writing = writing_options(arguments, film, source, reading);
+  options.expected_frames = expected_frames(source.facts(), reading);
+  options.made_from = {film.film};
+  if (!film.right.empty()) options.made_from.push_back(film.right);
+  const RotoscopedFilm result = rotoscope_film(source, arguments.output, options, session.progress);
+  if (session.json) {
+    fmt::print("{}\n", to_json(arguments, result).dump(2));
+  } else {
+    print_summary(arguments, result);
+  }
+}
+
+void add_film_options(CLI::App& command, Arguments& arguments) {
+  constexpr auto group = "Film";
+  FilmWriterOptions& writing = arguments.options.writing;
+  command
+      .add_option(
+          "--layout", arguments.layout,
+          "How the film holds two eyes: sbs, sbs-half, tb, tb-half, mono, …; as it says, or guessed, if not given")
+      ->group(group);
+  command
+      .add_option("--output-layout", arguments.output_layout,
+                  "How the painted film holds them; like the source if not given")
+      ->group(group);
+  command.add_option("--from", arguments.from, "Begin there: seconds or [HH:]MM:SS")->group(group);
+  command.add_option("--to", arguments.to, "End there")->group(group);
+  command.add_option("--every", arguments.every, "Paint each so many-th frame only")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--codec", writing.codec, "h264, hevc, or ffv1 (lossless, .mkv)")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--crf", writing.crf, "Quality of h264 and hevc, 0 (best) to 51")->group(group);
+  command.add_option("--preset", writing.preset, "Effort of h264 and hevc, ultrafast to placebo")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--pixel-format", writing.pixel_format, "yuv420p, yuv422p, yuv444p; bgr0 for ffv1")->group(group);
+  command.add_option("--save-marks", arguments.options.marks, "Also keep each frame's marks: marks_%04d.wst")
+      ->group(group);
+  command.add_flag("--resume", arguments.options.resume, "Go on with what a run that was stopped has left")
+      ->group(group);
+  command
+      .add_option("--checkpoint", arguments.options.frames_between_checkpoints,
+                  "Frames that a stopped run loses at most")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str()
+      ->group(group);
+  command.add_flag("--keep-going", arguments.options.keep_going, "A damaged film is no error: paint what decodes")
+      ->group(group);
+}
+
+void add_time_options(CLI::App& command, Arguments& arguments) {
+  constexpr auto group = "Time and depth";
+  RotoscopeOptions& frames = arguments.options.frames;
+  static const std::map<std::string, FlowMethod> flows{{"farneback", FlowMethod::farneback}, {"dis", FlowMethod::dis}};
+  command.add_option("--flow", frames.flow, "How motion is found: farneback, or dis, which is faster")
+      ->transform(CLI::CheckedTransformer(flows, CLI::ignore_case).description(""))
+      ->option_text("farneback|dis [farneback]")
+      ->group(group);
+  static const std::map<std::string, CentralMerge> merges{{"visible", CentralMerge::visible},
+                                                          {"average", CentralMerge::average}};
+  command
+      .add_option("--central", frames.central,
+                  "How both eyes become one view: visible, from the eyes that see a point; average, which ghosts")
+      ->transform(CLI::CheckedTransformer(merges, CLI::ignore_case).description(""))
+      ->option_text("visible|average [visible]")
+      ->group(group);
+  command.add_option("--fade-in", frames.carrying.fade_in_frames, "Frames over which new strokes come")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--fade-out", frames.carrying.fade_out_frames, "Frames over which strokes go that no longer fit")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->group(group);
+  command.add_flag("--frame-by-frame", frames.anew, "Carry nothing from frame to frame: flickers, to compare with")
+      ->group(group);
+  command.add_option("--truth", arguments.truth, "Folder of synth film: its true flow and disparities, not estimated")
+      ->group(group);
+}
+
+}  // namespace
+
+void add_rotoscope_command(CLI::App& program, const Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = *program.add_subcommand("rotoscope", "A painted film that fuses and does not flicker");
+  command
+      .add_option("FILM", arguments->film,
+                  "Film of two eyes or one; numbered pictures (frame_%04d.png); a folder; or an eye each: LEFT,RIGHT")
+      ->required();
+  command.add_option("RIGHT", arguments->right, "The right eye's film, where FILM is the left eye's");
+  command
+      .add_option("-o,--output", arguments->output,
+                  "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks (frame_%04d.wst)")
+      ->capture_default_str();
+  add_film_options(command, *arguments);
+  add_time_options(command, *arguments);
+  add_style_options(command, arguments->style);
+  add_match_options(command, arguments->matching);
+  command.footer(
+      "Strokes are made once, in the view between the eyes, and carried along the film's motion. Audio and\n"
+      "subtitles are copied. A stopped run goes on with --resume and gives the same film.\n\n"
+      "Examples:\n  wheatstone rotoscope film.mp4 -o painted.mp4\n"
+      "  wheatstone rotoscope film.mp4 --from 0:10 --to 0:12 --style expressionist -o try.mp4\n"
+      "  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

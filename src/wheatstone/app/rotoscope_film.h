@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wheatstone/app/rotoscope.h"
+#include "wheatstone/progress.h"
+#include "wheatstone/video/film_writer.h"
+#include "wheatstone/video/stereo_film.h"
+
+namespace wheatstone {
+
+struct RotoscopeFilmOptions {
+  RotoscopeOptions frames;
+  FilmWriterOptions writing;    ///< `layout` says how the eyes lie in a painted frame
+  std::filesystem::path marks;  ///< "marks_%04d.wst" also keeps each frame's marks, from 1 on; empty: no
+  int frames_between_checkpoints = 48;
+  bool resume = false;      ///< go on with what an earlier run left; without it, such a rest is an error
+  bool keep_going = false;  ///< a damaged source is a note, not an error
+  std::string made_by;      ///< the program's version and whatever else decides the frames
+  std::vector<std::filesystem::path> made_from;  ///< the sources' files
+  std::int64_t expected_frames = 0;              ///< of all, for telling how long it takes; 0: not known
+  /// What is known of a frame, counted from 0; empty: nothing is.
+  std::function<KnownFrame(std::int64_t frame)> known;
+};
+
+struct RotoscopedFilm {
+  std::int64_t frames = 0;
+  std::int64_t resumed_frames = 0;  ///< of these, an earlier run painted
+  RotoscopeTotals totals;
+  double seconds = 0;       ///< that this run took for its frames
+  double core_seconds = 0;  ///< of processors
+  RotoscopeTimes times;
+  PaintingTimes painting_times;
+  std::vector<std::string> notes;   ///< what the user should know
+  std::optional<std::string> loss;  ///< what of the source is damaged; kept going
+};
+
+/// Paints a film (Bukenberger et al. 2015) into another, frame by frame, in memory that does not grow with its length.
+/// Every `frames_between_checkpoints` frames all that the rest depends on is saved beside the output, in
+/// "OUTPUT.part"; a run that is killed and resumed gives the same film. An output of the form "marks_%04d.wst" keeps
+/// marks and no pictures, and cannot be resumed. Throws as the reader, the writer and rotoscope_frame do, and
+/// Error{bad_input} after the film is written where the source is damaged, unless `keep_going`.
+RotoscopedFilm rotoscope_film(StereoFilmReader& source, const std::filesystem::path& output,
+                              const RotoscopeFilmOptions& options, const Progress& progress = {});
+
+}  // namespace wheatstone
