@@ -1,0 +1,114 @@
+// What a frame of a painted film costs: against the time that OpenCV itself takes for that frame's matching and flow,
+// both ways, on the same threads in the same run; and beside the core-seconds of Bukenberger et al. (2015), sec. 5.4.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <tbb/parallel_invoke.h>
+
+#include <chrono>
+#include <ctime>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <string>
+#include <vector>
+
+#include "wheatstone/app/rotoscope.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/motion/synthetic_film.h"
+
+namespace wheatstone::bench {
+namespace {
+
+constexpr int frames = 6;  ///< the first is not counted
+
+std::vector<StereoPair> make_film() {
+  SyntheticFilmOptions options;
+  options.still = {.width = 1920, .height = 1080, .samples_a_side = 1};
+  options.frames = 2 * frames;
+  options.cut = 0;
+  std::vector<StereoPair> film;
+  for (int i = 0; i < frames; ++i) film.push_back(make_synthetic_film_frame(options, i).pictures);
+  return film;
+}
+
+template <class Work>
+double seconds(Work work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void match_both_ways(const StereoPair& eyes) {
+  constexpr int block = 3, disparities = 128;
+  const auto one_way = [](const cv::Mat& a, const cv::Mat& b) {
+    const auto matcher = cv::StereoSGBM::create(0, disparities, block, 8 * 3 * block * block, 32 * 3 * block * block, 1,
+                                                63, 10, 100, 2, cv::StereoSGBM::MODE_SGBM_3WAY);
+    cv::Mat disparity;
+    matcher->compute(a, b, disparity);
+  };
+  cv::Mat left, right;
+  cv::flip(as_mat(eyes.left), left, 1);
+  cv::flip(as_mat(eyes.right), right, 1);
+  one_way(as_mat(eyes.left), as_mat(eyes.right));
+  one_way(right, left);
+}
+
+/// With the parameters of OpenCV's own sample, both ways at once.
+void flow_both_ways(const StereoPair& before, const StereoPair& now) {
+  cv::Mat a, b;
+  cv::cvtColor(as_mat(before.left), a, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(as_mat(now.left), b, cv::COLOR_RGB2GRAY);
+  const auto one_way = [](const cv::Mat& from, const cv::Mat& to) {
+    constexpr double finer = 0.5, deviation = 1.2;
+    constexpr int levels = 3, window = 15, iterations = 3, polynomial = 5;
+    cv::Mat flow;
+    cv::calcOpticalFlowFarneback(from, to, flow, finer, levels, window, iterations, polynomial, deviation, 0);
+  };
+  tbb::parallel_invoke([&] { one_way(a, b); }, [&] { one_way(b, a); });
+}
+
+void measure(const std::vector<StereoPair>& film, FlowMethod flow, const std::string& name) {
+  RotoscopeOptions options;
+  options.flow = flow;
+  RotoscopeState state;
+  rotoscope_frame(film.front(), options, state);
+  double ours = 0, matching = 0, opencv_flow = 0;
+  RotoscopeTimes times;
+  PaintingTimes painting;
+  const std::clock_t start = std::clock();
+  std::clock_t opencv = 0;
+  for (int i = 1; i < frames; ++i) {
+    ours += seconds([&] {
+      const RotoscopedFrame frame = rotoscope_frame(film[i], options, state);
+      times.matching_s += frame.times.matching_s;
+      times.central_s += frame.times.central_s;
+      times.flow_s += frame.times.flow_s;
+      painting.planning_s += frame.painted.times.planning_s;
+      painting.rasterising_s += frame.painted.times.rasterising_s;
+    });
+    const std::clock_t before = std::clock();
+    matching += seconds([&] { match_both_ways(film[i]); });
+    opencv_flow += seconds([&] { flow_both_ways(film[i - 1], film[i]); });
+    opencv += std::clock() - before;
+  }
+  constexpr double counted = frames - 1;
+  const double core_seconds = static_cast<double>(std::clock() - start - opencv) / CLOCKS_PER_SEC / counted;
+  fmt::print(
+      "{:10} {:.2f} s a frame (matching {:.2f}, central view {:.2f}, flow {:.2f}, planning {:.2f}, drawing {:.2f});\n"
+      "           OpenCV's matching {:.2f} and flow {:.2f}, both ways: {:.2f} x, <= 2.0 {}\n"
+      "           {:.1f} core-seconds a frame; the paper 960 to 1440\n",
+      name, ours / counted, times.matching_s / counted, times.central_s / counted, times.flow_s / counted,
+      painting.planning_s / counted, painting.rasterising_s / counted, matching / counted, opencv_flow / counted,
+      ours / (matching + opencv_flow), ours <= 2 * (matching + opencv_flow) ? "holds" : "does not hold", core_seconds);
+}
+
+}  // namespace
+}  // namespace wheatstone::bench
+
+int main() {
+  fmt::print("Painted films, 1920x1080 an eye, strokes, after the first frame\n");
+  const auto film = wheatstone::bench::make_film();
+  wheatstone::bench::measure(film, wheatstone::FlowMethod::farneback, "farneback");
+  wheatstone::bench::measure(film, wheatstone::FlowMethod::dis, "dis");
+}
