@@ -8,9 +8,7 @@
 namespace wheatstone {
 namespace {
 
-struct Colour {
-  double red = 0, green = 0, blue = 0;
-};
+using Colour = PaletteColour;
 
 Colour colour_of(Rgb8 c) { return {static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)}; }
 
@@ -62,12 +60,8 @@ std::size_t nearest(const std::vector<Colour>& centres, const Colour& colour) {
   return best;
 }
 
-}  // namespace
-
-std::vector<Rgb8> find_palette(ImageView<const Rgb8> picture, int count, std::uint64_t seed) {
-  const std::vector<Colour> samples = sampled(picture);
-  std::vector<Colour> centres = first_centres(samples, count, seed);
-  constexpr int rounds = 24;
+/// Lloyd's rounds. A centre that no sample is nearest to stays.
+void move_to_means(const std::vector<Colour>& samples, int rounds, std::vector<Colour>& centres) {
   for (int round = 0; round < rounds; ++round) {
     std::vector<Colour> sums(centres.size());
     std::vector<double> members(centres.size());
@@ -82,10 +76,36 @@ std::vector<Rgb8> find_palette(ImageView<const Rgb8> picture, int count, std::ui
       if (members[i] > 0)
         centres[i] = {sums[i].red / members[i], sums[i].green / members[i], sums[i].blue / members[i]};
   }
+}
+
+}  // namespace
+
+std::vector<PaletteColour> find_palette(ImageView<const Rgb8> picture, int count, std::uint64_t seed) {
+  const std::vector<Colour> samples = sampled(picture);
+  std::vector<Colour> centres = first_centres(samples, count, seed);
+  constexpr int rounds = 24;
+  move_to_means(samples, rounds, centres);
+  return centres;
+}
+
+void follow_palette(ImageView<const Rgb8> picture, std::vector<PaletteColour>& palette) {
+  constexpr int rounds = 2;
+  constexpr double share = 0.15;
+  std::vector<Colour> target = palette;
+  move_to_means(sampled(picture), rounds, target);
+  for (std::size_t i = 0; i < palette.size(); ++i) {
+    palette[i].red += share * (target[i].red - palette[i].red);
+    palette[i].green += share * (target[i].green - palette[i].green);
+    palette[i].blue += share * (target[i].blue - palette[i].blue);
+  }
+}
+
+std::vector<Rgb8> rounded(const std::vector<PaletteColour>& palette) {
   const auto level = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
-  std::vector<Rgb8> palette;
-  for (const Colour& centre : centres) palette.push_back({level(centre.red), level(centre.green), level(centre.blue)});
-  return palette;
+  std::vector<Rgb8> colours;
+  for (const PaletteColour& colour : palette)
+    colours.push_back({level(colour.red), level(colour.green), level(colour.blue)});
+  return colours;
 }
 
 std::size_t nearest_colour(const std::vector<Rgb8>& palette, Rgb8 colour) {

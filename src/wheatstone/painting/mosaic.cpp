@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "wheatstone/painting/orientation_field_internal.h"
 #include "wheatstone/painting/outline_internal.h"
@@ -49,12 +50,12 @@ void add_face(const PolygonMark& joint, Rgb8 colour, float inset, PolygonPaintin
   painting.marks.push_back(face);
 }
 
-void cut_tiles(const ViewToCut& view, const Style& style, PolygonPainting& painting) {
-  const RegionMap regions = lay_tiles(view, style.tile_px * view.scale);
+/// Adds the joints and the faces of a view's tiles, each of its mean colour.
+void add_tiles(const ViewToCut& view, const Tiles& tiles, std::span<const RegionMeans> means,
+               PolygonPainting& painting) {
   const std::size_t first = painting.marks.size();
-  add_outlines(regions, view.disparity, view.view,
+  add_outlines(tiles.regions, view.disparity, view.view,
                {.tolerance_px = 0.9f, .depth_threshold_px = view.depth_threshold_px}, painting);
-  const std::vector<RegionMeans> means = means_of(regions, view.photograph, view.disparity);
   for (std::size_t i = 0; i < means.size(); ++i) {
     PolygonMark& joint = painting.marks[first + i];
     joint.colour = colour_of(means[i], joint_light);
@@ -66,10 +67,77 @@ void cut_tiles(const ViewToCut& view, const Style& style, PolygonPainting& paint
     add_face(PolygonMark(painting.marks[first + i]), colour_of(means[i], 1), half_joint_px * view.scale, painting);
 }
 
+/// A tile's colour goes a share of the way to the picture's, all of it where they differ by more in a channel.
+constexpr double colour_share = 0.4, new_thing = 32;
+
+void ease(const MosaicTile& before, RegionMeans& means) {
+  const double red = means.red - static_cast<double>(before.red),
+               green = means.green - static_cast<double>(before.green),
+               blue = means.blue - static_cast<double>(before.blue);
+  if (std::max({std::abs(red), std::abs(green), std::abs(blue)}) > new_thing) return;
+  means.red -= (1 - colour_share) * red;
+  means.green -= (1 - colour_share) * green;
+  means.blue -= (1 - colour_share) * blue;
+}
+
+void cut_tiles(const ViewToCut& view, const Style& style, PolygonPainting& painting) {
+  const Tiles tiles = lay_tiles(view, style.tile_px * view.scale);
+  add_tiles(view, tiles, means_of(tiles.regions, view.photograph, view.disparity), painting);
+}
+
+/// Lays a view's tiles where `before` has them, and puts them into what the next moment remembers.
+void cut_tiles_again(const ViewToCut& view, const Style& style, std::span<const MosaicTile> before,
+                     std::vector<MosaicTile>& after, PolygonPainting& painting) {
+  const float tile_px = style.tile_px * view.scale;
+  const Tiles tiles = before.empty() ? lay_tiles(view, tile_px) : lay_tiles_again(view, tile_px, before);
+  std::vector<RegionMeans> means = means_of(tiles.regions, view.photograph, view.disparity);
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (tiles.tile_of[i] < 0) continue;
+    const auto index = static_cast<std::size_t>(tiles.tile_of[i]);
+    MosaicTile tile = tiles.laid[index];
+    if (tiles.before[index] >= 0) ease(before[static_cast<std::size_t>(tiles.before[index])], means[i]);
+    tile.red = static_cast<float>(means[i].red);
+    tile.green = static_cast<float>(means[i].green);
+    tile.blue = static_cast<float>(means[i].blue);
+    after.push_back(tile);
+  }
+  add_tiles(view, tiles, means, painting);
+}
+
+/// Moves the reference view's tiles along the flow, but for those whose ground moves less than this a frame: going with
+/// it by parts of a pixel would make their joints tremble.
+constexpr float still_px = 0.4f;
+
+void carry(std::vector<MosaicTile>& tiles, const Flow& forward) {
+  for (MosaicTile& tile : tiles) {
+    if (tile.view != 0) break;
+    const float x = sample(forward.x.view(), tile.x, tile.y), y = sample(forward.y.view(), tile.x, tile.y);
+    if (!(std::hypot(x, y) >= still_px)) continue;
+    tile.x += x;
+    tile.y += y;
+  }
+}
+
 }  // namespace
 
 PolygonPainting plan_mosaic(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
   return plan_polygons(photographs, geometry, style, cut_tiles);
+}
+
+PolygonPainting plan_mosaic(const Moment& moment, const Style& style, MosaicMemory& memory, TilePlaces places) {
+  std::vector<MosaicTile> before, after;
+  if (moment.flow != nullptr) {
+    check_fits(*moment.flow, moment.views);
+    before = memory.tiles;
+    if (places == TilePlaces::follow) carry(before, moment.flow->forward);
+  }
+  PolygonPainting painting =
+      plan_polygons(moment.views, style, [&](const ViewToCut& view, const Style&, PolygonPainting& to) {
+        const auto own = std::ranges::equal_range(before, view.number, {}, &MosaicTile::view);
+        cut_tiles_again(view, style, {own.begin(), own.end()}, after, to);
+      });
+  memory.tiles = std::move(after);
+  return painting;
 }
 
 }  // namespace wheatstone

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 
+#include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/painting/fitting_pair_internal.h"
 #include "wheatstone/painting/plan_polygons_internal.h"
@@ -19,47 +22,74 @@ void sort_far_to_near(PolygonPainting& painting) {
   std::ranges::stable_sort(painting.marks, {}, key);
 }
 
+void check_fits(std::span<const SceneView> views) {
+  if (views.empty() || views[0].picture.empty()) throw Error(ErrorKind::bad_input, "the scene has no picture");
+  const ImageView<const Rgb8> reference = views[0].picture;
+  const auto check = [&](const auto& image, std::string_view name) {
+    if (!same_size(image, reference))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{} is {}x{} pixels, expected the reference view's {}x{}", name, image.width(),
+                              image.height(), reference.width(), reference.height()));
+  };
+  for (const SceneView& view : views) {
+    check(view.picture, "a view's picture");
+    check(view.disparity, "a view's disparity");
+    if (!view.only_here.empty()) check(view.only_here, "a view's mask");
+    for (int y = 0; y < view.disparity.height(); ++y)
+      if (!std::ranges::all_of(view.disparity.row(y), [](float value) { return std::isfinite(value); }))
+        throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
+  }
+}
+
 }  // namespace
+
+PolygonPainting plan_polygons(std::span<const SceneView> views, const Style& style, const CutView& cut) {
+  check_style(style);
+  check_fits(views);
+  const int width = views[0].picture.width();
+  const float scale = style_scale(style, width);
+  const bool independent = style.propagation == Propagation::independent;
+  PolygonPainting painting{width, views[0].picture.height(), {}, {}, {}};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const SceneView& view = views[i];
+    const Image<float> disparity = without_outliers(view.disparity);
+    ViewToCut to_cut{.photograph = view.picture,
+                     .disparity = disparity,
+                     .mask = {},
+                     .number = i,
+                     .view = view.position,
+                     .views = {},
+                     .seed = style.seed,
+                     .scale = scale,
+                     .depth_threshold_px = style.depth_threshold_px * scale};
+    if (i > 0 || independent) to_cut.views = {view.position, view.position};
+    if (i > 0 && independent) to_cut.seed = hash({style.seed, i});
+    Image<std::uint8_t> only_here;
+    if (i > 0 && !independent && !view.only_here.empty()) {
+      // Grown, so that the marks reach under those of the reference view.
+      constexpr float overlap_px = 3;
+      only_here = dilate_occlusion(view.only_here, static_cast<int>(std::ceil(overlap_px * scale)));
+      to_cut.mask = only_here;
+    }
+    cut(to_cut, style, painting);
+  }
+  std::erase_if(painting.marks, [](const PolygonMark& mark) { return mark.ring_count == 0; });
+  sort_far_to_near(painting);
+  return painting;
+}
 
 PolygonPainting plan_polygons(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                               const CutView& cut) {
   check_style(style);
   check_fits(photographs, geometry);
-  const int width = photographs.left.width();
-  const float scale = style_scale(style, width);
-  const Image<float> left_disparity = without_outliers(geometry.left_disparity);
-  const Image<float> right_disparity = without_outliers(geometry.right_disparity);
-  ViewToCut left{.photograph = photographs.left,
-                 .disparity = left_disparity,
-                 .mask = {},
-                 .colours_from = photographs.left,
-                 .view = left_eye,
-                 .views = {},
-                 .seed = style.seed,
-                 .scale = scale,
-                 .depth_threshold_px = style.depth_threshold_px * scale};
-  ViewToCut right = left;
-  right.photograph = photographs.right;
-  right.disparity = right_disparity;
-  right.view = right_eye;
-  right.views = {right_eye, right_eye};
-  Image<std::uint8_t> right_only;
-  if (style.propagation == Propagation::independent) {
-    left.views = {left_eye, left_eye};
-    right.colours_from = photographs.right;
-    right.seed = hash({style.seed, 1});
-  } else {
-    // Grown, so that the marks reach under those of the left eye.
-    constexpr float overlap_px = 3;
-    right_only = dilate_occlusion(geometry.right_occlusion, static_cast<int>(std::ceil(overlap_px * scale)));
-    right.mask = right_only;
-  }
-  PolygonPainting painting{width, photographs.left.height(), {}, {}, {}};
-  cut(right, style, painting);
-  cut(left, style, painting);
-  std::erase_if(painting.marks, [](const PolygonMark& mark) { return mark.ring_count == 0; });
-  sort_far_to_near(painting);
-  return painting;
+  return plan_polygons(scene_from_left(photographs, geometry), style, cut);
+}
+
+void check_fits(const FlowPair& flow, std::span<const SceneView> views) {
+  for (const Flow* direction : {&flow.forward, &flow.backward})
+    for (const Image<float>* component : {&direction->x, &direction->y})
+      if (views.empty() || !same_size(*component, views[0].picture))
+        throw Error(ErrorKind::bad_input, "the flow has not the size of the view that it leads to");
 }
 
 Image<Rgb8> without_grain(ImageView<const Rgb8> photograph, float scale) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
+#include "wheatstone/motion/flow.h"
 #include "wheatstone/painting/polygon_mark.h"
 #include "wheatstone/painting/regions_internal.h"
 #include "wheatstone/painting/style.h"
-#include "wheatstone/stereo/stereo_pair.h"
+#include "wheatstone/stereo/scene_view.h"
 
 namespace wheatstone {
 
@@ -14,7 +16,7 @@ struct ViewToCut {
   ImageView<const Rgb8> photograph;
   ImageView<const float> disparity;
   ImageView<const std::uint8_t> mask;  ///< cut only where it is not 0; empty: everywhere
-  ImageView<const Rgb8> colours_from;  ///< the photograph that a palette is chosen from
+  std::size_t number = 0;              ///< of the view in its scene; 0 is the reference view
   float view = left_eye;
   ViewRange views;  ///< in which its marks may be drawn
   std::uint64_t seed = 1;
@@ -25,11 +27,17 @@ struct ViewToCut {
 /// Appends one view's marks, in any order.
 using CutView = std::function<void(const ViewToCut&, const Style&, PolygonPainting&)>;
 
-/// Cuts the left view into marks that both eyes show, and what only the right eye sees into marks of its own; or, where
-/// the style says so, each eye for itself. Throws Error{bad_input} where pictures and geometry do not fit together,
-/// wrong_usage for a style that cannot be painted with.
+/// Cuts the reference view into marks that all views show, then what only each other view sees into marks of its own;
+/// or, where the style says so, each view for itself. Throws Error{bad_input} where there is no view or a view's images
+/// do not fit together, wrong_usage for a style that cannot be painted with.
+PolygonPainting plan_polygons(std::span<const SceneView> views, const Style& style, const CutView& cut);
+
+/// The same for a pair, with its left view as the reference.
 PolygonPainting plan_polygons(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                               const CutView& cut);
+
+/// Throws Error{bad_input} unless a film's flow has the size of the views that it leads to.
+void check_fits(const FlowPair& flow, std::span<const SceneView> views);
 
 /// The photograph without its grain, its edges kept: what areas are cut from.
 Image<Rgb8> without_grain(ImageView<const Rgb8> photograph, float scale);

@@ -2,25 +2,76 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "wheatstone/painting/colour_palette_internal.h"
 #include "wheatstone/painting/outline_internal.h"
 #include "wheatstone/painting/plan_polygons_internal.h"
+#include "wheatstone/painting/steady_picture_internal.h"
 
 namespace wheatstone {
 namespace {
 
 /// Areas smaller than this, for a picture 640 pixels wide, are joined to their neighbours.
 constexpr float least_area_px = 40;
+/// By how much of a squared distance in RGB another colour must be nearer before a pixel leaves the colour that was
+/// carried to it: six levels between colours that lie 40 apart, fewer between those that are easily told apart.
+constexpr float hold = 500;
+
+/// How much of each colour the moment before had where a pixel's point was then.
+class CarriedColours {
+ public:
+  CarriedColours() = default;
+  CarriedColours(ImageView<const std::uint8_t> before, const Flow& backward, ImageView<const std::uint8_t> kept)
+      : before_(before), backward_(&backward), kept_(kept) {}
+
+  bool any() const { return backward_ != nullptr; }
+
+  /// Takes `hold` off the squared distances to the colours there, shared among them.
+  void weigh(int x, int y, std::span<float> distances) const {
+    if (backward_ == nullptr || kept_(x, y) == 0) return;
+    const float column = static_cast<float>(x) + backward_->x(x, y), row = static_cast<float>(y) + backward_->y(x, y);
+    const float left = std::floor(column), top = std::floor(row);
+    const float across = column - left, down = row - top;
+    const auto favour = [&](int dx, int dy, float weight) {
+      const int px = std::clamp(static_cast<int>(left) + dx, 0, before_.width() - 1);
+      const int py = std::clamp(static_cast<int>(top) + dy, 0, before_.height() - 1);
+      distances[before_(px, py)] -= hold * weight;
+    };
+    favour(0, 0, (1 - across) * (1 - down));
+    favour(1, 0, across * (1 - down));
+    favour(0, 1, (1 - across) * down);
+    favour(1, 1, across * down);
+  }
+
+ private:
+  ImageView<const std::uint8_t> before_;
+  const Flow* backward_ = nullptr;
+  ImageView<const std::uint8_t> kept_;
+};
+
+constexpr std::size_t most_colours = 256;
 
 Image<std::int32_t> label_colours(ImageView<const Rgb8> picture, ImageView<const std::uint8_t> mask,
-                                  const std::vector<Rgb8>& palette) {
+                                  const std::vector<Rgb8>& palette, const CarriedColours& carried) {
   Image<std::int32_t> labels(picture.width(), picture.height(), -1);
   tbb::parallel_for(0, picture.height(), [&](int y) {
-    for (int x = 0; x < picture.width(); ++x)
-      if (mask.empty() || mask(x, y) != 0)
-        labels(x, y) = static_cast<std::int32_t>(nearest_colour(palette, picture(x, y)));
+    std::array<float, most_colours> all;
+    const std::span<float> distances(all.data(), palette.size());
+    for (int x = 0; x < picture.width(); ++x) {
+      if (!mask.empty() && mask(x, y) == 0) continue;
+      const Rgb8 own = picture(x, y);
+      for (std::size_t i = 0; i < palette.size(); ++i) {
+        const int red = palette[i].r - own.r, green = palette[i].g - own.g, blue = palette[i].b - own.b;
+        distances[i] = static_cast<float>(red * red + green * green + blue * blue);
+      }
+      carried.weigh(x, y, distances);
+      labels(x, y) = static_cast<std::int32_t>(std::ranges::min_element(distances) - distances.begin());
+    }
   });
   return labels;
 }
@@ -30,29 +81,122 @@ Rgb8 mean_colour(const RegionMeans& means) {
   return {level(means.red), level(means.green), level(means.blue)};
 }
 
-void cut_colours(const ViewToCut& view, const Style& style, PolygonPainting& painting) {
-  const Image<Rgb8> picture = without_grain(view.photograph, view.scale);
-  const std::vector<Rgb8> palette =
-      find_palette(without_grain(view.colours_from, view.scale), style.colours, view.seed);
-  RegionMap regions =
-      connected_regions(label_colours(picture, view.mask, palette), view.disparity, view.depth_threshold_px);
+/// How many pixels of each region have each label, region after region.
+std::vector<std::uint32_t> count_labels(const RegionMap& regions, const Image<std::int32_t>& labels,
+                                        std::size_t colours) {
+  std::vector<std::uint32_t> counts(static_cast<std::size_t>(regions.count) * colours);
+  for (std::size_t i = 0; i < labels.pixels().size(); ++i)
+    if (regions.of.pixels()[i] >= 0)
+      ++counts[static_cast<std::size_t>(regions.of.pixels()[i]) * colours +
+               static_cast<std::size_t>(labels.pixels()[i])];
+  return counts;
+}
+
+/// The colour of an area: the nearest to its mean, and one that its pixels have is favoured as theirs were.
+std::size_t colour_of_area(const RegionMeans& means, std::span<const std::uint32_t> counts,
+                           const std::vector<Rgb8>& palette) {
+  const Rgb8 mean = mean_colour(means);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < palette.size(); ++i) {
+    const int red = palette[i].r - mean.r, green = palette[i].g - mean.g, blue = palette[i].b - mean.b;
+    const double distance = red * red + green * green + blue * blue -
+                            static_cast<double>(hold) * counts[i] / static_cast<double>(means.area);
+    if (distance >= least) continue;
+    least = distance;
+    best = i;
+  }
+  return best;
+}
+
+/// A view's areas, and the index of each one's colour.
+struct ColouredAreas {
+  RegionMap regions;
+  std::vector<std::size_t> colours;
+};
+
+/// Cuts a picture without grain into the palette's colours, and adds its areas.
+ColouredAreas add_areas(const ViewToCut& view, ImageView<const Rgb8> picture, const std::vector<Rgb8>& palette,
+                        const CarriedColours& carried, PolygonPainting& painting) {
+  const Image<std::int32_t> labels = label_colours(picture, view.mask, palette, carried);
+  ColouredAreas areas{connected_regions(labels, view.disparity, view.depth_threshold_px), {}};
   const auto least_area = static_cast<std::int64_t>(least_area_px * view.scale * view.scale);
-  regions = without_small_regions(std::move(regions), picture, view.disparity, view.depth_threshold_px, least_area);
+  areas.regions =
+      without_small_regions(std::move(areas.regions), picture, view.disparity, view.depth_threshold_px, least_area);
   const std::size_t first = painting.marks.size();
-  add_outlines(regions, view.disparity, view.view, {.depth_threshold_px = view.depth_threshold_px}, painting);
-  const std::vector<RegionMeans> means = means_of(regions, picture, view.disparity);
+  add_outlines(areas.regions, view.disparity, view.view, {.depth_threshold_px = view.depth_threshold_px}, painting);
+  const std::vector<RegionMeans> means = means_of(areas.regions, picture, view.disparity);
+  std::vector<std::uint32_t> counts;
+  if (carried.any()) counts = count_labels(areas.regions, labels, palette.size());
   for (std::size_t i = 0; i < means.size(); ++i) {
     PolygonMark& mark = painting.marks[first + i];
-    mark.colour = palette[nearest_colour(palette, mean_colour(means[i]))];
+    areas.colours.push_back(
+        counts.empty()
+            ? nearest_colour(palette, mean_colour(means[i]))
+            : colour_of_area(means[i], std::span(counts).subspan(i * palette.size(), palette.size()), palette));
+    mark.colour = palette[areas.colours[i]];
     mark.disparity = static_cast<float>(means[i].disparity);
     mark.views = view.views;
   }
+  return areas;
+}
+
+Image<std::uint8_t> colours_of(const ColouredAreas& areas) {
+  Image<std::uint8_t> colours(areas.regions.of.width(), areas.regions.of.height());
+  for (std::size_t i = 0; i < colours.pixels().size(); ++i)
+    colours.pixels()[i] =
+        static_cast<std::uint8_t>(areas.colours[static_cast<std::size_t>(areas.regions.of.pixels()[i])]);
+  return colours;
+}
+
+Image<Rgb8> copy_of(ImageView<const Rgb8> picture) {
+  Image<Rgb8> copy(picture.width(), picture.height());
+  for (int y = 0; y < picture.height(); ++y) std::ranges::copy(picture.row(y), copy.row(y).begin());
+  return copy;
+}
+
+/// The reference view of a scene that begins.
+void cut_first(const ViewToCut& view, const Style& style, PosterisedMemory& memory, PolygonPainting& painting) {
+  memory.picture = copy_of(view.photograph);
+  const Image<Rgb8> picture = without_grain(view.photograph, view.scale);
+  memory.palette = find_palette(picture, style.colours, view.seed);
+  memory.colour_of = colours_of(add_areas(view, picture, rounded(memory.palette), {}, painting));
+}
+
+/// The reference view of a scene that goes on.
+void cut_next(const ViewToCut& view, const FlowPair& flow, PosterisedMemory& memory, PolygonPainting& painting) {
+  const Image<std::uint8_t> kept = confirmed(flow.backward, flow.forward);
+  memory.picture = steady_picture(view.photograph, memory.picture, flow.backward, kept);
+  const Image<Rgb8> picture = without_grain(memory.picture, view.scale);
+  follow_palette(picture, memory.palette);
+  const CarriedColours carried(memory.colour_of, flow.backward, kept);
+  memory.colour_of = colours_of(add_areas(view, picture, rounded(memory.palette), carried, painting));
 }
 
 }  // namespace
 
 PolygonPainting plan_posterised(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
-  return plan_polygons(photographs, geometry, style, cut_colours);
+  std::vector<Rgb8> palette;
+  const auto cut = [&](const ViewToCut& view, const Style&, PolygonPainting& painting) {
+    const Image<Rgb8> picture = without_grain(view.photograph, view.scale);
+    if (view.number == 0 || style.propagation == Propagation::independent)
+      palette = rounded(find_palette(picture, style.colours, view.seed));
+    add_areas(view, picture, palette, {}, painting);
+  };
+  return plan_polygons(photographs, geometry, style, cut);
+}
+
+PolygonPainting plan_posterised(const Moment& moment, const Style& style, PosterisedMemory& memory) {
+  if (moment.flow != nullptr) check_fits(*moment.flow, moment.views);
+  return plan_polygons(moment.views, style, [&](const ViewToCut& view, const Style&, PolygonPainting& painting) {
+    if (view.number > 0) {
+      add_areas(view, without_grain(view.photograph, view.scale), rounded(memory.palette), {}, painting);
+    } else if (moment.flow == nullptr || !same_size(memory.picture, view.photograph)) {
+      cut_first(view, style, memory, painting);
+    } else {
+      cut_next(view, *moment.flow, memory, painting);
+    }
+  });
 }
 
 }  // namespace wheatstone

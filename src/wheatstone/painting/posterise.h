@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheatstone/painting/moment.h"
 #include "wheatstone/painting/polygon_mark.h"
 #include "wheatstone/painting/style.h"
 #include "wheatstone/stereo/stereo_pair.h"
@@ -11,5 +12,24 @@ namespace wheatstone {
 /// of the left one; what only the right eye sees is cut there, into the same colours. Throws Error: bad_input where the
 /// geometry does not fit, wrong_usage for a style that cannot be painted with.
 PolygonPainting plan_posterised(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style);
+
+/// One colour of a palette, 0..255 a channel, finer than pixels have it.
+struct PaletteColour {
+  double red = 0, green = 0, blue = 0;
+  friend bool operator==(const PaletteColour&, const PaletteColour&) = default;
+};
+
+/// What a posterised film remembers from one moment to the next; empty before the first.
+struct PosterisedMemory {
+  std::vector<PaletteColour> palette;
+  Image<std::uint8_t> colour_of;  ///< of each pixel of the reference view: the index of its area's colour
+  Image<Rgb8> picture;            ///< the reference view, its noise averaged along the flow
+};
+
+/// The next moment of a film, posterised: the palette goes on from the moment before, slowly, and a pixel keeps its
+/// point's colour, carried along the confirmed flow, unless another one is now clearly nearer. The reference view gives
+/// all views their areas; what only another view sees is cut there, into the same colours. Throws Error as above, and
+/// bad_input where the flow has not the views' size.
+PolygonPainting plan_posterised(const Moment& moment, const Style& style, PosterisedMemory& memory);
 
 }  // namespace wheatstone

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/motion/flow.h"
 #include "wheatstone/painting/orientation_field_internal.h"
+#include "wheatstone/painting/spline_internal.h"
 #include "wheatstone/painting/tiling_internal.h"
 #include "wheatstone/random.h"
 
@@ -18,6 +21,9 @@ struct Tile {
   Direction along;
   std::int32_t surface = -1;
   float red = 0, green = 0, blue = 0;  ///< mean colour
+  float area = 0;                      ///< in pixels, by its last cell
+  std::int32_t before = -1;            ///< which tile it was a moment before
+  bool elsewhere = false;              ///< lies on something else than then
 };
 
 /// How much a tile's shape gives way to the picture's colours: a difference of 255 in one channel is as far as this
@@ -27,6 +33,16 @@ constexpr int lloyd_rounds = 30;
 /// A pixel asks the tiles of the 5 × 5 cells around its own.
 constexpr int reach_cells = 2;
 
+/// In time, the share of the way to its cell's middle that a tile goes, and of the turn to the picture's direction.
+constexpr float move_share = 0.2f, turn_share = 0.25f;
+/// A tile whose colour differs by more from its place's in a channel is taken to lie on something new.
+constexpr float new_thing = 40;
+/// A tile with a smaller cell than this share of a whole one is gone, one that lies on something new sooner; a gap of
+/// this share of one gets a new tile.
+constexpr float gone_share = 0.05f, crowded_share = 0.4f, gap_share = 0.4f;
+/// Pixels farther from their tile than this many of its halves lie in a gap.
+constexpr float gap_halves = 1.7f;
+
 /// The surfaces of the picture, each a connected region.
 RegionMap find_surfaces(const ViewToCut& view) {
   Image<std::int32_t> labels(view.disparity.width(), view.disparity.height());
@@ -34,6 +50,17 @@ RegionMap find_surfaces(const ViewToCut& view) {
     for (int y = 0; y < labels.height(); ++y)
       for (int x = 0; x < labels.width(); ++x) labels(x, y) = view.mask(x, y) != 0 ? 0 : -1;
   return connected_regions(labels, view.disparity, view.depth_threshold_px);
+}
+
+float between(float from, float to, float share) { return share < 1 ? from + share * (to - from) : to; }
+
+/// A share of the turn from one direction to another; a quarter turn leaves a square what it is.
+Direction turned(Direction from, Direction to, float share) {
+  if (share >= 1) return to;
+  constexpr float quarter = std::numbers::pi_v<float> / 2;
+  const float angle = std::atan2(from.y, from.x);
+  const float turn = std::remainder(std::atan2(to.y, to.x) - angle, quarter);
+  return {std::cos(angle + share * turn), std::sin(angle + share * turn)};
 }
 
 /// Lloyd's method on pixels (Hausner 2001, sec. 3).
@@ -51,18 +78,32 @@ class Tiling {
     cv::cvtColor(as_mat(picture_), grey, cv::COLOR_RGB2GRAY);
     field_ = OrientationField(luminance, cell_px_ / 4);
     mark_edges(luminance, cell_px_);
-    place_tiles(view.seed);
   }
 
-  Image<std::int32_t> lay() {
+  void lay(std::uint64_t seed) {
+    for (int row = 0; row < rows_; ++row)
+      for (int column = 0; column < columns_; ++column) add_tile(lattice_place(seed, column, row));
     for (int round = 0; round < lloyd_rounds; ++round) {
       assign();
-      move_to_centroids();
+      move_to_centroids(1, 1);
     }
     assign();
-    return std::move(tile_of_);
   }
+
+  void lay_again(std::span<const MosaicTile> before, std::uint64_t seed) {
+    for (std::size_t i = 0; i < before.size(); ++i) place_again(before[i], static_cast<std::int32_t>(i));
+    assign();
+    move_to_centroids(move_share, turn_share);
+    std::erase_if(tiles_, [&](const Tile& tile) {
+      return tile.area < (tile.elsewhere ? crowded_share : gone_share) * cell_px_ * cell_px_;
+    });
+    assign();
+    if (fill_gaps(seed)) assign();
+  }
+
   const Image<Rgb8>& picture() const { return picture_; }
+  const Image<std::int32_t>& tile_of() const { return tile_of_; }
+  const std::vector<Tile>& tiles() const { return tiles_; }
 
  private:
   void mark_edges(const Image<std::uint8_t>& luminance, float cell_px) {
@@ -74,26 +115,81 @@ class Tiling {
     cv::dilate(edges, edges, cv::getStructuringElement(cv::MORPH_RECT, {thickness, thickness}));
   }
 
-  void place_tiles(std::uint64_t seed) {
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        const auto jitter = [&](std::uint64_t axis) {
-          return 0.25f + 0.5f * unit_float(hash(
-                                    {seed, axis, static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(column)}));
-        };
-        add_tile((static_cast<float>(column) + jitter(0)) * cell_px_, (static_cast<float>(row) + jitter(1)) * cell_px_);
-      }
-    }
+  /// Somewhere in a cell of the lattice, the same in each frame.
+  PlanePoint lattice_place(std::uint64_t seed, int column, int row) const {
+    const auto jitter = [&](std::uint64_t axis) {
+      return 0.25f +
+             0.5f * unit_float(hash({seed, axis, static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(column)}));
+    };
+    return {(static_cast<float>(column) + jitter(0)) * cell_px_, (static_cast<float>(row) + jitter(1)) * cell_px_};
   }
 
-  void add_tile(float x, float y) {
-    const int px = std::clamp(static_cast<int>(x), 0, picture_.width() - 1);
-    const int py = std::clamp(static_cast<int>(y), 0, picture_.height() - 1);
+  void add_tile(PlanePoint at) {
+    const int px = std::clamp(static_cast<int>(at.x), 0, picture_.width() - 1);
+    const int py = std::clamp(static_cast<int>(at.y), 0, picture_.height() - 1);
     if (surfaces_.of(px, py) < 0) return;
     const Rgb8 colour = picture_(px, py);
-    tiles_.push_back({static_cast<float>(px) + 0.5f, static_cast<float>(py) + 0.5f, field_.along(x, y, 0, 0),
+    tiles_.push_back({static_cast<float>(px) + 0.5f, static_cast<float>(py) + 0.5f, field_.along(at.x, at.y, 0, 0),
                       surfaces_.of(px, py), static_cast<float>(colour.r), static_cast<float>(colour.g),
                       static_cast<float>(colour.b)});
+  }
+
+  void place_again(const MosaicTile& before, std::int32_t index) {
+    const PlanePoint at{before.x, before.y};
+    const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
+    if (!surfaces_.of.contains(column, row) || surfaces_.of(column, row) < 0) return;
+    const std::int32_t surface = surfaces_.of(column, row);
+    const SampledColour now = sample(picture_.view(), at.x, at.y);
+    const float difference =
+        std::max({std::abs(now.r - before.red), std::abs(now.g - before.green), std::abs(now.b - before.blue)});
+    Tile tile{at.x,
+              at.y,
+              {before.along_x, before.along_y},
+              surface,
+              before.red,
+              before.green,
+              before.blue,
+              0,
+              index,
+              difference > new_thing};
+    if (tile.elsewhere) {
+      tile.along = field_.along(at.x, at.y, 0, 0);
+      tile.red = now.r;
+      tile.green = now.g;
+      tile.blue = now.b;
+    }
+    tiles_.push_back(tile);
+  }
+
+  /// Where much of a cell of the lattice lies far from every tile, a new one is laid on what does.
+  bool fill_gaps(std::uint64_t seed) {
+    struct Gap {
+      int area = 0;
+      float nearest = std::numeric_limits<float>::infinity();
+      PlanePoint at{};
+    };
+    std::vector<Gap> gaps(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    for (int y = 0; y < picture_.height(); ++y) {
+      for (int x = 0; x < picture_.width(); ++x) {
+        const PlanePoint at{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+        const std::int32_t tile = tile_of_(x, y);
+        if (surfaces_.of(x, y) < 0 ||
+            (tile >= 0 && halves_away(tiles_[static_cast<std::size_t>(tile)], at.x, at.y) < gap_halves))
+          continue;
+        const int cell = cell_of(at.x, at.y);
+        const PlanePoint wished = lattice_place(seed, cell % columns_, cell / columns_);
+        const float distance = std::hypot(at.x - wished.x, at.y - wished.y);
+        Gap& gap = gaps[static_cast<std::size_t>(cell)];
+        ++gap.area;
+        if (distance >= gap.nearest) continue;
+        gap.nearest = distance;
+        gap.at = at;
+      }
+    }
+    const std::size_t before = tiles_.size();
+    for (const Gap& gap : gaps)
+      if (static_cast<float>(gap.area) >= gap_share * cell_px_ * cell_px_) add_tile(gap.at);
+    return tiles_.size() > before;
   }
 
   int cell_of(float x, float y) const {
@@ -101,12 +197,17 @@ class Tiling {
     return std::clamp(static_cast<int>(y / cell_px_), 0, rows_ - 1) * columns_ + column;
   }
 
-  /// Squared distance in halves of a tile: the square metric, turned, and the difference in colour.
-  float distance(const Tile& tile, float x, float y, Rgb8 colour) const {
+  /// How far a place lies from a tile's centre by the square metric, turned, in halves of a tile.
+  float halves_away(const Tile& tile, float x, float y) const {
     const float dx = x - tile.x, dy = y - tile.y;
     const float u = std::abs(dx * tile.along.x + dy * tile.along.y);
     const float v = std::abs(-dx * tile.along.y + dy * tile.along.x);
-    const float square = 2 * std::max(u, v) / cell_px_;
+    return 2 * std::max(u, v) / cell_px_;
+  }
+
+  /// Squared distance in halves of a tile: the square metric, turned, and the difference in colour.
+  float distance(const Tile& tile, float x, float y, Rgb8 colour) const {
+    const float square = halves_away(tile, x, y), dx = x - tile.x, dy = y - tile.y;
     // A little of the round metric keeps the square one's ties from making stripes.
     const float round = 0.04f * (dx * dx + dy * dy) / (cell_px_ * cell_px_);
     const float red = static_cast<float>(colour.r) - tile.red, green = static_cast<float>(colour.g) - tile.green,
@@ -147,10 +248,11 @@ class Tiling {
     return best;
   }
 
-  /// Pixels on the picture's edges do not count: tiles move off them (Hausner 2001, sec. 4).
-  void move_to_centroids() {
+  /// Pixels on the picture's edges do not count: tiles move off them (Hausner 2001, sec. 4). Tiles go shares of the way
+  /// and of the turn.
+  void move_to_centroids(float way, float turn) {
     struct Sum {
-      double x = 0, y = 0, weight = 0, red = 0, green = 0, blue = 0;
+      double x = 0, y = 0, weight = 0, red = 0, green = 0, blue = 0, area = 0;
     };
     std::vector<Sum> sums(tiles_.size());
     for (int y = 0; y < picture_.height(); ++y) {
@@ -164,19 +266,21 @@ class Tiling {
         sum.green += weight * picture_(x, y).g;
         sum.blue += weight * picture_(x, y).b;
         sum.weight += weight;
+        ++sum.area;
       }
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
       const Sum& sum = sums[i];
-      if (sum.weight <= 0) continue;
       Tile& tile = tiles_[i];
+      tile.area = static_cast<float>(sum.area);
+      if (sum.weight <= 0) continue;
       const auto mean = [&](double total) { return static_cast<float>(total / sum.weight); };
-      tile.x = mean(sum.x);
-      tile.y = mean(sum.y);
+      tile.x = between(tile.x, mean(sum.x), way);
+      tile.y = between(tile.y, mean(sum.y), way);
       tile.red = mean(sum.red);
       tile.green = mean(sum.green);
       tile.blue = mean(sum.blue);
-      tile.along = field_.along(tile.x, tile.y, 0, 0);
+      tile.along = turned(tile.along, field_.along(tile.x, tile.y, 0, 0), turn);
     }
   }
 
@@ -201,16 +305,62 @@ void label_the_rest(const ViewToCut& view, float tile_px, Image<std::int32_t>& l
         labels(x, y) = first + (y / cell) * columns + x / cell;
 }
 
+/// The tile that most of each region's pixels have, −1 for none; of several such regions of a tile the largest has it.
+std::vector<std::int32_t> tiles_of(const RegionMap& regions, const Image<std::int32_t>& tile_of, std::size_t tiles) {
+  struct Vote {
+    std::int32_t tile = -1;
+    int lead = 0, area = 0;
+  };
+  std::vector<Vote> votes(static_cast<std::size_t>(regions.count));
+  for (std::size_t i = 0; i < tile_of.pixels().size(); ++i) {
+    if (regions.of.pixels()[i] < 0) continue;
+    Vote& vote = votes[static_cast<std::size_t>(regions.of.pixels()[i])];
+    const std::int32_t tile = tile_of.pixels()[i];
+    if (vote.lead == 0) vote.tile = tile;
+    vote.lead += vote.tile == tile ? 1 : -1;
+    ++vote.area;
+  }
+  std::vector<std::int32_t> region_of(tiles, -1), result(votes.size(), -1);
+  for (std::size_t i = 0; i < votes.size(); ++i) {
+    if (votes[i].tile < 0) continue;
+    std::int32_t& region = region_of[static_cast<std::size_t>(votes[i].tile)];
+    if (region < 0 || votes[static_cast<std::size_t>(region)].area < votes[i].area)
+      region = static_cast<std::int32_t>(i);
+  }
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+    if (region_of[tile] >= 0) result[static_cast<std::size_t>(region_of[tile])] = static_cast<std::int32_t>(tile);
+  return result;
+}
+
+Tiles finished(const ViewToCut& view, float tile_px, const Tiling& tiling) {
+  Image<std::int32_t> labels = tiling.tile_of();
+  label_the_rest(view, tile_px, labels);
+  constexpr float least_share = 0.2f;
+  Tiles tiles{connected_regions(labels, view.disparity, view.depth_threshold_px), {}, {}, {}};
+  tiles.regions =
+      without_small_regions(std::move(tiles.regions), tiling.picture(), view.disparity, view.depth_threshold_px,
+                            static_cast<std::int64_t>(least_share * tile_px * tile_px));
+  tiles.tile_of = tiles_of(tiles.regions, tiling.tile_of(), tiling.tiles().size());
+  for (const Tile& tile : tiling.tiles()) {
+    tiles.laid.push_back({tile.x, tile.y, tile.along.x, tile.along.y, tile.red, tile.green, tile.blue,
+                          static_cast<std::uint32_t>(view.number)});
+    tiles.before.push_back(tile.before);
+  }
+  return tiles;
+}
+
 }  // namespace
 
-RegionMap lay_tiles(const ViewToCut& view, float tile_px) {
+Tiles lay_tiles(const ViewToCut& view, float tile_px) {
   Tiling tiling(view, tile_px);
-  Image<std::int32_t> labels = tiling.lay();
-  label_the_rest(view, tile_px, labels);
-  RegionMap regions = connected_regions(labels, view.disparity, view.depth_threshold_px);
-  constexpr float least_share = 0.2f;
-  return without_small_regions(std::move(regions), tiling.picture(), view.disparity, view.depth_threshold_px,
-                               static_cast<std::int64_t>(least_share * tile_px * tile_px));
+  tiling.lay(view.seed);
+  return finished(view, tile_px, tiling);
+}
+
+Tiles lay_tiles_again(const ViewToCut& view, float tile_px, std::span<const MosaicTile> before) {
+  Tiling tiling(view, tile_px);
+  tiling.lay_again(before, view.seed);
+  return finished(view, tile_px, tiling);
 }
 
 }  // namespace wheatstone

@@ -1,10 +1,26 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
+#include "wheatstone/painting/mosaic.h"
 #include "wheatstone/painting/plan_polygons_internal.h"
 
 namespace wheatstone {
 
-/// The tiles of one view as regions: connected, each on one surface.
-RegionMap lay_tiles(const ViewToCut& view, float tile_px);
+/// A view cut into tiles.
+struct Tiles {
+  RegionMap regions;  ///< connected, each on one surface
+  std::vector<MosaicTile> laid;
+  std::vector<std::int32_t> before;   ///< of each tile laid: which one it was a moment before, −1: none
+  std::vector<std::int32_t> tile_of;  ///< of each region: the tile laid whose main part it is, −1: of none
+};
+
+/// Lays the tiles of one view anew.
+Tiles lay_tiles(const ViewToCut& view, float tile_px);
+
+/// Lays them where they lay a moment before, which need not be in order: they turn with the picture, take its colours
+/// and move hardly. Those that nothing is left of are gone, and gaps get new ones.
+Tiles lay_tiles_again(const ViewToCut& view, float tile_px, std::span<const MosaicTile> before);
 
 }  // namespace wheatstone
