@@ -81,7 +81,7 @@ void ease(const MosaicTile& before, RegionMeans& means) {
 }
 
 void cut_tiles(const ViewToCut& view, const Style& style, PolygonPainting& painting) {
-  const Tiles tiles = lay_tiles(view, style.tile_px * view.scale);
+  const Tiles tiles = lay_tiles(view, without_grain(view.photograph, view.scale), style.tile_px * view.scale);
   add_tiles(view, tiles, means_of(tiles.regions, view.photograph, view.disparity), painting);
 }
 
@@ -89,7 +89,10 @@ void cut_tiles(const ViewToCut& view, const Style& style, PolygonPainting& paint
 void cut_tiles_again(const ViewToCut& view, const Style& style, std::span<const MosaicTile> before,
                      std::vector<MosaicTile>& after, PolygonPainting& painting) {
   const float tile_px = style.tile_px * view.scale;
-  const Tiles tiles = before.empty() ? lay_tiles(view, tile_px) : lay_tiles_again(view, tile_px, before);
+  const Image<Rgb8> picture =
+      view.number == 0 ? without_grain(view.photograph, view.scale) : without_grain_quickly(view.photograph);
+  const Tiles tiles =
+      before.empty() ? lay_tiles(view, picture, tile_px) : lay_tiles_again(view, picture, tile_px, before);
   std::vector<RegionMeans> means = means_of(tiles.regions, view.photograph, view.disparity);
   for (std::size_t i = 0; i < means.size(); ++i) {
     if (tiles.tile_of[i] < 0) continue;

@@ -40,7 +40,7 @@ class Tracer {
     for (const bool from_junctions : {true, false}) {
       for (int y = 0; y <= height_; ++y) {
         for (int x = 0; x <= width_; ++x) {
-          if (from_junctions && !is_junction({x, y})) continue;
+          if (lies_inside({x, y}) || (from_junctions && !is_junction({x, y}))) continue;
           for (int direction = 0; direction < 4; ++direction)
             if (is_crack({x, y}, direction) && !walked({x, y}, direction)) arcs.push_back(walk({x, y}, direction));
         }
@@ -51,6 +51,13 @@ class Tracer {
 
  private:
   std::int32_t region(int x, int y) const { return of_.contains(x, y) ? of_(x, y) : -1; }
+
+  /// Most corners lie inside a region.
+  bool lies_inside(Corner c) const {
+    if (c.x == 0 || c.y == 0 || c.x == width_ || c.y == height_) return false;
+    const std::int32_t first = of_(c.x - 1, c.y - 1);
+    return of_(c.x, c.y - 1) == first && of_(c.x - 1, c.y) == first && of_(c.x, c.y) == first;
+  }
 
   /// The regions to the left and right of a step.
   std::pair<std::int32_t, std::int32_t> sides(Corner c, int direction) const {

@@ -18,59 +18,86 @@ namespace {
 
 /// Areas smaller than this, for a picture 640 pixels wide, are joined to their neighbours.
 constexpr float least_area_px = 40;
-/// By how much of a squared distance in RGB another colour must be nearer before a pixel leaves the colour that was
-/// carried to it: six levels between colours that lie 40 apart, fewer between those that are easily told apart.
-constexpr float hold = 500;
+/// How firmly a pixel keeps the colour that was carried to it: another one must be nearer by this share of the squared
+/// distance between the kept colour and its nearest neighbour in the palette, so that a pixel leaves for that neighbour
+/// after four fifths of the way.
+constexpr float firmness = 0.6f;
+
+int squared_distance(Rgb8 a, Rgb8 b) {
+  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
+  return red * red + green * green + blue * blue;
+}
+
+/// For each colour, by how much in squared distance others must be nearer.
+std::vector<float> holds_of(const std::vector<Rgb8>& palette) {
+  std::vector<float> holds;
+  for (std::size_t i = 0; i < palette.size(); ++i) {
+    int nearest = std::numeric_limits<int>::max();
+    for (std::size_t k = 0; k < palette.size(); ++k)
+      if (k != i) nearest = std::min(nearest, squared_distance(palette[i], palette[k]));
+    holds.push_back(firmness * static_cast<float>(nearest));
+  }
+  return holds;
+}
 
 /// How much of each colour the moment before had where a pixel's point was then.
 class CarriedColours {
  public:
   CarriedColours() = default;
-  CarriedColours(ImageView<const std::uint8_t> before, const Flow& backward, ImageView<const std::uint8_t> kept)
-      : before_(before), backward_(&backward), kept_(kept) {}
+  CarriedColours(ImageView<const std::uint8_t> before, const Flow& backward, ImageView<const std::uint8_t> kept,
+                 std::vector<float> holds)
+      : before_(before), backward_(&backward), kept_(kept), holds_(std::move(holds)) {}
 
   bool any() const { return backward_ != nullptr; }
+  float hold(std::size_t colour) const { return holds_[colour]; }
 
-  /// Takes `hold` off the squared distances to the colours there, shared among them.
-  void weigh(int x, int y, std::span<float> distances) const {
-    if (backward_ == nullptr || kept_(x, y) == 0) return;
+  /// The colour of a pixel that looks like `own`: the nearest, where those that were there, each by its share, are
+  /// favoured by what holds them.
+  std::size_t choose(int x, int y, Rgb8 own, const std::vector<Rgb8>& palette) const {
+    if (backward_ == nullptr || kept_(x, y) == 0) return nearest_colour(palette, own);
     const float column = static_cast<float>(x) + backward_->x(x, y), row = static_cast<float>(y) + backward_->y(x, y);
     const float left = std::floor(column), top = std::floor(row);
     const float across = column - left, down = row - top;
-    const auto favour = [&](int dx, int dy, float weight) {
-      const int px = std::clamp(static_cast<int>(left) + dx, 0, before_.width() - 1);
-      const int py = std::clamp(static_cast<int>(top) + dy, 0, before_.height() - 1);
-      distances[before_(px, py)] -= hold * weight;
+    const auto colour_at = [&](int dx, int dy) -> std::size_t {
+      return before_(std::clamp(static_cast<int>(left) + dx, 0, before_.width() - 1),
+                     std::clamp(static_cast<int>(top) + dy, 0, before_.height() - 1));
     };
-    favour(0, 0, (1 - across) * (1 - down));
-    favour(1, 0, across * (1 - down));
-    favour(0, 1, (1 - across) * down);
-    favour(1, 1, across * down);
+    const std::array<std::size_t, 4> colours{colour_at(0, 0), colour_at(1, 0), colour_at(0, 1), colour_at(1, 1)};
+    // The usual case, without a search: by the triangle inequality no other colour can be nearer by enough.
+    constexpr float surely = 0.99f * (1 + firmness) * (1 + firmness) / 4 / firmness;
+    if (std::ranges::all_of(colours, [&](std::size_t colour) { return colour == colours[0]; }) &&
+        static_cast<float>(squared_distance(palette[colours[0]], own)) < surely * holds_[colours[0]])
+      return colours[0];
+    const std::array<float, 4> shares{(1 - across) * (1 - down), across * (1 - down), (1 - across) * down,
+                                      across * down};
+    std::size_t best = nearest_colour(palette, own);
+    auto least = static_cast<float>(squared_distance(palette[best], own));
+    for (const std::size_t colour : colours) {
+      float share = 0;
+      for (std::size_t i = 0; i < colours.size(); ++i)
+        if (colours[i] == colour) share += shares[i];
+      const float distance = static_cast<float>(squared_distance(palette[colour], own)) - holds_[colour] * share;
+      if (distance >= least) continue;
+      least = distance;
+      best = colour;
+    }
+    return best;
   }
 
  private:
   ImageView<const std::uint8_t> before_;
   const Flow* backward_ = nullptr;
   ImageView<const std::uint8_t> kept_;
+  std::vector<float> holds_;
 };
-
-constexpr std::size_t most_colours = 256;
 
 Image<std::int32_t> label_colours(ImageView<const Rgb8> picture, ImageView<const std::uint8_t> mask,
                                   const std::vector<Rgb8>& palette, const CarriedColours& carried) {
   Image<std::int32_t> labels(picture.width(), picture.height(), -1);
   tbb::parallel_for(0, picture.height(), [&](int y) {
-    std::array<float, most_colours> all;
-    const std::span<float> distances(all.data(), palette.size());
     for (int x = 0; x < picture.width(); ++x) {
       if (!mask.empty() && mask(x, y) == 0) continue;
-      const Rgb8 own = picture(x, y);
-      for (std::size_t i = 0; i < palette.size(); ++i) {
-        const int red = palette[i].r - own.r, green = palette[i].g - own.g, blue = palette[i].b - own.b;
-        distances[i] = static_cast<float>(red * red + green * green + blue * blue);
-      }
-      carried.weigh(x, y, distances);
-      labels(x, y) = static_cast<std::int32_t>(std::ranges::min_element(distances) - distances.begin());
+      labels(x, y) = static_cast<std::int32_t>(carried.choose(x, y, picture(x, y), palette));
     }
   });
   return labels;
@@ -94,14 +121,13 @@ std::vector<std::uint32_t> count_labels(const RegionMap& regions, const Image<st
 
 /// The colour of an area: the nearest to its mean, and one that its pixels have is favoured as theirs were.
 std::size_t colour_of_area(const RegionMeans& means, std::span<const std::uint32_t> counts,
-                           const std::vector<Rgb8>& palette) {
+                           const std::vector<Rgb8>& palette, const CarriedColours& carried) {
   const Rgb8 mean = mean_colour(means);
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < palette.size(); ++i) {
-    const int red = palette[i].r - mean.r, green = palette[i].g - mean.g, blue = palette[i].b - mean.b;
-    const double distance = red * red + green * green + blue * blue -
-                            static_cast<double>(hold) * counts[i] / static_cast<double>(means.area);
+    const double kept = static_cast<double>(carried.hold(i)) * counts[i] / static_cast<double>(means.area);
+    const double distance = squared_distance(palette[i], mean) - kept;
     if (distance >= least) continue;
     least = distance;
     best = i;
@@ -131,9 +157,9 @@ ColouredAreas add_areas(const ViewToCut& view, ImageView<const Rgb8> picture, co
   for (std::size_t i = 0; i < means.size(); ++i) {
     PolygonMark& mark = painting.marks[first + i];
     areas.colours.push_back(
-        counts.empty()
-            ? nearest_colour(palette, mean_colour(means[i]))
-            : colour_of_area(means[i], std::span(counts).subspan(i * palette.size(), palette.size()), palette));
+        counts.empty() ? nearest_colour(palette, mean_colour(means[i]))
+                       : colour_of_area(means[i], std::span(counts).subspan(i * palette.size(), palette.size()),
+                                        palette, carried));
     mark.colour = palette[areas.colours[i]];
     mark.disparity = static_cast<float>(means[i].disparity);
     mark.views = view.views;
@@ -169,8 +195,9 @@ void cut_next(const ViewToCut& view, const FlowPair& flow, PosterisedMemory& mem
   memory.picture = steady_picture(view.photograph, memory.picture, flow.backward, kept);
   const Image<Rgb8> picture = without_grain(memory.picture, view.scale);
   follow_palette(picture, memory.palette);
-  const CarriedColours carried(memory.colour_of, flow.backward, kept);
-  memory.colour_of = colours_of(add_areas(view, picture, rounded(memory.palette), carried, painting));
+  const std::vector<Rgb8> palette = rounded(memory.palette);
+  const CarriedColours carried(memory.colour_of, flow.backward, kept, holds_of(palette));
+  memory.colour_of = colours_of(add_areas(view, picture, palette, carried, painting));
 }
 
 }  // namespace
@@ -190,7 +217,7 @@ PolygonPainting plan_posterised(const Moment& moment, const Style& style, Poster
   if (moment.flow != nullptr) check_fits(*moment.flow, moment.views);
   return plan_polygons(moment.views, style, [&](const ViewToCut& view, const Style&, PolygonPainting& painting) {
     if (view.number > 0) {
-      add_areas(view, without_grain(view.photograph, view.scale), rounded(memory.palette), {}, painting);
+      add_areas(view, without_grain_quickly(view.photograph), rounded(memory.palette), {}, painting);
     } else if (moment.flow == nullptr || !same_size(memory.picture, view.photograph)) {
       cut_first(view, style, memory, painting);
     } else {

@@ -9,7 +9,7 @@ namespace wheatstone {
 namespace {
 
 /// The new picture's share where both agree; it grows to all of it as they come to differ by `unlike` in a channel.
-constexpr float new_share = 0.3f, unlike = 48;
+constexpr float new_share = 0.25f, unlike = 64;
 
 Rgb8 mixed(Rgb8 now, const SampledColour& before) {
   const float red = static_cast<float>(now.r) - before.r, green = static_cast<float>(now.g) - before.g,

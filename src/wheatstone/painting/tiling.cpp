@@ -66,9 +66,9 @@ Direction turned(Direction from, Direction to, float share) {
 /// Lloyd's method on pixels (Hausner 2001, sec. 3).
 class Tiling {
  public:
-  Tiling(const ViewToCut& view, float tile_px)
+  Tiling(const ViewToCut& view, ImageView<const Rgb8> picture, float tile_px)
       : cell_px_(std::max(tile_px, 2.f)),
-        picture_(without_grain(view.photograph, view.scale)),
+        picture_(picture),
         surfaces_(find_surfaces(view)),
         tile_of_(picture_.width(), picture_.height(), -1),
         columns_(static_cast<int>(std::ceil(static_cast<float>(picture_.width()) / cell_px_))),
@@ -101,7 +101,7 @@ class Tiling {
     if (fill_gaps(seed)) assign();
   }
 
-  const Image<Rgb8>& picture() const { return picture_; }
+  ImageView<const Rgb8> picture() const { return picture_; }
   const Image<std::int32_t>& tile_of() const { return tile_of_; }
   const std::vector<Tile>& tiles() const { return tiles_; }
 
@@ -139,7 +139,7 @@ class Tiling {
     const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
     if (!surfaces_.of.contains(column, row) || surfaces_.of(column, row) < 0) return;
     const std::int32_t surface = surfaces_.of(column, row);
-    const SampledColour now = sample(picture_.view(), at.x, at.y);
+    const SampledColour now = sample(picture_, at.x, at.y);
     const float difference =
         std::max({std::abs(now.r - before.red), std::abs(now.g - before.green), std::abs(now.b - before.blue)});
     Tile tile{at.x,
@@ -285,7 +285,7 @@ class Tiling {
   }
 
   float cell_px_;
-  Image<Rgb8> picture_;
+  ImageView<const Rgb8> picture_;
   RegionMap surfaces_;
   Image<std::int32_t> tile_of_;
   int columns_, rows_;
@@ -351,14 +351,15 @@ Tiles finished(const ViewToCut& view, float tile_px, const Tiling& tiling) {
 
 }  // namespace
 
-Tiles lay_tiles(const ViewToCut& view, float tile_px) {
-  Tiling tiling(view, tile_px);
+Tiles lay_tiles(const ViewToCut& view, ImageView<const Rgb8> picture, float tile_px) {
+  Tiling tiling(view, picture, tile_px);
   tiling.lay(view.seed);
   return finished(view, tile_px, tiling);
 }
 
-Tiles lay_tiles_again(const ViewToCut& view, float tile_px, std::span<const MosaicTile> before) {
-  Tiling tiling(view, tile_px);
+Tiles lay_tiles_again(const ViewToCut& view, ImageView<const Rgb8> picture, float tile_px,
+                      std::span<const MosaicTile> before) {
+  Tiling tiling(view, picture, tile_px);
   tiling.lay_again(before, view.seed);
   return finished(view, tile_px, tiling);
 }
