@@ -217,7 +217,10 @@ PolygonPainting plan_posterised(const Moment& moment, const Style& style, Poster
   if (moment.flow != nullptr) check_fits(*moment.flow, moment.views);
   return plan_polygons(moment.views, style, [&](const ViewToCut& view, const Style&, PolygonPainting& painting) {
     if (view.number > 0) {
-      add_areas(view, without_grain_quickly(view.photograph), rounded(memory.palette), {}, painting);
+      const Image<Rgb8> picture = without_grain_quickly(view.photograph);
+      const bool alone = style.propagation == Propagation::independent;
+      add_areas(view, picture, rounded(alone ? find_palette(picture, style.colours, view.seed) : memory.palette), {},
+                painting);
     } else if (moment.flow == nullptr || !same_size(memory.picture, view.photograph)) {
       cut_first(view, style, memory, painting);
     } else {
