@@ -57,9 +57,15 @@ DisparityRange scene_range(const StereoPair& eyes, RotoscopeState& state) {
   return *state.range;
 }
 
+/// What makes a picture so wide, if it is wider.
+double share_of_width(const Image<Rgb8>& picture, int widest_px) {
+  return std::min(static_cast<double>(widest_px) / picture.width(), 1.0);
+}
+
 StereoGeometry find_geometry(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state) {
   MatchOptions matching = options.matching;
   if (!matching.range) matching.range = scene_range(eyes, state);
+  matching.size = std::min(matching.size, share_of_width(eyes.left, options.widest_matched_px));
   return match(eyes, matching).geometry;
 }
 
@@ -88,7 +94,9 @@ FlowPair find_flow(const FrameAtWork& frame, const RotoscopeOptions& options, co
     return central_flow(*known->flow, {state.left_disparity_before, state.central_disparity_before},
                         {frame.geometry.left_disparity, frame.centre.disparity});
   const FlowPair* start = state.flow_before.forward.x.empty() ? nullptr : &state.flow_before;
-  return estimate_flow(state.central_before, frame.centre.picture, {options.flow, start});
+  const double size = share_of_width(state.central_before, options.widest_flow_px);
+  return estimate_flow(state.central_before, frame.centre.picture,
+                       {.method = options.flow, .size = size, .start = start});
 }
 
 FrameAtWork look_at(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,

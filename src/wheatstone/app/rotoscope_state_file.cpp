@@ -142,6 +142,10 @@ void visit(Archive& archive, State& state) {
   archive(state.totals);
   archive.sequence(state.layers_before, [&](auto& layer) { visit_layer(archive, layer); });
   visit_strokes(archive, state.memory.strokes);
+  archive(state.memory.posterised.palette);
+  archive(state.memory.posterised.colour_of);
+  archive(state.memory.posterised.picture);
+  archive(state.memory.mosaic.tiles);
 }
 
 std::uint32_t checksum_of(std::string_view bytes) {

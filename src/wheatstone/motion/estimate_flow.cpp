@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
@@ -12,6 +13,9 @@
 
 namespace wheatstone {
 namespace {
+
+/// The pyramids of both methods need this much.
+constexpr int least_side_px = 16;
 
 cv::Mat luminance(ImageView<const Rgb8> picture) {
   cv::Mat grey;
@@ -61,15 +65,35 @@ void inverse_search(const cv::Mat& from, const cv::Mat& to, cv::Mat& flow) {
   search->calc(from, to, flow);
 }
 
-Flow estimate(const cv::Mat& from, const cv::Mat& to, FlowMethod method, const Flow* start) {
+/// A flow for pictures of another size.
+cv::Mat resized(const cv::Mat& flow, cv::Size size) {
+  cv::Mat result;
+  cv::resize(flow, result, size, 0, 0, cv::INTER_LINEAR);
+  const double across = static_cast<double>(size.width) / flow.cols,
+               down = static_cast<double>(size.height) / flow.rows;
+  return result.mul(cv::Scalar(across, down));
+}
+
+Flow estimate(const cv::Mat& from, const cv::Mat& to, cv::Size full_size, FlowMethod method, const Flow* start) {
   cv::Mat flow;
   if (start != nullptr) flow = interleaved(*start);
+  if (start != nullptr && from.size() != full_size) flow = resized(flow, from.size());
   if (method == FlowMethod::farneback) {
     farneback(from, to, flow);
   } else {
     inverse_search(from, to, flow);
   }
-  return separated(flow);
+  return separated(from.size() == full_size ? flow : resized(flow, full_size));
+}
+
+/// The frame's luminance, reduced to a share of its width.
+cv::Mat luminance_at(ImageView<const Rgb8> picture, double size) {
+  cv::Mat grey = luminance(picture);
+  if (size < 1) {
+    const auto side = [size](int px) { return std::max(static_cast<int>(std::lround(px * size)), least_side_px); };
+    cv::resize(grey, grey, {side(picture.width()), side(picture.height())}, 0, 0, cv::INTER_AREA);
+  }
+  return grey;
 }
 
 template <class Picture>
@@ -78,9 +102,6 @@ void expect_size(const Picture& picture, ImageView<const Rgb8> first, const char
     throw Error(ErrorKind::bad_input, fmt::format("{} of {}x{} pixels, expected {}x{} as the first frame", what,
                                                   picture.width(), picture.height(), first.width(), first.height()));
 }
-
-/// The pyramids of both methods need this much.
-constexpr int least_side_px = 16;
 
 }  // namespace
 
@@ -92,12 +113,19 @@ FlowPair estimate_flow(ImageView<const Rgb8> first, ImageView<const Rgb8> second
   if (options.start != nullptr)
     for (const Flow* flow : {&options.start->forward, &options.start->backward})
       for (const Image<float>* image : {&flow->x, &flow->y}) expect_size(*image, first, "flow to start from");
-  const cv::Mat a = luminance(first), b = luminance(second);
+  if (!(options.size > 0 && options.size <= 1))
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("the size to find flow at is {} of the frames', expected above 0 and up to 1", options.size));
+  const cv::Mat a = luminance_at(first, options.size), b = luminance_at(second, options.size);
+  const cv::Size full_size(first.width(), first.height());
   const FlowPair* start = options.start;
   FlowPair flow;
   tbb::parallel_invoke(
-      [&] { flow.forward = estimate(a, b, options.method, start == nullptr ? nullptr : &start->forward); },
-      [&] { flow.backward = estimate(b, a, options.method, start == nullptr ? nullptr : &start->backward); });
+      [&] { flow.forward = estimate(a, b, full_size, options.method, start == nullptr ? nullptr : &start->forward); },
+      [&] {
+        flow.backward = estimate(b, a, full_size, options.method, start == nullptr ? nullptr : &start->backward);
+      });
   return flow;
 }
 

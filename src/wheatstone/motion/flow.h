@@ -23,6 +23,7 @@ enum class FlowMethod {
 
 struct FlowOptions {
   FlowMethod method = FlowMethod::dis;
+  double size = 1;                  ///< estimated in copies of this share of the frames' width, above 0 and up to 1
   const FlowPair* start = nullptr;  ///< of the frames before, of the same size: where to start from; borrowed
 };
 

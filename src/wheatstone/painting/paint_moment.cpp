@@ -42,28 +42,62 @@ std::vector<DrawnView> draw_covered(const Moment& moment, const std::vector<std:
   return drawn;
 }
 
-}  // namespace
+void take_pictures(std::vector<DrawnView> drawn, PaintedPair& painted) {
+  painted.pictures.left = std::move(drawn.front().picture);
+  painted.left_bare_share = drawn.front().bare_share;
+  if (drawn.size() < 2) return;
+  painted.pictures.right = std::move(drawn.back().picture);
+  painted.right_bare_share = drawn.back().bare_share;
+}
 
-PaintedMoment paint_moment(const Moment& moment, const Style& style, const CarryOptions& options,
-                           MomentMemory& memory) {
+PaintedMoment paint_strokes(const Moment& moment, const Style& style, const CarryOptions& options,
+                            StrokeMemory& memory) {
   PaintedMoment result;
   PaintedPair& painted = result.painted;
   {
     const Stopwatch watch(painted.times.planning_s);
-    CarriedPainting carried = plan_strokes(moment, style, options, memory.strokes);
+    CarriedPainting carried = plan_strokes(moment, style, options, memory);
     painted.painting = std::move(carried.painting);
     result.counts = carried.counts;
   }
   const Stopwatch watch(painted.times.rasterising_s);
-  std::vector<DrawnView> drawn =
-      draw_covered(moment, shown_views(moment), style, options, memory.strokes, painted.painting);
-  painted.pictures.left = std::move(drawn.front().picture);
-  painted.left_bare_share = drawn.front().bare_share;
-  if (drawn.size() > 1) {
-    painted.pictures.right = std::move(drawn.back().picture);
-    painted.right_bare_share = drawn.back().bare_share;
-  }
+  take_pictures(draw_covered(moment, shown_views(moment), style, options, memory, painted.painting), painted);
   return result;
+}
+
+/// Plans the kinds of marks that are not strokes.
+void plan_other_marks(const Moment& moment, const Style& style, MomentMemory& memory, PaintedPair& painted) {
+  if (style.marks == Marks::areas) painted.areas = plan_posterised(moment, style, memory.posterised);
+  if (style.marks == Marks::tiles) painted.areas = plan_mosaic(moment, style, memory.mosaic);
+}
+
+PaintedMoment paint_other_marks(const Moment& moment, const Style& style, MomentMemory& memory) {
+  PaintedMoment result;
+  PaintedPair& painted = result.painted;
+  painted.painting.width = moment.views.front().picture.width();
+  painted.painting.height = moment.views.front().picture.height();
+  {
+    const Stopwatch watch(painted.times.planning_s);
+    plan_other_marks(moment, style, memory, painted);
+  }
+  const Stopwatch watch(painted.times.rasterising_s);
+  const std::vector<std::size_t> shown = shown_views(moment);
+  std::vector<DrawnView> drawn(shown.size());
+  tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
+    const float view = moment.views[shown[i]].position;
+    drawn[i] = style.marks == Marks::curves ? draw(painted.curves, view) : draw(painted.areas, view);
+  });
+  take_pictures(std::move(drawn), painted);
+  return result;
+}
+
+}  // namespace
+
+PaintedMoment paint_moment(const Moment& moment, const Style& style, const CarryOptions& options,
+                           MomentMemory& memory) {
+  check_style(style);
+  return style.marks == Marks::strokes ? paint_strokes(moment, style, options, memory.strokes)
+                                       : paint_other_marks(moment, style, memory);
 }
 
 }  // namespace wheatstone

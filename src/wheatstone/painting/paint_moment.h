@@ -1,7 +1,9 @@
 #pragma once
 
 #include "wheatstone/painting/moment.h"
+#include "wheatstone/painting/mosaic.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/posterise.h"
 #include "wheatstone/painting/strokes_in_time.h"
 
 namespace wheatstone {
@@ -9,6 +11,8 @@ namespace wheatstone {
 /// What any style carries from moment to moment. Empty before the first.
 struct MomentMemory {
   StrokeMemory strokes;
+  PosterisedMemory posterised;
+  MosaicMemory mosaic;
 };
 
 /// A moment of a film, painted. Of a scene of one view, `pictures.right` is empty.

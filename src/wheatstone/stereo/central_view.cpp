@@ -4,11 +4,12 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <numbers>
+#include <span>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/warp.h"
 
@@ -27,15 +28,63 @@ struct MappedEye {
   Image<float> disparity;  ///< NaN where the eye shows nothing
 };
 
+/// Lanczos' kernel of eight pixels, for places between two pixels.
+class LanczosRow {
+ public:
+  LanczosRow() {
+    for (int phase = 0; phase <= phases; ++phase) {
+      const double t = static_cast<double>(phase) / phases;
+      double sum = 0;
+      std::array<double, taps> exact{};
+      for (int k = 0; k < taps; ++k) {
+        exact[k] = kernel(t - (k - before));
+        sum += exact[k];
+      }
+      for (int k = 0; k < taps; ++k) weights_[phase][k] = static_cast<float>(exact[k] / sum);
+    }
+  }
+
+  Rgb8 operator()(std::span<const Rgb8> row, float column) const {
+    const int last = static_cast<int>(row.size()) - 1, left = std::min(static_cast<int>(column), last);
+    const auto phase = static_cast<std::size_t>((column - static_cast<float>(left)) * phases + 0.5f);
+    if (phase == 0) return row[left];
+    const std::array<float, taps>& weights = weights_[phase];
+    float red = 0, green = 0, blue = 0;
+    for (int k = 0; k < taps; ++k) {
+      const Rgb8 pixel = row[std::clamp(left + k - before, 0, last)];
+      red += weights[k] * static_cast<float>(pixel.r);
+      green += weights[k] * static_cast<float>(pixel.g);
+      blue += weights[k] * static_cast<float>(pixel.b);
+    }
+    const auto level = [](float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); };
+    return {level(red), level(green), level(blue)};
+  }
+
+ private:
+  static constexpr int taps = 8, before = 3, phases = 64;
+
+  static double kernel(double x) {
+    constexpr double reach = 4;
+    if (std::abs(x) < 1e-9) return 1;
+    if (std::abs(x) >= reach) return 0;
+    const double angle = std::numbers::pi * x;
+    return reach * std::sin(angle) * std::sin(angle / reach) / (angle * angle);
+  }
+
+  std::array<std::array<float, taps>, phases + 1> weights_{};
+};
+
 MappedEye map_forward(const Image<Rgb8>& picture, const Image<float>& disparity, float step) {
+  static const LanczosRow lanczos;
   WarpedColumns warped = warp_columns(disparity, step);
-  cv::Mat rows(picture.height(), picture.width(), CV_32F);
-  for (int y = 0; y < rows.rows; ++y) rows.row(y).setTo(static_cast<float>(y));
-  cv::Mat columns = as_mat(warped.column);
-  cv::patchNaNs(columns, 0);
   MappedEye mapped{Image<Rgb8>(picture.width(), picture.height()), std::move(warped.disparity)};
-  cv::Mat target = as_mat(mapped.picture);
-  cv::remap(as_mat(picture), target, columns, rows, cv::INTER_LANCZOS4, cv::BORDER_REPLICATE);
+  tbb::parallel_for(0, picture.height(), [&](int y) {
+    const auto columns = warped.column.row(y);
+    const auto from = picture.row(y);
+    const auto to = mapped.picture.row(y);
+    for (std::size_t x = 0; x < columns.size(); ++x)
+      if (!std::isnan(columns[x])) to[x] = lanczos(from, columns[x]);
+  });
   return mapped;
 }
 
