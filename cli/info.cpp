@@ -63,8 +63,22 @@ ordered_json facts_of_disparity(const fs::path& path, std::optional<float> scale
 }
 
 ordered_json facts_of_painting(const fs::path& path) {
-  const Painting painting = read_painting(path);
+  const AnyPainting any = read_painting(path);
+  const Painting& painting = any.painting;
   DisparityRange range;
+  ordered_json facts = {{"kind", "painting"}, {"width", painting.width}, {"height", painting.height}};
+  if (any.areas.width > 0) {
+    for (const ControlPoint& point : any.areas.points) range.add(point.disparity);
+    facts["areas"] = any.areas.marks.size();
+    put_range(facts, range);
+    return facts;
+  }
+  if (any.curves.width > 0) {
+    for (const ColourPoint& point : any.curves.points) range.add(point.at.disparity);
+    facts["lines"] = any.curves.lines.size();
+    put_range(facts, range);
+    return facts;
+  }
   ordered_json layers = ordered_json::array();
   std::size_t strokes = 0;
   for (const Layer& layer : painting.layers) {
@@ -73,8 +87,8 @@ ordered_json facts_of_painting(const fs::path& path) {
     layers.push_back(
         {{"radius_px", layer.radius_px}, {"strokes", layer.strokes.size()}, {"points", layer.points.size()}});
   }
-  ordered_json facts = {{"kind", "painting"}, {"width", painting.width}, {"height", painting.height}};
   facts["strokes"] = strokes;
+  facts["texture"] = any.relief.depth_px > 0;
   put_range(facts, range);
   facts["layers"] = std::move(layers);
   return facts;

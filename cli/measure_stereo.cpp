@@ -77,14 +77,14 @@ Truth find_truth(const Arguments& arguments, const StereoPair& stylised, const s
 }
 
 PaintingGuards measure_guards(const Arguments& arguments, const StereoPair& stylised, const StereoGeometry& geometry) {
-  const Painting painting = read_painting(arguments.painting);
+  const AnyPainting any = read_painting(arguments.painting);
+  const Painting& painting = any.painting;
   if (!same_size(geometry.left_disparity, stylised.left) || painting.width != stylised.left.width() ||
       painting.height != stylised.left.height())
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: paints {}x{} pixels, expected {}x{} as {}", arguments.painting, painting.width,
                             painting.height, stylised.left.width(), stylised.left.height(), arguments.left));
-  return {measure_strokes(painting, geometry), draw(painting, left_eye).bare_share,
-          draw(painting, right_eye).bare_share};
+  return {measure_strokes(painting, geometry), draw(any, left_eye).bare_share, draw(any, right_eye).bare_share};
 }
 
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }

@@ -238,7 +238,7 @@ void add_paint_command(CLI::App& program, const Session& session) {
   command.footer(
       "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, "
       "painting.wst\n"
-      "(the strokes), SVG for each eye, disparity, occlusion, and report.json.\n\n"
+      "(the marks), SVG for each eye, disparity, occlusion, and report.json.\n\n"
       "Examples:\n  wheatstone synth still -o still\n"
       "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
       "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph");

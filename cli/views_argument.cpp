@@ -56,10 +56,10 @@ int count_of(const ViewsArguments& arguments, int wanted) {
 }
 
 ReadViews draw_painting(const std::string& file, int count) {
-  const Painting painting = read_painting(file);
+  const AnyPainting painting = read_painting(file);
   ReadViews read;
   read.how = "drawn from a painting";
-  for (const float view : evenly_spaced(painting.width, painting.height, count).positions)
+  for (const float view : evenly_spaced(painting.painting.width, painting.painting.height, count).positions)
     read.views.push_back(draw(painting, view).picture);
   return read;
 }

@@ -53,13 +53,23 @@ TEST(Info, TellsOfAPainting) {
   layer.points = {{1, 2, 3}, {5, 6, 7}};
   layer.strokes = {{.point_count = 2, .radius_px = 4}};
   painting.layers = {layer};
-  write_painting(folder / "p.wst", painting);
+  write_painting(folder / "p.wst", {.painting = painting});
   const nlohmann::json facts = facts_of(folder / "p.wst");
   EXPECT_EQ(facts["kind"], "painting");
   EXPECT_EQ(facts["width"], 40);
   EXPECT_EQ(facts["strokes"], 1);
   EXPECT_EQ(facts["nearest_disparity_px"], 7);
   EXPECT_EQ(facts["layers"].size(), 1u);
+}
+
+TEST(Info, TellsOfAPaintingOfAreas) {
+  const TemporaryFolder folder;
+  AnyPainting painting{.painting = {.width = 40, .height = 30}};
+  painting.areas = {40, 30, {{1, 1, 3}, {9, 1, 3}, {5, 8, 4}}, {{0, 3}}, {{0, 1}}};
+  write_painting(folder / "p.wst", painting);
+  const nlohmann::json facts = facts_of(folder / "p.wst");
+  EXPECT_EQ(facts["areas"], 1);
+  EXPECT_EQ(facts["nearest_disparity_px"], 4);
 }
 
 TEST(Info, TellsOfAFilm) {

@@ -71,9 +71,11 @@ TEST(PaintCommand, PaintsWithOtherMarksThanStrokes) {
     EXPECT_GT(report[style == "diffusion" ? "curves" : "areas"], 1);
     EXPECT_LT(report["right_bare_share"], 0.005);
     const auto files = files_in(folder / "painted");
-    EXPECT_THAT(files, testing::IsSupersetOf({"left.png", "right.png", "side_by_side.png", "anaglyph.png", "left.svg",
-                                              "right.svg", "report.json"}));
-    EXPECT_THAT(files, testing::Not(testing::Contains("painting.wst")));
+    EXPECT_THAT(files, testing::IsSupersetOf({"left.png", "right.png", "side_by_side.png", "anaglyph.png",
+                                              "painting.wst", "left.svg", "right.svg", "report.json"}));
+    ASSERT_EQ(run_program({"paint", "painted/painting.wst", "-o", "again"}, {.folder = folder / ""}).exit_code, 0);
+    for (const std::string picture : {"/left.png", "/right.png"})
+      EXPECT_EQ(bytes_of(folder / ("again" + picture)), bytes_of(folder / ("painted" + picture))) << style;
   }
   expect_refused(folder, paint_line({"--style", "mosaic", "--propagation", "raster"}), 2, "raster");
   expect_refused(folder, paint_line({"--style", "mosaic", "--texture"}), 2, "texture");
@@ -100,7 +102,7 @@ TEST(PaintCommand, TakesItsStyleFromAFileThatItPrinted) {
   ASSERT_EQ(printed.exit_code, 0);
   put_bytes(folder / "mine.toml", printed.output);
   EXPECT_EQ(run_program(paint_line({"--style", "mine.toml"}), {.folder = folder / ""}).exit_code, 0);
-  EXPECT_EQ(read_painting(folder / "painted/painting.wst").layers.size(), 2u);
+  EXPECT_EQ(read_painting(folder / "painted/painting.wst").painting.layers.size(), 2u);
 }
 
 TEST(PaintCommand, DrawsAPaintingAgain) {

@@ -11,17 +11,13 @@
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/write_image.h"
-#include "wheatstone/painting/rasterise.h"
-#include "wheatstone/painting/resize_strokes.h"
 #include "wheatstone/painting/svg.h"
 
 namespace wheatstone {
 namespace {
 
-float nearest_stroke_disparity(const Painting& painting) {
-  std::vector<float> disparities;
-  for (const Layer& layer : painting.layers)
-    for (const Stroke& stroke : layer.strokes) disparities.push_back(stroke.disparity);
+float nearest_disparity(const AnyPainting& painting) {
+  std::vector<float> disparities = disparities_of_marks(painting);
   if (disparities.empty()) return 0;
   constexpr double nearest_share = 0.995;
   const auto index = static_cast<std::ptrdiff_t>(nearest_share * static_cast<double>(disparities.size() - 1));
@@ -31,23 +27,20 @@ float nearest_stroke_disparity(const Painting& painting) {
 
 }  // namespace
 
-Painting scaled(Painting painting, double scale) {
+AnyPainting scaled(const AnyPainting& painting, double scale) {
   constexpr double largest_side_px = 65535;
-  const double width = std::round(painting.width * scale), height = std::round(painting.height * scale);
+  const double width = std::round(painting.painting.width * scale),
+               height = std::round(painting.painting.height * scale);
   if (!(width >= 1 && height >= 1 && width <= largest_side_px && height <= largest_side_px))
     throw Error(ErrorKind::wrong_usage, fmt::format("--scale {} makes {}x{} pixels, expected 1 to {} a side", scale,
                                                     width, height, largest_side_px));
-  const auto factor = static_cast<float>(scale);
-  painting.width = static_cast<int>(width);
-  painting.height = static_cast<int>(height);
-  for (Layer& layer : painting.layers) resize_strokes(layer, factor);
-  return painting;
+  return resized(painting, scale);
 }
 
-void draw_again(const Painting& painting, double scale, const std::filesystem::path& folder) {
-  const Painting sized = scaled(painting, scale);
+void draw_again(const AnyPainting& painting, double scale, const std::filesystem::path& folder) {
+  const AnyPainting sized = scaled(painting, scale);
   const StereoPair pictures{draw(sized, left_eye).picture, draw(sized, right_eye).picture};
-  const StereoPair presented = translated(pictures, nearest_stroke_disparity(sized));
+  const StereoPair presented = translated(pictures, nearest_disparity(sized));
   OutputFolder output(folder);
   write_image(output.file("left.png"), pictures.left);
   write_image(output.file("right.png"), pictures.right);

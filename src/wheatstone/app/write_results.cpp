@@ -28,7 +28,8 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   };
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
-  const Painting& painting = result.painted.painting;
+  const AnyPainting painting{result.painted.painting, result.painted.areas, result.painted.curves,
+                             relief_for(style, pictures.left.width())};
   const StereoPair presented = translated(pictures, result.zero_parallax_px);
   std::vector<Output> outputs{
       {"left.png", [&](const Path& path) { write_image(path, pictures.left); }},
@@ -40,19 +41,11 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
       {"right_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.right_disparity); }},
       {"left_occlusion.png", [&](const Path& path) { write_image(path, geometry.left_occlusion); }},
       {"right_occlusion.png", [&](const Path& path) { write_image(path, geometry.right_occlusion); }},
+      {"painting.wst", [&](const Path& path) { write_painting(path, painting); }},
+      {"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }},
+      {"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }},
       {"report.json", [&](const Path& path) { write_whole_file(path, report_json(result, style, measures)); }},
   };
-  if (style.marks == Marks::strokes) {
-    outputs.push_back({"painting.wst", [&](const Path& path) { write_painting(path, painting); }});
-    outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }});
-    outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }});
-  } else if (style.marks == Marks::curves) {
-    outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, result.painted.curves, left_eye); }});
-    outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, result.painted.curves, right_eye); }});
-  } else {
-    outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, result.painted.areas, left_eye); }});
-    outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, result.painted.areas, right_eye); }});
-  }
   if (options.html) {
     outputs.push_back({"left_photograph.png", [&](const Path& path) { write_image(path, photographs.left); }});
     outputs.push_back({"right_photograph.png", [&](const Path& path) { write_image(path, photographs.right); }});

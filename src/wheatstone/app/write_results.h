@@ -15,9 +15,9 @@ struct ResultOptions {
 
 /// Writes a painted photograph into a folder and commits it: left.png and right.png in the
 /// photographs' own geometry; side_by_side.png and anaglyph.png shifted to the zero-parallax plane; disparity.png,
-/// left_disparity.pfm, right_disparity.pfm, left_occlusion.png, right_occlusion.png; left.svg, right.svg;
-/// painting.wst, where the marks are strokes;
-/// report.json. Returns the names written. Throws Error{cannot_read_write}; then nothing is committed.
+/// left_disparity.pfm, right_disparity.pfm, left_occlusion.png, right_occlusion.png; painting.wst,
+/// left.svg, right.svg, report.json. Returns the names written. Throws Error{cannot_read_write}; then nothing is
+/// committed.
 std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs,
                                        const PaintedPhotograph& result, const Style& style,
                                        const PaintingMeasures* measures, const ResultOptions& options = {},

@@ -20,9 +20,10 @@ struct Known {
 Image<Known> draw_lines(const DiffusionPainting& painting, float view) {
   Image<Known> known(painting.width, painting.height);
   Image<float> nearest(painting.width, painting.height);
+  const auto width = static_cast<float>(painting.width), height = static_cast<float>(painting.height);
   const auto put = [&](float x, float y, float disparity, const std::array<float, 3>& colour) {
-    const int px = static_cast<int>(std::floor(x)), py = static_cast<int>(std::floor(y));
-    if (!known.contains(px, py)) return;
+    if (!(x >= 0 && y >= 0 && x < width && y < height)) return;
+    const int px = static_cast<int>(x), py = static_cast<int>(y);
     Known& pixel = known(px, py);
     constexpr float same_surface_px = 1;
     if (pixel.weight > 0 && disparity < nearest(px, py) - same_surface_px) return;
@@ -41,10 +42,13 @@ Image<Known> draw_lines(const DiffusionPainting& painting, float view) {
       const ColourPoint &a = points[i], &b = points[std::min(i + 1, points.size() - 1)];
       const float ax = x_in_view(a.at, line.reference_view, view), bx = x_in_view(b.at, line.reference_view, view);
       const auto from = channels(a.colour), to = channels(b.colour);
-      constexpr float steps_a_px = 2, longest_px = 8;
+      constexpr float steps_a_px = 2, longest_px = 8, most_stretched = 2.5f;
       const float length = std::hypot(bx - ax, b.at.y - a.at.y);
       // A line that the view tears apart is not drawn across the tear.
-      const int steps = length > longest_px ? 1 : std::max(static_cast<int>(std::ceil(length * steps_a_px)), 1);
+      const float planned = std::hypot(b.at.x - a.at.x, b.at.y - a.at.y);
+      const int steps = length > std::max(longest_px, most_stretched * planned)
+                            ? 1
+                            : std::max(static_cast<int>(std::ceil(length * steps_a_px)), 1);
       for (int s = 0; s < steps; ++s) {
         const float t = static_cast<float>(s) / static_cast<float>(steps);
         std::array<float, 3> colour;

@@ -31,12 +31,13 @@ float smooth_noise(std::uint64_t seed, float place) {
 }
 
 /// The height that a stroke's own bristles leave there, 0..1: ridges along it that come and go, lower at the rim.
-float bristle_height(std::uint64_t seed, float radius_px, const OnStroke& place) {
-  constexpr float bristle_px = 1.6f, run_px = 9;
+float bristle_height(std::uint64_t seed, float radius_px, float bristle_px, const OnStroke& place) {
+  constexpr float run_in_bristles = 5.625f;
   const float lane = place.beside / bristle_px;
   const float ridge = smooth_noise(seed, lane);
-  const float along = smooth_noise(
-      hash({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(lane)))}), place.along / run_px);
+  const float along =
+      smooth_noise(hash({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(lane)))}),
+                   place.along / (run_in_bristles * bristle_px));
   const float to_rim = std::clamp(place.distance / radius_px, 0.f, 1.f);
   return (0.7f * ridge + 0.3f * along) * (1 - 0.35f * to_rim * to_rim);
 }
@@ -63,8 +64,9 @@ SeenLayer seen_layer(const Layer& layer, float view, int height, std::uint64_t n
 /// Pixels of a band: what the stroke at hand is nearest to.
 class ReliefBand {
  public:
-  ReliefBand(int top, Image<float>& relief)
+  ReliefBand(int top, float bristle_px, Image<float>& relief)
       : top_(top),
+        bristle_px_(bristle_px),
         bottom_(std::min(top + band_rows, relief.height())),
         relief_(relief),
         places_(static_cast<std::size_t>(relief.width()) * static_cast<std::size_t>(band_rows)) {}
@@ -103,9 +105,9 @@ class ReliefBand {
   }
 
   /// New paint levels what is below it, but not wholly, and stands a little above it.
-  static void lay(std::uint64_t seed, float radius_px, float cover, const OnStroke& place, float& height) {
+  void lay(std::uint64_t seed, float radius_px, float cover, const OnStroke& place, float& height) const {
     constexpr float shows_through = 0.25f;
-    const float own = bristle_height(seed, radius_px, place);
+    const float own = bristle_height(seed, radius_px, bristle_px_, place);
     height += cover * (own + shows_through * height - height);
   }
 
@@ -131,20 +133,22 @@ class ReliefBand {
     }
   }
 
-  int top_, bottom_;
+  int top_;
+  float bristle_px_;
+  int bottom_;
   Image<float>& relief_;
   std::vector<OnStroke> places_;
 };
 
 }  // namespace
 
-Image<float> relief_of(const Painting& painting, float view) {
+Image<float> relief_of(const Painting& painting, float view, float bristle_px) {
   std::vector<SeenLayer> layers(painting.layers.size());
   tbb::parallel_for(std::size_t{0}, layers.size(),
                     [&](std::size_t i) { layers[i] = seen_layer(painting.layers[i], view, painting.height, i); });
   Image<float> relief(painting.width, painting.height);
   tbb::parallel_for(0, (painting.height + band_rows - 1) / band_rows, [&](int i) {
-    ReliefBand band(i * band_rows, relief);
+    ReliefBand band(i * band_rows, bristle_px, relief);
     for (const SeenLayer& layer : layers)
       for (const std::uint32_t stroke : layer.bands[static_cast<std::size_t>(i)])
         band.add(layer.flat, layer.flat.strokes[stroke], layer.seeds[stroke]);
@@ -174,6 +178,13 @@ void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& pictu
       if (light != 1) pixel = {lit(pixel.r), lit(pixel.g), lit(pixel.b)};
     }
   });
+}
+
+Relief relief_for(const Style& style, int width) {
+  constexpr float ridges_px = 1.1f;  // for a picture 640 pixels wide
+  Relief relief;
+  if (style.texture) relief.depth_px = ridges_px * style_scale(style, width);
+  return relief;
 }
 
 }  // namespace wheatstone

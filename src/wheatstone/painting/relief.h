@@ -1,17 +1,28 @@
 #pragma once
 
 #include "wheatstone/painting/painting.h"
+#include "wheatstone/painting/style.h"
 
 namespace wheatstone {
+
+/// How a painting's paint stands up from the canvas.
+struct Relief {
+  float depth_px = 0;       ///< height of 1; 0: no relief
+  float bristle_px = 1.6f;  ///< width that a bristle leaves
+  friend bool operator==(const Relief&, const Relief&) = default;
+};
 
 /// The height of the paint of every pixel as one view sees it, 0 on the bare canvas, about 1 on the ridges (Hertzmann
 /// 2002, fast paint texture): each stroke has the bristles of its brush along it, and lies on what is below it, in
 /// drawing order. The bristles belong to the stroke, so that both eyes see the same. The same bytes on any number of
 /// threads.
-Image<float> relief_of(const Painting& painting, float view);
+Image<float> relief_of(const Painting& painting, float view, float bristle_px = Relief{}.bristle_px);
 
 /// Lights a picture's relief by a lamp above and to the left: brighter where it turns to the lamp, darker where it
 /// turns away; flat paint keeps its colour. `relief` has the picture's size; `depth_px` is the height of 1 in pixels.
 void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& picture);
+
+/// The relief of a style's paint in a picture `width` wide; none for a style without texture.
+Relief relief_for(const Style& style, int width);
 
 }  // namespace wheatstone

@@ -129,15 +129,13 @@ std::string svg_of(const DiffusionPainting& painting, float view) {
   return fmt::to_string(text);
 }
 
-void write_svg(const std::filesystem::path& path, const Painting& painting, float view) {
-  write_whole_file(path, svg_of(painting, view));
+std::string svg_of(const AnyPainting& painting, float view) {
+  if (painting.areas.width > 0) return svg_of(painting.areas, view);
+  if (painting.curves.width > 0) return svg_of(painting.curves, view);
+  return svg_of(painting.painting, view);
 }
 
-void write_svg(const std::filesystem::path& path, const PolygonPainting& painting, float view) {
-  write_whole_file(path, svg_of(painting, view));
-}
-
-void write_svg(const std::filesystem::path& path, const DiffusionPainting& painting, float view) {
+void write_svg(const std::filesystem::path& path, const AnyPainting& painting, float view) {
   write_whole_file(path, svg_of(painting, view));
 }
 

@@ -3,9 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "wheatstone/painting/diffusion_curves.h"
-#include "wheatstone/painting/painting.h"
-#include "wheatstone/painting/polygon_mark.h"
+#include "wheatstone/painting/any_painting.h"
 
 namespace wheatstone {
 
@@ -20,9 +18,10 @@ std::string svg_of(const PolygonPainting& painting, float view);
 /// The lines beside the edges as one view sees them, each in its mean colour: SVG cannot spread colours between them.
 std::string svg_of(const DiffusionPainting& painting, float view);
 
+/// As its kind of marks.
+std::string svg_of(const AnyPainting& painting, float view);
+
 /// Throws Error{cannot_read_write}.
-void write_svg(const std::filesystem::path& path, const Painting& painting, float view);
-void write_svg(const std::filesystem::path& path, const PolygonPainting& painting, float view);
-void write_svg(const std::filesystem::path& path, const DiffusionPainting& painting, float view);
+void write_svg(const std::filesystem::path& path, const AnyPainting& painting, float view);
 
 }  // namespace wheatstone

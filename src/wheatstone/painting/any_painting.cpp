@@ -1,0 +1,55 @@
+#include "wheatstone/painting/any_painting.h"
+
+#include <cmath>
+
+#include "wheatstone/painting/resize_strokes.h"
+
+namespace wheatstone {
+namespace {
+
+ControlPoint times(const ControlPoint& point, float factor) {
+  return {point.x * factor, point.y * factor, point.disparity * factor};
+}
+
+int times(int length_px, double factor) { return static_cast<int>(std::round(length_px * factor)); }
+
+}  // namespace
+
+DrawnView draw(const AnyPainting& painting, float view) {
+  if (painting.areas.width > 0) return draw(painting.areas, view);
+  if (painting.curves.width > 0) return draw(painting.curves, view);
+  DrawnView drawn = draw(painting.painting, view);
+  const Relief& relief = painting.relief;
+  if (relief.depth_px > 0)
+    light_relief(relief_of(painting.painting, view, relief.bristle_px), relief.depth_px, drawn.picture);
+  return drawn;
+}
+
+AnyPainting resized(AnyPainting painting, double scale) {
+  const auto resize = [&](auto& part) {
+    part.width = times(part.width, scale);
+    part.height = times(part.height, scale);
+  };
+  const auto factor = static_cast<float>(scale);
+  resize(painting.painting);
+  resize(painting.areas);
+  resize(painting.curves);
+  for (Layer& layer : painting.painting.layers) resize_strokes(layer, factor);
+  for (ControlPoint& point : painting.areas.points) point = times(point, factor);
+  for (PolygonMark& mark : painting.areas.marks) mark.disparity *= factor;
+  for (ColourPoint& point : painting.curves.points) point.at = times(point.at, factor);
+  painting.relief.depth_px *= factor;
+  painting.relief.bristle_px *= factor;
+  return painting;
+}
+
+std::vector<float> disparities_of_marks(const AnyPainting& painting) {
+  std::vector<float> disparities;
+  for (const Layer& layer : painting.painting.layers)
+    for (const Stroke& stroke : layer.strokes) disparities.push_back(stroke.disparity);
+  for (const PolygonMark& mark : painting.areas.marks) disparities.push_back(mark.disparity);
+  for (const ColourPoint& point : painting.curves.points) disparities.push_back(point.at.disparity);
+  return disparities;
+}
+
+}  // namespace wheatstone
