@@ -7,7 +7,7 @@
 #include "wheatstone/painting/painting.h"
 #include "wheatstone/painting/rasterise.h"
 #include "wheatstone/painting/style.h"
-#include "wheatstone/stereo/stereo_pair.h"
+#include "wheatstone/stereo/scene_view.h"
 
 namespace wheatstone {
 
@@ -40,10 +40,16 @@ struct DiffusionPainting {
   friend bool operator==(const DiffusionPainting&, const DiffusionPainting&) = default;
 };
 
-/// The edges of a pair as diffusion curves (Orzan et al. 2013), as dual strokes with a radius and an offset of a pixel
-/// (Bukenberger et al. 2015, sec. 4.2). Both eyes show the lines of the left one. Where a surface goes behind another,
-/// the line on the farther side belongs to the eye that sees it there; what only the right eye sees has lines of its
-/// own. Throws Error: bad_input where the geometry does not fit, wrong_usage for a style that cannot be painted with.
+/// The edges of a scene as diffusion curves (Orzan et al. 2013), as dual strokes with a radius and an offset of a pixel
+/// (Bukenberger et al. 2015, sec. 4.2). All views show the lines of the reference view, the first, but for those on the
+/// side of a view where something hides them: where a view's disparity, at the place that a point goes to, is larger by
+/// more than the depth threshold. Where a surface goes behind another, the line on the farther side belongs to the view
+/// that sees it there; what the reference view does not show has lines of its own. With Propagation::independent each
+/// view is planned alone. Throws Error: bad_input where pictures, disparities and masks do not fit together or a
+/// disparity is unknown, wrong_usage for a style that cannot be painted with.
+DiffusionPainting plan_diffusion(std::span<const SceneView> views, const Style& style);
+
+/// The same of a pair, with the left eye as reference view.
 DiffusionPainting plan_diffusion(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style);
 
 /// Draws the lines for one view, every point moved by its own disparity, and lets the colours between them settle: the

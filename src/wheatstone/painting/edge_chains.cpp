@@ -2,6 +2,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/motion/flow.h"
 #include "wheatstone/painting/edge_chains_internal.h"
 
 namespace wheatstone {
@@ -31,6 +32,11 @@ Image<std::uint8_t> edge_pixels(ImageView<const Rgb8> picture, ImageView<const f
   cv::cvtColor(as_mat(picture), luminance, cv::COLOR_RGB2GRAY);
   cv::Canny(luminance, canny, options.weak, options.strong);
   cv::dilate(as_mat(edges), beside_jump, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  if (!options.known.empty()) {
+    cv::Mat faint;
+    cv::Canny(luminance, faint, options.faintest, options.faintest);
+    cv::bitwise_or(canny, faint, canny, as_mat(options.known));
+  }
   for (int y = 0; y < edges.height(); ++y)
     for (int x = 0; x < edges.width(); ++x)
       if (canny.at<std::uint8_t>(y, x) != 0 && beside_jump.at<std::uint8_t>(y, x) == 0) edges(x, y) = 255;
@@ -55,6 +61,46 @@ void follow(Image<std::uint8_t>& edges, int x, int y, std::vector<PlanePoint>& c
   }
 }
 
+/// How steep the picture's luminance is, between pixels too.
+class Steepness {
+ public:
+  explicit Steepness(ImageView<const Rgb8> picture)
+      : x_(picture.width(), picture.height()), y_(picture.width(), picture.height()), length_(x_) {
+    cv::Mat luminance, to_x = as_mat(x_), to_y = as_mat(y_), to_length = as_mat(length_);
+    cv::cvtColor(as_mat(picture), luminance, cv::COLOR_RGB2GRAY);
+    cv::Sobel(luminance, to_x, CV_32F, 1, 0);
+    cv::Sobel(luminance, to_y, CV_32F, 0, 1);
+    cv::magnitude(to_x, to_y, to_length);
+  }
+
+  /// The place of the steepest slope about a point, across the edge there; the point itself where there is none.
+  PlanePoint steepest_about(PlanePoint p) const {
+    constexpr float least = 8;
+    const int px = static_cast<int>(p.x), py = static_cast<int>(p.y);
+    const float length = length_(px, py);
+    if (length < least) return p;
+    const float across_x = x_(px, py) / length, across_y = y_(px, py) / length;
+    constexpr int reach = 3;
+    constexpr float step_px = 0.5f;
+    float steep[2 * reach + 1];
+    for (int i = -reach; i <= reach; ++i) {
+      const float offset = static_cast<float>(i) * step_px;
+      steep[i + reach] = sample(length_.view(), p.x + offset * across_x, p.y + offset * across_y);
+    }
+    int best = reach;
+    for (int i = 1; i < 2 * reach; ++i)
+      if (steep[i] > steep[best]) best = i;
+    const float before = steep[best - 1], here = steep[best], after = steep[best + 1];
+    const float bend = before - 2 * here + after;
+    if (bend >= 0 || here < before || here < after) return p;
+    const float offset = step_px * (static_cast<float>(best - reach) + (before - after) / (2 * bend));
+    return {p.x + offset * across_x, p.y + offset * across_y};
+  }
+
+ private:
+  Image<float> x_, y_, length_;
+};
+
 void smooth(std::vector<PlanePoint>& chain) {
   constexpr int rounds = 3;
   for (int round = 0; round < rounds; ++round) {
@@ -70,6 +116,7 @@ void smooth(std::vector<PlanePoint>& chain) {
 std::vector<std::vector<PlanePoint>> find_edge_chains(ImageView<const Rgb8> picture, ImageView<const float> disparity,
                                                       const EdgeOptions& options) {
   Image<std::uint8_t> edges = edge_pixels(picture, disparity, options);
+  const Steepness steepness(picture);
   std::vector<std::vector<PlanePoint>> chains;
   for (int y = 0; y < edges.height(); ++y) {
     for (int x = 0; x < edges.width(); ++x) {
@@ -81,6 +128,7 @@ std::vector<std::vector<PlanePoint>> find_edge_chains(ImageView<const Rgb8> pict
       chain.pop_back();
       follow(edges, x, y, chain);
       if (chain.size() < options.least_points) continue;
+      for (PlanePoint& point : chain) point = steepness.steepest_about(point);
       smooth(chain);
       chains.push_back(std::move(chain));
     }

@@ -11,6 +11,8 @@ struct EdgeOptions {
   double weak = 18, strong = 50;  ///< Canny's thresholds, in luminance
   std::size_t least_points = 6;   ///< shorter chains are noise
   float depth_threshold_px = 2;
+  ImageView<const std::uint8_t> known;  ///< where it is not 0 an edge need only be `faintest`; empty: nowhere
+  double faintest = 11;                 ///< in luminance
 };
 
 /// The picture's edges, and the jumps of its disparity, as chains of points about a pixel apart, smoothed. Where both

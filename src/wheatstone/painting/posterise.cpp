@@ -11,7 +11,6 @@
 #include "wheatstone/painting/colour_palette_internal.h"
 #include "wheatstone/painting/outline_internal.h"
 #include "wheatstone/painting/plan_polygons_internal.h"
-#include "wheatstone/painting/steady_picture_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -175,15 +174,9 @@ Image<std::uint8_t> colours_of(const ColouredAreas& areas) {
   return colours;
 }
 
-Image<Rgb8> copy_of(ImageView<const Rgb8> picture) {
-  Image<Rgb8> copy(picture.width(), picture.height());
-  for (int y = 0; y < picture.height(); ++y) std::ranges::copy(picture.row(y), copy.row(y).begin());
-  return copy;
-}
-
 /// The reference view of a scene that begins.
 void cut_first(const ViewToCut& view, const Style& style, PosterisedMemory& memory, PolygonPainting& painting) {
-  memory.picture = copy_of(view.photograph);
+  memory.picture = begin_steady(view.photograph);
   const Image<Rgb8> picture = without_grain(view.photograph, view.scale);
   memory.palette = find_palette(picture, style.colours, view.seed);
   memory.colour_of = colours_of(add_areas(view, picture, rounded(memory.palette), {}, painting));
@@ -192,8 +185,8 @@ void cut_first(const ViewToCut& view, const Style& style, PosterisedMemory& memo
 /// The reference view of a scene that goes on.
 void cut_next(const ViewToCut& view, const FlowPair& flow, PosterisedMemory& memory, PolygonPainting& painting) {
   const Image<std::uint8_t> kept = confirmed(flow.backward, flow.forward);
-  memory.picture = steady_picture(view.photograph, memory.picture, flow.backward, kept);
-  const Image<Rgb8> picture = without_grain(memory.picture, view.scale);
+  steady(view.photograph, flow.backward, kept, memory.picture);
+  const Image<Rgb8> picture = without_grain(rounded(memory.picture.colours), view.scale);
   follow_palette(picture, memory.palette);
   const std::vector<Rgb8> palette = rounded(memory.palette);
   const CarriedColours carried(memory.colour_of, flow.backward, kept, holds_of(palette));
@@ -221,7 +214,7 @@ PolygonPainting plan_posterised(const Moment& moment, const Style& style, Poster
       const bool alone = style.propagation == Propagation::independent;
       add_areas(view, picture, rounded(alone ? find_palette(picture, style.colours, view.seed) : memory.palette), {},
                 painting);
-    } else if (moment.flow == nullptr || !same_size(memory.picture, view.photograph)) {
+    } else if (moment.flow == nullptr || !same_size(memory.picture.frames, view.photograph)) {
       cut_first(view, style, memory, painting);
     } else {
       cut_next(view, *moment.flow, memory, painting);

@@ -2,6 +2,7 @@
 
 #include "wheatstone/painting/moment.h"
 #include "wheatstone/painting/polygon_mark.h"
+#include "wheatstone/painting/steady_picture.h"
 #include "wheatstone/painting/style.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
@@ -23,7 +24,7 @@ struct PaletteColour {
 struct PosterisedMemory {
   std::vector<PaletteColour> palette;
   Image<std::uint8_t> colour_of;  ///< of each pixel of the reference view: the index of its area's colour
-  Image<Rgb8> picture;            ///< the reference view, its noise averaged along the flow
+  SteadyPicture picture;          ///< the reference view
 };
 
 /// The next moment of a film, posterised: the palette goes on from the moment before, slowly, and a pixel keeps its

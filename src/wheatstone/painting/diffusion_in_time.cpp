@@ -1,0 +1,54 @@
+#include "wheatstone/painting/diffusion_in_time.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include "wheatstone/error.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/painting/diffusion_lines_internal.h"
+
+namespace wheatstone {
+namespace {
+
+void check_flow(const FlowPair& flow, const ViewOfEdges& reference) {
+  for (const Image<float>* part : {&flow.forward.x, &flow.forward.y, &flow.backward.x, &flow.backward.y})
+    if (!same_size(*part, reference.picture))
+      throw Error(ErrorKind::bad_input, "the flow's size differs from that of the reference view");
+}
+
+/// The pixels of the reference view's edges, and those beside them.
+Image<std::uint8_t> edge_mask(const std::vector<CarriedEdge>& edges, int width, int height) {
+  Image<std::uint8_t> mask(width, height);
+  for (const CarriedEdge& edge : edges) {
+    const int x = static_cast<int>(std::floor(edge.x)), y = static_cast<int>(std::floor(edge.y));
+    if (edge.view == 0 && mask.contains(x, y)) mask(x, y) = 255;
+  }
+  // Points are two pixels apart.
+  Image<std::uint8_t> grown(width, height);
+  cv::Mat to = as_mat(grown);
+  cv::dilate(as_mat(mask), to, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  return grown;
+}
+
+}  // namespace
+
+DiffusionPainting plan_diffusion(const Moment& moment, const Style& style, DiffusionMemory& memory) {
+  SceneOfEdges scene = scene_of_edges(moment.views, style);
+  ViewOfEdges& reference = scene.views[0];
+  if (moment.flow != nullptr) check_flow(*moment.flow, reference);
+  const bool begins = moment.flow == nullptr || !same_size(memory.picture.frames, reference.picture);
+  const FlowPair* flow = begins ? nullptr : moment.flow;
+
+  SteadyPicture picture = begins ? begin_steady(reference.picture) : std::move(memory.picture);
+  if (!begins) steady(reference.picture, flow->backward, confirmed(flow->backward, flow->forward), picture);
+  reference.picture = rounded(picture.colours);
+  std::vector<float> positions;
+  for (const ViewOfEdges& view : scene.views) positions.push_back(view.position);
+  std::optional<CarriedEdges> before;
+  if (!begins) before.emplace(memory, *flow, positions, reference.disparity, scene.depth_threshold_px);
+  LinesAndEdges found = lines_beside_edges(scene, before ? &*before : nullptr);
+  memory = {std::move(picture), reference.disparity,
+            edge_mask(found.edges, reference.picture.width(), reference.picture.height()), std::move(found.edges)};
+  return std::move(found.painting);
+}
+
+}  // namespace wheatstone
