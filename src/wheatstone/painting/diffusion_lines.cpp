@@ -52,10 +52,10 @@ class SideMaker {
 
   Side make(const Station& station, int side) const {
     const auto [x, y] = pixel(beside(station, side, colour_px));
-    const auto [other_x, other_y] = pixel(beside(station, 1 - side, colour_px));
     Side result{colour_of(station, side), view_.disparity(x, y), {}, true};
     // Behind a nearer surface each view sees another place of the farther one.
-    const bool behind = view_.disparity(other_x, other_y) - result.disparity > scene_.depth_threshold_px;
+    const bool behind =
+        disparity_at(beside(station, 1 - side, colour_px)) - result.disparity > scene_.depth_threshold_px;
     const bool only_here = index_ == 0 || view_.only_here.empty() || view_.only_here(x, y) != 0;
     result.wanted = behind || only_here;
     if (behind || index_ > 0)
@@ -74,6 +74,11 @@ class SideMaker {
             std::clamp(static_cast<int>(p.y), 0, view_.picture.height() - 1)};
   }
 
+  float disparity_at(PlanePoint p) const {
+    const auto [x, y] = pixel(p);
+    return view_.disparity(x, y);
+  }
+
   /// The colour a little out from the edge, but not beyond a stripe that is narrower than that: as far as it goes on
   /// to change away from that of the other side.
   SampledColour colour_of(const Station& station, int side) const {
@@ -84,12 +89,17 @@ class SideMaker {
       return sample(view_.picture.view(), p.x, p.y);
     };
     const auto light = [](const SampledColour& c) { return 0.299f * c.r + 0.587f * c.g + 0.114f * c.b; };
+    const float outermost = disparity_at(beside(station, side, colour_px));
     SampledColour colour = at(side, first_px);
     const bool rises = light(colour) > light(at(1 - side, first_px));
     for (int step = 1; step <= steps; ++step) {
-      const SampledColour next = at(side, first_px + static_cast<float>(step) * step_px);
+      const float offset = first_px + static_cast<float>(step) * step_px;
+      const SampledColour next = at(side, offset);
       const float change = light(next) - light(colour);
-      if ((rises && change < -1) || (!rises && change > 1)) break;
+      // Beside something thin the colour would be one surface's and the disparity another's.
+      const bool one_surface =
+          std::abs(disparity_at(beside(station, side, offset - step_px)) - outermost) <= scene_.depth_threshold_px;
+      if (one_surface && ((rises && change < -1) || (!rises && change > 1))) break;
       colour = next;
     }
     return colour;
