@@ -44,11 +44,19 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
       carrying.fade_out_frames, carrying.colour_tolerance, carrying.gain_tolerance, carrying.length_tolerance);
 }
 
+/// What a frame's file keeps.
+AnyPainting marks_of(const PaintedPair& painted, const Style& style) {
+  return {painted.painting, painted.areas, painted.curves, relief_for(style, painted.painting.width)};
+}
+
 /// Where frames go: a film that is being made, or only files of marks.
 class Output {
  public:
   Output(const fs::path& path, const RotoscopeFilmOptions& options)
-      : path_(path), layout_(options.writing.layout), frames_between_checkpoints_(options.frames_between_checkpoints) {
+      : path_(path),
+        layout_(options.writing.layout),
+        frames_between_checkpoints_(options.frames_between_checkpoints),
+        style_(options.frames.style) {
     const bool only_marks = path.extension() == ".wst";
     const fs::path marks = only_marks ? path : options.marks;
     if (!marks.empty()) {
@@ -74,7 +82,7 @@ class Output {
 
   void write(const RotoscopedFrame& frame, const StereoFrame& source, const RotoscopeState& state) {
     const PaintedPair& painted = frame.painted;
-    if (marks_) write_painting(marks_->file(state.frames), painted.painting);
+    if (marks_) write_painting(marks_->file(state.frames), marks_of(painted, style_));
     if (!film_) return;
     const bool at_checkpoint = state.frames % frames_between_checkpoints_ == 0;
     // Before the segment of these frames is closed: each closed segment has its state.
@@ -116,6 +124,7 @@ class Output {
   fs::path path_;
   FilmLayout layout_;
   int frames_between_checkpoints_;
+  Style style_;
   std::optional<FramePattern> marks_;
   std::optional<SegmentedFilm> film_;
   std::int64_t frames_closed_ = 0;

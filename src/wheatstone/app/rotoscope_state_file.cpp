@@ -108,6 +108,12 @@ void visit_flow(Archive& archive, Flow& flow) {
   archive(flow.y);
 }
 
+template <class Archive, class Picture>
+void visit_steady(Archive& archive, Picture& picture) {
+  archive(picture.colours);
+  archive(picture.frames);
+}
+
 template <class Archive, class Layer>
 void visit_layer(Archive& archive, Layer& layer) {
   archive(layer.radius_px);
@@ -144,8 +150,12 @@ void visit(Archive& archive, State& state) {
   visit_strokes(archive, state.memory.strokes);
   archive(state.memory.posterised.palette);
   archive(state.memory.posterised.colour_of);
-  archive(state.memory.posterised.picture);
+  visit_steady(archive, state.memory.posterised.picture);
   archive(state.memory.mosaic.tiles);
+  visit_steady(archive, state.memory.diffusion.picture);
+  archive(state.memory.diffusion.disparity);
+  archive(state.memory.diffusion.edges);
+  archive(state.memory.diffusion.points);
 }
 
 std::uint32_t checksum_of(std::string_view bytes) {

@@ -83,7 +83,7 @@ float bare_light_of(const Painting& painting) {
   float opacity = 0;
   for (const Layer& layer : painting.layers)
     for (const Stroke& stroke : layer.strokes) opacity = std::max(opacity, stroke.opacity);
-  return 1 - opacity / 2;
+  return 1 - (opacity > 0 ? opacity : 1) / 2;
 }
 
 }  // namespace

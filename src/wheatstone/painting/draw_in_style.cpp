@@ -1,7 +1,9 @@
 #include "wheatstone/painting/draw_in_style_internal.h"
+
 #include "wheatstone/painting/relief.h"
 
 namespace wheatstone {
+
 DrawnView draw_in_style(ImageView<const Rgb8> photograph, const Painting& painting, float view, const Style& style) {
   DrawOptions over;
   if (style.background == Background::photograph) over.background = photograph;

@@ -69,6 +69,7 @@ PaintedMoment paint_strokes(const Moment& moment, const Style& style, const Carr
 void plan_other_marks(const Moment& moment, const Style& style, MomentMemory& memory, PaintedPair& painted) {
   if (style.marks == Marks::areas) painted.areas = plan_posterised(moment, style, memory.posterised);
   if (style.marks == Marks::tiles) painted.areas = plan_mosaic(moment, style, memory.mosaic);
+  if (style.marks == Marks::curves) painted.curves = plan_diffusion(moment, style, memory.diffusion);
 }
 
 PaintedMoment paint_other_marks(const Moment& moment, const Style& style, MomentMemory& memory) {

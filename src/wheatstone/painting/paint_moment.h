@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheatstone/painting/diffusion_in_time.h"
 #include "wheatstone/painting/moment.h"
 #include "wheatstone/painting/mosaic.h"
 #include "wheatstone/painting/paint.h"
@@ -13,6 +14,7 @@ struct MomentMemory {
   StrokeMemory strokes;
   PosterisedMemory posterised;
   MosaicMemory mosaic;
+  DiffusionMemory diffusion;
 };
 
 /// A moment of a film, painted. Of a scene of one view, `pictures.right` is empty.

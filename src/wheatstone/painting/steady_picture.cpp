@@ -38,7 +38,8 @@ Image<SampledColour> carried(const Image<SampledColour>& before, const Flow& bac
 SteadyPicture begin_steady(ImageView<const Rgb8> frame) {
   SteadyPicture picture{Image<SampledColour>(frame.width(), frame.height()),
                         Image<std::uint8_t>(frame.width(), frame.height(), 1)};
-  for (int y = 0; y < frame.height(); ++y) std::ranges::transform(frame.row(y), picture.colours.row(y).begin(), exactly);
+  for (int y = 0; y < frame.height(); ++y)
+    std::ranges::transform(frame.row(y), picture.colours.row(y).begin(), exactly);
   return picture;
 }
 
