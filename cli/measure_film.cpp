@@ -18,7 +18,10 @@
 #include "wheatstone/image/disparity_file.h"
 #include "wheatstone/motion/film_measures.h"
 #include "wheatstone/motion/flow_file.h"
+#include "wheatstone/painting/painting_file.h"
+#include "wheatstone/painting/strokes_between_frames.h"
 #include "wheatstone/stereo/match.h"
+#include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -31,6 +34,8 @@ struct Arguments {
   std::string source;
   std::string layout;
   std::string truth;
+  std::string marks;
+  int fade_frames = 2;
   int frames = 0;  ///< 0: all
   int stereo_every = 1;
 };
@@ -178,6 +183,58 @@ void print_table(const std::vector<MeasuredFilm>& films, const std::vector<int>&
   if (!cuts.empty()) fmt::print("cuts before frame {}\n", fmt::join(cuts, ", "));
 }
 
+/// What became of the strokes of a painted film whose frames' marks were kept.
+struct MarksOfFilm {
+  StrokeChanges changes;  ///< summed over the frames
+  double worst_bare_share = 0;
+  Json frames = Json::array();
+};
+
+/// How much of either eye, or of the one there is, no mark covers.
+double bare_share_of(const AnyPainting& marks, bool two_eyes) {
+  if (!two_eyes) return draw(marks, 0).bare_share;
+  return std::max(draw(marks, left_eye).bare_share, draw(marks, right_eye).bare_share);
+}
+
+MarksOfFilm measure_marks(const Arguments& arguments, bool two_eyes, int frames, const std::vector<int>& cuts,
+                          const Session& session) {
+  const std::optional<FramePattern> pattern = frame_pattern(arguments.marks);
+  if (!pattern)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--marks: is '{}', expected a place for the number, as marks_%04d.wst", arguments.marks));
+  MarksOfFilm marks;
+  AnyPainting before;
+  for (int frame = 0; frame < frames; ++frame) {
+    report(session.progress, "marks", static_cast<double>(frame) / frames);
+    AnyPainting now = read_painting(pattern->file(frame + 1));
+    const double bare = bare_share_of(now, two_eyes);
+    marks.worst_bare_share = std::max(marks.worst_bare_share, bare);
+    Json facts{{"frame", frame}, {"bare_share", bare}};
+    if (frame > 0 && std::ranges::find(cuts, frame) == cuts.end()) {
+      const StrokeChanges changes =
+          compare_strokes(before.painting.layers, now.painting.layers, 1.0 / arguments.fade_frames);
+      marks.changes.whole += changes.whole;
+      marks.changes.survived += changes.survived;
+      marks.changes.popped += changes.popped;
+      facts.update(Json{{"strokes", changes.whole}, {"survived", changes.survived}, {"popped", changes.popped}});
+    }
+    marks.frames.push_back(std::move(facts));
+    before = std::move(now);
+  }
+  return marks;
+}
+
+double survival_of(const StrokeChanges& changes) {
+  return changes.whole > 0 ? static_cast<double>(changes.survived) / static_cast<double>(changes.whole) : 0;
+}
+
+Json to_json(const MarksOfFilm& marks) {
+  return {{"survival", survival_of(marks.changes)},
+          {"popped", marks.changes.popped},
+          {"worst_bare_share", marks.worst_bare_share},
+          {"frame", marks.frames}};
+}
+
 void run(const Arguments& arguments, const Session& session) {
   const std::optional<FilmLayout> layout = film_layout_option("--layout", arguments.layout);
   std::vector<MeasuredFilm> films;
@@ -196,11 +253,18 @@ void run(const Arguments& arguments, const Session& session) {
     if (pair.cut) cuts.push_back(frame);
     measure_temporal(films, pair, frame);
   }
+  std::optional<MarksOfFilm> marks;
+  if (!arguments.marks.empty()) marks = measure_marks(arguments, !films[1].before.right.empty(), frame, cuts, session);
   if (session.json) {
-    fmt::print("{}\n", to_json(arguments, films, frame, cuts).dump(2));
-  } else {
-    print_table(films, cuts);
+    Json facts = to_json(arguments, films, frame, cuts);
+    if (marks) facts["marks"] = to_json(*marks);
+    fmt::print("{}\n", facts.dump(2));
+    return;
   }
+  print_table(films, cuts);
+  if (marks)
+    fmt::print("strokes: {:.1f} % carried from frame to frame, {} popped; bare at most {:.3f} % of an eye\n",
+               100 * survival_of(marks->changes), marks->changes.popped, 100 * marks->worst_bare_share);
 }
 
 }  // namespace
@@ -219,6 +283,12 @@ void add_measure_film(CLI::App& measure, const Session& session) {
   command.add_option("--truth", arguments->truth,
                      "Folder as synth film writes it, of the source's true flow and disparities, frames from 0;\n"
                      "without it flow and disparities are estimated from the source");
+  auto* marks = command.add_option("--marks", arguments->marks,
+                                   "The first film's marks, as rotoscope --save-marks keeps them: marks_%04d.wst");
+  command.add_option("--fade", arguments->fade_frames, "Frames of the shorter fade: faster is popping")
+      ->check(CLI::Range(1, 1000))
+      ->needs(marks)
+      ->capture_default_str();
   command.add_option("--layout", arguments->layout, "How films hold two eyes, if they do not say");
   command.add_option("--frames", arguments->frames, "Only so many, from the first; 0 for all")
       ->check(CLI::Range(0, 1'000'000))
@@ -230,7 +300,7 @@ void add_measure_film(CLI::App& measure, const Session& session) {
       "E_warp is the mean squared difference, of 0..1, of each frame and the next warped back along the source's "
       "flow,\n"
       "where that flow is confirmed; cuts are left out. Of the left eye. Blurring wins on it: look at the gradient\n"
-      "energy in --json, too.\n\n"
+      "energy in --json, too. With --marks also the share of strokes that stay, and those that pop.\n\n"
       "Example:\n  wheatstone synth film -o film\n"
       "  wheatstone measure film painted --against film --truth film");
   command.callback([arguments, &session] { run(*arguments, session); });

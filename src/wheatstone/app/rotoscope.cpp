@@ -95,8 +95,7 @@ FlowPair find_flow(const FrameAtWork& frame, const RotoscopeOptions& options, co
                         {frame.geometry.left_disparity, frame.centre.disparity});
   const FlowPair* start = state.flow_before.forward.x.empty() ? nullptr : &state.flow_before;
   const double size = share_of_width(state.central_before, options.widest_flow_px);
-  return estimate_flow(state.central_before, frame.centre.picture,
-                       {.method = options.flow, .size = size, .start = start});
+  return estimate_flow(state.central_before, frame.centre.picture, {options.flow, start, size});
 }
 
 FrameAtWork look_at(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,

@@ -23,8 +23,8 @@ enum class FlowMethod {
 
 struct FlowOptions {
   FlowMethod method = FlowMethod::dis;
-  double size = 1;                  ///< estimated in copies of this share of the frames' width, above 0 and up to 1
   const FlowPair* start = nullptr;  ///< of the frames before, of the same size: where to start from; borrowed
+  double size = 1;                  ///< estimated in copies of this share of the frames' width, above 0 and up to 1
 };
 
 /// Estimates the flow between two frames, by OpenCV on their luminance. Throws Error{bad_input} where they, or the flow
