@@ -56,6 +56,8 @@ void farneback(const cv::Mat& from, const cv::Mat& to, cv::Mat& flow) {
   cv::calcOpticalFlowFarneback(from, target, step, finer, levels, window_px, iterations, polynomial_px,
                                polynomial_deviation, 0);
   flow = flow.empty() ? step : cv::Mat(flow + step);
+  // Polynomials blur motion edges: the variational step that inverse search ends with sharpens them.
+  cv::VariationalRefinement::create()->calc(from, to, flow);
 }
 
 void inverse_search(const cv::Mat& from, const cv::Mat& to, cv::Mat& flow) {

@@ -78,7 +78,7 @@ bool move_stroke(const SceneMotion& motion, const SceneView& now, float depth_th
     buried += landing == Landing::behind_it ? 1 : 0;
     slipped += landing == Landing::before_it ? 1 : 0;
   }
-  return 4 * slipped <= points.size() && 2 * buried <= points.size();
+  return 8 * slipped <= points.size() && 2 * buried <= points.size();
 }
 
 }  // namespace

@@ -82,6 +82,19 @@ class ViewAtWork {
         {sight.reference, easel_.canvas, easel_.disparity, static_cast<float>(reduction_), depth_threshold_px()});
   }
 
+  /// True where a depth edge came under more than a quarter of a stroke's points, into the inner half of the brush.
+  bool spills(const LayerSight& sight, const Layer& layer, const Stroke& stroke) const {
+    if (sight.edge_distance.empty()) return false;
+    const std::span<const ControlPoint> points = layer.points_of(stroke);
+    const auto reduction = static_cast<float>(reduction_);
+    const float least_px = stroke.radius_px / reduction / 2 - 0.5f;
+    const auto over_edge = std::ranges::count_if(points, [&](const ControlPoint& point) {
+      const int column = static_cast<int>(point.x / reduction), row = static_cast<int>(point.y / reduction);
+      return sight.edge_distance.contains(column, row) && sight.edge_distance(column, row) < least_px;
+    });
+    return 4 * static_cast<std::size_t>(over_edge) > points.size();
+  }
+
   /// A stroke whose colour fits worse than at first, or that now makes the picture worse, has stayed behind.
   void end_wrong_colours(const LayerSight& sight, const CarryOptions& options, LivingLayer& living) const {
     tbb::parallel_for(std::size_t{0}, living.lives.size(), [&](std::size_t i) {
@@ -89,7 +102,8 @@ class ViewAtWork {
       if (life.ends != 0) return;
       const ColourFit now = fit(sight, living.layer, living.layer.strokes[i]);
       if (now.difference > life.first_colour_difference + options.colour_tolerance ||
-          now.gain < std::min(life.first_gain, 0.f) - options.gain_tolerance)
+          now.gain < std::min(life.first_gain, 0.f) - options.gain_tolerance ||
+          spills(sight, living.layer, living.layer.strokes[i]))
         life.ends = 1;
     });
   }
