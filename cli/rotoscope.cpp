@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "command.h"
 #include "film_argument.h"
@@ -32,6 +36,7 @@ struct Arguments {
   std::string layout, output_layout;
   std::string from, to;
   int every = 1;
+  std::string rate;
   std::string truth;
   RotoscopeFilmOptions options;
   MatchArguments matching;
@@ -91,6 +96,38 @@ std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& re
   return static_cast<std::int64_t>(std::ceil(frames / reading.every));
 }
 
+/// A result must not take the place of what it is made from.
+void check_output_is_new(const std::string& output, const FilmArgument& film) {
+  for (const fs::path& source : {film.film, film.right}) {
+    std::error_code ignored;
+    if (fs::equivalent(source, output, ignored))
+      throw Error(ErrorKind::wrong_usage, fmt::format("--output: {} is the source, expected another name", output));
+  }
+}
+
+/// Frames a second: "24", "23.976" or "24000/1001".
+Rational rate_option(const std::string& text) {
+  const auto number_of = [](std::string_view part) {
+    double value = 0;
+    const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc{} && stop == part.data() + part.size() ? value : 0;
+  };
+  const std::size_t slash = text.find('/');
+  const bool is_ratio = slash != std::string::npos;
+  const double above = number_of(std::string_view(text).substr(0, slash));
+  const double below = is_ratio ? number_of(std::string_view(text).substr(slash + 1)) : 1;
+  // Thousandths keep 23.976; more than a million frames a second are a slip.
+  const double scale = is_ratio ? 1 : 1000;
+  const auto is_whole = [](double value) { return value == std::floor(value); };
+  if (!(above > 0 && above <= 1e6 && below > 0 && below <= 1e6) || (is_ratio && !(is_whole(above) && is_whole(below))))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--rate: is '{}', expected frames a second, as 24 or 24000/1001", text));
+  auto numerator = static_cast<int>(std::lround(above * scale)), denominator = static_cast<int>(below * scale);
+  const int common = std::max(std::gcd(numerator, denominator), 1);
+  if (numerator == 0) throw Error(ErrorKind::wrong_usage, fmt::format("--rate: is '{}', expected 0.001 or more", text));
+  return {numerator / common, denominator / common};
+}
+
 nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm& film) {
   const RotoscopeTotals& totals = film.totals;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
@@ -145,13 +182,20 @@ void run(const Arguments& arguments, const Session& session) {
   }
   FilmArgument film = find_film(arguments.film, film_layout_option("--layout", arguments.layout));
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
-  const FilmReaderOptions reading{.from_s = time_option("--from", arguments.from),
-                                  .to_s = time_option("--to", arguments.to),
-                                  .every = arguments.every,
-                                  .threads = session.threads};
+  check_output_is_new(arguments.output, film);
+  FilmReaderOptions reading{.from_s = time_option("--from", arguments.from),
+                            .to_s = time_option("--to", arguments.to),
+                            .every = arguments.every,
+                            .threads = session.threads};
+  if (!arguments.rate.empty()) {
+    if (!frame_pattern(film.film))
+      throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures");
+    reading.sequence_rate = rate_option(arguments.rate);
+  }
   StereoFilmReader source = open_film(film, reading);
   if (session.verbose && film.right.empty())
     fmt::print(stderr, "layout: {} ({})\n", name_of(source.layout()), source.layout_how());
+  options.made_by += fmt::format(" from {}", name_of(source.layout()));
   options.writing = writing_options(arguments, film, source, reading);
   options.expected_frames = expected_frames(source.facts(), reading);
   options.made_from = {film.film};
@@ -178,6 +222,10 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
       ->group(group);
   command.add_option("--from", arguments.from, "Begin there: seconds or [HH:]MM:SS")->group(group);
   command.add_option("--to", arguments.to, "End there")->group(group);
+  command
+      .add_option("--rate", arguments.rate,
+                  "Frames a second of numbered pictures, as 25 or 24000/1001; 24 if not given")
+      ->group(group);
   command.add_option("--every", arguments.every, "Paint each so many-th frame only")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str()

@@ -49,9 +49,12 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const Progr
   if (process == 0) become_program(words, run, output, scratch / "errors");
   if (process > 0 && run.while_running) run.while_running(process);
   int status = 0;
-  if (process < 0 || ::waitpid(process, &status, 0) != process) throw std::runtime_error("cannot run the program");
+  rusage usage{};
+  if (process < 0 || ::wait4(process, &status, 0, &usage) != process)
+    throw std::runtime_error("cannot run the program");
   ProgramResult result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.peak_bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
   result.errors = bytes_of(scratch / "errors");
   if (run.standard_output.empty()) result.output = bytes_of(output);
   return result;

@@ -15,6 +15,7 @@ struct ProgramResult {
   int exit_code = 0;  ///< 128 + the signal where one ended the program
   std::string output;
   std::string errors;
+  std::size_t peak_bytes = 0;  ///< of memory in use at any time
 };
 
 struct ProgramRun {

@@ -73,12 +73,13 @@ class Output {
                   SegmentOptions{options.frames_between_checkpoints, recipe_of(options), options.made_from});
   }
 
-  /// Frames that an earlier run has left.
+  /// Frames that are safe: an earlier run has left them, or this one has closed them.
   std::int64_t frames_done() const { return film_ ? film_->frames_done() : 0; }
-  /// Frames that are safe, of this run, too.
-  std::int64_t frames_closed() const { return std::max(frames_done(), frames_closed_); }
 
-  RotoscopeState state() const { return read_rotoscope_state(state_file(frames_done())); }
+  /// After the frames that are done.
+  RotoscopeState state() const {
+    return frames_done() > 0 ? read_rotoscope_state(state_file(frames_done())) : RotoscopeState();
+  }
 
   void write(const RotoscopedFrame& frame, const StereoFrame& source, const RotoscopeState& state) {
     const PaintedPair& painted = frame.painted;
@@ -91,13 +92,14 @@ class Output {
                                                          : join(painted.pictures.left, painted.pictures.right, layout_);
     film_->write({std::move(picture), source.pts, source.time_base, source.duration});
     if (!at_checkpoint) return;
-    frames_closed_ = state.frames;
     std::error_code ignored;
     fs::remove(state_file(state.frames - frames_between_checkpoints_), ignored);
   }
 
-  std::vector<std::string> finish(const Progress& progress) {
+  std::vector<std::string> finish(const RotoscopeState& state, const Progress& progress) {
     if (!film_) return {};
+    // Joining closes the last segment, and may be stopped, too.
+    if (state.frames > frames_done()) write_rotoscope_state(state_file(state.frames), state);
     film_->finish(progress);
     return film_->notes();
   }
@@ -127,7 +129,6 @@ class Output {
   Style style_;
   std::optional<FramePattern> marks_;
   std::optional<SegmentedFilm> film_;
-  std::int64_t frames_closed_ = 0;
 };
 
 /// "frame 12 of 240, 2.1 a second, 1:48 left".
@@ -155,8 +156,7 @@ void add(const RotoscopedFrame& frame, RotoscopedFilm& film) {
 }
 
 void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmOptions& options,
-                  const Progress& progress, RotoscopedFilm& film) {
-  RotoscopeState state;
+                  const Progress& progress, RotoscopeState& state, RotoscopedFilm& film) {
   film.resumed_frames = source.skip(output.frames_done());
   if (film.resumed_frames > 0) report(progress, "going on", 0);
   const std::int64_t expected = options.expected_frames;
@@ -166,7 +166,6 @@ void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmO
   for (StereoFrame frame; source.read(frame); ++film.frames) {
     report(progress, step_text(film.frames, expected, film.resumed_frames, seconds_since(start)),
            expected > 0 ? std::min(static_cast<double>(film.frames) / static_cast<double>(expected), 1.0) : 0);
-    if (film.frames == film.resumed_frames && film.frames > 0) state = output.state();
     StereoPair eyes{std::move(frame.left), std::move(frame.right)};
     std::optional<KnownFrame> known;
     if (options.known) known = options.known(film.frames);
@@ -176,6 +175,7 @@ void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmO
     frame.left = std::move(eyes.left);
     frame.right = std::move(eyes.right);
   }
+  if (film.frames == 0) throw Error(ErrorKind::wrong_usage, "the film has no frame in the time asked for");
   film.totals = state.totals;
   film.seconds = seconds_since(start);
   film.core_seconds = processor_seconds() - processor_start;
@@ -186,14 +186,19 @@ void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmO
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& path, const RotoscopeFilmOptions& options,
                               const Progress& progress) {
   Output output(path, options);
+  // A rest that is damaged is named and not removed: what it was worth is for the user to say.
+  RotoscopeState state = output.state();
   RotoscopedFilm film;
+  bool painted = false;
   try {
-    paint_frames(source, output, options, progress, film);
+    paint_frames(source, output, options, progress, state, film);
+    painted = true;
     report(progress, "joining", 0);
-    film.notes = output.finish(progress);
+    film.notes = output.finish(state, progress);
   } catch (const Error& error) {
-    const bool can_go_on = error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
-    const std::int64_t kept = output.frames_closed();
+    const bool can_go_on =
+        painted || error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
+    const std::int64_t kept = output.frames_done();
     if (!can_go_on || kept == 0) output.abandon();
     if (error.kind() == ErrorKind::interrupted && kept > 0)
       throw Error(ErrorKind::interrupted, fmt::format("interrupted; --resume goes on after the first {} frames", kept));

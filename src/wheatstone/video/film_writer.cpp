@@ -34,13 +34,8 @@ struct FilmWriter::Implementation {
       options.frame_rate = from_av(av_d2q(rate, 100000));
     }
     encoder.emplace(options, width, height, frame.time_base);
-    const AVCodecContext& codec = encoder->context();
-    if (codec.width != width || codec.height != height) {
-      notes.push_back(
-          fmt::format("{}x{} pixels become {}x{} by repeating the last column or row: chroma needs even sizes", width,
-                      height, codec.width, codec.height));
-    }
-    const OwnedParameters coded = parameters_of(codec);
+    note_padding(frame.picture, encoder->context(), notes);
+    const OwnedParameters coded = parameters_of(encoder->context());
     film->begin(*coded, frame.time_base);
   }
 

@@ -106,7 +106,11 @@ struct SegmentedFilm::Implementation {
                   fmt::format("frames per segment: {}, expected 1 or more", frames_per_segment));
     }
     check_encoding(options);
-    if (!pattern) check_container(path, options);
+    if (pattern) {
+      check_no_pictures(path, *pattern);
+    } else {
+      check_container(path, options);
+    }
     folder = made_folder(path);
     lock.emplace(folder, path);
     claim(folder, fingerprint_of(options, segments));
@@ -120,6 +124,7 @@ struct SegmentedFilm::Implementation {
   void close_segment() {
     if (!segment) return;
     segment->finish();
+    frames_done += static_cast<std::int64_t>(segment->size());
     segment.reset();
     ++whole_segments;
   }
@@ -166,6 +171,7 @@ void SegmentedFilm::write(const Frame& frame) {
   own.steps.check(frame);
   if (!own.segment) {
     own.segment = std::make_unique<SegmentFile>(own.folder, own.whole_segments, own.options, frame);
+    if (own.notes.empty()) note_padding(frame.picture, own.segment->encoder(), own.notes);
   }
   own.segment->add(frame);
   if (own.segment->size() >= static_cast<std::size_t>(own.frames_per_segment)) own.close_segment();

@@ -31,7 +31,8 @@ class SegmentedFilm {
   SegmentedFilm& operator=(SegmentedFilm&&) noexcept;
   ~SegmentedFilm();
 
-  /// How many frames an earlier run has left: the caller passes over them (FilmReader::skip).
+  /// How many frames are in closed files. After opening these are what an earlier run has left: the caller passes over
+  /// them (FilmReader::skip).
   std::int64_t frames_done() const;
 
   /// As FilmWriter::write.

@@ -13,14 +13,17 @@ namespace wheatstone {
 
 namespace fs = std::filesystem;
 
+void check_no_pictures(const fs::path& path, const FramePattern& pattern) {
+  const auto existing = numbers_of(pattern);
+  if (existing.empty()) return;
+  throw Error(ErrorKind::wrong_usage,
+              fmt::format("{}: {} exists already, and frames of two runs would mix; expected no such file",
+                          path.string(), pattern.file(existing.front()).filename().string()));
+}
+
 SequenceFile::SequenceFile(const fs::path& path, FramePattern pattern)
     : pattern_(std::move(pattern)), hidden_(pattern_) {
-  const auto existing = numbers_of(pattern_);
-  if (!existing.empty()) {
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: {} exists already, and frames of two runs would mix; expected no such file",
-                            path.string(), pattern_.file(existing.front()).filename().string()));
-  }
+  check_no_pictures(path, pattern_);
   hidden_.folder = pattern_.folder / fmt::format(".{}{}.{}.partial", pattern_.before, "frames", ::getpid());
   std::error_code error;
   fs::create_directory(hidden_.folder, error);

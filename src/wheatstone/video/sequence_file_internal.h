@@ -9,9 +9,12 @@
 
 namespace wheatstone {
 
+/// Throws Error{wrong_usage} where pictures of such names exist already: two runs would mix.
+void check_no_pictures(const std::filesystem::path& path, const FramePattern& pattern);
+
 class SequenceFile {
  public:
-  /// Throws Error{wrong_usage} where pictures of such names exist already: two runs would mix.
+  /// Throws as check_no_pictures.
   SequenceFile(const std::filesystem::path& path, FramePattern pattern);
   ~SequenceFile();
   SequenceFile(const SequenceFile&) = delete;

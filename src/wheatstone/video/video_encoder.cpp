@@ -127,6 +127,12 @@ void check_encoding(const FilmWriterOptions& options) {
   }
 }
 
+void note_padding(ImageView<const Rgb8> picture, const AVCodecContext& codec, std::vector<std::string>& notes) {
+  if (codec.width == picture.width() && codec.height == picture.height()) return;
+  notes.push_back(fmt::format("{}x{} pixels become {}x{} by repeating the last column or row: chroma needs even sizes",
+                              picture.width(), picture.height(), codec.width, codec.height));
+}
+
 VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int height, Rational time_base) {
   silence_libav();
   check_encoding(options);

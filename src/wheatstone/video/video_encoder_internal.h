@@ -20,6 +20,9 @@ using PacketSink = std::function<void(AVPacket& packet)>;
 /// Throws Error{wrong_usage} where codec, quality, preset or pixel format make no sense, alone or together.
 void check_encoding(const FilmWriterOptions& options);
 
+/// Says so where the encoder takes more pixels than the picture has.
+void note_padding(ImageView<const Rgb8> picture, const AVCodecContext& codec, std::vector<std::string>& notes);
+
 class VideoEncoder {
  public:
   /// Throws Error{wrong_usage} where the encoder refuses.
