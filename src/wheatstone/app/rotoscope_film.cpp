@@ -183,23 +183,23 @@ void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmO
 
 }  // namespace
 
-RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& path, const RotoscopeFilmOptions& options,
+RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
                               const Progress& progress) {
-  Output output(path, options);
+  Output out(output, options);
   // A rest that is damaged is named and not removed: what it was worth is for the user to say.
-  RotoscopeState state = output.state();
+  RotoscopeState state = out.state();
   RotoscopedFilm film;
   bool painted = false;
   try {
-    paint_frames(source, output, options, progress, state, film);
+    paint_frames(source, out, options, progress, state, film);
     painted = true;
     report(progress, "joining", 0);
-    film.notes = output.finish(state, progress);
+    film.notes = out.finish(state, progress);
   } catch (const Error& error) {
     const bool can_go_on =
         painted || error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
-    const std::int64_t kept = output.frames_done();
-    if (!can_go_on || kept == 0) output.abandon();
+    const std::int64_t kept = out.frames_done();
+    if (!can_go_on || kept == 0) out.abandon();
     if (error.kind() == ErrorKind::interrupted && kept > 0)
       throw Error(ErrorKind::interrupted, fmt::format("interrupted; --resume goes on after the first {} frames", kept));
     throw;
@@ -207,7 +207,7 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& path, co
   film.loss = source.loss();
   if (film.loss && !options.keep_going)
     throw Error(ErrorKind::bad_input, fmt::format("{}; the {} frames that could be decoded are painted in {}",
-                                                  *film.loss, film.frames, path.string()));
+                                                  *film.loss, film.frames, output.string()));
   return film;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "wheatstone/painting/orientation_field_internal.h"
@@ -136,8 +137,10 @@ PolygonPainting plan_mosaic(const Moment& moment, const Style& style, MosaicMemo
   }
   PolygonPainting painting =
       plan_polygons(moment.views, style, [&](const ViewToCut& view, const Style&, PolygonPainting& to) {
-        const auto own = std::ranges::equal_range(before, view.number, {}, &MosaicTile::view);
-        cut_tiles_again(view, style, {own.begin(), own.end()}, after, to);
+        std::vector<MosaicTile> own;
+        std::ranges::copy_if(before, std::back_inserter(own),
+                             [&](const MosaicTile& tile) { return tile.view == view.number; });
+        cut_tiles_again(view, style, own, after, to);
       });
   memory.tiles = std::move(after);
   return painting;

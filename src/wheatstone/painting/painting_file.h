@@ -17,7 +17,7 @@ void write_painting(const std::filesystem::path& path, const AnyPainting& painti
 AnyPainting read_painting(const std::filesystem::path& path);
 
 /// The same in memory; `name` stands for the file in messages.
-std::string encode_painting(const AnyPainting& painting);
+std::string encode_painting(const AnyPainting& any);
 AnyPainting decode_painting(std::string_view bytes, std::string_view name);
 
 }  // namespace wheatstone
