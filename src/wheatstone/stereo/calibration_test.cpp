@@ -27,15 +27,22 @@ struct Rig {
   cv::Vec3d translation{-90, 1.5, 2};  ///< mm
 };
 
-/// A ray cast through every pixel's middle, three a side, meets the board's plane: black, white or the grey table.
-Image<Rgb8> photograph_of_board(const cv::Matx33d& camera, const cv::Vec<double, 5>& distortion,
-                                const cv::Matx33d& rotation, const cv::Vec3d& translation, cv::Size size) {
-  constexpr int finer = 3;
+/// Rays of a camera a side of a pixel.
+constexpr int finer = 3;
+
+/// The rays through every pixel of a camera.
+std::vector<cv::Point2d> rays_of(const cv::Matx33d& camera, const cv::Vec<double, 5>& distortion, cv::Size size) {
   std::vector<cv::Point2d> pixels, rays;
   pixels.reserve(static_cast<std::size_t>(size.area()) * finer * finer);
   for (int y = 0; y < size.height * finer; ++y)
     for (int x = 0; x < size.width * finer; ++x) pixels.emplace_back((x + 0.5) / finer - 0.5, (y + 0.5) / finer - 0.5);
   cv::undistortPoints(pixels, rays, camera, distortion);
+  return rays;
+}
+
+/// Each ray meets the board's plane: black, white or the grey table.
+Image<Rgb8> photograph_of_board(const std::vector<cv::Point2d>& rays, const cv::Matx33d& rotation,
+                                const cv::Vec3d& translation, cv::Size size) {
   const cv::Vec3d normal(rotation(0, 2), rotation(1, 2), rotation(2, 2));
   Image<float> fine(size.width * finer, size.height * finer);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -63,6 +70,9 @@ Image<Rgb8> photograph_of_board(const cv::Matx33d& camera, const cv::Vec<double,
 
 /// The board held before the rig, number `pose` of eight ways.
 BoardSighting sighting_of_rendered_board(const Rig& rig, int pose) {
+  // Of the one rig there is; they take longer than all the rest.
+  static const std::vector<cv::Point2d> left_rays = rays_of(rig.left, rig.left_distortion, rig.size);
+  static const std::vector<cv::Point2d> right_rays = rays_of(rig.right, rig.right_distortion, rig.size);
   const double around = 2 * std::numbers::pi * pose / 8;
   cv::Matx33d rotation, right_turn;
   cv::Rodrigues(cv::Vec3d(0.5 * std::cos(around), 0.5 * std::sin(around), 0.08 * (pose % 3 - 1)), rotation);
@@ -70,11 +80,9 @@ BoardSighting sighting_of_rendered_board(const Rig& rig, int pose) {
   const cv::Vec3d middle((board.columns - 1) * board.square_mm / 2, (board.rows - 1) * board.square_mm / 2, 0);
   const cv::Vec3d place =
       cv::Vec3d(30 + 60 * std::cos(around * 3), 40 * std::sin(around * 2), 560 + 25 * (pose % 4)) - rotation * middle;
-  BoardSighting sighting =
-      find_checkerboards(photograph_of_board(rig.left, rig.left_distortion, rotation, place, rig.size),
-                         photograph_of_board(rig.right, rig.right_distortion, right_turn * rotation,
-                                             right_turn * place + rig.translation, rig.size),
-                         board);
+  BoardSighting sighting = find_checkerboards(
+      photograph_of_board(left_rays, rotation, place, rig.size),
+      photograph_of_board(right_rays, right_turn * rotation, right_turn * place + rig.translation, rig.size), board);
   sighting.left_name = "left_" + std::to_string(pose) + ".png";
   sighting.right_name = "right_" + std::to_string(pose) + ".png";
   return sighting;
