@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -12,17 +10,10 @@
 #include "wheatstone/motion/central_flow.h"
 #include "wheatstone/motion/film_measures.h"
 #include "wheatstone/stereo/scene_view.h"
+#include "wheatstone/stopwatch.h"
 
 namespace wheatstone {
 namespace {
-
-template <class Work>
-auto timed(double& seconds, Work work) {
-  const auto start = std::chrono::steady_clock::now();
-  auto result = work();
-  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
-}
 
 /// A frame as it is painted from.
 struct FrameAtWork {
@@ -78,13 +69,9 @@ FrameAtWork single_view(const StereoPair& eyes) {
   return frame;
 }
 
-bool all_unknown(const FlowPair& flow) {
-  return std::ranges::all_of(flow.forward.x.pixels(), [](float value) { return std::isnan(value); });
-}
-
 bool scene_begins(const StereoPair& eyes, const RotoscopeState& state, const KnownFrame* known) {
   if (state.left_before.empty()) return true;
-  if (known != nullptr && known->flow) return all_unknown(*known->flow);
+  if (known != nullptr && known->flow) return tells_cut(*known->flow);
   return find_cut(state.left_before, eyes.left).cut;
 }
 
@@ -102,9 +89,12 @@ FrameAtWork look_at(const StereoPair& eyes, const RotoscopeOptions& options, Rot
                     const KnownFrame* known, RotoscopeTimes& times) {
   if (eyes.right.empty()) return single_view(eyes);
   FrameAtWork frame;
-  frame.geometry =
-      timed(times.matching_s, [&] { return known != nullptr ? known->geometry : find_geometry(eyes, options, state); });
-  frame.centre = timed(times.central_s, [&] { return make_central_view(eyes, frame.geometry, options.central); });
+  {
+    const Stopwatch watch(times.matching_s);
+    frame.geometry = known != nullptr ? known->geometry : find_geometry(eyes, options, state);
+  }
+  const Stopwatch watch(times.central_s);
+  frame.centre = make_central_view(eyes, frame.geometry, options.central);
   return frame;
 }
 
@@ -139,9 +129,11 @@ RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& 
   FrameAtWork frame = look_at(eyes, options, state, known, result.times);
   frame.views = eyes.right.empty() ? std::vector<SceneView>{{frame.centre.picture, frame.centre.disparity, {}, 0}}
                                    : scene_from_centre(frame.centre, eyes, frame.geometry);
-  if (!result.scene_begins && !options.anew)
-    state.flow_before = timed(result.times.flow_s, [&] { return find_flow(frame, options, state, known); });
   const bool carries = !result.scene_begins && !options.anew;
+  if (carries) {
+    const Stopwatch watch(result.times.flow_s);
+    state.flow_before = find_flow(frame, options, state, known);
+  }
   PaintedMoment moment = paint_moment({frame.views, carries ? &state.flow_before : nullptr}, options.style,
                                       options.carrying, state.memory);
   result.painted = std::move(moment.painted);

@@ -44,11 +44,6 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
       carrying.fade_out_frames, carrying.colour_tolerance, carrying.gain_tolerance, carrying.length_tolerance);
 }
 
-/// What a frame's file keeps.
-AnyPainting marks_of(const PaintedPair& painted, const Style& style) {
-  return {painted.painting, painted.areas, painted.curves, relief_for(style, painted.painting.width)};
-}
-
 /// Where frames go: a film that is being made, or only files of marks.
 class Output {
  public:

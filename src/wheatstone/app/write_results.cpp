@@ -28,8 +28,7 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   };
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
-  const AnyPainting painting{result.painted.painting, result.painted.areas, result.painted.curves,
-                             relief_for(style, pictures.left.width())};
+  const AnyPainting painting = marks_of(result.painted, style);
   const StereoPair presented = translated(pictures, result.zero_parallax_px);
   std::vector<Output> outputs{
       {"left.png", [&](const Path& path) { write_image(path, pictures.left); }},

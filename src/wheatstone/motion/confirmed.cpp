@@ -26,10 +26,8 @@ bool is_confirmed(const Flow& own, const Flow& other, int x, int y) {
   // Comparisons with the unknown are false.
   if (!(there_x >= 0 && there_x < width && there_y >= 0 && there_y < height)) return false;
   const float fx = sample(other.x.view(), there_x, there_y), fy = sample(other.y.view(), there_x, there_y);
-  const float own_square = bx * bx + by * by, other_square = fx * fx + fy * fy;
-  const float sum_square = (fx + bx) * (fx + bx) + (fy + by) * (fy + by);
   const float gradient = squared_gradient(own.x, x, y) + squared_gradient(own.y, x, y);
-  return sum_square <= 0.01f * (other_square + own_square) + 0.5f && gradient <= 0.01f * own_square + 0.002f;
+  return undo_each_other(fx, fy, bx, by) && gradient <= 0.01f * (bx * bx + by * by) + 0.002f;
 }
 
 }  // namespace

@@ -40,8 +40,12 @@ FramePair relate_frames(ImageView<const Rgb8> first, ImageView<const Rgb8> secon
   return {std::move(flow.forward), std::move(mask), false};
 }
 
+bool tells_cut(const FlowPair& known) {
+  return std::ranges::all_of(known.forward.x.pixels(), [](float v) { return std::isnan(v); });
+}
+
 FramePair relate_frames(FlowPair truth) {
-  if (std::ranges::all_of(truth.forward.x.pixels(), [](float v) { return std::isnan(v); })) return {.cut = true};
+  if (tells_cut(truth)) return {.cut = true};
   Image<std::uint8_t> mask = confirmed(truth.forward, truth.backward);
   return {std::move(truth.forward), std::move(mask), false};
 }

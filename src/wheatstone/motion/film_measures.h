@@ -30,7 +30,10 @@ struct FramePair {
 /// From the frames themselves: whether there is a cut, and the flow with its confirmed part.
 FramePair relate_frames(ImageView<const Rgb8> first, ImageView<const Rgb8> second);
 
-/// From a known flow; all unknown means a cut.
+/// True where no pixel's flow is known, by which a known flow tells a cut.
+bool tells_cut(const FlowPair& known);
+
+/// From a known flow.
 FramePair relate_frames(FlowPair truth);
 
 /// The temporal error E_warp of a film: the mean over its pairs of frames, cuts left out.

@@ -31,6 +31,15 @@ struct FlowOptions {
 /// to start from, differ in size.
 FlowPair estimate_flow(ImageView<const Rgb8> first, ImageView<const Rgb8> second, const FlowOptions& options = {});
 
+/// True where a step forward and the step back from where it leads undo each other (Sundaram et al. 2010):
+/// |f + b|² ≤ 0.01 (|f|² + |b|²) + 0.5. False for the unknown.
+inline bool undo_each_other(float forward_x, float forward_y, float backward_x, float backward_y) {
+  const float sum_x = forward_x + backward_x, sum_y = forward_y + backward_y;
+  const float forward_square = forward_x * forward_x + forward_y * forward_y;
+  const float backward_square = backward_x * backward_x + backward_y * backward_y;
+  return sum_x * sum_x + sum_y * sum_y <= 0.01f * (forward_square + backward_square) + 0.5f;
+}
+
 /// 255 for the pixels whose flow the other direction confirms, 0 elsewhere (Sundaram et al. 2010; Ruder et al. 2016):
 /// with own flow b at a pixel, and the other frame's flow f where b leads, a pixel is left out where
 /// |f + b|² > 0.01 (|f|² + |b|²) + 0.5, which occlusion does, or |∇b|² > 0.01 |b|² + 0.002, which motion edges do; also

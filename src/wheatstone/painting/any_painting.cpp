@@ -19,9 +19,7 @@ DrawnView draw(const AnyPainting& painting, float view) {
   if (painting.areas.width > 0) return draw(painting.areas, view);
   if (painting.curves.width > 0) return draw(painting.curves, view);
   DrawnView drawn = draw(painting.painting, view);
-  const Relief& relief = painting.relief;
-  if (relief.depth_px > 0)
-    light_relief(relief_of(painting.painting, view, relief.bristle_px), relief.depth_px, drawn.picture);
+  light_paint(painting.painting, view, painting.relief, drawn.picture);
   return drawn;
 }
 

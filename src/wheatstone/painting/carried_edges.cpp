@@ -45,8 +45,7 @@ std::optional<PlanePoint> CarriedEdges::before(PlanePoint at) const {
         was.y < static_cast<float>(disparity_.height())))
     return std::nullopt;
   const float fx = sample(flow_.forward.x.view(), was.x, was.y), fy = sample(flow_.forward.y.view(), was.x, was.y);
-  const float gap = (fx + bx) * (fx + bx) + (fy + by) * (fy + by);
-  if (!(gap <= 0.01f * (fx * fx + fy * fy + bx * bx + by * by) + 0.5f)) return std::nullopt;
+  if (!undo_each_other(fx, fy, bx, by)) return std::nullopt;
   return was;
 }
 

@@ -1,36 +1,15 @@
 #include "wheatstone/painting/diffusion_curves.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <cmath>
-
-#include "wheatstone/error.h"
 #include "wheatstone/painting/diffusion_lines_internal.h"
 #include "wheatstone/painting/fitting_pair_internal.h"
+#include "wheatstone/painting/fitting_scene_internal.h"
 #include "wheatstone/painting/plan_polygons_internal.h"
 #include "wheatstone/stereo/occlusion.h"
 
 namespace wheatstone {
 namespace {
-
-void check_scene(std::span<const SceneView> views) {
-  if (views.empty() || views[0].picture.empty()) throw Error(ErrorKind::bad_input, "the scene has no pixels");
-  const auto check = [&](const auto& image, std::string_view name) {
-    if (!same_size(image, views[0].picture))
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{} of a view is {}x{} pixels, expected {}x{} as the reference view", name, image.width(),
-                              image.height(), views[0].picture.width(), views[0].picture.height()));
-  };
-  for (const SceneView& view : views) {
-    check(view.picture, "the picture");
-    check(view.disparity, "the disparity");
-    if (!view.only_here.empty()) check(view.only_here, "the mask");
-    for (int y = 0; y < view.disparity.height(); ++y)
-      for (const float value : view.disparity.row(y))
-        if (!std::isfinite(value)) throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
-  }
-}
 
 void append(const DiffusionPainting& part, DiffusionPainting& whole) {
   const auto first = static_cast<std::uint32_t>(whole.points.size());
@@ -56,7 +35,7 @@ DiffusionPainting plan_each_alone(const SceneOfEdges& scene) {
 
 SceneOfEdges scene_of_edges(std::span<const SceneView> views, const Style& style) {
   check_style(style);
-  check_scene(views);
+  check_fits(views);
   const float scale = style_scale(style, views[0].picture.width());
   SceneOfEdges scene{std::vector<ViewOfEdges>(views.size()), style.depth_threshold_px * scale};
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {

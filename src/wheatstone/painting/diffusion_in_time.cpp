@@ -2,18 +2,12 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/painting/diffusion_lines_internal.h"
+#include "wheatstone/painting/fitting_scene_internal.h"
 
 namespace wheatstone {
 namespace {
-
-void check_flow(const FlowPair& flow, const ViewOfEdges& reference) {
-  for (const Image<float>* part : {&flow.forward.x, &flow.forward.y, &flow.backward.x, &flow.backward.y})
-    if (!same_size(*part, reference.picture))
-      throw Error(ErrorKind::bad_input, "the flow's size differs from that of the reference view");
-}
 
 /// The pixels of the reference view's edges, and those beside them.
 Image<std::uint8_t> edge_mask(const std::vector<CarriedEdge>& edges, int width, int height) {
@@ -34,7 +28,7 @@ Image<std::uint8_t> edge_mask(const std::vector<CarriedEdge>& edges, int width, 
 DiffusionPainting plan_diffusion(const Moment& moment, const Style& style, DiffusionMemory& memory) {
   SceneOfEdges scene = scene_of_edges(moment.views, style);
   ViewOfEdges& reference = scene.views[0];
-  if (moment.flow != nullptr) check_flow(*moment.flow, reference);
+  if (moment.flow != nullptr) check_fits(*moment.flow, moment.views);
   const bool begins = moment.flow == nullptr || !same_size(memory.picture.frames, reference.picture);
   const FlowPair* flow = begins ? nullptr : moment.flow;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wheatstone/painting/edge_chains_internal.h"
+#include "wheatstone/painting/steady_picture.h"
 
 namespace wheatstone {
 namespace {
@@ -184,11 +185,6 @@ void ease(const CarriedEdges& carried, std::uint32_t view, float depth_threshold
     station.at.x += kept * shifts[i] * station.across.x;
     station.at.y += kept * shifts[i] * station.across.y;
   }
-}
-
-Rgb8 rounded(const SampledColour& c) {
-  const auto level = [](float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); };
-  return {level(c.r), level(c.g), level(c.b)};
 }
 
 /// Adds the runs of a side that are wanted in the same views.

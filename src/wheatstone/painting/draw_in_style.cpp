@@ -8,8 +8,7 @@ DrawnView draw_in_style(ImageView<const Rgb8> photograph, const Painting& painti
   DrawOptions over;
   if (style.background == Background::photograph) over.background = photograph;
   DrawnView drawn = draw(painting, view, over);
-  const Relief relief = relief_for(style, painting.width);
-  if (relief.depth_px > 0) light_relief(relief_of(painting, view, relief.bristle_px), relief.depth_px, drawn.picture);
+  light_paint(painting, view, relief_for(style, painting.width), drawn.picture);
   return drawn;
 }
 

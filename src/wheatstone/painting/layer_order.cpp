@@ -6,6 +6,18 @@
 #include "wheatstone/random.h"
 
 namespace wheatstone {
+namespace {
+
+/// Puts a layer's strokes where `places` name them.
+template <class Place>
+void put_in_order(const std::vector<Place>& places, Layer& layer) {
+  std::vector<Stroke> sorted;
+  sorted.reserve(places.size());
+  for (const Place& place : places) sorted.push_back(layer.strokes[place.stroke]);
+  layer.strokes = std::move(sorted);
+}
+
+}  // namespace
 
 void append_strokes(const Layer& part, Layer& whole) {
   const auto offset = static_cast<std::uint32_t>(whole.points.size());
@@ -30,10 +42,7 @@ void sort_far_to_near(Layer& layer, std::uint64_t seed) {
     if (a.depth != b.depth) return a.depth < b.depth;
     return a.random != b.random ? a.random < b.random : a.stroke < b.stroke;
   });
-  std::vector<Stroke> sorted;
-  sorted.reserve(places.size());
-  for (const Place& place : places) sorted.push_back(layer.strokes[place.stroke]);
-  layer.strokes = std::move(sorted);
+  put_in_order(places, layer);
 }
 
 void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed) {
@@ -49,10 +58,7 @@ void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed) {
   std::ranges::sort(places, [](const Place& a, const Place& b) {
     return a.depth != b.depth ? a.depth < b.depth : a.stroke < b.stroke;
   });
-  std::vector<Stroke> sorted;
-  sorted.reserve(places.size());
-  for (const Place& place : places) sorted.push_back(layer.strokes[place.stroke]);
-  layer.strokes = std::move(sorted);
+  put_in_order(places, layer);
 }
 
 }  // namespace wheatstone

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <span>
 
+#include "wheatstone/painting/fitting_scene_internal.h"
 #include "wheatstone/painting/orientation_field_internal.h"
 #include "wheatstone/painting/outline_internal.h"
 #include "wheatstone/painting/tiling_internal.h"

@@ -13,8 +13,8 @@
 #include "wheatstone/painting/posterise.h"
 #include "wheatstone/painting/propagate_internal.h"
 #include "wheatstone/painting/rasterise.h"
-#include "wheatstone/painting/stopwatch_internal.h"
 #include "wheatstone/stereo/warp.h"
+#include "wheatstone/stopwatch.h"
 
 namespace wheatstone {
 namespace {
@@ -138,6 +138,10 @@ void check_is_of_strokes(const Style& style) {
 }
 
 }  // namespace
+
+AnyPainting marks_of(const PaintedPair& painted, const Style& style) {
+  return {painted.painting, painted.areas, painted.curves, relief_for(style, painted.painting.width)};
+}
 
 Painting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                        const Progress& progress) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheatstone/painting/any_painting.h"
 #include "wheatstone/painting/diffusion_curves.h"
 #include "wheatstone/painting/painting.h"
 #include "wheatstone/painting/polygon_mark.h"
@@ -27,6 +28,9 @@ struct PaintedPair {
   double right_bare_share = 0;
   PaintingTimes times;
 };
+
+/// A painted pair's marks, as its file keeps them.
+AnyPainting marks_of(const PaintedPair& painted, const Style& style);
 
 /// The strokes of a rectified pair's painting, not drawn. What it takes and throws is as for `paint`, but a style whose
 /// marks are not strokes is Error{wrong_usage}.

@@ -6,7 +6,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/painting/draw_in_style_internal.h"
-#include "wheatstone/painting/stopwatch_internal.h"
+#include "wheatstone/stopwatch.h"
 
 namespace wheatstone {
 namespace {

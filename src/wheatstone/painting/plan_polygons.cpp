@@ -1,13 +1,11 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 
-#include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/painting/fitting_pair_internal.h"
+#include "wheatstone/painting/fitting_scene_internal.h"
 #include "wheatstone/painting/plan_polygons_internal.h"
 #include "wheatstone/random.h"
 #include "wheatstone/stereo/occlusion.h"
@@ -20,25 +18,6 @@ void sort_far_to_near(PolygonPainting& painting) {
     return std::tuple(mark.views == ViewRange{}, std::lround(mark.disparity));
   };
   std::ranges::stable_sort(painting.marks, {}, key);
-}
-
-void check_fits(std::span<const SceneView> views) {
-  if (views.empty() || views[0].picture.empty()) throw Error(ErrorKind::bad_input, "the scene has no picture");
-  const ImageView<const Rgb8> reference = views[0].picture;
-  const auto check = [&](const auto& image, std::string_view name) {
-    if (!same_size(image, reference))
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{} is {}x{} pixels, expected the reference view's {}x{}", name, image.width(),
-                              image.height(), reference.width(), reference.height()));
-  };
-  for (const SceneView& view : views) {
-    check(view.picture, "a view's picture");
-    check(view.disparity, "a view's disparity");
-    if (!view.only_here.empty()) check(view.only_here, "a view's mask");
-    for (int y = 0; y < view.disparity.height(); ++y)
-      if (!std::ranges::all_of(view.disparity.row(y), [](float value) { return std::isfinite(value); }))
-        throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
-  }
 }
 
 }  // namespace
@@ -83,13 +62,6 @@ PolygonPainting plan_polygons(const StereoPair& photographs, const StereoGeometr
   check_style(style);
   check_fits(photographs, geometry);
   return plan_polygons(scene_from_left(photographs, geometry), style, cut);
-}
-
-void check_fits(const FlowPair& flow, std::span<const SceneView> views) {
-  for (const Flow* direction : {&flow.forward, &flow.backward})
-    for (const Image<float>* component : {&direction->x, &direction->y})
-      if (views.empty() || !same_size(*component, views[0].picture))
-        throw Error(ErrorKind::bad_input, "the flow has not the size of the view that it leads to");
 }
 
 Image<Rgb8> without_grain(ImageView<const Rgb8> photograph, float scale) {

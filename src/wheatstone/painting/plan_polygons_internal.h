@@ -36,9 +36,6 @@ PolygonPainting plan_polygons(std::span<const SceneView> views, const Style& sty
 PolygonPainting plan_polygons(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                               const CutView& cut);
 
-/// Throws Error{bad_input} unless a film's flow has the size of the views that it leads to.
-void check_fits(const FlowPair& flow, std::span<const SceneView> views);
-
 /// The photograph without its grain, its edges kept: what areas are cut from.
 Image<Rgb8> without_grain(ImageView<const Rgb8> photograph, float scale);
 

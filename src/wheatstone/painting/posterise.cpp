@@ -9,6 +9,7 @@
 #include <span>
 
 #include "wheatstone/painting/colour_palette_internal.h"
+#include "wheatstone/painting/fitting_scene_internal.h"
 #include "wheatstone/painting/outline_internal.h"
 #include "wheatstone/painting/plan_polygons_internal.h"
 

@@ -180,6 +180,10 @@ void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& pictu
   });
 }
 
+void light_paint(const Painting& painting, float view, const Relief& relief, Image<Rgb8>& picture) {
+  if (relief.depth_px > 0) light_relief(relief_of(painting, view, relief.bristle_px), relief.depth_px, picture);
+}
+
 Relief relief_for(const Style& style, int width) {
   constexpr float ridges_px = 1.1f;  // for a picture 640 pixels wide
   Relief relief;

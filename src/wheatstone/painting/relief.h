@@ -22,6 +22,9 @@ Image<float> relief_of(const Painting& painting, float view, float bristle_px = 
 /// turns away; flat paint keeps its colour. `relief` has the picture's size; `depth_px` is the height of 1 in pixels.
 void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& picture);
 
+/// Lights the paint of a view as it was drawn; without relief it stays as it is.
+void light_paint(const Painting& painting, float view, const Relief& relief, Image<Rgb8>& picture);
+
 /// The relief of a style's paint in a picture `width` wide; none for a style without texture.
 Relief relief_for(const Style& style, int width);
 

@@ -66,9 +66,8 @@ PointStep SceneMotion::of(const ControlPoint& point, float position) const {
   const auto [fx, fy, unused] = step_at(flow_.forward, disparity_before_, {x, y, point.disparity}, depth_threshold_px_);
   const float bx = sample(flow_.backward.x.view(), x + fx, y + fy);
   const float by = sample(flow_.backward.y.view(), x + fx, y + fy);
-  const float apart = (fx + bx) * (fx + bx) + (fy + by) * (fy + by);
-  // As in the mask of confirmed flow (flow.h), without its motion edges: a stroke has its neighbours' word there.
-  if (apart > 0.01f * (fx * fx + fy * fy + bx * bx + by * by) + 0.5f) return {fx, fy, false};
+  // Motion edges are not left out, as they are of the mask of confirmed flow: a stroke has its neighbours' word there.
+  if (!undo_each_other(fx, fy, bx, by)) return {fx, fy, false};
   return {(fx - bx) / 2, (fy - by) / 2, true};
 }
 

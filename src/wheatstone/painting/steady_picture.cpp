@@ -71,13 +71,15 @@ void steady(ImageView<const Rgb8> frame, const Flow& backward, ImageView<const s
   picture = std::move(next);
 }
 
-Image<Rgb8> rounded(const Image<SampledColour>& colours) {
+Rgb8 rounded(const SampledColour& colour) {
   const auto level = [](float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); };
+  return {level(colour.r), level(colour.g), level(colour.b)};
+}
+
+Image<Rgb8> rounded(const Image<SampledColour>& colours) {
   Image<Rgb8> result(colours.width(), colours.height());
-  for (std::size_t i = 0; i < result.pixels().size(); ++i) {
-    const SampledColour& c = colours.pixels()[i];
-    result.pixels()[i] = {level(c.r), level(c.g), level(c.b)};
-  }
+  std::ranges::transform(colours.pixels(), result.pixels().begin(),
+                         [](const SampledColour& colour) { return rounded(colour); });
   return result;
 }
 

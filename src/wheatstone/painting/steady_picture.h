@@ -19,6 +19,8 @@ SteadyPicture begin_steady(ImageView<const Rgb8> frame);
 void steady(ImageView<const Rgb8> frame, const Flow& backward, ImageView<const std::uint8_t> known,
             SteadyPicture& picture);
 
+Rgb8 rounded(const SampledColour& colour);
+
 /// Its colours, rounded.
 Image<Rgb8> rounded(const Image<SampledColour>& colours);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/motion/flow.h"
+
 namespace wheatstone {
 namespace {
 
@@ -39,8 +41,7 @@ float surface_disparity(ImageView<const float> disparity, float x, float y, floa
   const auto [least, most] = std::minmax({a, b, c, d});
   if (most - least > depth_threshold_px)  // several surfaces: that of the pixel
     return disparity(across < 0.5f ? left : right, down < 0.5f ? top : bottom);
-  const float above = a + (b - a) * across, below = c + (d - c) * across;
-  return above + (below - above) * down;
+  return sample(disparity, x, y);
 }
 
 bool is_visible(const ControlPoint& point, float reference, const SceneView& view, float tolerance_px) {

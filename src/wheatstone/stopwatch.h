@@ -4,7 +4,7 @@
 
 namespace wheatstone {
 
-/// Adds the time until it goes out of scope.
+/// Adds the seconds until it goes out of scope.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
