@@ -10,8 +10,8 @@
 
 #include "command.h"
 #include "numbers_argument.h"
+#include "wheatstone/calibration/calibration.h"
 #include "wheatstone/error.h"
-#include "wheatstone/stereo/calibration.h"
 
 namespace wheatstone::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/pictures/disparity_file.h"
 
 namespace wheatstone::cli {
 

@@ -16,15 +16,15 @@
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/describe_image.h"
-#include "wheatstone/image/disparity_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/matching/eye_order.h"
+#include "wheatstone/matching/match.h"
+#include "wheatstone/matching/not_a_pair.h"
 #include "wheatstone/multiview/slice_file.h"
-#include "wheatstone/painting/painting_file.h"
 #include "wheatstone/particles/cloud_source.h"
-#include "wheatstone/stereo/eye_order.h"
-#include "wheatstone/stereo/match.h"
-#include "wheatstone/stereo/not_a_pair.h"
-#include "wheatstone/stereo/read_views.h"
+#include "wheatstone/photograph/read_views.h"
+#include "wheatstone/pictures/describe_image.h"
+#include "wheatstone/pictures/disparity_file.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -63,13 +63,13 @@ ordered_json facts_of_disparity(const fs::path& path, std::optional<float> scale
 }
 
 ordered_json facts_of_painting(const fs::path& path) {
-  const AnyPainting any = read_painting(path);
-  const Painting& painting = any.painting;
+  const Painting any = read_painting(path);
+  const StrokePainting& painting = any.painting;
   DisparityRange range;
   ordered_json facts = {{"kind", "painting"}, {"width", painting.width}, {"height", painting.height}};
-  if (any.areas.width > 0) {
-    for (const ControlPoint& point : any.areas.points) range.add(point.disparity);
-    facts["areas"] = any.areas.marks.size();
+  if (any.regions.width > 0) {
+    for (const ControlPoint& point : any.regions.points) range.add(point.disparity);
+    facts["regions"] = any.regions.marks.size();
     put_range(facts, range);
     return facts;
   }

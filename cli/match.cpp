@@ -8,8 +8,8 @@
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/display/disparity_picture.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/write_image.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::cli {
 namespace {

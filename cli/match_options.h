@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "wheatstone/stereo/match.h"
+#include "wheatstone/matching/match.h"
 
 namespace wheatstone::cli {
 

@@ -14,13 +14,14 @@
 #include "film_argument.h"
 #include "measure_kinds.h"
 #include "wheatstone/app/report.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/motion/film_measures.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/matching/match.h"
+#include "wheatstone/measures/film_measures.h"
 #include "wheatstone/motion/flow_file.h"
-#include "wheatstone/painting/painting_file.h"
-#include "wheatstone/painting/strokes_between_frames.h"
-#include "wheatstone/stereo/match.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/strokes/strokes_between_frames.h"
 #include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone::cli {
@@ -191,7 +192,7 @@ struct MarksOfFilm {
 };
 
 /// How much of either eye, or of the one there is, no mark covers.
-double bare_share_of(const AnyPainting& marks, bool two_eyes) {
+double bare_share_of(const Painting& marks, bool two_eyes) {
   if (!two_eyes) return draw(marks, 0).bare_share;
   return std::max(draw(marks, left_eye).bare_share, draw(marks, right_eye).bare_share);
 }
@@ -203,10 +204,10 @@ MarksOfFilm measure_marks(const Arguments& arguments, bool two_eyes, int frames,
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("--marks: is '{}', expected a place for the number, as marks_%04d.wst", arguments.marks));
   MarksOfFilm marks;
-  AnyPainting before;
+  Painting before;
   for (int frame = 0; frame < frames; ++frame) {
     report(session.progress, "marks", static_cast<double>(frame) / frames);
-    AnyPainting now = read_painting(pattern->file(frame + 1));
+    Painting now = read_painting(pattern->file(frame + 1));
     const double bare = bare_share_of(now, two_eyes);
     marks.worst_bare_share = std::max(marks.worst_bare_share, bare);
     Json facts{{"frame", frame}, {"bare_share", bare}};

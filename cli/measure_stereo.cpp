@@ -11,11 +11,11 @@
 #include "measure_kinds.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/report.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
-#include "wheatstone/painting/painting_file.h"
-#include "wheatstone/painting/rasterise.h"
-#include "wheatstone/painting/stroke_measures.h"
+#include "wheatstone/marks/painting_file.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/strokes/stroke_measures.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -77,8 +77,8 @@ Truth find_truth(const Arguments& arguments, const StereoPair& stylised, const s
 }
 
 PaintingGuards measure_guards(const Arguments& arguments, const StereoPair& stylised, const StereoGeometry& geometry) {
-  const AnyPainting any = read_painting(arguments.painting);
-  const Painting& painting = any.painting;
+  const Painting any = read_painting(arguments.painting);
+  const StrokePainting& painting = any.painting;
   if (!same_size(geometry.left_disparity, stylised.left) || painting.width != stylised.left.width() ||
       painting.height != stylised.left.height())
     throw Error(ErrorKind::bad_input,

@@ -13,8 +13,8 @@
 #include "measure_kinds.h"
 #include "pictures_in_folder.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/read_image.h"
-#include "wheatstone/multiview/view_measures.h"
+#include "wheatstone/measures/view_measures.h"
+#include "wheatstone/pictures/read_image.h"
 
 namespace wheatstone::cli {
 namespace {

@@ -17,10 +17,10 @@
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/wiggle.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/stereo/match.h"
-#include "wheatstone/stereo/write_views.h"
+#include "wheatstone/matching/match.h"
+#include "wheatstone/photograph/write_views.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {

@@ -21,9 +21,9 @@
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/painting/painting_file.h"
-#include "wheatstone/painting/style_parameters.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/pictures/write_image.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
@@ -77,11 +77,11 @@ void print_summary(const PaintedPhotograph& result, const PaintingMeasures* meas
   const double seconds = painted.times.planning_s + painted.times.rasterising_s;
   if (!painted.curves.lines.empty()) {
     fmt::print("painted          {} lines beside edges, {:.2f} s\n", painted.curves.lines.size(), seconds);
-  } else if (painted.areas.marks.empty()) {
+  } else if (painted.regions.marks.empty()) {
     fmt::print("painted          {} strokes in {} layers, {:.2f} s\n", strokes, painted.painting.layers.size(),
                seconds);
   } else {
-    fmt::print("painted          {} areas, {:.2f} s\n", painted.areas.marks.size(), seconds);
+    fmt::print("painted          {} regions, {:.2f} s\n", painted.regions.marks.size(), seconds);
   }
   fmt::print("left bare        {:.2f} % of the left eye, {:.2f} % of the right\n", 100 * painted.left_bare_share,
              100 * painted.right_bare_share);

@@ -6,9 +6,9 @@
 #include "command.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/calibration/rectify.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/stereo/rectify.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::cli {
 namespace {

@@ -15,9 +15,9 @@
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/write_image.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
+#include "wheatstone/pictures/write_image.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
@@ -267,31 +267,38 @@ void add_particle_options(CLI::App& command, Arguments& arguments) {
 }
 
 void add_look_options(CLI::App& command, Arguments& arguments) {
-  Appearance& look = arguments.options.appearance;
+  Appearance& splat_style = arguments.options.appearance;
   const std::string group = "Look";
   command.add_option("--splat", arguments.splat, "Smallest and largest diameter in pixels")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--size-rule", look.size_rule, "denser-smaller, denser-larger or smoothing-length")
+  command.add_option("--size-rule", splat_style.size_rule, "denser-smaller, denser-larger or smoothing-length")
       ->transform(CLI::CheckedTransformer(size_rules, CLI::ignore_case))
       ->group(group);
-  command.add_option("--opacity", look.opacity, "Of the densest")->capture_default_str()->group(group);
-  command.add_option("--least-opacity", look.least_opacity, "Of the thinnest, as a share")
+  command.add_option("--opacity", splat_style.opacity, "Of the densest")->capture_default_str()->group(group);
+  command.add_option("--least-opacity", splat_style.least_opacity, "Of the thinnest, as a share")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str()
       ->group(group);
-  command.add_option("--density-slope", look.density_slope, "Steepness of the sigmoid, for a factor of ten in density")
+  command
+      .add_option("--density-slope", splat_style.density_slope,
+                  "Steepness of the sigmoid, for a factor of ten in density")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--density-shift", look.density_shift, "Its middle, in factors of ten above the median density")
+  command
+      .add_option("--density-shift", splat_style.density_shift,
+                  "Its middle, in factors of ten above the median density")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--colours", look.colour_map, "A colour map by name: inferno, viridis, turbo ...")->group(group);
+  command.add_option("--colours", splat_style.colour_map, "A colour map by name: inferno, viridis, turbo ...")
+      ->group(group);
   command.add_option("--cold", arguments.cold, "Colour of the coldest: 2860FF if not given")->group(group);
   command.add_option("--hot", arguments.hot, "Colour of the hottest: FF781E if not given")->group(group);
-  command.add_option("--coldest", look.coldest, "Where the colours begin; 2nd percentile if not given")->group(group);
-  command.add_option("--hottest", look.hottest, "Where they end; 98th percentile if not given")->group(group);
-  command.add_flag("!--linear-colours", look.logarithmic, "Colours by temperature, not by its logarithm")->group(group);
+  command.add_option("--coldest", splat_style.coldest, "Where the colours begin; 2nd percentile if not given")
+      ->group(group);
+  command.add_option("--hottest", splat_style.hottest, "Where they end; 98th percentile if not given")->group(group);
+  command.add_flag("!--linear-colours", splat_style.logarithmic, "Colours by temperature, not by its logarithm")
+      ->group(group);
   command.add_option("--exposure", arguments.options.rendering.exposure, "From the central view if not given")
       ->check(CLI::PositiveNumber)
       ->group(group);

@@ -20,8 +20,8 @@
 #include "time_argument.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/disparity_file.h"
 #include "wheatstone/motion/flow_file.h"
+#include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/video/frame_sequence.h"
 

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/read_image.h"
-#include "wheatstone/stereo/eye_order.h"
-#include "wheatstone/stereo/not_a_pair.h"
-#include "wheatstone/stereo/read_views.h"
+#include "wheatstone/matching/eye_order.h"
+#include "wheatstone/matching/not_a_pair.h"
+#include "wheatstone/photograph/read_views.h"
+#include "wheatstone/pictures/read_image.h"
 
 namespace wheatstone::cli {
 namespace {

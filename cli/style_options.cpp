@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "wheatstone/painting/style_parameters.h"
+#include "wheatstone/marks/style_parameters.h"
 
 namespace wheatstone::cli {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "wheatstone/painting/style.h"
+#include "wheatstone/marks/style.h"
 
 namespace wheatstone::cli {
 

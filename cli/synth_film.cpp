@@ -10,10 +10,10 @@
 #include "size_argument.h"
 #include "synth_kinds.h"
 #include "wheatstone/app/output_folder.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/write_image.h"
 #include "wheatstone/motion/flow_file.h"
-#include "wheatstone/motion/synthetic_film.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone::cli {
 namespace {

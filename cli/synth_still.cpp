@@ -9,9 +9,9 @@
 #include "size_argument.h"
 #include "synth_kinds.h"
 #include "wheatstone/app/output_folder.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::cli {
 namespace {

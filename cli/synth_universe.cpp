@@ -5,8 +5,8 @@
 
 #include "command.h"
 #include "synth_kinds.h"
-#include "wheatstone/particles/synthetic_universe.h"
 #include "wheatstone/particles/write_gadget.h"
+#include "wheatstone/synthetic/synthetic_universe.h"
 
 namespace wheatstone::cli {
 namespace {

@@ -13,13 +13,13 @@
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/read_image.h"
+#include "wheatstone/marks/painting_file.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
-#include "wheatstone/painting/painting_file.h"
-#include "wheatstone/painting/rasterise.h"
-#include "wheatstone/stereo/read_views.h"
+#include "wheatstone/photograph/read_views.h"
+#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 
 namespace wheatstone::cli {
@@ -56,7 +56,7 @@ int count_of(const ViewsArguments& arguments, int wanted) {
 }
 
 ReadViews draw_painting(const std::string& file, int count) {
-  const AnyPainting painting = read_painting(file);
+  const Painting painting = read_painting(file);
   ReadViews read;
   read.how = "drawn from a painting";
   for (const float view : evenly_spaced(painting.painting.width, painting.painting.height, count).positions)

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "wheatstone/app/output_folder.h"
-#include "wheatstone/image/write_image.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::cli {
 

@@ -4,15 +4,28 @@
 #     SOURCES match.cpp ...          compiled into the library
 #     ABOVE image depth              the rooms that it may include
 #     LIBRARIES opencv_calib3d ...   bought libraries that only its .cpp files see
-#     TESTS match_test.cpp ...)      compiled into wheatstone_stereo_test
+#     TESTS match_test.cpp ...       compiled into wheatstone_stereo_test
+#     TESTS_USE synthetic ...        further rooms that only the tests use: scenes with exact truth, measures
+#     TEST_LIBRARIES ...)            bought libraries that only the tests use
 add_library(wheatstone_warnings INTERFACE)
 target_compile_options(wheatstone_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
   # Options are structs with defaults: naming only those that differ is how they are meant to be filled.
   -Wno-missing-field-initializers)
 
+# A test program is two entries of ctest, each of which runs every second test: its libraries are loaded twice, not once
+# a test, and both processors have work.
+function(wheatstone_add_gtest name target)
+  foreach(shard 1 2)
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${name}.${shard} COMMAND ${target})
+    set_tests_properties(${name}.${shard} PROPERTIES
+      TIMEOUT 900 ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
+  endforeach()
+endfunction()
+
 function(wheatstone_room room)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ABOVE;LIBRARIES;TESTS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ABOVE;LIBRARIES;TESTS;TESTS_USE;TEST_LIBRARIES" ${ARGN})
   set(target wheatstone_${room})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(Wheatstone::${room} ALIAS ${target})
@@ -28,10 +41,10 @@ function(wheatstone_room room)
 
   if(WHEATSTONE_TESTS AND ARG_TESTS)
     add_executable(${target}_test ${ARG_TESTS})
-    target_link_libraries(${target}_test PRIVATE ${target} wheatstone_warnings GTest::gmock GTest::gtest_main ${ARG_LIBRARIES})
+    list(TRANSFORM ARG_TESTS_USE PREPEND wheatstone_)
+    target_link_libraries(${target}_test PRIVATE
+      ${ARG_TESTS_USE} ${target} wheatstone_shared_data wheatstone_warnings GTest::gmock GTest::gtest_main ${ARG_LIBRARIES} ${ARG_TEST_LIBRARIES})
     target_include_directories(${target}_test PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-    target_compile_definitions(${target}_test PRIVATE
-      WHEATSTONE_SHARED_DATA="${PROJECT_SOURCE_DIR}/../shared/data")
-    gtest_discover_tests(${target}_test DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+    wheatstone_add_gtest(${room} ${target}_test)
   endif()
 endfunction()

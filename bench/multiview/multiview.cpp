@@ -13,11 +13,11 @@
 #include <optional>
 
 #include "stopwatch.h"
+#include "wheatstone/measures/view_measures.h"
 #include "wheatstone/multiview/naive_view.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/renderers_internal.h"
-#include "wheatstone/multiview/view_measures.h"
-#include "wheatstone/particles/synthetic_universe.h"
+#include "wheatstone/synthetic/synthetic_universe.h"
 
 namespace wheatstone::bench {
 namespace {
@@ -42,21 +42,21 @@ Cloud thinned(const Cloud& cloud, std::size_t count) {
 /// A cloud on the nine-view display of the thesis: views of 640×360, ±10 cm in 36 planes.
 struct Stage {
   Cloud cloud;
-  Survey survey;
+  CloudStatistics statistics;
   Scene scene;
   Rig rig;
   float exposure = 1;
 
   Stage(Cloud particles, int views, float smallest, float largest) : cloud(std::move(particles)) {
-    survey.add(cloud);
+    statistics.add(cloud);
     rig = evenly_spaced(640, 360, views);
-    scene.camera = camera_around(survey.centre(), survey.radius(), rig.width, rig.height, {.zoom = 1.25f});
+    scene.camera = camera_around(statistics.centre(), statistics.radius(), rig.width, rig.height, {.zoom = 1.25f});
     float depth = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      depth += (survey.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
-    scene.mapping.points = {{depth - survey.radius(), -20.f}, {depth + survey.radius(), 15.f}};
-    scene.look = make_look({.smallest_px = smallest, .largest_px = largest}, survey);
-    scene.look.size_depth = depth;
+      depth += (statistics.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
+    scene.mapping.points = {{depth - statistics.radius(), -20.f}, {depth + statistics.radius(), 15.f}};
+    scene.splat_style = make_splat_style({.smallest_px = smallest, .largest_px = largest}, statistics);
+    scene.splat_style.size_depth = depth;
     exposure = automatic_exposure(cloud, scene, rig);
   }
 };
@@ -75,7 +75,7 @@ struct Canvases {
 
 Times measure(const Stage& stage, SliceFilter filter, int planes = planes_of_display, bool incremental = true) {
   const ToneMap tone(stage.exposure);
-  const RenderJob job{stage.cloud, stage.scene, stage.rig, stage.survey, tone};
+  const RenderJob job{stage.cloud, stage.scene, stage.rig, stage.statistics, tone};
   const DepthPlanes depth_planes = planes_of(stage.scene.mapping, planes);
   Canvases canvases(stage.rig);
   Times times;
@@ -201,7 +201,7 @@ void print_many_regions(const Stage& stage) {
   const auto seconds_with = [&](const DepthMapping& mapping) {
     Scene scene = stage.scene;
     scene.mapping = mapping;
-    const RenderJob job{stage.cloud, scene, stage.rig, stage.survey, tone};
+    const RenderJob job{stage.cloud, scene, stage.rig, stage.statistics, tone};
     const DepthPlanes planes = planes_of(mapping, planes_of_display);
     return median_seconds([&] { render_layered(job, planes, SliceFilter::linear, canvases.views); }, 3);
   };
@@ -232,7 +232,7 @@ double processor_seconds() {
 
 void print_exact(const Stage& stage) {
   const ToneMap tone(stage.exposure);
-  const RenderJob job{stage.cloud, stage.scene, stage.rig, stage.survey, tone};
+  const RenderJob job{stage.cloud, stage.scene, stage.rig, stage.statistics, tone};
   Image<Rgb8> picture(stage.rig.width, stage.rig.height);
   const auto start = std::chrono::steady_clock::now();
   const double before = processor_seconds();

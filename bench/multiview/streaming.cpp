@@ -10,8 +10,8 @@
 #include <filesystem>
 
 #include "wheatstone/app/render_particles.h"
-#include "wheatstone/particles/synthetic_universe.h"
 #include "wheatstone/particles/write_gadget.h"
+#include "wheatstone/synthetic/synthetic_universe.h"
 
 namespace wheatstone::bench {
 namespace {

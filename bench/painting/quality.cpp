@@ -8,9 +8,9 @@
 #include <string>
 
 #include "wheatstone/app/paint_photograph.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/read_image.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::bench {
 namespace {

@@ -14,8 +14,8 @@
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/painting/paint.h"
-#include "wheatstone/painting/wide_painting.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/strokes/wide_painting.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::bench {
 namespace {
@@ -112,7 +112,7 @@ int main(int argument_count, char** arguments) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   cv::setNumThreads(threads);
   fmt::print(
-      "Painting the synthetic still, impressionist, disparity given, {} threads.\n"
+      "StrokePainting the synthetic still, impressionist, disparity given, {} threads.\n"
       "Both eyes as multiples of one eye's time; P planning, R rasterising of one eye.\n\n",
       threads);
   fmt::print("size         one eye  strokes raster  each    paper   (P+2R)/(P+R)\n");

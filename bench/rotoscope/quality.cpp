@@ -14,8 +14,8 @@
 
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/rotoscope.h"
-#include "wheatstone/motion/film_measures.h"
-#include "wheatstone/motion/synthetic_film.h"
+#include "wheatstone/measures/film_measures.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone::bench {
 namespace {

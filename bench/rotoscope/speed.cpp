@@ -15,7 +15,7 @@
 
 #include "wheatstone/app/rotoscope.h"
 #include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/motion/synthetic_film.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone::bench {
 namespace {

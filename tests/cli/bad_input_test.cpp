@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/run_program.h"
-#include "wheatstone/image/write_image.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
 namespace {

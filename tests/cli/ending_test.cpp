@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "cli/run_program.h"
-#include "wheatstone/image/write_image.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
 namespace {

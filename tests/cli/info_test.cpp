@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/painting/painting_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/video/film_writer.h"
 
 namespace wheatstone {
@@ -48,7 +48,7 @@ TEST(Info, TellsOfADisparityFile) {
 
 TEST(Info, TellsOfAPainting) {
   const TemporaryFolder folder;
-  Painting painting{.width = 40, .height = 30};
+  StrokePainting painting{.width = 40, .height = 30};
   Layer layer{.radius_px = 4};
   layer.points = {{1, 2, 3}, {5, 6, 7}};
   layer.strokes = {{.point_count = 2, .radius_px = 4}};
@@ -64,11 +64,11 @@ TEST(Info, TellsOfAPainting) {
 
 TEST(Info, TellsOfAPaintingOfAreas) {
   const TemporaryFolder folder;
-  AnyPainting painting{.painting = {.width = 40, .height = 30}};
-  painting.areas = {40, 30, {{1, 1, 3}, {9, 1, 3}, {5, 8, 4}}, {{0, 3}}, {{0, 1}}};
+  Painting painting{.painting = {.width = 40, .height = 30}};
+  painting.regions = {40, 30, {{1, 1, 3}, {9, 1, 3}, {5, 8, 4}}, {{0, 3}}, {{0, 1}}};
   write_painting(folder / "p.wst", painting);
   const nlohmann::json facts = facts_of(folder / "p.wst");
-  EXPECT_EQ(facts["areas"], 1);
+  EXPECT_EQ(facts["regions"], 1);
   EXPECT_EQ(facts["nearest_disparity_px"], 4);
 }
 

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/read_image.h"
-#include "wheatstone/image/whole_file.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/stereo/read_views.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/photograph/read_views.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 namespace {

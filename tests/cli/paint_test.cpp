@@ -1,4 +1,4 @@
-// Painting from the command line: what works on unusual pictures, and what is refused with one line.
+// StrokePainting from the command line: what works on unusual pictures, and what is refused with one line.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/painting/painting_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
 namespace {
@@ -68,7 +68,7 @@ TEST(PaintCommand, PaintsWithOtherMarksThanStrokes) {
         run_program(paint_line({"--disparity", "disparity.pfm", "--style", style, "--json"}), {.folder = folder / ""});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const auto report = nlohmann::json::parse(result.output);
-    EXPECT_GT(report[style == "diffusion" ? "curves" : "areas"], 1);
+    EXPECT_GT(report[style == "diffusion" ? "curves" : "regions"], 1);
     EXPECT_LT(report["right_bare_share"], 0.005);
     const auto files = files_in(folder / "painted");
     EXPECT_THAT(files, testing::IsSupersetOf({"left.png", "right.png", "side_by_side.png", "anaglyph.png",

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
-#include "wheatstone/image/write_image.h"
+#include "wheatstone/photograph/write_views.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
-#include "wheatstone/stereo/synthetic_still.h"
-#include "wheatstone/stereo/write_views.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 namespace {

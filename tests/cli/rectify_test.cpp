@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/read_image.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/read_image.h"
 
 namespace wheatstone {
 namespace {

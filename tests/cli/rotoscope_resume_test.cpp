@@ -50,7 +50,7 @@ class Workplace {
     return run_program(line(output, more), {.folder = folder_ / ""});
   }
 
-  /// Sends a signal when the marks of `frame` (from 1) are there, and a moment later.
+  /// Sends a signal when the marks of `frame` (from 1) are there, and a frame later.
   ProgramResult run_until(const std::string& output, int frame, int signal, std::chrono::milliseconds later = {},
                           const Words& more = {}) const {
     return run_program(line(output, more), {.folder = folder_ / "", .while_running = [&](int process) {
@@ -88,7 +88,7 @@ TEST(RotoscopeResume, KilledAtAnyMomentTheFilmIsTheSame) {
   ASSERT_EQ(undisturbed.size(), static_cast<std::size_t>(frame_count));
   std::mt19937 random(20150607);
   for (int time = 0; time < 5; ++time) {
-    // Any frame but the last, and any moment of the one after.
+    // Any frame but the last, and any frame of the one after.
     const int frame = std::uniform_int_distribution(1, frame_count - 2)(random);
     const std::chrono::milliseconds later(std::uniform_int_distribution(0, 40)(random));
     const std::string name = "killed_" + std::to_string(time) + ".mp4";

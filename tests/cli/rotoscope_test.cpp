@@ -8,7 +8,8 @@
 #include <sstream>
 
 #include "cli/run_program.h"
-#include "wheatstone/motion/synthetic_film.h"
+#include "shared_data.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/moving_picture_internal.h"
 #include "wheatstone/video/stereo_film.h"
 
@@ -127,7 +128,7 @@ TEST(RotoscopeCommand, PaintsThePartThatIsAskedFor) {
   ASSERT_EQ(frames.size(), 5u);
   for (int i = 0; i < 5; ++i) {
     EXPECT_NEAR(frames[i].seconds(), 0.08 * i, 1e-9);
-    // Of the right moment: the next one looks less like it.
+    // Of the right frame: the next one looks less like it.
     EXPECT_GT(psnr(frames[i].picture, moving_picture(64, 48, 5 + 2 * i)),
               psnr(frames[i].picture, moving_picture(64, 48, 5 + 2 * i + 3)));
   }
@@ -298,7 +299,7 @@ TEST(RotoscopeCommand, MemoryDoesNotGrowWithTheFilm) {
 }
 
 TEST(RotoscopeCommand, PaintsRealFilms) {
-  const fs::path films = fs::path(WHEATSTONE_SOURCE) / "../shared/data/video";
+  const fs::path films = shared_data() / "video";
   if (!fs::exists(films / "mary_sbs.mp4") || !fs::exists(films / "tokyo_walk_mono.mp4"))
     GTEST_SKIP() << "the real films are not there";
   const TemporaryFolder folder;

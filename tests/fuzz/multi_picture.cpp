@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/multi_picture_internal.h"
+#include "wheatstone/photograph/multi_picture_internal.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

@@ -5,17 +5,18 @@
 
 #include "one_file.h"
 #include "painting_generated.h"
-#include "wheatstone/painting/painting_file.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/marks/painting_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using wheatstone::AnyPainting;
+  using wheatstone::Painting;
   namespace file = wheatstone::file;
   flatbuffers::FlatBufferBuilder builder;
   const auto payload = builder.CreateVector(data, size);
   file::FinishPaintingFileBuffer(
       builder, file::CreatePaintingFile(builder, 2, static_cast<std::uint32_t>(crc32_z(0, data, size)), payload));
   try {
-    const AnyPainting painting = wheatstone::decode_painting(
+    const Painting painting = wheatstone::decode_painting(
         {reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize()}, "input");
     // What is believed must also be drawn; size alone costs time and finds nothing.
     constexpr int small_px = 256;

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/stereo_marks_internal.h"
+#include "wheatstone/photograph/stereo_marks_internal.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

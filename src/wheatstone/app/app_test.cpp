@@ -8,12 +8,12 @@
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/redraw.h"
 #include "wheatstone/app/write_results.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/read_image.h"
-#include "wheatstone/image/whole_file.h"
-#include "wheatstone/painting/painting_file.h"
-#include "wheatstone/painting/rasterise.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 namespace {
@@ -115,7 +115,7 @@ TEST(Redraw, KeepsThePaintingWhenItIsMadeLarger) {
   options.left_disparity = still().geometry.left_disparity;
   options.style.background = Background::colour;
   const PaintedPhotograph result = paint_photograph(still().pictures, options);
-  const AnyPainting large = scaled({.painting = result.painted.painting}, 2);
+  const Painting large = scaled({.painting = result.painted.painting}, 2);
   const Image<Rgb8> small_picture = result.painted.pictures.right, large_picture = draw(large, right_eye).picture;
   ASSERT_EQ(large_picture.width(), 480);
   double difference = 0;

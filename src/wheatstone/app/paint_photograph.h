@@ -3,11 +3,11 @@
 #include <optional>
 #include <utility>
 
+#include "wheatstone/matching/match.h"
+#include "wheatstone/measures/consistency.h"
+#include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/painting/paint.h"
-#include "wheatstone/painting/stroke_measures.h"
-#include "wheatstone/stereo/consistency.h"
-#include "wheatstone/stereo/depth_survival.h"
-#include "wheatstone/stereo/match.h"
+#include "wheatstone/strokes/stroke_measures.h"
 
 namespace wheatstone {
 

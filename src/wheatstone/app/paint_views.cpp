@@ -5,8 +5,8 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/error.h"
-#include "wheatstone/painting/wide_painting.h"
 #include "wheatstone/stereo/framed_pair.h"
+#include "wheatstone/strokes/wide_painting.h"
 
 namespace wheatstone {
 namespace {

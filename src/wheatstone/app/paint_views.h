@@ -21,7 +21,7 @@ struct PaintViewsOptions {
 struct PaintedViews {
   std::vector<Image<Rgb8>> views;  ///< left to right
   Rig rig;
-  Painting painting;            ///< that they are views of
+  StrokePainting painting;      ///< that they are views of
   float span = 0;               ///< as chosen
   float zero_parallax_px = 0;   ///< in pixels of the photographs
   double worst_bare_share = 0;  ///< of a view's pixels that no stroke covered, which took their neighbours' colours

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "shared_data.h"
 #include "wheatstone/app/report.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/read_image.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 namespace {
@@ -20,7 +21,7 @@ struct Subject {
 };
 
 std::optional<Subject> shared_subject(const std::string& name, std::optional<float> scale) {
-  const std::filesystem::path folder = std::filesystem::path(WHEATSTONE_SHARED_DATA) / "stereo" / name;
+  const std::filesystem::path folder = shared_data() / "stereo" / name;
   if (!std::filesystem::exists(folder)) return {};
   Subject subject{{read_image(folder / "left.png"), read_image(folder / "right.png")},
                   read_disparity(folder / "disp_left.png", scale),

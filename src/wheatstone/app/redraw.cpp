@@ -9,14 +9,15 @@
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/drawing/svg.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/painting/svg.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
 namespace {
 
-float nearest_disparity(const AnyPainting& painting) {
+float nearest_disparity(const Painting& painting) {
   std::vector<float> disparities = disparities_of_marks(painting);
   if (disparities.empty()) return 0;
   constexpr double nearest_share = 0.995;
@@ -27,7 +28,7 @@ float nearest_disparity(const AnyPainting& painting) {
 
 }  // namespace
 
-AnyPainting scaled(const AnyPainting& painting, double scale) {
+Painting scaled(const Painting& painting, double scale) {
   constexpr double largest_side_px = 65535;
   const double width = std::round(painting.painting.width * scale),
                height = std::round(painting.painting.height * scale);
@@ -37,10 +38,10 @@ AnyPainting scaled(const AnyPainting& painting, double scale) {
   return resized(painting, scale);
 }
 
-void draw_again(const AnyPainting& painting, double scale, const std::filesystem::path& folder) {
-  const AnyPainting sized = scaled(painting, scale);
+void draw_again(const Painting& painting, double scale, const std::filesystem::path& folder) {
+  const Painting sized = scaled(painting, scale);
   const StereoPair pictures{draw(sized, left_eye).picture, draw(sized, right_eye).picture};
-  const StereoPair presented = translated(pictures, nearest_disparity(sized));
+  const StereoPair presented = set_convergence(pictures, nearest_disparity(sized));
   OutputFolder output(folder);
   write_image(output.file("left.png"), pictures.left);
   write_image(output.file("right.png"), pictures.right);

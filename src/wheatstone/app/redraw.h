@@ -2,17 +2,17 @@
 
 #include <filesystem>
 
-#include "wheatstone/painting/any_painting.h"
+#include "wheatstone/marks/painting.h"
 
 namespace wheatstone {
 
 /// The same painting, `scale` times as large: marks are shapes, so nothing is lost.
 /// Throws Error{wrong_usage} where the result would be over 65535 pixels a side.
-AnyPainting scaled(const AnyPainting& painting, double scale);
+Painting scaled(const Painting& painting, double scale);
 
 /// Draws a painting again, for both eyes, over its canvas colour: left.png, right.png, side_by_side.png, anaglyph.png,
 /// left.svg and right.svg in a folder that appears when all is written. The nearest mark's depth, but for outliers,
 /// lies on the screen plane. Throws Error{cannot_read_write}.
-void draw_again(const AnyPainting& painting, double scale, const std::filesystem::path& folder);
+void draw_again(const Painting& painting, double scale, const std::filesystem::path& folder);
 
 }  // namespace wheatstone

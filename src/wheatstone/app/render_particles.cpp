@@ -11,8 +11,8 @@
 #include "wheatstone/error.h"
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/particles/cloud_statistics.h"
 #include "wheatstone/particles/sph_density.h"
-#include "wheatstone/particles/survey.h"
 
 namespace wheatstone {
 namespace {
@@ -30,18 +30,19 @@ ViewingGeometry viewing_of(const RenderParticlesOptions& options) {
   return viewing;
 }
 
-Staged stage(const RenderParticlesOptions& options, const Survey& survey) {
+Staged stage(const RenderParticlesOptions& options, const CloudStatistics& statistics) {
   Staged staged;
   staged.rig = evenly_spaced(options.width, options.height, options.views, options.span);
   staged.viewing = viewing_of(options);
-  staged.scene.camera = camera_around(survey.centre(), survey.radius(), options.width, options.height, options.framing);
+  staged.scene.camera =
+      camera_around(statistics.centre(), statistics.radius(), options.width, options.height, options.framing);
   float depth = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    depth += (survey.centre()[axis] - staged.scene.camera.position[axis]) * staged.scene.camera.forward[axis];
-  staged.scene.mapping = mapping_for(options.depth, options.width, std::max(depth - survey.radius(), depth * 0.01f),
-                                     depth + survey.radius());
-  staged.scene.look = make_look(options.appearance, survey);
-  staged.scene.look.size_depth = depth;
+    depth += (statistics.centre()[axis] - staged.scene.camera.position[axis]) * staged.scene.camera.forward[axis];
+  staged.scene.mapping = mapping_for(options.depth, options.width, std::max(depth - statistics.radius(), depth * 0.01f),
+                                     depth + statistics.radius());
+  staged.scene.splat_style = make_splat_style(options.appearance, statistics);
+  staged.scene.splat_style.size_depth = depth;
   return staged;
 }
 
@@ -83,19 +84,19 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
 RenderedParticles stream(const std::filesystem::path& file, const RenderParticlesOptions& options,
                          const Progress& progress) {
   RenderedParticles result;
-  Survey survey;
+  CloudStatistics statistics;
   const SelectionCounts counts =
-      for_each_chunk(file, options, "survey", progress, [&](const Cloud& chunk) { survey.add(chunk); });
-  if (survey.count == 0) refuse_nothing(file, counts);
-  const Staged staged = stage(options, survey);
-  SliceMaker maker(staged.scene, survey, staged.rig, options.rendering);
+      for_each_chunk(file, options, "statistics", progress, [&](const Cloud& chunk) { statistics.add(chunk); });
+  if (statistics.count == 0) refuse_nothing(file, counts);
+  const Staged staged = stage(options, statistics);
+  SliceMaker maker(staged.scene, statistics, staged.rig, options.rendering);
   for_each_chunk(file, options, "slices", progress, [&](const Cloud& chunk) { maker.add(chunk); });
   result.stack = maker.finish(staged.viewing);
   result.rig = staged.rig;
-  if (!survey.has_density && !survey.has_colour)
+  if (!statistics.has_density && !statistics.has_colour)
     result.warnings.emplace_back(
         "the file has no density, and streamed particles cannot estimate it: all are equally bright");
-  result.particles = survey.count;
+  result.particles = statistics.count;
   result.dropped = counts.dropped;
   result.mended = counts.mended;
   return result;
@@ -114,9 +115,9 @@ RenderedParticles render_whole(const std::filesystem::path& file, const RenderPa
     estimate_density(cloud, options.neighbours, progress);
     result.density_estimated = true;
   }
-  Survey survey;
-  survey.add(cloud);
-  const Staged staged = stage(options, survey);
+  CloudStatistics statistics;
+  statistics.add(cloud);
+  const Staged staged = stage(options, statistics);
   result.rig = staged.rig;
   if (options.slices) {
     report(progress, "slices", 0);
@@ -143,7 +144,7 @@ DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float neares
 RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                    const Progress& progress) {
   if (options.views < 1) throw Error(ErrorKind::wrong_usage, "--views: 0, expected at least 1");
-  make_look(options.appearance, {});  // what makes no sense is said before the long work
+  make_splat_style(options.appearance, {});  // what makes no sense is said before the long work
   const CloudSource source = open_cloud(file, options.choice);
   if (options.selection.centre && !(source.box_size > 0))
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no periodic box, which --centre needs", file.string()));

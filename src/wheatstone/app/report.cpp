@@ -30,7 +30,7 @@ Json to_json(const StrokeMeasures& m) {
           {"shape_differs_share", rounded(m.shape_differs_share)}};
 }
 
-Json layers_json(const Painting& painting) {
+Json layers_json(const StrokePainting& painting) {
   Json layers = Json::array();
   for (const Layer& layer : painting.layers)
     layers.push_back({{"radius_px", rounded(layer.radius_px)}, {"strokes", layer.strokes.size()}});
@@ -53,14 +53,14 @@ PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPh
 std::string pair_measures_json(const PairMeasures& measures) { return to_json(measures).dump(2); }
 
 std::string report_json(const PaintedPhotograph& result, const Style& style, const PaintingMeasures* measures) {
-  const Painting& painting = result.painted.painting;
+  const StrokePainting& painting = result.painted.painting;
   Json report{{"width", painting.width},
               {"height", painting.height},
               {"style", style.name},
               {"propagation", name_of(style.propagation)},
               {"seed", style.seed},
               {"layers", layers_json(painting)},
-              {"areas", result.painted.areas.marks.size()},
+              {"regions", result.painted.regions.marks.size()},
               {"curves", result.painted.curves.lines.size()},
               {"zero_parallax_px", rounded(result.zero_parallax_px)},
               {"left_occluded_share", occluded_share(result.geometry.left_occlusion)},

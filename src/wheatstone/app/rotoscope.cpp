@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/measures/film_measures.h"
 #include "wheatstone/motion/central_flow.h"
-#include "wheatstone/motion/film_measures.h"
 #include "wheatstone/stereo/scene_view.h"
 #include "wheatstone/stopwatch.h"
 
@@ -99,7 +99,7 @@ FrameAtWork look_at(const StereoPair& eyes, const RotoscopeOptions& options, Rot
 }
 
 /// Compares the frame with the one before and adds it to the film's sums.
-void take_stock(const RotoscopeOptions& options, RotoscopeState& state, RotoscopedFrame& result) {
+void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& state, RotoscopedFrame& result) {
   const std::vector<Layer>& layers = result.painted.painting.layers;
   const double largest_step =
       1.0 / std::max(std::min(options.carrying.fade_in_frames, options.carrying.fade_out_frames), 1);
@@ -134,12 +134,12 @@ RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& 
     const Stopwatch watch(result.times.flow_s);
     state.flow_before = find_flow(frame, options, state, known);
   }
-  PaintedMoment moment = paint_moment({frame.views, carries ? &state.flow_before : nullptr}, options.style,
-                                      options.carrying, state.memory);
-  result.painted = std::move(moment.painted);
-  result.counts = moment.counts;
+  PaintedFrame painted =
+      paint_frame({frame.views, carries ? &state.flow_before : nullptr}, options.style, options.carrying, state.memory);
+  result.painted = std::move(painted.painted);
+  result.counts = painted.counts;
 
-  take_stock(options, state, result);
+  accumulate_statistics(options, state, result);
 
   ++state.frames;
   ++state.frames_of_scene;

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "wheatstone/matching/match.h"
 #include "wheatstone/motion/flow.h"
-#include "wheatstone/painting/paint_moment.h"
-#include "wheatstone/painting/strokes_between_frames.h"
+#include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/stereo/central_view.h"
-#include "wheatstone/stereo/match.h"
+#include "wheatstone/strokes/strokes_between_frames.h"
 
 namespace wheatstone {
 
@@ -50,7 +50,7 @@ struct RotoscopeState {
   Image<float> left_disparity_before, central_disparity_before;
   FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
   std::optional<DisparityRange> range;
-  MomentMemory memory;
+  PaintingMemory memory;
   std::vector<Layer> layers_before;  ///< the strokes as they were drawn, to tell what became of them
   RotoscopeTotals totals;
 };

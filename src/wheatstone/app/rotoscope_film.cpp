@@ -10,8 +10,8 @@
 
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/error.h"
-#include "wheatstone/painting/painting_file.h"
-#include "wheatstone/painting/style_parameters.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/segmented_film.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
 
 namespace wheatstone {
 namespace {
@@ -124,9 +124,9 @@ void visit_layer(Archive& archive, Layer& layer) {
 template <class Archive, class Memory>
 void visit_strokes(Archive& archive, Memory& memory) {
   archive.sequence(memory.views, [&](auto& layers) {
-    archive.sequence(layers, [&](auto& living) {
-      visit_layer(archive, living.layer);
-      archive(living.lives);
+    archive.sequence(layers, [&](auto& tracked) {
+      visit_layer(archive, tracked.layer);
+      archive(tracked.tracks);
     });
   });
   archive(memory.reference_disparity);

@@ -7,7 +7,7 @@
 #include "throws_error.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/app/rotoscope_state_file.h"
-#include "wheatstone/motion/synthetic_film.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/moving_picture_internal.h"
 
 namespace wheatstone {

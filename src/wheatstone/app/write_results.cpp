@@ -9,11 +9,11 @@
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/disparity_picture.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/whole_file.h"
-#include "wheatstone/image/write_image.h"
-#include "wheatstone/painting/painting_file.h"
-#include "wheatstone/painting/svg.h"
+#include "wheatstone/drawing/svg.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
 
@@ -28,8 +28,8 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   };
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
-  const AnyPainting painting = marks_of(result.painted, style);
-  const StereoPair presented = translated(pictures, result.zero_parallax_px);
+  const Painting painting = marks_of(result.painted, style);
+  const StereoPair presented = set_convergence(pictures, result.zero_parallax_px);
   std::vector<Output> outputs{
       {"left.png", [&](const Path& path) { write_image(path, pictures.left); }},
       {"right.png", [&](const Path& path) { write_image(path, pictures.right); }},

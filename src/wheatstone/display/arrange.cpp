@@ -27,7 +27,7 @@ Image<Rgb8> side_by_side(const StereoPair& pair) {
   return both;
 }
 
-StereoPair translated(const StereoPair& pair, float zero_parallax_px) {
+StereoPair set_convergence(const StereoPair& pair, float zero_parallax_px) {
   const int width = pair.left.width();
   const int shift = std::clamp(static_cast<int>(std::lround(zero_parallax_px)), 1 - width, width - 1);
   const int common = width - std::abs(shift);

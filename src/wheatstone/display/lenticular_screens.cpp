@@ -7,7 +7,7 @@
 
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
 
 namespace wheatstone {
 namespace {

@@ -12,7 +12,7 @@
 #include "wheatstone/display/interlaced.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
 
 namespace wheatstone {
 namespace {

@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/temporary_file.h"
 #include "wheatstone/image/srgb.h"
-#include "wheatstone/image/temporary_file.h"
 
 namespace wheatstone {
 namespace {

@@ -16,9 +16,9 @@
 #include "wheatstone/display/interlaced.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/wiggle.h"
-#include "wheatstone/image/read_image.h"
-#include "wheatstone/image/whole_file.h"
-#include "wheatstone/image/write_image.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 
 namespace wheatstone {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/temporary_file.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/temporary_file.h"
+#include "wheatstone/files/whole_file.h"
 
 namespace wheatstone {
 namespace {

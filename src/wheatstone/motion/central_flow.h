@@ -6,7 +6,7 @@
 
 namespace wheatstone {
 
-/// One of two moments between which things move.
+/// One of two frames between which things move.
 struct MovingMoment {
   const Image<float>& left_disparity;     ///< in the left view's geometry
   const Image<float>& central_disparity;  ///< in the central view's; neither has unknowns

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "wheatstone/motion/film_measures.h"
-#include "wheatstone/motion/synthetic_film.h"
+#include "wheatstone/measures/film_measures.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone {
 namespace {

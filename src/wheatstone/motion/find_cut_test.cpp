@@ -5,10 +5,11 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "shared_data.h"
 #include "throws_error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/motion/flow.h"
-#include "wheatstone/motion/synthetic_film.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone {
 namespace {
@@ -49,7 +50,7 @@ TEST(FindCut, NoiseAndAChangeOfLightAreNone) {
 }
 
 TEST(FindCut, AWalkThroughTheStreetsHasNone) {
-  const std::filesystem::path path = std::filesystem::path(WHEATSTONE_SHARED_DATA) / "video/tokyo_walk_mono.mp4";
+  const std::filesystem::path path = shared_data() / "video/tokyo_walk_mono.mp4";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
   cv::VideoCapture film(path.string());
   ASSERT_TRUE(film.isOpened());

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
 
 namespace wheatstone {
 namespace {

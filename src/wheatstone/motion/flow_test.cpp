@@ -8,7 +8,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "throws_error.h"
-#include "wheatstone/motion/synthetic_film.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone {
 namespace {

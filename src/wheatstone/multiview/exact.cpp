@@ -13,17 +13,17 @@ void deposit_band(const std::vector<SplatBlock>& blocks, const SplatOrder& order
     for (const SplatBlock& block : blocks) deposit(block.bin(order.bin(b, part)), b * order.band_rows, band);
 }
 
-std::vector<SplatBlock> splats_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig, const Survey& survey,
-                                       const SplatOrder& order, float view) {
+std::vector<SplatBlock> splats_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig,
+                                       const CloudStatistics& statistics, const SplatOrder& order, float view) {
   const Window window{.left = 0, .right = static_cast<float>(rig.width), .height = rig.height};
-  return order_splats(cloud, make_projection(scene, survey, view), window, order);
+  return order_splats(cloud, make_projection(scene, statistics, view), window, order);
 }
 
 }  // namespace
 
 void render_exact(const RenderJob& job, float view, ImageView<Rgb8> picture) {
-  const SplatOrder order = bands_of(job.rig, job.scene.look);
-  const std::vector<SplatBlock> blocks = splats_of_view(job.cloud, job.scene, job.rig, job.survey, order, view);
+  const SplatOrder order = bands_of(job.rig, job.scene.splat_style);
+  const std::vector<SplatBlock> blocks = splats_of_view(job.cloud, job.scene, job.rig, job.statistics, order, view);
   tbb::enumerable_thread_specific<LightBand> bands([&] { return LightBand(0, job.rig.width, order.band_rows); });
   tbb::parallel_for(0, order.bands, [&](int b) {
     LightBand& band = bands.local();
@@ -33,10 +33,10 @@ void render_exact(const RenderJob& job, float view, ImageView<Rgb8> picture) {
   });
 }
 
-std::vector<LightBand> light_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig, const Survey& survey,
-                                     float view) {
-  const SplatOrder order = bands_of(rig, scene.look);
-  const std::vector<SplatBlock> blocks = splats_of_view(cloud, scene, rig, survey, order, view);
+std::vector<LightBand> light_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig,
+                                     const CloudStatistics& statistics, float view) {
+  const SplatOrder order = bands_of(rig, scene.splat_style);
+  const std::vector<SplatBlock> blocks = splats_of_view(cloud, scene, rig, statistics, order, view);
   std::vector<LightBand> light(order.bands, LightBand(0, rig.width, order.band_rows));
   tbb::parallel_for(0, order.bands, [&](int b) { deposit_band(blocks, order, b, light[b]); });
   return light;

@@ -8,11 +8,12 @@
 namespace wheatstone {
 
 void render_incremental(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures) {
-  const SplatOrder order = bands_of(job.rig, job.scene.look);
+  const SplatOrder order = bands_of(job.rig, job.scene.splat_style);
   // One enlarged frustum holds what any view sees (Hassaine 2010, sec. 4.3.1).
   const float around = look_around_px(job.scene, job.rig);
   const Window window{.left = -around, .right = static_cast<float>(job.rig.width) + around, .height = job.rig.height};
-  const std::vector<SplatBlock> blocks = order_splats(job.cloud, make_projection(job.scene, job.survey), window, order);
+  const std::vector<SplatBlock> blocks =
+      order_splats(job.cloud, make_projection(job.scene, job.statistics), window, order);
 
   tbb::enumerable_thread_specific<std::vector<LightBand>> bands([&] {
     std::vector<LightBand> views;

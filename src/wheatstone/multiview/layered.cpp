@@ -21,8 +21,9 @@ DepthPlanes planes_of(const DepthMapping& mapping, int count, float span) {
   return planes;
 }
 
-SplatOrder order_by_plane(const Rig& rig, const Look& look, const DepthPlanes& planes, SliceFilter filter) {
-  SplatOrder order = bands_of(rig, look);
+SplatOrder order_by_plane(const Rig& rig, const SplatStyle& splat_style, const DepthPlanes& planes,
+                          SliceFilter filter) {
+  SplatOrder order = bands_of(rig, splat_style);
   order.within = filter == SliceFilter::centroid ? SplatOrder::Within::nearer_plane : SplatOrder::Within::nearest_plane;
   order.parts = static_cast<int>(planes.parallaxes.size());
   order.first = planes.parallaxes.front();
@@ -85,9 +86,10 @@ struct Workplace {
 
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures) {
-  const SplatOrder order = order_by_plane(job.rig, job.scene.look, planes, filter);
+  const SplatOrder order = order_by_plane(job.rig, job.scene.splat_style, planes, filter);
   const Window window = window_around(job.scene, job.rig);
-  const std::vector<SplatBlock> blocks = order_splats(job.cloud, make_projection(job.scene, job.survey), window, order);
+  const std::vector<SplatBlock> blocks =
+      order_splats(job.cloud, make_projection(job.scene, job.statistics), window, order);
 
   const Compositing compositing{planes.parallaxes, job.rig.positions, resampling_of(filter)};
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {

@@ -14,7 +14,7 @@ namespace wheatstone {
 
 struct SliceMaker::State {
   Scene scene;
-  Survey survey;
+  CloudStatistics statistics;
   Rig rig;
   RenderOptions options;
   DepthPlanes planes;
@@ -100,17 +100,18 @@ float SliceMaker::State::find_exposure() const {
   return exposure_for(std::move(brightest));
 }
 
-SliceMaker::SliceMaker(const Scene& scene, const Survey& survey, const Rig& rig, const RenderOptions& options,
-                       std::size_t memory_limit_bytes)
+SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, const Rig& rig,
+                       const RenderOptions& options, std::size_t memory_limit_bytes)
     : state_(std::make_unique<State>()) {
   State& state = *state_;
   state.scene = scene;
-  state.survey = survey;
+  state.statistics = statistics;
   state.rig = rig;
   state.options = options;
   state.planes = planes_of(scene.mapping, options.planes, span_of(rig));
   state.window = window_around(scene, rig);
-  state.order = order_by_plane(rig, scene.look, state.planes, options.opaque ? SliceFilter::nearest : options.filter);
+  state.order =
+      order_by_plane(rig, scene.splat_style, state.planes, options.opaque ? SliceFilter::nearest : options.filter);
 
   // Sixteen bytes a pixel while they are filled, and again when they are cropped; opaque ones have a depth too.
   const double pixels = static_cast<double>(state.right() - state.left() + 2 * LightBand::margin) *
@@ -136,7 +137,7 @@ SliceMaker& SliceMaker::operator=(SliceMaker&&) noexcept = default;
 void SliceMaker::add(const Cloud& cloud) {
   State& state = *state_;
   const std::vector<SplatBlock> blocks =
-      order_splats(cloud, make_projection(state.scene, state.survey), state.window, state.order);
+      order_splats(cloud, make_projection(state.scene, state.statistics), state.window, state.order);
   tbb::parallel_for(0, state.order.bands, [&](int b) {
     if (state.options.opaque) {
       state.add_opaque(blocks, b);
@@ -162,9 +163,9 @@ SliceStack SliceMaker::finish(const ViewingGeometry& viewing) {
 
 SliceStack make_slices(const Cloud& cloud, const Scene& scene, const Rig& rig, const RenderOptions& options,
                        const ViewingGeometry& viewing) {
-  Survey survey;
-  survey.add(cloud);
-  SliceMaker maker(scene, survey, rig, options);
+  CloudStatistics statistics;
+  statistics.add(cloud);
+  SliceMaker maker(scene, statistics, rig, options);
   maker.add(cloud);
   return maker.finish(viewing);
 }

@@ -9,12 +9,12 @@
 namespace wheatstone {
 
 /// Gathers particles into depth planes, chunk by chunk: memory stays at the slices and one chunk, however many
-/// particles there are. The survey is of all of them.
+/// particles there are. The statistics is of all of them.
 class SliceMaker {
  public:
-  /// Slices reach as far to the sides as the rig's outermost views look. Throws Error{bad_input} where they would not
-  /// fit in `memory_limit_bytes`, naming what was needed.
-  SliceMaker(const Scene& scene, const Survey& survey, const Rig& rig, const RenderOptions& options,
+  /// Slices reach as far to the sides as the rig's outermost views splat_style. Throws Error{bad_input} where they
+  /// would not fit in `memory_limit_bytes`, naming what was needed.
+  SliceMaker(const Scene& scene, const CloudStatistics& statistics, const Rig& rig, const RenderOptions& options,
              std::size_t memory_limit_bytes = std::size_t{8} << 30);
   ~SliceMaker();
   SliceMaker(SliceMaker&&) noexcept;

@@ -19,24 +19,25 @@ float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-LinearRgba colour_of(const Cloud& cloud, std::size_t i, const Look& look) {
-  if (look.colour_source == ColourSource::own)
+LinearRgba colour_of(const Cloud& cloud, std::size_t i, const SplatStyle& splat_style) {
+  if (splat_style.colour_source == ColourSource::own)
     return {linear_from_srgb(cloud.colour[i].r), linear_from_srgb(cloud.colour[i].g),
             linear_from_srgb(cloud.colour[i].b), 0};
   float value = 0;
-  if (look.colour_source == ColourSource::temperature) {
-    value = look.logarithmic ? std::log2(cloud.temperature[i]) : cloud.temperature[i];
+  if (splat_style.colour_source == ColourSource::temperature) {
+    value = splat_style.logarithmic ? std::log2(cloud.temperature[i]) : cloud.temperature[i];
   } else if (!cloud.density.empty()) {
     value = std::log2(cloud.density[i]);
   }
-  const float at = std::clamp((value - look.palette_first) * look.palette_scale, 0.f, Look::palette_size - 1.f);
+  const float at =
+      std::clamp((value - splat_style.palette_first) * splat_style.palette_scale, 0.f, SplatStyle::palette_size - 1.f);
   const auto entry = static_cast<std::size_t>(std::lround(at));
-  return {look.red[entry], look.green[entry], look.blue[entry], 0};
+  return {splat_style.red[entry], splat_style.green[entry], splat_style.blue[entry], 0};
 }
 
 NaiveSplat project(const Cloud& cloud, std::size_t i, const Scene& scene, float view) {
   const Camera& camera = scene.camera;
-  const Look& look = scene.look;
+  const SplatStyle& splat_style = scene.splat_style;
   const std::array<float, 3> from_camera{cloud.x[i] - camera.position[0], cloud.y[i] - camera.position[1],
                                          cloud.z[i] - camera.position[2]};
   NaiveSplat splat;
@@ -49,18 +50,19 @@ NaiveSplat project(const Cloud& cloud, std::size_t i, const Scene& scene, float 
 
   // Hassaine 2010, sec. 4.2: a sigmoid of the density makes opacity and size.
   const float log2_density = cloud.density.empty() ? 0.f : std::log2(cloud.density[i]);
-  const float rank = 1 / (1 + std::exp2(-look.slope * (log2_density - look.log2_density_middle)));
-  if (look.size_rule == SizeRule::smoothing_length && !cloud.smoothing_length.empty()) {
+  const float rank = 1 / (1 + std::exp2(-splat_style.slope * (log2_density - splat_style.log2_density_middle)));
+  if (splat_style.size_rule == SizeRule::smoothing_length && !cloud.smoothing_length.empty()) {
     splat.size = 2 * cloud.smoothing_length[i] * camera.focal_px / depth;
   } else {
-    const float share = look.size_rule == SizeRule::denser_larger ? rank : 1 - rank;
-    splat.size = (look.smallest_px + share * (look.largest_px - look.smallest_px)) * look.size_depth / depth;
+    const float share = splat_style.size_rule == SizeRule::denser_larger ? rank : 1 - rank;
+    splat.size = (splat_style.smallest_px + share * (splat_style.largest_px - splat_style.smallest_px)) *
+                 splat_style.size_depth / depth;
   }
-  splat.size = std::clamp(splat.size, look.smallest_px, look.largest_px);
+  splat.size = std::clamp(splat.size, splat_style.smallest_px, splat_style.largest_px);
   const float variance = splat.size * splat.size / 25;
-  const float opacity =
-      (look.least_opacity + rank * (look.opacity - look.least_opacity)) * variance / (variance + 1.f / 12);
-  const LinearRgba colour = colour_of(cloud, i, look);
+  const float opacity = (splat_style.least_opacity + rank * (splat_style.opacity - splat_style.least_opacity)) *
+                        variance / (variance + 1.f / 12);
+  const LinearRgba colour = colour_of(cloud, i, splat_style);
   splat.light = {opacity * colour.r, opacity * colour.g, opacity * colour.b, 0};
   return splat;
 }

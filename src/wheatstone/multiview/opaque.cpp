@@ -56,9 +56,9 @@ void draw_discs(std::span<const Splat> splats, int top, float view, OpaqueBand& 
 }
 
 void render_opaque(const RenderJob& job, std::span<const float> views, std::span<const ImageView<Rgb8>> pictures) {
-  const SplatOrder order = bands_of(job.rig, job.scene.look);
+  const SplatOrder order = bands_of(job.rig, job.scene.splat_style);
   const std::vector<SplatBlock> blocks =
-      order_splats(job.cloud, make_projection(job.scene, job.survey), window_around(job.scene, job.rig), order);
+      order_splats(job.cloud, make_projection(job.scene, job.statistics), window_around(job.scene, job.rig), order);
   tbb::parallel_for(0, order.bands, [&](int b) {
     for (std::size_t v = 0; v < views.size(); ++v) {
       OpaqueBand band(0, job.rig.width, order.band_rows);

@@ -74,14 +74,14 @@ Cloud filled_up(const Cloud& cloud) {
 
 }  // namespace
 
-Projection make_projection(const Scene& scene, const Survey& survey, float view) {
-  Projection projection{.camera = scene.camera, .look = scene.look, .table = {}, .view = view};
+Projection make_projection(const Scene& scene, const CloudStatistics& statistics, float view) {
+  Projection projection{.camera = scene.camera, .splat_style = scene.splat_style, .table = {}, .view = view};
   // Depths of the sphere around all particles.
-  const std::array<float, 3> centre = survey.centre();
+  const std::array<float, 3> centre = statistics.centre();
   float depth = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     depth += (centre[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
-  const float radius = survey.radius();
+  const float radius = statistics.radius();
   const float nearest = std::max({depth - radius, scene.camera.nearest_depth, (depth + radius) * 1e-4f});
   const float farthest = std::max(depth + radius, nearest * 1.001f);
 
@@ -102,7 +102,7 @@ std::vector<SplatBlock> order_splats(const Cloud& cloud, const Projection& proje
   if (cloud.size() == 0) return {};
   if (cloud.size() < most_lanes) return order_splats(filled_up(cloud), projection, window, order);
   const std::size_t blocks = std::max<std::size_t>(cloud.size() / block_particles, 1);
-  const bool own_colours = projection.look.colour_source == ColourSource::own;
+  const bool own_colours = projection.splat_style.colour_source == ColourSource::own;
   std::vector<SplatBlock> ordered(blocks);
   tbb::enumerable_thread_specific<ProjectedBlock> scratch;
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {

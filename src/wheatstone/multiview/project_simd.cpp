@@ -61,10 +61,11 @@ HWY_INLINE Placed place(const Cloud& cloud, std::size_t i, const Projection& pro
 }
 
 /// The sigmoid of a density, 0..1 (Hassaine 2010, sec. 4.2).
-HWY_INLINE Vec sigmoid(Vec log2_density, const Look& look) {
+HWY_INLINE Vec sigmoid(Vec log2_density, const SplatStyle& splat_style) {
   const Floats d;
-  const Vec below = hn::Sub(hn::Set(d, look.log2_density_middle), log2_density);
-  return hn::Div(hn::Set(d, 1.f), hn::Add(hn::Set(d, 1.f), fast_exp2(d, hn::Mul(below, hn::Set(d, look.slope)))));
+  const Vec below = hn::Sub(hn::Set(d, splat_style.log2_density_middle), log2_density);
+  return hn::Div(hn::Set(d, 1.f),
+                 hn::Add(hn::Set(d, 1.f), fast_exp2(d, hn::Mul(below, hn::Set(d, splat_style.slope)))));
 }
 
 struct Lit {
@@ -74,18 +75,18 @@ struct Lit {
 /// Diameter in pixels: by the sigmoid or the particle's own length, smaller the farther away, within its limits.
 HWY_INLINE Vec size_of(const Cloud& cloud, std::size_t i, Vec rank, Vec inverse_depth, const Projection& projection) {
   const Floats d;
-  const Look& look = projection.look;
-  const Vec smallest = hn::Set(d, look.smallest_px);
-  const Vec largest = hn::Set(d, look.largest_px);
+  const SplatStyle& splat_style = projection.splat_style;
+  const Vec smallest = hn::Set(d, splat_style.smallest_px);
+  const Vec largest = hn::Set(d, splat_style.largest_px);
   Vec size;
-  if (look.size_rule == SizeRule::smoothing_length && !cloud.smoothing_length.empty()) {
+  if (splat_style.size_rule == SizeRule::smoothing_length && !cloud.smoothing_length.empty()) {
     const Vec diameter =
         hn::Mul(hn::LoadU(d, cloud.smoothing_length.data() + i), hn::Set(d, 2 * projection.camera.focal_px));
     size = hn::Mul(diameter, inverse_depth);
   } else {
-    const Vec share = look.size_rule == SizeRule::denser_larger ? rank : hn::Sub(hn::Set(d, 1.f), rank);
+    const Vec share = splat_style.size_rule == SizeRule::denser_larger ? rank : hn::Sub(hn::Set(d, 1.f), rank);
     const Vec wanted = hn::MulAdd(share, hn::Sub(largest, smallest), smallest);
-    size = hn::Mul(wanted, hn::Mul(inverse_depth, hn::Set(d, look.size_depth)));
+    size = hn::Mul(wanted, hn::Mul(inverse_depth, hn::Set(d, splat_style.size_depth)));
   }
   return hn::Min(hn::Max(size, smallest), largest);
 }
@@ -93,10 +94,10 @@ HWY_INLINE Vec size_of(const Cloud& cloud, std::size_t i, Vec rank, Vec inverse_
 HWY_INLINE Lit light(const Cloud& cloud, std::size_t i, const Placed& placed, const Projection& projection,
                      const ProjectedBlock& block, std::size_t in_block) {
   const Floats d;
-  const Look& look = projection.look;
+  const SplatStyle& splat_style = projection.splat_style;
   const bool has_density = !cloud.density.empty();
   const Vec log2_density = has_density ? fast_log2(d, hn::LoadU(d, cloud.density.data() + i)) : hn::Zero(d);
-  const Vec rank = sigmoid(log2_density, look);
+  const Vec rank = sigmoid(log2_density, splat_style);
   Lit lit;
   lit.size = size_of(cloud, i, rank, placed.inverse_depth, projection);
 
@@ -104,25 +105,27 @@ HWY_INLINE Lit light(const Cloud& cloud, std::size_t i, const Placed& placed, co
   const Vec variance =
       hn::Mul(hn::Mul(lit.size, lit.size), hn::Set(d, 1 / (diameters_a_deviation * diameters_a_deviation)));
   const Vec flattened = hn::Div(variance, hn::Add(variance, hn::Set(d, pixel_variance)));
-  const Vec opacity = hn::Mul(
-      hn::MulAdd(rank, hn::Set(d, look.opacity - look.least_opacity), hn::Set(d, look.least_opacity)), flattened);
-  if (look.colour_source == ColourSource::own) {
+  const Vec opacity = hn::Mul(hn::MulAdd(rank, hn::Set(d, splat_style.opacity - splat_style.least_opacity),
+                                         hn::Set(d, splat_style.least_opacity)),
+                              flattened);
+  if (splat_style.colour_source == ColourSource::own) {
     lit.red = hn::Mul(opacity, hn::LoadU(d, block.red.data() + in_block));
     lit.green = hn::Mul(opacity, hn::LoadU(d, block.green.data() + in_block));
     lit.blue = hn::Mul(opacity, hn::LoadU(d, block.blue.data() + in_block));
     return lit;
   }
   Vec value = log2_density;
-  if (look.colour_source == ColourSource::temperature) {
+  if (splat_style.colour_source == ColourSource::temperature) {
     const Vec temperature = hn::LoadU(d, cloud.temperature.data() + i);
-    value = look.logarithmic ? fast_log2(d, temperature) : temperature;
+    value = splat_style.logarithmic ? fast_log2(d, temperature) : temperature;
   }
-  const Vec at = hn::Clamp(hn::Mul(hn::Sub(value, hn::Set(d, look.palette_first)), hn::Set(d, look.palette_scale)),
-                           hn::Zero(d), hn::Set(d, Look::palette_size - 1.f));
+  const Vec at =
+      hn::Clamp(hn::Mul(hn::Sub(value, hn::Set(d, splat_style.palette_first)), hn::Set(d, splat_style.palette_scale)),
+                hn::Zero(d), hn::Set(d, SplatStyle::palette_size - 1.f));
   const auto entry = hn::NearestInt(at);
-  lit.red = hn::Mul(opacity, hn::GatherIndex(d, look.red.data(), entry));
-  lit.green = hn::Mul(opacity, hn::GatherIndex(d, look.green.data(), entry));
-  lit.blue = hn::Mul(opacity, hn::GatherIndex(d, look.blue.data(), entry));
+  lit.red = hn::Mul(opacity, hn::GatherIndex(d, splat_style.red.data(), entry));
+  lit.green = hn::Mul(opacity, hn::GatherIndex(d, splat_style.green.data(), entry));
+  lit.blue = hn::Mul(opacity, hn::GatherIndex(d, splat_style.blue.data(), entry));
   return lit;
 }
 

@@ -13,13 +13,13 @@
 
 namespace wheatstone {
 
-SplatOrder bands_of(const Rig& rig, const Look& look) {
+SplatOrder bands_of(const Rig& rig, const SplatStyle& splat_style) {
   SplatOrder order;
   // A splat must not reach into more than two bands.
-  static_assert(Look::widest_px + 2 <= 32);
+  static_assert(SplatStyle::widest_px + 2 <= 32);
   order.band_rows = 32;
   order.bands = (rig.height + order.band_rows - 1) / order.band_rows;
-  order.spacing = std::max(64.f, look.largest_px);
+  order.spacing = std::max(64.f, splat_style.largest_px);
   order.parts = static_cast<int>(static_cast<float>(rig.width) / order.spacing) + 1;
   return order;
 }
@@ -50,10 +50,10 @@ float exposure_for(std::vector<float> brightest) {
 }
 
 float automatic_exposure(const Cloud& cloud, const Scene& scene, const Rig& rig) {
-  Survey survey;
-  survey.add(cloud);
+  CloudStatistics statistics;
+  statistics.add(cloud);
   std::vector<float> brightest;
-  for (const LightBand& band : light_of_view(cloud, scene, rig, survey, 0))
+  for (const LightBand& band : light_of_view(cloud, scene, rig, statistics, 0))
     for (int row = 0; row < band.rows(); ++row)
       for (int x = 0; x < rig.width; ++x) {
         const float* const pixel = band.row(row) + x * LightBand::channels;
@@ -78,7 +78,7 @@ Choice choose(const Cloud& cloud, const Scene& scene, const Rig& rig, const Rend
   if (options.method != Method::automatic) return {options.method, "as asked for"};
   const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
   return choose_method({.particles = cloud.size(),
-                        .splat_px = (scene.look.smallest_px + scene.look.largest_px) / 2,
+                        .splat_px = (scene.splat_style.smallest_px + scene.splat_style.largest_px) / 2,
                         .views = static_cast<int>(rig.positions.size()),
                         .planes = static_cast<int>(planes.parallaxes.size()),
                         .pixels = static_cast<std::uint64_t>(rig.width) * rig.height});
@@ -95,8 +95,8 @@ void render_opaque_slices(const RenderJob& job, const RenderOptions& options, Re
 RenderedViews render(const Cloud& cloud, const Scene& scene, const Rig& rig, const RenderOptions& options,
                      const Progress& progress) {
   check(scene, rig, options);
-  Survey survey;
-  survey.add(cloud);
+  CloudStatistics statistics;
+  statistics.add(cloud);
   RenderedViews result;
   result.exposure = std::isnan(options.exposure) ? automatic_exposure(cloud, scene, rig) : options.exposure;
   const Choice choice = choose(cloud, scene, rig, options);
@@ -105,7 +105,7 @@ RenderedViews render(const Cloud& cloud, const Scene& scene, const Rig& rig, con
   result.views.assign(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
   const std::vector<ImageView<Rgb8>> pictures(result.views.begin(), result.views.end());
   const ToneMap tone(result.exposure);
-  const RenderJob job{cloud, scene, rig, survey, tone};
+  const RenderJob job{cloud, scene, rig, statistics, tone};
 
   if (result.method == Method::layered) {
     const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));

@@ -10,7 +10,7 @@ struct RenderJob {
   const Cloud& cloud;
   const Scene& scene;
   const Rig& rig;
-  const Survey& survey;
+  const CloudStatistics& statistics;
   const ToneMap& tone;
 };
 
@@ -24,7 +24,7 @@ struct DepthPlanes {
 /// where those are farther apart.
 DepthPlanes planes_of(const DepthMapping& mapping, int count, float span = 1);
 
-SplatOrder order_by_plane(const Rig& rig, const Look& look, const DepthPlanes& planes, SliceFilter filter);
+SplatOrder order_by_plane(const Rig& rig, const SplatStyle& splat_style, const DepthPlanes& planes, SliceFilter filter);
 Resampling resampling_of(SliceFilter filter);
 
 /// The enlarged frustum: whatever any view of the rig sees (Hassaine 2010, sec. 4.3.1), in whole pixels.
@@ -43,7 +43,7 @@ class PlaneFiller {
   LightBand plane_, next_;
 };
 
-SplatOrder bands_of(const Rig& rig, const Look& look);
+SplatOrder bands_of(const Rig& rig, const SplatStyle& splat_style);
 
 /// Eye separations between the outermost views.
 float span_of(const Rig& rig);
@@ -51,7 +51,7 @@ float span_of(const Rig& rig);
 /// The factor for pixels whose brightest channels are these.
 float exposure_for(std::vector<float> brightest);
 
-/// How far beyond the sides of the central view the outermost views look, in pixels.
+/// How far beyond the sides of the central view the outermost views splat_style, in pixels.
 float look_around_px(const Scene& scene, const Rig& rig);
 
 void render_exact(const RenderJob& job, float view, ImageView<Rgb8> picture);
@@ -62,7 +62,7 @@ void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter
                     std::span<const ImageView<Rgb8>> pictures);
 
 /// The light of a view, band by band.
-std::vector<LightBand> light_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig, const Survey& survey,
-                                     float view);
+std::vector<LightBand> light_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig,
+                                     const CloudStatistics& statistics, float view);
 
 }  // namespace wheatstone

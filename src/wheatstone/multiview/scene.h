@@ -10,7 +10,7 @@ namespace wheatstone {
 struct Scene {
   Camera camera;         ///< of the central view
   DepthMapping mapping;  ///< depth to screen parallax
-  Look look;
+  SplatStyle splat_style;
 };
 
 }  // namespace wheatstone

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/temporary_file.h"
+#include "wheatstone/files/temporary_file.h"
 
 namespace wheatstone {
 namespace {

@@ -15,8 +15,8 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/disparity_file.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/disparity_file.h"
 
 namespace wheatstone {
 namespace {

@@ -56,7 +56,7 @@ struct SplatBlock {
   }
 };
 
-/// Parallaxes by w = 1/depth, evenly spaced: one look-up a particle, whatever the mapping.
+/// Parallaxes by w = 1/depth, evenly spaced: one splat_style-up a particle, whatever the mapping.
 struct ParallaxTable {
   static constexpr int size = 1024;
   float first_w = 0, entries_per_w = 0;
@@ -66,12 +66,12 @@ struct ParallaxTable {
 /// What the projection needs, made once a picture.
 struct Projection {
   Camera camera;
-  Look look;
+  SplatStyle splat_style;
   ParallaxTable table;
   float view = 0;  ///< position of the view that is projected: 0 is the reference
 };
 
-Projection make_projection(const Scene& scene, const Survey& survey, float view = 0);
+Projection make_projection(const Scene& scene, const CloudStatistics& statistics, float view = 0);
 
 /// Projects, lights and orders the particles of a cloud, in blocks that depend on nothing but the cloud.
 std::vector<SplatBlock> order_splats(const Cloud& cloud, const Projection& projection, const Window& window,

@@ -8,12 +8,12 @@
 #include <cmath>
 
 #include "throws_error.h"
+#include "wheatstone/measures/view_measures.h"
 #include "wheatstone/multiview/cost_model.h"
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/naive_view.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/render_slices.h"
-#include "wheatstone/multiview/view_measures.h"
 #include "wheatstone/random.h"
 
 namespace wheatstone {
@@ -42,19 +42,19 @@ Cloud clumps(std::size_t count) {
 }
 
 Scene scene_of(const Cloud& cloud, const Rig& rig, float smallest = 2, float largest = 6) {
-  Survey survey;
-  survey.add(cloud);
+  CloudStatistics statistics;
+  statistics.add(cloud);
   Scene scene;
-  scene.camera = camera_around(survey.centre(), survey.radius(), rig.width, rig.height);
+  scene.camera = camera_around(statistics.centre(), statistics.radius(), rig.width, rig.height);
   float depth = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    depth += (survey.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
-  scene.mapping.points = {{depth - survey.radius(), -19}, {depth + survey.radius(), 16}};
+    depth += (statistics.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
+  scene.mapping.points = {{depth - statistics.radius(), -19}, {depth + statistics.radius(), 16}};
   Appearance appearance;
   appearance.smallest_px = smallest;
   appearance.largest_px = largest;
-  scene.look = make_look(appearance, survey);
-  scene.look.size_depth = depth;
+  scene.splat_style = make_splat_style(appearance, statistics);
+  scene.splat_style.size_depth = depth;
   return scene;
 }
 
@@ -164,8 +164,8 @@ TEST(Opaque, NearestParticleHidesTheOthers) {
     cloud.temperature.push_back(z);
   }
   const Rig rig{.width = 64, .height = 32, .positions = {-0.5f, 0.5f}};
-  Survey survey;
-  survey.add(cloud);
+  CloudStatistics statistics;
+  statistics.add(cloud);
   Scene scene;
   scene.camera = {.focal_px = 30, .centre_x_px = 32, .centre_y_px = 16, .nearest_depth = 0.1f};
   scene.mapping.points = {{1, 0}, {3, 0}};
@@ -174,7 +174,7 @@ TEST(Opaque, NearestParticleHidesTheOthers) {
   appearance.logarithmic = false;
   appearance.cold = {0, 255, 0};  // the nearest
   appearance.hot = {255, 0, 0};
-  scene.look = make_look(appearance, survey);
+  scene.splat_style = make_splat_style(appearance, statistics);
   for (const Method method : {Method::exact, Method::incremental, Method::layered}) {
     const Rgb8 middle = views_of(cloud, scene, rig, method, SliceFilter::linear, true)[0](32, 16);
     EXPECT_GT(middle.g, 60);
@@ -245,10 +245,10 @@ TEST(Render, RefusesWhatMakesNoSense) {
 TEST(Slices, RefuseToOutgrowMemory) {
   const Cloud cloud = clumps(10);
   const Rig rig = nine_views();
-  Survey survey;
-  survey.add(cloud);
+  CloudStatistics statistics;
+  statistics.add(cloud);
   expect_error(ErrorKind::bad_input, "--planes",
-               [&] { SliceMaker(scene_of(cloud, rig), survey, rig, {.planes = 1000}, 1 << 20); });
+               [&] { SliceMaker(scene_of(cloud, rig), statistics, rig, {.planes = 1000}, 1 << 20); });
 }
 
 TEST(Slices, SumToTheViews) {
@@ -267,9 +267,9 @@ TEST(Slices, AreTheSameInChunks) {
   const Cloud cloud = clumps(40000);
   const Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig);
-  Survey survey;
-  survey.add(cloud);
-  SliceMaker maker(scene, survey, rig, {.exposure = 0.5f});
+  CloudStatistics statistics;
+  statistics.add(cloud);
+  SliceMaker maker(scene, statistics, rig, {.exposure = 0.5f});
   for (std::size_t first = 0; first < cloud.size(); first += 9999) {
     Cloud chunk;
     const auto part = [&](const std::vector<float>& column) {

@@ -3,44 +3,46 @@
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
 
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/drawing/draw_in_style.h"
+#include "wheatstone/drawing/rasterise.h"
+#include "wheatstone/drawing/relief.h"
 #include "wheatstone/error.h"
-#include "wheatstone/painting/draw_in_style_internal.h"
-#include "wheatstone/painting/easel_internal.h"
-#include "wheatstone/painting/fitting_pair_internal.h"
-#include "wheatstone/painting/layer_order_internal.h"
-#include "wheatstone/painting/mosaic.h"
-#include "wheatstone/painting/occluded_part_internal.h"
-#include "wheatstone/painting/posterise.h"
-#include "wheatstone/painting/propagate_internal.h"
-#include "wheatstone/painting/rasterise.h"
+#include "wheatstone/regions/mosaic.h"
+#include "wheatstone/regions/posterise.h"
+#include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/warp.h"
 #include "wheatstone/stopwatch.h"
+#include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/occluded_part.h"
+#include "wheatstone/strokes/propagate.h"
 
 namespace wheatstone {
 namespace {
 
 /// Plans one eye from its photograph alone.
-Painting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
-                        const Style& style, const Progress& progress) {
-  Easel easel(photograph, disparity, view, style);
-  return plan_alone(easel, style, ScaledStyle(style, photograph.width()), {}, progress);
+StrokePainting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
+                              const Style& style, const Progress& progress) {
+  LayerPlanner planner(photograph, disparity, view, style);
+  return plan_alone(planner, style, ScaledStyle(style, photograph.width()), {}, progress);
 }
 
-Painting plan_right_only(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
+StrokePainting plan_right_only(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
   return plan_occluded_part(photographs.right, geometry.right_disparity, geometry.right_occlusion, right_eye, style);
 }
 
 /// Stavrakis & Gelautz 2005, sec. 3.2: each layer is planned in the left eye and carried to the right; what only the
 /// right eye sees is planned there and carried back, and the next layer is planned against both.
-Painting plan_with_strokes(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                           const Progress& progress) {
+StrokePainting plan_with_strokes(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                                 const Progress& progress) {
   const ScaledStyle scaled(style, photographs.left.width());
-  Easel left(photographs.left, geometry.left_disparity, left_eye, style);
-  Painting right_only;
+  LayerPlanner left(photographs.left, geometry.left_disparity, left_eye, style);
+  StrokePainting right_only;
   Layer planned;
   tbb::parallel_invoke([&] { right_only = plan_right_only(photographs, geometry, style); },
                        [&] { planned = plan_on(left, style, scaled, 0); });
-  Painting painting{photographs.left.width(), photographs.left.height(), style.canvas_colour, {}};
+  StrokePainting painting{photographs.left.width(), photographs.left.height(), style.canvas_colour, {}};
   const int layers = static_cast<int>(scaled.radii_px.size());
   for (int i = 0; i < layers; ++i) {
     report(progress, "painting", static_cast<double>(i) / layers);
@@ -56,7 +58,7 @@ Painting plan_with_strokes(const StereoPair& photographs, const StereoGeometry& 
 }
 
 /// Layers of two paintings of one size and style, one behind the other.
-Painting joined(Painting left, const Painting& right) {
+StrokePainting joined(StrokePainting left, const StrokePainting& right) {
   for (std::size_t i = 0; i < left.layers.size(); ++i) append_strokes(right.layers[i], left.layers[i]);
   return left;
 }
@@ -78,10 +80,10 @@ void lay_left_over_right(const StereoGeometry& geometry, PaintedPair& result) {
   result.right_bare_share = 0;
 }
 
-Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-              const Progress& progress) {
+StrokePainting plan(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                    const Progress& progress) {
   if (style.propagation == Propagation::strokes) return plan_with_strokes(photographs, geometry, style, progress);
-  Painting left, right;
+  StrokePainting left, right;
   tbb::parallel_invoke(
       [&] { left = plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress); },
       [&] {
@@ -95,15 +97,15 @@ Painting plan(const StereoPair& photographs, const StereoGeometry& geometry, con
 /// Plans the kinds of marks that are not strokes.
 void plan_other_marks(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                       PaintedPair& result) {
-  if (style.marks == Marks::areas) result.areas = plan_posterised(photographs, geometry, style);
-  if (style.marks == Marks::tiles) result.areas = plan_mosaic(photographs, geometry, style);
+  if (style.marks == Marks::regions) result.regions = plan_posterised(photographs, geometry, style);
+  if (style.marks == Marks::tiles) result.regions = plan_mosaic(photographs, geometry, style);
   if (style.marks == Marks::curves) result.curves = plan_diffusion(photographs, geometry, style);
 }
 
 /// Draws both eyes of what was planned.
 void draw_other_marks(const Style& style, PaintedPair& result) {
   const auto drawn = [&](float view) {
-    return style.marks == Marks::curves ? draw(result.curves, view) : draw(result.areas, view);
+    return style.marks == Marks::curves ? draw(result.curves, view) : draw(result.regions, view);
   };
   DrawnView left, right;
   tbb::parallel_invoke([&] { left = drawn(left_eye); }, [&] { right = drawn(right_eye); });
@@ -139,12 +141,12 @@ void check_is_of_strokes(const Style& style) {
 
 }  // namespace
 
-AnyPainting marks_of(const PaintedPair& painted, const Style& style) {
-  return {painted.painting, painted.areas, painted.curves, relief_for(style, painted.painting.width)};
+Painting marks_of(const PaintedPair& painted, const Style& style) {
+  return {painted.painting, painted.regions, painted.curves, relief_for(style, painted.painting.width)};
 }
 
-Painting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                       const Progress& progress) {
+StrokePainting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                             const Progress& progress) {
   check_style(style);
   check_is_of_strokes(style);
   check_fits(photographs, geometry);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "wheatstone/painting/any_painting.h"
-#include "wheatstone/painting/diffusion_curves.h"
-#include "wheatstone/painting/painting.h"
-#include "wheatstone/painting/polygon_mark.h"
-#include "wheatstone/painting/style.h"
+#include "wheatstone/curves/plan_diffusion.h"
+#include "wheatstone/marks/painting.h"
+#include "wheatstone/marks/region_painting.h"
+#include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
@@ -18,10 +18,10 @@ struct PaintingTimes {
 };
 
 /// A painting of both eyes and its two pictures. With Propagation::raster the right picture is made from pixels and is
-/// not what `draw` makes of the marks. A style's marks are strokes, areas or curves; the others are empty.
+/// not what `draw` makes of the marks. A style's marks are strokes, regions or curves; the others are empty.
 struct PaintedPair {
-  Painting painting;
-  PolygonPainting areas;  ///< of a posterised picture or a mosaic
+  StrokePainting painting;
+  RegionPainting regions;  ///< of a posterised picture or a mosaic
   DiffusionPainting curves;
   StereoPair pictures;
   double left_bare_share = 0;  ///< of the pixels, 0..1, that no mark covers
@@ -30,12 +30,12 @@ struct PaintedPair {
 };
 
 /// A painted pair's marks, as its file keeps them.
-AnyPainting marks_of(const PaintedPair& painted, const Style& style);
+Painting marks_of(const PaintedPair& painted, const Style& style);
 
 /// The strokes of a rectified pair's painting, not drawn. What it takes and throws is as for `paint`, but a style whose
 /// marks are not strokes is Error{wrong_usage}.
-Painting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                       const Progress& progress = {});
+StrokePainting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                             const Progress& progress = {});
 
 /// Paints a rectified pair so that its marks fuse. The geometry must have the pair's size and no unknown disparity.
 /// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not
@@ -45,7 +45,7 @@ PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry,
 
 /// One eye, painted alone.
 struct PaintedView {
-  Painting painting;
+  StrokePainting painting;
   Image<Rgb8> picture;
   double bare_share = 0;
   PaintingTimes times;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/two_surfaces.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
-#include "wheatstone/painting/rasterise.h"
-#include "wheatstone/painting/stroke_measures.h"
-#include "wheatstone/painting/two_surfaces_internal.h"
-#include "wheatstone/stereo/consistency.h"
+#include "wheatstone/measures/consistency.h"
+#include "wheatstone/strokes/stroke_measures.h"
 
 namespace wheatstone {
 namespace {
@@ -51,7 +51,7 @@ TEST(Paint, PicturesAreWhatDrawMakesOfTheMarks) {
 }
 
 TEST(Paint, GivesTheSameBytesOnAnyNumberOfThreads) {
-  Painting first;
+  StrokePainting first;
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const PaintedPair painted = paint_scene(small_style());

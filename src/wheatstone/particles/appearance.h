@@ -5,7 +5,7 @@
 #include <string>
 
 #include "wheatstone/image/image.h"
-#include "wheatstone/particles/survey.h"
+#include "wheatstone/particles/cloud_statistics.h"
 
 namespace wheatstone {
 
@@ -37,7 +37,7 @@ struct Appearance {
 enum class ColourSource { temperature, density, own };
 
 /// An appearance with everything that it leaves to the cloud filled in: what the renderers read.
-struct Look {
+struct SplatStyle {
   float log2_density_middle = 0;
   float slope = 0;  ///< of the sigmoid, for a factor of e in density: 1 / (1 + exp(−slope·(ln ρ − middle)))
   float opacity = 0, least_opacity = 0;
@@ -53,6 +53,6 @@ struct Look {
 };
 
 /// Throws Error{wrong_usage} where a size, range or colour map makes no sense.
-Look make_look(const Appearance& appearance, const Survey& survey);
+SplatStyle make_splat_style(const Appearance& appearance, const CloudStatistics& statistics);
 
 }  // namespace wheatstone

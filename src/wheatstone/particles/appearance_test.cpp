@@ -9,10 +9,10 @@
 namespace wheatstone {
 namespace {
 
-Survey survey_of(const Cloud& cloud) {
-  Survey survey;
-  survey.add(cloud);
-  return survey;
+CloudStatistics statistics_of(const Cloud& cloud) {
+  CloudStatistics statistics;
+  statistics.add(cloud);
+  return statistics;
 }
 
 Cloud line(int count) {
@@ -46,9 +46,9 @@ TEST(LogHistogram, LeavesOutWhatHasNoLogarithm) {
   EXPECT_EQ(LogHistogram().percentile(0.5), 0);
 }
 
-TEST(Survey, OfChunksIsThatOfTheWhole) {
+TEST(CloudStatistics, OfChunksIsThatOfTheWhole) {
   const Cloud cloud = line(100);
-  Survey chunks = survey_of(line(40));
+  CloudStatistics chunks = statistics_of(line(40));
   chunks.add(cloud);
   EXPECT_EQ(chunks.count, 140u);
   EXPECT_EQ(chunks.upper[0], 99);
@@ -58,30 +58,32 @@ TEST(Survey, OfChunksIsThatOfTheWhole) {
   EXPECT_FALSE(chunks.has_colour);
 }
 
-TEST(Look, SpreadsColoursFromColdToHot) {
-  const Survey survey = survey_of(line(200));
-  const Look look = make_look({.cold = {0, 0, 255}, .hot = {255, 0, 0}}, survey);
-  EXPECT_EQ(look.colour_source, ColourSource::temperature);
-  EXPECT_FLOAT_EQ(look.blue.front(), 1);
-  EXPECT_FLOAT_EQ(look.red.back(), 1);
-  EXPECT_NEAR(look.red[128], 0.5f, 0.01f);  // in linear light
-  EXPECT_NEAR(look.palette_first, std::log2(100 * std::exp2(4 / 20.f)), 0.1f);
+TEST(SplatStyle, SpreadsColoursFromColdToHot) {
+  const CloudStatistics statistics = statistics_of(line(200));
+  const SplatStyle splat_style = make_splat_style({.cold = {0, 0, 255}, .hot = {255, 0, 0}}, statistics);
+  EXPECT_EQ(splat_style.colour_source, ColourSource::temperature);
+  EXPECT_FLOAT_EQ(splat_style.blue.front(), 1);
+  EXPECT_FLOAT_EQ(splat_style.red.back(), 1);
+  EXPECT_NEAR(splat_style.red[128], 0.5f, 0.01f);  // in linear light
+  EXPECT_NEAR(splat_style.palette_first, std::log2(100 * std::exp2(4 / 20.f)), 0.1f);
 }
 
-TEST(Look, TakesColourMapsByName) {
-  const Survey survey = survey_of(line(10));
-  const Look inferno = make_look({.colour_map = "inferno"}, survey);
+TEST(SplatStyle, TakesColourMapsByName) {
+  const CloudStatistics statistics = statistics_of(line(10));
+  const SplatStyle inferno = make_splat_style({.colour_map = "inferno"}, statistics);
   EXPECT_GT(inferno.red.back(), 0.8f);
   EXPECT_LT(inferno.red.front(), 0.01f);
-  expect_error(ErrorKind::wrong_usage, "inferno", [&] { make_look({.colour_map = "mauve"}, survey); });
+  expect_error(ErrorKind::wrong_usage, "inferno", [&] { make_splat_style({.colour_map = "mauve"}, statistics); });
 }
 
-TEST(Look, RefusesWhatMakesNoSense) {
-  const Survey survey = survey_of(line(10));
-  expect_error(ErrorKind::wrong_usage, "--splat", [&] { make_look({.smallest_px = 0}, survey); });
-  expect_error(ErrorKind::wrong_usage, "--splat", [&] { make_look({.smallest_px = 5, .largest_px = 4}, survey); });
-  expect_error(ErrorKind::wrong_usage, "--opacity", [&] { make_look({.opacity = 0}, survey); });
-  expect_error(ErrorKind::wrong_usage, "--hottest", [&] { make_look({.coldest = 10, .hottest = 1}, survey); });
+TEST(SplatStyle, RefusesWhatMakesNoSense) {
+  const CloudStatistics statistics = statistics_of(line(10));
+  expect_error(ErrorKind::wrong_usage, "--splat", [&] { make_splat_style({.smallest_px = 0}, statistics); });
+  expect_error(ErrorKind::wrong_usage, "--splat",
+               [&] { make_splat_style({.smallest_px = 5, .largest_px = 4}, statistics); });
+  expect_error(ErrorKind::wrong_usage, "--opacity", [&] { make_splat_style({.opacity = 0}, statistics); });
+  expect_error(ErrorKind::wrong_usage, "--hottest",
+               [&] { make_splat_style({.coldest = 10, .hottest = 1}, statistics); });
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ struct Cloud {
   std::vector<float> temperature;  ///< kelvin in snapshots; any other scalar where the user names one
   std::vector<float> smoothing_length;
   std::vector<Rgb8> colour;
-  /// Taken off every position when it was read, so that single precision suffices: a survey's easting of 4 500 000 m.
+  /// Taken off every position when it was read, so that single precision suffices: a statistics's easting of 4 500 000
+  /// m.
   std::array<double, 3> origin{};
   double box_size = 0;  ///< of a periodic box [0, box_size)³; 0 where there is none
 

@@ -11,12 +11,12 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "wheatstone/particles/cloud_source.h"
-#include "wheatstone/particles/cosmology_internal.h"
+#include "wheatstone/particles/cosmology.h"
 #include "wheatstone/particles/select.h"
 #include "wheatstone/particles/sph_density.h"
-#include "wheatstone/particles/synthetic_universe.h"
 #include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/random.h"
+#include "wheatstone/synthetic/synthetic_universe.h"
 
 namespace wheatstone {
 namespace {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "wheatstone/particles/cosmology_internal.h"
+#include "wheatstone/particles/cosmology.h"
 
 namespace wheatstone {
 namespace {

@@ -8,9 +8,10 @@
 #include <bit>
 #include <cstring>
 
+#include "shared_data.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/particles/gas_temperature.h"
 
@@ -328,8 +329,7 @@ TEST(CloudSource, RefusesWhatIsNoFileOfParticles) {
 }
 
 TEST(CloudSource, ReadsARealSnapshot) {
-  const std::filesystem::path path =
-      std::filesystem::path(WHEATSTONE_SHARED_DATA) / "particles/gadget4_lcdm_gas_z0.hdf5";
+  const std::filesystem::path path = shared_data() / "particles/gadget4_lcdm_gas_z0.hdf5";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no snapshot in shared/data";
   const Cloud gas = read_cloud(path);
   EXPECT_EQ(gas.size(), 32768u);

@@ -8,7 +8,7 @@
 
 #include "temporary_folder.h"
 #include "throws_error.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/particles/gas_temperature.h"
 #include "wheatstone/particles/hdf5_internal.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/temporary_file.h"
+#include "wheatstone/files/temporary_file.h"
 #include "wheatstone/particles/gas_temperature.h"
 #include "wheatstone/particles/hdf5_internal.h"
 

@@ -7,7 +7,7 @@
 
 #include "throws_error.h"
 #include "wheatstone/stereo/scene_view.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 namespace {

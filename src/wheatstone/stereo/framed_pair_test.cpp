@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "throws_error.h"
-#include "wheatstone/stereo/synthetic_still.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "wheatstone/image/temporary_file.h"
+#include "wheatstone/files/temporary_file.h"
 #include "wheatstone/video/film_writer.h"
 #include "wheatstone/video/libav_internal.h"
 #include "wheatstone/video/side_streams_internal.h"

@@ -5,8 +5,9 @@
 
 #include <fstream>
 
+#include "shared_data.h"
 #include "throws_error.h"
-#include "wheatstone/image/write_image.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/video/film_layout_internal.h"
 #include "wheatstone/video/guess_layout.h"
 #include "wheatstone/video/moving_picture_internal.h"
@@ -346,7 +347,7 @@ TEST(FilmReader, ALongFilmNeedsNoMoreMemoryThanAShortOne) {
 #endif
 
 TEST(FilmReader, RealFilms) {
-  const fs::path data = fs::path(WHEATSTONE_SHARED_DATA) / "video";
+  const fs::path data = shared_data() / "video";
   if (!fs::exists(data / "mary_sbs.mp4")) GTEST_SKIP() << data << " is not there";
   const auto guess = [](const fs::path& path) {
     std::vector<Image<Rgb8>> pictures;

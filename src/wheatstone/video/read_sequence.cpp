@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/read_image.h"
+#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/video/read_sequence_internal.h"
 
 namespace wheatstone {

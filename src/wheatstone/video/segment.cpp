@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/video/segment_internal.h"
 
 namespace wheatstone {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/whole_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/video/film_reader.h"
 #include "wheatstone/video/fingerprint_internal.h"
 #include "wheatstone/video/frame_steps_internal.h"

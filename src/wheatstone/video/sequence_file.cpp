@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/write_image.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
 

@@ -1,0 +1,48 @@
+#include "wheatstone/curves/diffusion_in_time.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include "wheatstone/curves/diffusion_lines_internal.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/motion/fitting_scene.h"
+
+namespace wheatstone {
+namespace {
+
+/// The pixels of the reference view's edges, and those beside them.
+Image<std::uint8_t> edge_mask(const std::vector<CarriedEdge>& edges, int width, int height) {
+  Image<std::uint8_t> mask(width, height);
+  for (const CarriedEdge& edge : edges) {
+    const int x = static_cast<int>(std::floor(edge.x)), y = static_cast<int>(std::floor(edge.y));
+    if (edge.view == 0 && mask.contains(x, y)) mask(x, y) = 255;
+  }
+  // Points are two pixels apart.
+  Image<std::uint8_t> grown(width, height);
+  cv::Mat to = as_mat(grown);
+  cv::dilate(as_mat(mask), to, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  return grown;
+}
+
+}  // namespace
+
+DiffusionPainting plan_diffusion(const FilmFrame& frame, const Style& style, DiffusionMemory& memory) {
+  SceneOfEdges scene = scene_of_edges(frame.views, style);
+  ViewOfEdges& reference = scene.views[0];
+  if (frame.flow != nullptr) check_fits(*frame.flow, frame.views);
+  const bool begins = frame.flow == nullptr || !same_size(memory.picture.frames, reference.picture);
+  const FlowPair* flow = begins ? nullptr : frame.flow;
+
+  SteadyPicture picture = begins ? begin_steady(reference.picture) : std::move(memory.picture);
+  if (!begins) steady(reference.picture, flow->backward, confirmed(flow->backward, flow->forward), picture);
+  reference.picture = rounded(picture.colours);
+  std::vector<float> positions;
+  for (const ViewOfEdges& view : scene.views) positions.push_back(view.position);
+  std::optional<CarriedEdges> before;
+  if (!begins) before.emplace(memory, *flow, positions, reference.disparity, scene.depth_threshold_px);
+  LinesAndEdges found = lines_beside_edges(scene, before ? &*before : nullptr);
+  memory = {std::move(picture), reference.disparity,
+            edge_mask(found.edges, reference.picture.width(), reference.picture.height()), std::move(found.edges)};
+  return std::move(found.painting);
+}
+
+}  // namespace wheatstone

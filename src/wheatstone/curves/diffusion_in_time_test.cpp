@@ -1,0 +1,178 @@
+// Diffusion curves in a film: how still they stand on what they are the edges of, and what a scene's beginning forgets.
+
+#include "wheatstone/curves/diffusion_in_time.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "throws_error.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/measures/consistency.h"
+#include "wheatstone/measures/film_measures.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/synthetic/synthetic_film.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int width = 320, height = 180, frames = 6;
+
+/// One frame with all that planning takes.
+struct Shot {
+  SyntheticFilmFrame frame;
+  CentralView centre;
+  std::optional<FlowPair> flow;  ///< of the central view, from the frame before
+
+  std::vector<SceneView> views() const { return scene_from_centre(centre, frame.pictures, frame.geometry); }
+};
+
+std::vector<Shot> film_of(FilmMotion motion, float noise) {
+  SyntheticFilmOptions options{.frames = frames, .cut = 0, .motion = motion, .noise = noise};
+  options.still.width = width;
+  options.still.height = height;
+  std::vector<Shot> film;
+  for (int i = 0; i < frames; ++i) {
+    Shot shot{make_synthetic_film_frame(options, i), {}, {}};
+    shot.centre = make_central_view(shot.frame.pictures, shot.frame.geometry);
+    if (i > 0) shot.flow = estimate_flow(film.back().centre.picture, shot.centre.picture);
+    film.push_back(std::move(shot));
+  }
+  return film;
+}
+
+const std::vector<Shot>& walk() {
+  static const std::vector<Shot> film = film_of(FilmMotion::walk, 10);
+  return film;
+}
+
+Style style() { return style_by_name("diffusion"); }
+
+DiffusionPainting plan(const Shot& shot, DiffusionMemory& memory) {
+  const std::vector<SceneView> views = shot.views();
+  return plan_diffusion(FilmFrame{views, shot.flow ? &*shot.flow : nullptr}, style(), memory);
+}
+
+/// Each frame's painting; with one memory, or each with a fresh one.
+std::vector<DiffusionPainting> plan_film(const std::vector<Shot>& film, bool remember) {
+  std::vector<DiffusionPainting> paintings;
+  DiffusionMemory memory;
+  for (const Shot& shot : film) {
+    if (!remember) memory = {};
+    paintings.push_back(plan(shot, memory));
+  }
+  return paintings;
+}
+
+std::vector<Image<Rgb8>> left_pictures(const std::vector<DiffusionPainting>& paintings) {
+  std::vector<Image<Rgb8>> pictures;
+  for (const DiffusionPainting& painting : paintings) pictures.push_back(draw(painting, left_eye).picture);
+  return pictures;
+}
+
+double temporal_error(const std::vector<Shot>& film, const std::vector<Image<Rgb8>>& pictures) {
+  TemporalError error;
+  for (std::size_t i = 1; i < film.size(); ++i)
+    error.add(pictures[i - 1], pictures[i],
+              relate_frames(FlowPair{film[i - 1].frame.to_next, film[i].frame.to_previous}));
+  EXPECT_GT(error.compared_share(), 0.8);
+  return error.mean();
+}
+
+void expect_steadier(const std::vector<Shot>& film, double most) {
+  const auto steady = left_pictures(plan_film(film, true)), fresh = left_pictures(plan_film(film, false));
+  const double with = temporal_error(film, steady), without = temporal_error(film, fresh);
+  testing::Test::RecordProperty("with_memory", std::to_string(with));
+  testing::Test::RecordProperty("without", std::to_string(without));
+  EXPECT_LT(with, most * without);
+  // Not by blurring.
+  EXPECT_GT(gradient_energy(steady.back()), 0.9 * gradient_energy(fresh.back()));
+}
+
+TEST(DiffusionInTime, FlickersLessThanFramesOnTheirOwn) { expect_steadier(walk(), 0.89); }
+
+TEST(DiffusionInTime, FlickersLessWhereTheCameraTurnsSlowly) { expect_steadier(film_of(FilmMotion::pan, 10), 0.88); }
+
+TEST(DiffusionInTime, StaysTrueToEachFrame) {
+  const auto difference = [](const Image<Rgb8>& a, const Image<Rgb8>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i) sum += std::abs(a.pixels()[i].g - b.pixels()[i].g);
+    return sum / static_cast<double>(a.pixels().size());
+  };
+  const auto steady = left_pictures(plan_film(walk(), true)), fresh = left_pictures(plan_film(walk(), false));
+  const Image<Rgb8>& last = walk().back().frame.pictures.left;
+  EXPECT_LT(difference(steady.back(), last), 1.05 * difference(fresh.back(), last));
+  EXPECT_GT(difference(steady.front(), last), 1.3 * difference(steady.back(), last)) << "the film moves";
+}
+
+TEST(DiffusionInTime, FusesAsWellAsAStill) {
+  const auto difference = [](const Shot& shot, const DiffusionPainting& painting) {
+    const StereoPair drawn{draw(painting, left_eye).picture, draw(painting, right_eye).picture};
+    return measure_left_right_difference(drawn, shot.frame.geometry.left_disparity).mean_absolute;
+  };
+  const Shot& shot = walk().back();
+  const double film = difference(shot, plan_film(walk(), true).back());
+  const double still = difference(shot, plan_diffusion(shot.frame.pictures, shot.frame.geometry, style()));
+  Style alone = style();
+  alone.propagation = Propagation::independent;
+  const double independent = difference(shot, plan_diffusion(shot.frame.pictures, shot.frame.geometry, alone));
+  RecordProperty("film", std::to_string(film));
+  RecordProperty("still", std::to_string(still));
+  RecordProperty("independent", std::to_string(independent));
+  EXPECT_LT(film, 1.1 * still);
+  EXPECT_LT(film, 0.6 * independent);
+}
+
+TEST(DiffusionInTime, ForgetsAllWhereASceneBegins) {
+  DiffusionMemory memory, fresh;
+  for (int i = 0; i < 3; ++i) plan(walk()[static_cast<std::size_t>(i)], memory);
+  Shot begun = walk()[3];
+  const DiffusionPainting remembered = [&] {
+    DiffusionMemory copy = memory;
+    return plan(begun, copy);
+  }();
+  begun.flow.reset();
+  const DiffusionPainting again = plan(begun, memory);
+  EXPECT_EQ(again, plan(begun, fresh));
+  EXPECT_NE(again, remembered);
+  EXPECT_EQ(again, plan_diffusion(begun.views(), style())) << "the first frame is a still";
+}
+
+TEST(DiffusionInTime, GivesTheSameBytesOnAnyNumberOfThreads) {
+  DiffusionPainting first;
+  for (const std::size_t threads : {1u, 2u}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const DiffusionPainting last = plan_film(walk(), true).back();
+    if (first.lines.empty()) first = last;
+    EXPECT_EQ(last, first);
+  }
+}
+
+TEST(DiffusionInTime, PaintsASceneOfOneView) {
+  const Image<float> flat(width, height, 0);
+  DiffusionMemory memory;
+  for (const Shot& shot : walk()) {
+    const std::vector<SceneView> views{{shot.centre.picture, flat, {}, 0}};
+    const DiffusionPainting painting =
+        plan_diffusion(FilmFrame{views, shot.flow ? &*shot.flow : nullptr}, style(), memory);
+    const DrawnView drawn = draw(painting, 0);
+    EXPECT_EQ(drawn.bare_share, 0);
+    EXPECT_EQ(drawn.picture, draw(painting, left_eye).picture) << "it has no depth";
+  }
+}
+
+TEST(DiffusionInTime, RefusesWhatDoesNotFit) {
+  DiffusionMemory memory;
+  expect_error(ErrorKind::bad_input, "no pixels", [&] { plan_diffusion(FilmFrame{}, style(), memory); });
+  const Image<float> small(3, 2);
+  const FlowPair flow{{small, small}, {small, small}};
+  const std::vector<SceneView> views = walk()[0].views();
+  expect_error(ErrorKind::bad_input, "flow", [&] { plan_diffusion(FilmFrame{views, &flow}, style(), memory); });
+  const std::vector<SceneView> torn{{views[0].picture, small, {}, 0}};
+  expect_error(ErrorKind::bad_input, "disparity", [&] { plan_diffusion(FilmFrame{torn, nullptr}, style(), memory); });
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,280 @@
+#include "wheatstone/curves/diffusion_lines_internal.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheatstone/curves/edge_chains_internal.h"
+#include "wheatstone/motion/steady_picture.h"
+
+namespace wheatstone {
+namespace {
+
+/// A point of a chain, and the direction across it, from its second side to its first.
+struct Station {
+  PlanePoint at;
+  Direction across;
+};
+
+/// Each second point of a chain.
+std::vector<Station> stations_of(const std::vector<PlanePoint>& chain) {
+  std::vector<Station> stations;
+  const std::size_t last = chain.size() - 1;
+  for (std::size_t i = 0; i <= last; i += (i + 2 > last && i < last ? last - i : 2)) {
+    const PlanePoint &before = chain[i < 2 ? 0 : i - 2], &after = chain[std::min(i + 2, last)];
+    const float dx = after.x - before.x, dy = after.y - before.y, length = std::hypot(dx, dy);
+    if (length > 0) stations.push_back({chain[i], {-dy / length, dx / length}});
+  }
+  return stations;
+}
+
+/// What lies on one side of a station.
+struct Side {
+  SampledColour colour;
+  float disparity = 0;
+  ViewRange views;
+  bool wanted = true;
+};
+
+constexpr float line_px = 1;       // from the edge to the lines
+constexpr float colour_px = 2.2f;  // colours right on the edge are mixed: they are taken a little farther out
+
+float sign_of(int side) { return side == 0 ? 1.f : -1.f; }
+
+PlanePoint beside(const Station& station, int side, float offset_px) {
+  return {station.at.x + sign_of(side) * offset_px * station.across.x,
+          station.at.y + sign_of(side) * offset_px * station.across.y};
+}
+
+class SideMaker {
+ public:
+  SideMaker(const SceneOfEdges& scene, std::size_t view) : scene_(scene), view_(scene.views[view]), index_(view) {}
+
+  Side make(const Station& station, int side) const {
+    const auto [x, y] = pixel(beside(station, side, colour_px));
+    Side result{colour_of(station, side), view_.disparity(x, y), {}, true};
+    // Behind a nearer surface each view sees another place of the farther one.
+    const bool behind =
+        disparity_at(beside(station, 1 - side, colour_px)) - result.disparity > scene_.depth_threshold_px;
+    const bool only_here = index_ == 0 || view_.only_here.empty() || view_.only_here(x, y) != 0;
+    result.wanted = behind || only_here;
+    if (behind || index_ > 0)
+      result.views = {view_.position, view_.position};
+    else
+      result.views = views_that_see(static_cast<float>(x) + 0.5f, y, result.disparity);
+    return result;
+  }
+
+ private:
+  struct Pixel {
+    int x, y;
+  };
+  Pixel pixel(PlanePoint p) const {
+    return {std::clamp(static_cast<int>(p.x), 0, view_.picture.width() - 1),
+            std::clamp(static_cast<int>(p.y), 0, view_.picture.height() - 1)};
+  }
+
+  float disparity_at(PlanePoint p) const {
+    const auto [x, y] = pixel(p);
+    return view_.disparity(x, y);
+  }
+
+  /// The colour a little out from the edge, but not beyond a stripe that is narrower than that: as far as it goes on
+  /// to change away from that of the other side.
+  SampledColour colour_of(const Station& station, int side) const {
+    constexpr float first_px = 0.7f, step_px = 0.5f;
+    constexpr int steps = 3;
+    const auto at = [&](int of_side, float offset_px) {
+      const PlanePoint p = beside(station, of_side, offset_px);
+      return sample(view_.picture.view(), p.x, p.y);
+    };
+    const auto light = [](const SampledColour& c) { return 0.299f * c.r + 0.587f * c.g + 0.114f * c.b; };
+    const float outermost = disparity_at(beside(station, side, colour_px));
+    SampledColour colour = at(side, first_px);
+    const bool rises = light(colour) > light(at(1 - side, first_px));
+    for (int step = 1; step <= steps; ++step) {
+      const float offset = first_px + static_cast<float>(step) * step_px;
+      const SampledColour next = at(side, offset);
+      const float change = light(next) - light(colour);
+      // Beside something thin the colour would be one surface's and the disparity another's.
+      const bool one_surface =
+          std::abs(disparity_at(beside(station, side, offset - step_px)) - outermost) <= scene_.depth_threshold_px;
+      if (one_surface && ((rises && change < -1) || (!rises && change > 1))) break;
+      colour = next;
+    }
+    return colour;
+  }
+
+  /// All but those on the side of a view where something nearer hides the point.
+  ViewRange views_that_see(float x, int y, float disparity) const {
+    ViewRange range;
+    for (const ViewOfEdges& other : scene_.views) {
+      if (other.position == view_.position) continue;
+      const int there = static_cast<int>(std::floor(x - (other.position - view_.position) * disparity));
+      if (!other.disparity.contains(there, y) || other.disparity(there, y) - disparity <= scene_.depth_threshold_px)
+        continue;
+      if (other.position < view_.position) range.first = view_.position;
+      if (other.position > view_.position) range.last = view_.position;
+    }
+    return range;
+  }
+
+  const SceneOfEdges& scene_;
+  const ViewOfEdges& view_;
+  std::size_t index_;
+};
+
+/// A chain's stations with both sides.
+struct TwoSides {
+  std::vector<Station> stations;
+  std::vector<Side> sides[2];
+};
+
+float distance(const SampledColour& a, const SampledColour& b) { return std::hypot(a.r - b.r, a.g - b.g, a.b - b.b); }
+
+/// Moves what was found towards what was drawn before, the less the more they differ.
+void ease_side(const SampledColour& colour_before, float disparity_before, float depth_threshold_px, Side& side) {
+  constexpr float kept = 0.65f, unlike = 45;
+  const float far = std::min(distance(colour_before, side.colour) / unlike, 1.f), share = kept * (1 - far * far);
+  side.colour = {side.colour.r + share * (colour_before.r - side.colour.r),
+                 side.colour.g + share * (colour_before.g - side.colour.g),
+                 side.colour.b + share * (colour_before.b - side.colour.b)};
+  const float apart = std::min(std::abs(disparity_before - side.disparity) / depth_threshold_px, 1.f);
+  side.disparity += kept * (1 - apart * apart) * (disparity_before - side.disparity);
+}
+
+/// Spreads shifts along a chain, also to the stations that have none.
+std::vector<float> smoothed(const std::vector<std::optional<EdgeBefore>>& before) {
+  constexpr int reach = 3;
+  const int count = static_cast<int>(before.size());
+  std::vector<float> shifts(before.size());
+  for (int i = 0; i < count; ++i) {
+    float sum = 0;
+    int found = 0;
+    for (int j = std::max(i - reach, 0); j <= std::min(i + reach, count - 1); ++j) {
+      if (!before[static_cast<std::size_t>(j)]) continue;
+      sum += before[static_cast<std::size_t>(j)]->shift_px;
+      ++found;
+    }
+    if (found > 0) shifts[static_cast<std::size_t>(i)] = sum / static_cast<float>(found);
+  }
+  return shifts;
+}
+
+/// Lets a chain go on from the edges of the frame before.
+void ease(const CarriedEdges& carried, std::uint32_t view, float depth_threshold_px, TwoSides& line) {
+  constexpr float kept = 0.4f;
+  std::vector<std::optional<EdgeBefore>> before(line.stations.size());
+  for (std::size_t i = 0; i < line.stations.size(); ++i) {
+    const Station& station = line.stations[i];
+    const float step = line.sides[0][i].disparity - line.sides[1][i].disparity;
+    const bool jumps = std::abs(step) > depth_threshold_px;
+    // A jump moves with the nearer surface.
+    const int nearer = step > 0 ? 0 : 1;
+    const SurfacePoint carrier{beside(station, nearer, colour_px), line.sides[nearer][i].disparity, view};
+    before[i] = carried.find(station.at, station.across, carrier);
+    if (!before[i]) continue;
+    for (const int side : {0, 1})
+      if (!jumps || side == nearer)
+        ease_side(before[i]->colours[side], before[i]->disparities[side], depth_threshold_px, line.sides[side][i]);
+  }
+  const std::vector<float> shifts = smoothed(before);
+  for (std::size_t i = 0; i < line.stations.size(); ++i) {
+    Station& station = line.stations[i];
+    station.at.x += kept * shifts[i] * station.across.x;
+    station.at.y += kept * shifts[i] * station.across.y;
+  }
+}
+
+/// Adds the runs of a side that are wanted in the same views.
+void add_lines(const TwoSides& line, int side, const SceneOfEdges& scene, float position, DiffusionPainting& painting) {
+  const std::vector<Side>& points = line.sides[side];
+  for (std::size_t begin = 0; begin < points.size();) {
+    std::size_t end = begin + 1;
+    const auto joins = [&](std::size_t i) {
+      return points[i].wanted == points[begin].wanted && points[i].views == points[begin].views &&
+             std::abs(points[i].disparity - points[i - 1].disparity) <= scene.depth_threshold_px;
+    };
+    while (end < points.size() && joins(end)) ++end;
+    if (points[begin].wanted) {
+      painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()),
+                                static_cast<std::uint32_t>(end - begin), position, points[begin].views});
+      for (std::size_t i = begin; i < end; ++i) {
+        const PlanePoint at = beside(line.stations[i], side, line_px);
+        painting.points.push_back({{at.x, at.y, points[i].disparity}, rounded(points[i].colour)});
+      }
+    }
+    begin = end;
+  }
+}
+
+void add_edges(const TwoSides& line, std::uint32_t view, std::vector<CarriedEdge>& edges) {
+  for (std::size_t i = 0; i < line.stations.size(); ++i) {
+    const Side &first = line.sides[0][i], &second = line.sides[1][i];
+    if (!first.wanted && !second.wanted) continue;
+    const Station& station = line.stations[i];
+    edges.push_back({station.at.x,
+                     station.at.y,
+                     station.across.x,
+                     station.across.y,
+                     {first.colour, second.colour},
+                     {first.disparity, second.disparity},
+                     view});
+  }
+}
+
+LinesAndEdges lines_of_view(const SceneOfEdges& scene, std::size_t index, const CarriedEdges* before) {
+  const ViewOfEdges& view = scene.views[index];
+  const SideMaker maker(scene, index);
+  const auto number = static_cast<std::uint32_t>(index);
+  Image<std::uint8_t> known;
+  if (before != nullptr && index == 0) known = before->known_edges();
+  LinesAndEdges result{{view.picture.width(), view.picture.height(), {}, {}}, {}};
+  const EdgeOptions options{.depth_threshold_px = scene.depth_threshold_px, .known = known};
+  for (const auto& chain : find_edge_chains(view.picture, view.disparity, options)) {
+    TwoSides line{stations_of(chain), {}};
+    for (const Station& station : line.stations)
+      for (const int side : {0, 1}) line.sides[side].push_back(maker.make(station, side));
+    if (before != nullptr) ease(*before, number, scene.depth_threshold_px, line);
+    for (const int side : {0, 1}) add_lines(line, side, scene, view.position, result.painting);
+    add_edges(line, number, result.edges);
+  }
+  return result;
+}
+
+/// A picture without edges still has a colour.
+void add_middle(const SceneOfEdges& scene, const ViewOfEdges& view, DiffusionPainting& painting) {
+  const int x = painting.width / 2, y = painting.height / 2;
+  ViewRange views{view.position, view.position};
+  if (scene.views.size() == 1) views = {std::min(left_eye, view.position), std::max(right_eye, view.position)};
+  painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()), 1, view.position, views});
+  painting.points.push_back(
+      {{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)}, view.picture(x, y)});
+}
+
+void append(const LinesAndEdges& part, LinesAndEdges& whole) {
+  const auto first = static_cast<std::uint32_t>(whole.painting.points.size());
+  whole.painting.points.insert(whole.painting.points.end(), part.painting.points.begin(), part.painting.points.end());
+  for (ColourLine line : part.painting.lines) {
+    line.first_point += first;
+    whole.painting.lines.push_back(line);
+  }
+  whole.edges.insert(whole.edges.end(), part.edges.begin(), part.edges.end());
+}
+
+}  // namespace
+
+LinesAndEdges lines_beside_edges(const SceneOfEdges& scene, const CarriedEdges* before) {
+  std::vector<LinesAndEdges> parts(scene.views.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) { parts[i] = lines_of_view(scene, i, before); });
+  LinesAndEdges whole{{parts[0].painting.width, parts[0].painting.height, {}, {}}, {}};
+  for (const LinesAndEdges& part : parts) append(part, whole);
+  for (const ViewOfEdges& view : scene.views) {
+    const auto shows = [&](const ColourLine& line) { return line.views.contains(view.position); };
+    if (std::ranges::none_of(whole.painting.lines, shows)) add_middle(scene, view, whole.painting);
+  }
+  return whole;
+}
+
+}  // namespace wheatstone

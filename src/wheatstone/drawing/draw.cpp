@@ -1,0 +1,15 @@
+#include "wheatstone/drawing/draw.h"
+
+#include "wheatstone/drawing/relief.h"
+
+namespace wheatstone {
+
+DrawnView draw(const Painting& painting, float view) {
+  if (painting.regions.width > 0) return draw(painting.regions, view);
+  if (painting.curves.width > 0) return draw(painting.curves, view);
+  DrawnView drawn = draw(painting.painting, view);
+  light_paint(painting.painting, view, painting.relief, drawn.picture);
+  return drawn;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,43 @@
+#include "wheatstone/drawing/rasterise.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "wheatstone/drawing/rasterise_internal.h"
+
+namespace wheatstone {
+
+std::vector<std::vector<std::uint32_t>> strokes_by_band(const FlatLayer& layer, int height) {
+  std::vector<std::vector<std::uint32_t>> bands((height + band_rows - 1) / band_rows);
+  const int last_band = static_cast<int>(bands.size()) - 1;
+  for (std::uint32_t i = 0; i < layer.strokes.size(); ++i) {
+    const FlatStroke& stroke = layer.strokes[i];
+    const float reach = BrushProfile(stroke.radius_px).reach_px;
+    const float top = stroke.top - reach, bottom = stroke.bottom + reach;
+    if (bottom < 0 || top >= static_cast<float>(height)) continue;
+    const int first = std::max(static_cast<int>(top), 0) / band_rows;
+    const int last = std::min(static_cast<int>(bottom) / band_rows, last_band);
+    for (int band = first; band <= last; ++band) bands[band].push_back(i);
+  }
+  return bands;
+}
+
+DistanceBand::DistanceBand(int top_, int canvas_width, int canvas_height)
+    : top(top_),
+      row_count(std::min(band_rows, canvas_height - top)),
+      stride(canvas_width + 2 * Canvas::widest_vector),
+      squared(static_cast<std::size_t>(row_count) * stride),
+      begin(row_count),
+      end(row_count) {}
+
+void rasterise(const Layer& layer, float view, Canvas& canvas) {
+  const FlatLayer flat = flatten(layer, view);
+  const auto bands = strokes_by_band(flat, canvas.height);
+  tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {
+    DistanceBand band(i * band_rows, canvas.width, canvas.height);
+    for (const std::uint32_t stroke : bands[i]) draw_stroke_over(flat, flat.strokes[stroke], band, canvas);
+  });
+}
+
+}  // namespace wheatstone

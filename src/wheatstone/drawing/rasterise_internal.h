@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wheatstone/drawing/canvas.h"
+#include "wheatstone/drawing/flatten_internal.h"
+
+namespace wheatstone {
+
+/// The brush: a disc whose cover falls from 1 to 0 across a soft rim a tenth of its radius wide, but never less than a
+/// pixel, which is the antialiasing. Half cover lies at 0.95 R, the middle of the rim.
+struct BrushProfile {
+  explicit BrushProfile(float radius_px)
+      : rim_px(radius_px > 10 ? 0.1f * radius_px : 1.f),
+        middle_px(0.95f * radius_px),
+        reach_px(middle_px + rim_px / 2) {}
+  float rim_px;
+  float middle_px;
+  float reach_px;  ///< cover is 0 from here on
+
+  float cover(float distance_px) const {
+    const float c = (middle_px - distance_px) / rim_px + 0.5f;
+    return c < 0 ? 0 : c > 1 ? 1 : c;
+  }
+};
+
+/// Rows of a canvas that one thread draws at a time: 32 rows of four float planes 1920 wide are just under a megabyte
+/// and stay in the second-level cache.
+inline constexpr int band_rows = 32;
+
+/// For every band of a picture, the strokes that touch it, in drawing order.
+std::vector<std::vector<std::uint32_t>> strokes_by_band(const FlatLayer& layer, int height);
+
+/// The pixels of a band that a brush touches along one segment; rows are counted from the band's first.
+struct SegmentBox {
+  int first_row, end_row;
+  int begin, end;
+};
+
+/// Squared distances to one stroke's chain within one band, reused from stroke to stroke.
+struct DistanceBand {
+  DistanceBand(int top, int canvas_width, int canvas_height);
+
+  int top;  ///< the picture's row that is the band's first
+  int row_count;
+  int stride;
+  std::vector<float> squared;      ///< row_count × stride
+  int first_row = 0, end_row = 0;  ///< the band's rows that the stroke touches
+  std::vector<int> begin, end;     ///< the columns that it touches in each of them
+  std::vector<SegmentBox> boxes;   ///< of its segments
+};
+
+/// Which blocks of columns still let light through, a bit each.
+class TransmittanceMask {
+ public:
+  TransmittanceMask(int rows, int blocks)
+      : words_(static_cast<std::size_t>(rows) * words_for(blocks), ~std::uint64_t{0}), stride_(words_for(blocks)) {}
+
+  void close(int row, int block) { word(row, block) &= ~(std::uint64_t{1} << (block % 64)); }
+
+  /// Shrinks the columns [begin, end) to those between the first and the last open block; begin ≥ end where none is.
+  void clamp(int row, int& begin, int& end) const;
+
+ private:
+  static int words_for(int blocks) { return (blocks + 63) / 64; }
+  std::uint64_t& word(int row, int block) { return words_[row * stride_ + block / 64]; }
+  bool is_open(int row, int block) const { return (words_[row * stride_ + block / 64] >> (block % 64) & 1) != 0; }
+
+  std::vector<std::uint64_t> words_;
+  int stride_;
+};
+
+/// A band that is drawn from the nearest stroke to the farthest: what is drawn, times what it covers, and how much
+/// light still comes through. A stroke that lies wholly behind opaque paint costs next to nothing.
+struct FrontToBackAccumulator {
+  static constexpr int block_px = Canvas::widest_vector;
+  static constexpr float dark = 1.f / 1024;  ///< light below this changes an 8-bit value by less than a quarter step
+
+  FrontToBackAccumulator(int row_count, int canvas_width, bool with_disparity = false);
+
+  int width;
+  int stride;
+  std::vector<float> red, green, blue, light;
+  std::vector<float> disparity;  ///< of the stroke that took the light below a half; empty where nobody wants it
+  TransmittanceMask open;
+};
+
+/// Draws one band of one stroke over a canvas, with vectors of whatever width the processor has.
+void draw_stroke_over(const FlatLayer& layer, const FlatStroke& stroke, DistanceBand& band, Canvas& canvas);
+
+/// Draws one band of one stroke under everything that was drawn before.
+void draw_stroke_under(const FlatLayer& layer, const FlatStroke& stroke, DistanceBand& band,
+                       FrontToBackAccumulator& accumulator);
+
+}  // namespace wheatstone

@@ -1,0 +1,185 @@
+#include "wheatstone/drawing/rasterise.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/drawing/rasterise_internal.h"
+#include "wheatstone/random.h"
+
+namespace wheatstone {
+namespace {
+
+/// Strokes of all sizes and opacities, also over the picture's edges.
+Layer random_layer(int width, int height, int count, float opacity) {
+  Layer layer;
+  layer.radius_px = 4;
+  const auto random = [](std::uint64_t i, std::uint64_t j) { return unit_float(hash({i, j})); };
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(count); ++i) {
+    Stroke stroke;
+    stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
+    stroke.point_count = 1 + static_cast<std::uint32_t>(random(i, 0) * 6);
+    stroke.radius_px = 0.7f + 12 * random(i, 1) * random(i, 1);
+    stroke.opacity = opacity;
+    stroke.colour = {static_cast<std::uint8_t>(255 * random(i, 2)), static_cast<std::uint8_t>(255 * random(i, 3)), 90};
+    float x = (random(i, 4) * 1.2f - 0.1f) * static_cast<float>(width);
+    float y = (random(i, 5) * 1.2f - 0.1f) * static_cast<float>(height);
+    for (std::uint32_t p = 0; p < stroke.point_count; ++p) {
+      layer.points.push_back({x, y, 10 * random(i, 6)});
+      x += stroke.radius_px * (2 * random(i, 10 + p) - 1);
+      y += stroke.radius_px * (2 * random(i, 20 + p) - 1);
+    }
+    layer.strokes.push_back(stroke);
+  }
+  return layer;
+}
+
+/// The slow, obvious way: every pixel's distance to every segment.
+Image<Rgb8> draw_plainly(const StrokePainting& painting, float view) {
+  Image<Rgb8> picture(painting.width, painting.height);
+  std::vector<FlatLayer> layers;
+  for (const Layer& layer : painting.layers) layers.push_back(flatten(layer, view));
+  for (int y = 0; y < painting.height; ++y) {
+    for (int x = 0; x < painting.width; ++x) {
+      const Rgb8 canvas = painting.canvas_colour;
+      float red = canvas.r, green = canvas.g, blue = canvas.b;
+      for (const FlatLayer& layer : layers) {
+        for (const FlatStroke& stroke : layer.strokes) {
+          float nearest = INFINITY;
+          for (std::uint32_t i = 0; i < stroke.vertex_count; ++i) {
+            const std::size_t to = stroke.first_vertex + i, from = i == 0 ? to : to - 1;
+            const float dx = layer.x[to] - layer.x[from], dy = layer.y[to] - layer.y[from];
+            const float px = static_cast<float>(x) + 0.5f - layer.x[from],
+                        py = static_cast<float>(y) + 0.5f - layer.y[from];
+            const float squared = dx * dx + dy * dy;
+            const float t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.f, 1.f) : 0;
+            nearest = std::min(nearest, std::hypot(px - t * dx, py - t * dy));
+          }
+          const float alpha = stroke.opacity * BrushProfile(stroke.radius_px).cover(nearest);
+          red += (stroke.red - red) * alpha;
+          green += (stroke.green - green) * alpha;
+          blue += (stroke.blue - blue) * alpha;
+        }
+      }
+      const auto byte = [](float value) { return static_cast<std::uint8_t>(value + 0.5f); };
+      picture(x, y) = {byte(red), byte(green), byte(blue)};
+    }
+  }
+  return picture;
+}
+
+int largest_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  int largest = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
+    largest = std::max({largest, std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
+  }
+  return largest;
+}
+
+StrokePainting painting_of(int width, int height, float opacity) {
+  return {width,
+          height,
+          {240, 230, 220},
+          {random_layer(width, height, 150, opacity), random_layer(width, height, 80, opacity)}};
+}
+
+TEST(Rasteriser, DrawsWhatTheObviousWayDraws) {
+  for (const auto& [width, height] : {std::pair{97, 71}, {1, 1}, {16, 33}, {130, 5}}) {
+    for (const float opacity : {1.f, 0.5f}) {
+      for (const float view : {left_eye, 0.f, right_eye}) {
+        const StrokePainting painting = painting_of(width, height, opacity);
+        EXPECT_LE(largest_difference(draw(painting, view).picture, draw_plainly(painting, view)), 1)
+            << width << "x" << height << " opacity " << opacity << " view " << view;
+      }
+    }
+  }
+}
+
+TEST(Rasteriser, DrawsTheSameWithEveryInstructionSet) {
+  const StrokePainting painting = painting_of(97, 71, 0.7f);
+  const Image<Rgb8> best = draw(painting, left_eye).picture;
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    EXPECT_LE(largest_difference(draw(painting, left_eye).picture, best), 1) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST(Rasteriser, GivesTheSameBytesOnAnyNumberOfThreads) {
+  const StrokePainting painting = painting_of(300, 200, 0.7f);
+  Image<Rgb8> first;
+  for (const std::size_t threads : {1u, 2u, 5u}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const Image<Rgb8> picture = draw(painting, right_eye).picture;
+    if (first.empty()) first = picture;
+    EXPECT_EQ(picture, first);
+  }
+}
+
+TEST(Rasteriser, DrawsLayerByLayerWhatItDrawsFromTheFront) {
+  const StrokePainting painting = painting_of(200, 150, 0.6f);
+  Canvas canvas(200, 150, painting.canvas_colour);
+  for (const Layer& layer : painting.layers) rasterise(layer, left_eye, canvas);
+  const Image<Rgb8> whole = draw(painting, left_eye).picture;
+  for (int y = 0; y < 150; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      EXPECT_NEAR(canvas.red(x, y), whole(x, y).r, 1);
+      EXPECT_NEAR(canvas.green(x, y), whole(x, y).g, 1);
+    }
+  }
+}
+
+TEST(Rasteriser, CoversAPixelOnceWhereAStrokeCrossesItself) {
+  Layer layer;
+  layer.radius_px = 6;
+  for (const auto& [x, y] : {std::pair{10.f, 30.f}, {50.f, 30.f}, {10.f, 30.f}, {50.f, 30.f}})
+    layer.points.push_back({x, y, 0});
+  layer.strokes.push_back({.first_point = 0, .point_count = 4, .radius_px = 6, .opacity = 0.5f, .colour = {0, 0, 0}});
+  const Image<Rgb8> picture = draw(StrokePainting{60, 60, {200, 200, 200}, {layer}}, left_eye).picture;
+  EXPECT_EQ(picture(30, 30).r, 100);
+}
+
+TEST(Rasteriser, ShiftsAStrokeByItsDisparity) {
+  Layer layer;
+  layer.radius_px = 3;
+  layer.points.push_back({30.5f, 10.5f, 8});
+  layer.strokes.push_back({.point_count = 1, .radius_px = 3, .colour = {255, 0, 0}, .disparity = 8});
+  const StrokePainting painting{60, 21, {0, 0, 0}, {layer}};
+  EXPECT_EQ(draw(painting, left_eye).picture(30, 10).r, 255);
+  EXPECT_EQ(draw(painting, right_eye).picture(22, 10).r, 255);
+  EXPECT_EQ(draw(painting, right_eye).picture(30, 10).r, 0);
+  EXPECT_EQ(draw(painting, 0).picture(26, 10).r, 255);
+}
+
+TEST(Rasteriser, LeavesAStrokeOutOfTheViewsThatMayNotShowIt) {
+  Layer layer;
+  layer.points.push_back({30.5f, 10.5f, 0});
+  layer.strokes.push_back({.point_count = 1, .radius_px = 3, .colour = {255, 0, 0}, .views = {left_eye, left_eye}});
+  const StrokePainting painting{60, 21, {0, 0, 0}, {layer}};
+  EXPECT_EQ(draw(painting, left_eye).picture(30, 10).r, 255);
+  EXPECT_EQ(draw(painting, right_eye).picture(30, 10).r, 0);
+}
+
+TEST(Rasteriser, CountsWhatIsBare) {
+  StrokePainting painting{40, 40, {0, 0, 0}, {}};
+  EXPECT_DOUBLE_EQ(draw(painting, left_eye).bare_share, 1);
+  Layer layer;
+  layer.points.push_back({20, 20, 0});
+  layer.strokes.push_back({.point_count = 1, .radius_px = 60, .colour = {255, 0, 0}});
+  painting.layers.push_back(layer);
+  EXPECT_DOUBLE_EQ(draw(painting, left_eye).bare_share, 0);
+}
+
+TEST(BrushProfile, IsADiscWithASoftRimOfATenthOfItsRadius) {
+  const BrushProfile brush(20);
+  EXPECT_FLOAT_EQ(brush.cover(17.9f), 1);
+  EXPECT_NEAR(brush.cover(19), 0.5f, 1e-5f);
+  EXPECT_FLOAT_EQ(brush.cover(20.1f), 0);
+}
+
+}  // namespace
+}  // namespace wheatstone

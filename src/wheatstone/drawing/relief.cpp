@@ -1,0 +1,194 @@
+#include "wheatstone/drawing/relief.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wheatstone/drawing/flatten_internal.h"
+#include "wheatstone/drawing/rasterise_internal.h"
+#include "wheatstone/random.h"
+
+namespace wheatstone {
+namespace {
+
+/// Where a pixel lies on a stroke: how far along it, how far beside it (left is negative), and its distance.
+struct OnStroke {
+  float distance = std::numeric_limits<float>::infinity();
+  float along = 0;
+  float beside = 0;
+};
+
+/// Smooth noise between lattice points a unit apart.
+float smooth_noise(std::uint64_t seed, float place) {
+  const float cell = std::floor(place), t = place - cell;
+  const auto at = [&](float c) {
+    return unit_float(hash({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(c))}));
+  };
+  const float weight = t * t * (3 - 2 * t);
+  return at(cell) * (1 - weight) + at(cell + 1) * weight;
+}
+
+/// The height that a stroke's own bristles leave there, 0..1: ridges along it that come and go, lower at the rim.
+float bristle_height(std::uint64_t seed, float radius_px, float bristle_px, const OnStroke& place) {
+  constexpr float run_in_bristles = 5.625f;
+  const float lane = place.beside / bristle_px;
+  const float ridge = smooth_noise(seed, lane);
+  const float along =
+      smooth_noise(hash({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(lane)))}),
+                   place.along / (run_in_bristles * bristle_px));
+  const float to_rim = std::clamp(place.distance / radius_px, 0.f, 1.f);
+  return (0.7f * ridge + 0.3f * along) * (1 - 0.35f * to_rim * to_rim);
+}
+
+/// One layer as the view sees it.
+struct SeenLayer {
+  FlatLayer flat;
+  std::vector<std::vector<std::uint32_t>> bands;
+  std::vector<std::uint64_t> seeds;  ///< of each flat stroke's bristles
+};
+
+SeenLayer seen_layer(const Layer& layer, float view, int height, std::uint64_t number) {
+  SeenLayer seen{flatten(layer, view), {}, {}};
+  seen.bands = strokes_by_band(seen.flat, height);
+  // A stroke's number tells its bristles in every view and frame; without one, its place among all of its layer, seen
+  // or not.
+  for (std::size_t i = 0; i < layer.strokes.size(); ++i) {
+    const Stroke& stroke = layer.strokes[i];
+    if (stroke.views.contains(view)) seen.seeds.push_back(hash({number, stroke.number != 0 ? stroke.number : i}));
+  }
+  return seen;
+}
+
+/// Pixels of a band: what the stroke at hand is nearest to.
+class ReliefBand {
+ public:
+  ReliefBand(int top, float bristle_px, Image<float>& relief)
+      : top_(top),
+        bristle_px_(bristle_px),
+        bottom_(std::min(top + band_rows, relief.height())),
+        relief_(relief),
+        places_(static_cast<std::size_t>(relief.width()) * static_cast<std::size_t>(band_rows)) {}
+
+  void add(const FlatLayer& layer, const FlatStroke& stroke, std::uint64_t seed) {
+    const BrushProfile brush(stroke.radius_px);
+    int left = relief_.width(), right = 0;
+    float along = 0;
+    const std::uint32_t segments = std::max(stroke.vertex_count, 2u) - 1;
+    for (std::uint32_t s = 0; s < segments; ++s) {
+      const std::size_t from = stroke.first_vertex + s,
+                        to = std::min(s + 1, stroke.vertex_count - 1) + stroke.first_vertex;
+      measure({layer.x[from], layer.y[from]}, {layer.x[to], layer.y[to]}, brush.reach_px, along, left, right);
+      along += std::hypot(layer.x[to] - layer.x[from], layer.y[to] - layer.y[from]);
+    }
+    const int first = std::max(static_cast<int>(std::floor(stroke.top - brush.reach_px)), top_);
+    const int end = std::min(static_cast<int>(std::ceil(stroke.bottom + brush.reach_px)) + 1, bottom_);
+    for (int y = first; y < end; ++y) {
+      for (int x = left; x < right; ++x) {
+        OnStroke& place = at(x, y);
+        const float cover = stroke.opacity * brush.cover(place.distance);
+        if (cover > 0) lay(seed, stroke.radius_px, cover, place, relief_(x, y));
+        place = {};
+      }
+    }
+  }
+
+ private:
+  struct Point {
+    float x, y;
+  };
+
+  OnStroke& at(int x, int y) {
+    return places_[static_cast<std::size_t>(y - top_) * static_cast<std::size_t>(relief_.width()) +
+                   static_cast<std::size_t>(x)];
+  }
+
+  /// New paint levels what is below it, but not wholly, and stands a little above it.
+  void lay(std::uint64_t seed, float radius_px, float cover, const OnStroke& place, float& height) const {
+    constexpr float shows_through = 0.25f;
+    const float own = bristle_height(seed, radius_px, bristle_px_, place);
+    height += cover * (own + shows_through * height - height);
+  }
+
+  void measure(Point a, Point b, float reach, float along, int& left, int& right) {
+    const float dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
+    const int first_x = std::max(static_cast<int>(std::floor(std::min(a.x, b.x) - reach)), 0);
+    const int end_x = std::min(static_cast<int>(std::ceil(std::max(a.x, b.x) + reach)) + 1, relief_.width());
+    const int first_y = std::max(static_cast<int>(std::floor(std::min(a.y, b.y) - reach)), top_);
+    const int end_y = std::min(static_cast<int>(std::ceil(std::max(a.y, b.y) + reach)) + 1, bottom_);
+    if (first_x >= end_x || first_y >= end_y) return;
+    left = std::min(left, first_x);
+    right = std::max(right, end_x);
+    for (int y = first_y; y < end_y; ++y) {
+      for (int x = first_x; x < end_x; ++x) {
+        const float px = static_cast<float>(x) + 0.5f - a.x, py = static_cast<float>(y) + 0.5f - a.y;
+        const float t = length > 0 ? std::clamp((px * dx + py * dy) / (length * length), 0.f, 1.f) : 0;
+        const float distance = std::hypot(px - t * dx, py - t * dy);
+        OnStroke& place = at(x, y);
+        if (distance >= place.distance) continue;
+        const float beside = length > 0 ? (px * dy - py * dx) / length : py;
+        place = {distance, along + t * length, beside};
+      }
+    }
+  }
+
+  int top_;
+  float bristle_px_;
+  int bottom_;
+  Image<float>& relief_;
+  std::vector<OnStroke> places_;
+};
+
+}  // namespace
+
+Image<float> relief_of(const StrokePainting& painting, float view, float bristle_px) {
+  std::vector<SeenLayer> layers(painting.layers.size());
+  tbb::parallel_for(std::size_t{0}, layers.size(),
+                    [&](std::size_t i) { layers[i] = seen_layer(painting.layers[i], view, painting.height, i); });
+  Image<float> relief(painting.width, painting.height);
+  tbb::parallel_for(0, (painting.height + band_rows - 1) / band_rows, [&](int i) {
+    ReliefBand band(i * band_rows, bristle_px, relief);
+    for (const SeenLayer& layer : layers)
+      for (const std::uint32_t stroke : layer.bands[static_cast<std::size_t>(i)])
+        band.add(layer.flat, layer.flat.strokes[stroke], layer.seeds[stroke]);
+  });
+  return relief;
+}
+
+void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& picture) {
+  // From the upper left, not steep, so that ridges show; a flat place is lit to exactly its own colour.
+  constexpr float lamp_x = -0.45f, lamp_y = -0.55f, lamp_z = 0.70f;
+  constexpr float darkest = 0.55f, brightest = 1.5f, gloss = 40;
+  tbb::parallel_for(0, picture.height(), [&](int y) {
+    const auto above = relief.row(std::max(y - 1, 0)), here = relief.row(y);
+    const auto below = relief.row(std::min(y + 1, picture.height() - 1));
+    for (int x = 0; x < picture.width(); ++x) {
+      const int before = std::max(x - 1, 0), after = std::min(x + 1, picture.width() - 1);
+      const float slope_x = depth_px * (here[after] - here[before]) / 2;
+      const float slope_y = depth_px * (below[x] - above[x]) / 2;
+      const float to_lamp =
+          (lamp_z - slope_x * lamp_x - slope_y * lamp_y) / std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
+      const float light = std::clamp(to_lamp / lamp_z, darkest, brightest);
+      const float shine = gloss * std::max(light - 1.12f, 0.f);
+      const auto lit = [&](std::uint8_t level) {
+        return static_cast<std::uint8_t>(std::min(light * static_cast<float>(level) + shine, 255.f) + 0.5f);
+      };
+      Rgb8& pixel = picture(x, y);
+      if (light != 1) pixel = {lit(pixel.r), lit(pixel.g), lit(pixel.b)};
+    }
+  });
+}
+
+void light_paint(const StrokePainting& painting, float view, const Relief& relief, Image<Rgb8>& picture) {
+  if (relief.depth_px > 0) light_relief(relief_of(painting, view, relief.bristle_px), relief.depth_px, picture);
+}
+
+Relief relief_for(const Style& style, int width) {
+  constexpr float ridges_px = 1.1f;  // for a picture 640 pixels wide
+  Relief relief;
+  if (style.texture) relief.depth_px = ridges_px * style_scale(style, width);
+  return relief;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,83 @@
+#include "wheatstone/files/temporary_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "temporary_folder.h"
+#include "throws_error.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(TemporaryFile, AppearsOnlyWhenCommitted) {
+  const TemporaryFolder folder;
+  TemporaryFile file(folder / "left.png");
+  put_bytes(file.path(), "whole");
+  EXPECT_FALSE(fs::exists(folder / "left.png"));
+  file.commit();
+  EXPECT_EQ(bytes_of(folder / "left.png"), "whole");
+  EXPECT_FALSE(fs::exists(file.path()));
+}
+
+TEST(TemporaryFile, LeavesNothingAndHarmsNothingWithoutCommit) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "left.png", "old");
+  {
+    const TemporaryFile file(folder / "left.png");
+    put_bytes(file.path(), "half");
+  }
+  EXPECT_EQ(bytes_of(folder / "left.png"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / ""), {}), 1);
+}
+
+TEST(TemporaryFile, KeepsFolderAndEnding) {
+  const TemporaryFolder folder;
+  const TemporaryFile file(folder / "left.png");
+  EXPECT_EQ(file.path().parent_path(), (folder / "left.png").parent_path());
+  EXPECT_EQ(file.path().extension(), ".png");
+}
+
+TEST(TemporaryFile, OfOneNameTwiceAtOnceAreTwoFiles) {
+  const TemporaryFolder folder;
+  const TemporaryFile first(folder / "left.png");
+  const TemporaryFile second(folder / "left.png");
+  EXPECT_NE(first.path(), second.path());
+}
+
+TEST(TemporaryFile, CommittedIsAsReadableAsAnyNewFile) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "plain", "");
+  TemporaryFile file(folder / "left.png");
+  file.commit();
+  EXPECT_EQ(fs::status(folder / "left.png").permissions(), fs::status(folder / "plain").permissions());
+}
+
+TEST(TemporaryFile, ReplacesWhatALinkPointsAt) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "real.png", "old");
+  fs::create_symlink(folder / "real.png", folder / "link.png");
+  TemporaryFile file(folder / "link.png");
+  put_bytes(file.path(), "new");
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(folder / "link.png"));
+  EXPECT_EQ(bytes_of(folder / "real.png"), "new");
+}
+
+TEST(TemporaryFile, OfADeviceIsTheDevice) {
+  TemporaryFile file("/dev/null");
+  EXPECT_EQ(file.path(), "/dev/null");
+  file.commit();
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(TemporaryFile, RefusesAMissingFolderAndAFolder) {
+  const TemporaryFolder folder;
+  expect_error(ErrorKind::cannot_read_write, "left.png: cannot write",
+               [&] { TemporaryFile(folder / "missing/left.png"); });
+  expect_error(ErrorKind::cannot_read_write, "cannot write", [&] { TemporaryFile(folder / ""); });
+}
+
+}  // namespace
+}  // namespace wheatstone

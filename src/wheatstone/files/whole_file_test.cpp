@@ -1,0 +1,51 @@
+#include "wheatstone/files/whole_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+
+#include "temporary_folder.h"
+#include "throws_error.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(WholeFile, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  const std::string bytes("a\0b\r\n\xff", 6);
+  write_whole_file(folder / "file.bin", bytes);
+  EXPECT_EQ(read_whole_file(folder / "file.bin", 6), bytes);
+}
+
+TEST(WholeFile, RefusesToReadWhatIsTooLongMissingOrAFolder) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "file.bin", "1234567");
+  expect_error(ErrorKind::bad_input, "7 bytes", [&] { read_whole_file(folder / "file.bin", 6); });
+  expect_error(ErrorKind::bad_input, "missing.bin", [&] { read_whole_file(folder / "missing.bin", 6); });
+  expect_error(ErrorKind::bad_input, "folder", [&] { read_whole_file(folder / "", 6); });
+}
+
+TEST(WholeFile, SaysThatTheDiskIsFull) {
+  const TemporaryFolder folder;
+  fs::create_symlink("/dev/full", folder / "file.bin");
+  expect_error(ErrorKind::cannot_read_write, "No space left",
+               [&] { write_whole_file(folder / "file.bin", std::string(100000, 'x')); });
+  expect_error(ErrorKind::cannot_read_write, "No space left", [&] { write_whole_file(folder / "file.bin", "x"); });
+}
+
+TEST(WholeFile, SaysThatThePipeIsClosed) {
+  ::signal(SIGPIPE, SIG_IGN);
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  ::close(ends[0]);
+  expect_error(ErrorKind::cannot_read_write, "Broken pipe",
+               [&] { write_whole_file("/proc/self/fd/" + std::to_string(ends[1]), "x"); });
+  ::close(ends[1]);
+}
+
+}  // namespace
+}  // namespace wheatstone

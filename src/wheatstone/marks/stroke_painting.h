@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// View positions: 0 is the cyclopean view, the eyes are half an eye separation to either side.
+inline constexpr float left_eye = -0.5f;
+inline constexpr float right_eye = 0.5f;
+
+/// A point of a stroke's cubic B-spline: its place in the stroke's reference view, in pixels, and its disparity.
+struct ControlPoint {
+  float x = 0;
+  float y = 0;
+  float disparity = 0;
+  friend bool operator==(const ControlPoint&, const ControlPoint&) = default;
+};
+
+/// The view positions in which a mark may be drawn, both ends included.
+struct ViewRange {
+  float first = left_eye;
+  float last = right_eye;
+  bool contains(float view) const { return view >= first && view <= last; }
+  friend bool operator==(const ViewRange&, const ViewRange&) = default;
+};
+
+/// One stroke of the brush: a disc with a soft rim, drawn along a cubic B-spline. It covers a pixel once, however
+/// often its curve comes back to it.
+struct Stroke {
+  std::uint32_t first_point = 0;  ///< index into its layer's points
+  std::uint32_t point_count = 0;  ///< at least one; a stroke of one point is a dot
+  float radius_px = 0;
+  float opacity = 1;
+  Rgb8 colour;
+  float disparity = 0;              ///< the stroke's depth: the disparity of the point where it was begun
+  float reference_view = left_eye;  ///< the view in which its points stand
+  ViewRange views;
+  std::uint32_t number = 0;  ///< names the stroke across the frames of a film, from 1; 0: none
+  friend bool operator==(const Stroke&, const Stroke&) = default;
+};
+
+/// The strokes of one brush radius in the order in which they are drawn, far to near.
+struct Layer {
+  float radius_px = 0;
+  std::vector<ControlPoint> points;
+  std::vector<Stroke> strokes;
+
+  std::span<const ControlPoint> points_of(const Stroke& stroke) const {
+    return {points.data() + stroke.first_point, stroke.point_count};
+  }
+  friend bool operator==(const Layer&, const Layer&) = default;
+};
+
+/// A painting as a value: made once, drawn for any view. Layers are drawn in their order, coarse to fine, over a
+/// background that is either the view's photograph or `canvas_colour`.
+struct StrokePainting {
+  int width = 0;  ///< of each view, in pixels
+  int height = 0;
+  Rgb8 canvas_colour{255, 255, 255};
+  std::vector<Layer> layers;
+  friend bool operator==(const StrokePainting&, const StrokePainting&) = default;
+};
+
+/// Where a control point of a stroke stands in another view: x(v) = x(ref) − (v − ref) · disparity.
+inline float x_in_view(const ControlPoint& point, float reference_view, float view) {
+  return point.x - (view - reference_view) * point.disparity;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,204 @@
+#include "wheatstone/marks/style_parameters.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
+
+namespace wheatstone {
+namespace {
+
+[[noreturn]] void refuse(std::string_view name, std::string_view text, std::string_view expected) {
+  throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected {}", name, text, expected));
+}
+
+template <class Number>
+Number parse_number(std::string_view name, std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) refuse(name, text, "a number");
+  if constexpr (std::is_floating_point_v<Number>)
+    if (!std::isfinite(number)) refuse(name, text, "a finite number");
+  return number;
+}
+
+bool parse_switch(std::string_view name, std::string_view text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  refuse(name, text, "true or false");
+}
+
+std::vector<float> parse_list(std::string_view name, std::string_view text) {
+  std::vector<float> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(parse_number<float>(name, text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return numbers;
+}
+
+Rgb8 parse_colour(std::string_view name, std::string_view text) {
+  unsigned value = 0;
+  if (text.size() == 7 && text[0] == '#') {
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, value, 16);
+    if (error == std::errc{} && end == text.data() + 7)
+      return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
+              static_cast<std::uint8_t>(value)};
+  }
+  refuse(name, text, "a colour as #rrggbb");
+}
+
+template <class Member>
+StyleParameter number(std::string_view name, std::string_view help, Member member) {
+  return {name, help, false, [=](const Style& style) { return fmt::format("{}", style.*member); },
+          [=](Style& style, std::string_view text) {
+            style.*member = parse_number<std::remove_cvref_t<decltype(style.*member)>>(name, text);
+          }};
+}
+
+StyleParameter jitter(std::string_view name, std::string_view help, float ColourJitter::*member) {
+  return {name, help, false, [=](const Style& style) { return fmt::format("{}", style.jitter.*member); },
+          [=](Style& style, std::string_view text) { style.jitter.*member = parse_number<float>(name, text); }};
+}
+
+StyleParameter toggle(std::string_view name, std::string_view help, bool Style::*member) {
+  return {name, help, true, [=](const Style& style) { return style.*member ? "true" : "false"; },
+          [=](Style& style, std::string_view text) { style.*member = parse_switch(name, text); }};
+}
+
+template <class Value>
+StyleParameter choice(std::string_view name, std::string_view help, Value Style::*member,
+                      std::optional<Value> (*by_name)(std::string_view), std::string_view names) {
+  return {name, help, false, [=](const Style& style) { return fmt::format("\"{}\"", name_of(style.*member)); },
+          [=](Style& style, std::string_view text) {
+            const std::optional<Value> value = by_name(text);
+            if (!value) refuse(name, text, names);
+            style.*member = *value;
+          }};
+}
+
+std::vector<StyleParameter> make_parameters() {
+  return {
+      {"radii", "brush radii, coarse to fine, in pixels of a picture 640 wide: 8,4,2", false,
+       [](const Style& style) { return fmt::format("[{}]", fmt::join(style.radii_px, ", ")); },
+       [](Style& style, std::string_view text) { style.radii_px = parse_list("radii", text); }},
+      toggle("absolute-radii", "take radii and the depth threshold in pixels of this picture", &Style::absolute_radii),
+      number("threshold", "T: RGB distance (0..441) above which a place is painted", &Style::threshold),
+      number("grid", "f_g: one stroke at most in every f_g x R square", &Style::grid),
+      number("blur", "f_s: detail that a brush ignores, as a multiple of its radius", &Style::blur),
+      number("curvature", "f_c: 1 bends at once, less keeps the last direction", &Style::curvature),
+      number("opacity", "of the paint, 0..1", &Style::opacity),
+      number("min-length", "control points before a stroke may end early", &Style::min_length),
+      number("max-length", "control points at most; 0 paints dots", &Style::max_length),
+      jitter("jitter-hue", "random change of hue, 0..1", &ColourJitter::hue),
+      jitter("jitter-saturation", "random change of saturation, 0..1", &ColourJitter::saturation),
+      jitter("jitter-value", "random change of brightness, 0..1", &ColourJitter::value),
+      jitter("jitter-red", "random change of red, 0..1", &ColourJitter::red),
+      jitter("jitter-green", "random change of green, 0..1", &ColourJitter::green),
+      jitter("jitter-blue", "random change of blue, 0..1", &ColourJitter::blue),
+      toggle("dual", "strokes of two colours, side by side", &Style::dual),
+      toggle("texture", "paint stands up from the canvas and is lit from one side", &Style::texture),
+      choice("marks", "what the picture is made of: strokes, regions of few colours, tiles of a mosaic, or curves",
+             &Style::marks, marks_by_name, "strokes, regions, tiles or curves"),
+      number("colours", "k: how many a posterised picture has", &Style::colours),
+      number("tile", "width of a mosaic's tiles, in pixels of a picture 640 wide", &Style::tile_px),
+      toggle("depth-test", "end strokes at depth edges", &Style::depth_test),
+      number("depth-threshold", "jump of disparity that is a depth edge, in pixels of a picture 640 wide",
+             &Style::depth_threshold_px),
+      toggle("follow-depth-edges", "the finest strokes beside depth edges run along them; false: they are dots",
+             &Style::follow_depth_edges),
+      number("occlusion-dilation", "growth of the occlusion masks, as a multiple of the largest radius",
+             &Style::occlusion_dilation),
+      choice("propagation", "how the second eye is painted: strokes, raster or independent", &Style::propagation,
+             propagation_by_name, "strokes, raster or independent"),
+      choice("orientation", "direction of strokes where the picture is flat: smooth, or gradient (they end)",
+             &Style::orientation, orientation_by_name, "smooth or gradient"),
+      choice("reference-filter", "what blurs the photograph: median or gaussian", &Style::reference_filter,
+             reference_filter_by_name, "median or gaussian"),
+      choice("background", "what lies behind the paint: photograph or colour", &Style::background, background_by_name,
+             "photograph or colour"),
+      {"canvas-colour", "colour of the bare canvas, #rrggbb", false,
+       [](const Style& style) {
+         const Rgb8 c = style.canvas_colour;
+         return fmt::format("\"#{:02x}{:02x}{:02x}\"", c.r, c.g, c.b);
+       },
+       [](Style& style, std::string_view text) { style.canvas_colour = parse_colour("canvas-colour", text); }},
+  };
+}
+
+/// A TOML value as the text that a parameter's `set` takes.
+std::string text_of(const toml::node& node) {
+  if (const auto* list = node.as_array()) {
+    std::vector<std::string> texts;
+    for (const toml::node& entry : *list) texts.push_back(text_of(entry));
+    return fmt::format("{}", fmt::join(texts, ","));
+  }
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* real = node.as_floating_point()) return fmt::format("{}", real->get());
+  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  return "a table or date";
+}
+
+const StyleParameter* find_parameter(std::string_view name) {
+  for (const StyleParameter& parameter : style_parameters())
+    if (parameter.name == name) return &parameter;
+  return nullptr;
+}
+
+void apply_key(std::string_view key, const toml::node& node, Style& style) {
+  if (key == "style") return;
+  const StyleParameter* parameter = find_parameter(key);
+  if (!parameter) {
+    std::vector<std::string_view> names{"style"};
+    for (const StyleParameter& known : style_parameters()) names.push_back(known.name);
+    throw Error(ErrorKind::bad_input, fmt::format("unknown key '{}', expected one of {}", key, fmt::join(names, ", ")));
+  }
+  parameter->set(style, text_of(node));
+}
+
+}  // namespace
+
+std::span<const StyleParameter> style_parameters() {
+  static const std::vector<StyleParameter> parameters = make_parameters();
+  return parameters;
+}
+
+std::string style_to_toml(const Style& style) {
+  std::string document = fmt::format("style = \"{}\"\n", style.name);
+  for (const StyleParameter& parameter : style_parameters())
+    document += fmt::format("\n# {}\n{} = {}\n", parameter.help, parameter.name, parameter.toml_value(style));
+  return document;
+}
+
+void apply_toml(std::string_view document, std::string_view name, Style& style) {
+  try {
+    const toml::table table = toml::parse(document);
+    if (const toml::node* preset = table.get("style")) style = style_by_name(text_of(*preset));
+    for (const auto& [key, node] : table) apply_key(key.str(), node, style);
+    check_style(style);
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: line {}: {}", name, error.source().begin.line, error.description()));
+  } catch (const Error& error) {
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+Style read_style(const std::string& name_or_path) {
+  const std::filesystem::path path = name_or_path;
+  if (path.extension() != ".toml" && !path.has_parent_path()) return style_by_name(name_or_path);
+  constexpr std::size_t most_bytes = 1 << 20;
+  Style style;
+  apply_toml(read_whole_file(path, most_bytes), name_or_path, style);
+  return style;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/match_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// Corners are looked for in pictures at most this wide: enough for a range, and quick.
+constexpr int search_width_px = 1000;
+constexpr std::size_t least_matches = 12;
+
+/// Dense disparities of a small copy of the pair, over all that a picture could hold: it also sees the plain surfaces
+/// on which there are no corners. In pixels of the full picture.
+std::vector<float> coarse_disparities(const StereoPair& pair) {
+  constexpr int small_width_px = 320;
+  const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());
+  cv::Mat left, right;
+  cv::resize(as_mat(pair.left), left, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(as_mat(pair.right), right, {}, scale, scale, cv::INTER_AREA);
+  const Image<float> disparity = match_plain_sgbm(left, right, {-left.cols / 6, left.cols / 3});
+  const float least = disparity_percentile(disparity, 0.01), largest = disparity_percentile(disparity, 0.995);
+  if (!std::isfinite(least)) return {};
+  return {least / static_cast<float>(scale), largest / static_cast<float>(scale)};
+}
+
+cv::Mat reduced_luminance(const Image<Rgb8>& picture, double scale) {
+  cv::Mat luminance;
+  cv::cvtColor(as_mat(picture), luminance, cv::COLOR_RGB2GRAY);
+  if (scale < 1) cv::resize(luminance, luminance, {}, scale, scale, cv::INTER_AREA);
+  return luminance;
+}
+
+/// Disparities of corners that are each other's best match and lie on one scan line.
+std::vector<float> sparse_disparities(const cv::Mat& left, const cv::Mat& right) {
+  constexpr int corners = 3000;
+  constexpr float largest_vertical_px = 1.5f;
+  const auto orb = cv::ORB::create(corners);
+  orb->setFastThreshold(8);
+  std::vector<cv::KeyPoint> left_corners, right_corners;
+  cv::Mat left_descriptors, right_descriptors;
+  orb->detectAndCompute(left, {}, left_corners, left_descriptors);
+  orb->detectAndCompute(right, {}, right_corners, right_descriptors);
+  std::vector<float> disparities;
+  if (left_corners.empty() || right_corners.empty()) return disparities;
+  std::vector<cv::DMatch> matches;
+  constexpr bool each_others_best = true;
+  cv::BFMatcher(cv::NORM_HAMMING, each_others_best).match(left_descriptors, right_descriptors, matches);
+  constexpr float largest_distance_bits = 48;
+  for (const cv::DMatch& match : matches) {
+    const cv::Point2f offset = left_corners[match.queryIdx].pt - right_corners[match.trainIdx].pt;
+    if (match.distance <= largest_distance_bits && std::abs(offset.y) <= largest_vertical_px)
+      disparities.push_back(offset.x);
+  }
+  return disparities;
+}
+
+/// Drops what too few others agree with: chance matches on a scan line are spread over the whole width.
+std::vector<float> supported(std::vector<float> disparities, float agreement_px) {
+  std::ranges::sort(disparities);
+  constexpr std::size_t least_neighbours = 3;
+  std::vector<float> kept;
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    const auto low = std::ranges::lower_bound(disparities, disparities[i] - agreement_px);
+    const auto high = std::ranges::upper_bound(disparities, disparities[i] + agreement_px);
+    if (static_cast<std::size_t>(high - low) > least_neighbours) kept.push_back(disparities[i]);
+  }
+  return kept;
+}
+
+}  // namespace
+
+DisparityRange find_disparity_range(const StereoPair& pair) {
+  const int width = pair.left.width();
+  const double scale = std::min(1.0, static_cast<double>(search_width_px) / width);
+  const cv::Mat left = reduced_luminance(pair.left, scale), right = reduced_luminance(pair.right, scale);
+  const float agreement_px = std::max(2.f, 0.005f * static_cast<float>(left.cols));
+  std::vector<float> ends = coarse_disparities(pair);
+  const std::vector<float> corners = supported(sparse_disparities(left, right), agreement_px);
+  if (corners.size() >= least_matches) {
+    ends.push_back(corners.front() / static_cast<float>(scale));
+    ends.push_back(corners.back() / static_cast<float>(scale));
+  }
+
+  // Without anything to go by: what a pair made for viewing keeps to.
+  if (ends.empty()) return {-width / 32, std::max(width / 8, 16)};
+  const auto [least, largest] = std::ranges::minmax(ends);
+  const float room = std::max(0.1f * (largest - least), 6.f);
+  const int limit = width - 1;
+  return {std::max(static_cast<int>(std::floor(least - room)), -limit),
+          std::min(static_cast<int>(std::ceil(largest + room)), limit)};
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,131 @@
+#include "wheatstone/matching/eye_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/match_internal.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int small_width_px = 400;
+
+/// Disparities of a small copy that hold both ways; `own` is the view whose pixels are asked.
+struct CheckedView {
+  cv::Mat colours;         ///< CIE L*a*b*, 32-bit float
+  Image<float> disparity;  ///< own x − other x; NaN where the other view does not confirm it
+};
+
+cv::Mat small_copy(const Image<Rgb8>& picture, double scale) {
+  cv::Mat small;
+  cv::resize(as_mat(picture), small, {}, scale, scale, cv::INTER_AREA);
+  return small;
+}
+
+cv::Mat lab(const cv::Mat& rgb) {
+  cv::Mat values;
+  rgb.convertTo(values, CV_32FC3, 1.0 / 255);
+  cv::cvtColor(values, values, cv::COLOR_RGB2Lab);
+  return values;
+}
+
+Image<float> confirmed(const Image<float>& own, const Image<float>& other) {
+  constexpr float tolerance_px = 1;
+  Image<float> kept = own;
+  for (int y = 0; y < own.height(); ++y) {
+    for (int x = 0; x < own.width(); ++x) {
+      const float d = own(x, y);
+      const int there = std::isnan(d) ? -1 : static_cast<int>(std::lround(static_cast<float>(x) - d));
+      if (!own.contains(there, y) || !(std::abs(other(there, y) + d) <= tolerance_px))
+        kept(x, y) = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return kept;
+}
+
+/// A view's disparities, own x − other x, of the pair in a mirror.
+Image<float> mirrored(const Image<float>& disparity) {
+  Image<float> other(disparity.width(), disparity.height());
+  for (int y = 0; y < disparity.height(); ++y)
+    std::transform(disparity.row(y).rbegin(), disparity.row(y).rend(), other.row(y).begin(), std::negate<>());
+  return other;
+}
+
+/// Mean colour of a run of a row.
+cv::Vec3f mean_colour(const cv::Mat& colours, int y, int begin, int end) {
+  cv::Vec3f sum{};
+  for (int x = begin; x < end; ++x) sum += colours.at<cv::Vec3f>(y, x);
+  return sum / static_cast<float>(std::max(end - begin, 1));
+}
+
+struct Votes {
+  int farther = 0, nearer = 0;
+};
+
+/// One unconfirmed run [begin, end) of a row. Going by the disparities alone, what only this eye sees has the width of
+/// the step; where the disparity falls to the right it is the other eye that sees more.
+void vote(const CheckedView& view, int y, int begin, int end, Votes& votes) {
+  constexpr float least_step_px = 3, least_contrast = 12;
+  constexpr int most_asked_px = 5;
+  const int width = end - begin;
+  const float step = view.disparity(end, y) - view.disparity(begin - 1, y);
+  if (step < least_step_px || static_cast<float>(width) < 0.6f * step || static_cast<float>(width) > 1.6f * step + 2)
+    return;
+  // The outermost pixels mix both surfaces.
+  const int asked = std::clamp(width / 2, 1, most_asked_px);
+  if (begin - 1 - asked < 0 || end + 1 + asked > view.disparity.width()) return;
+  const cv::Vec3f left = mean_colour(view.colours, y, begin - 1 - asked, begin - 1);
+  const cv::Vec3f right = mean_colour(view.colours, y, end + 1, end + 1 + asked);
+  const cv::Vec3f band = mean_colour(view.colours, y, begin + width / 4, end - width / 4);
+  const double to_left = cv::norm(band - left), to_right = cv::norm(band - right);
+  if (cv::norm(left - right) < least_contrast || std::abs(to_left - to_right) < least_contrast / 2) return;
+  // The lower disparity, the farther surface, is on the left.
+  ++(to_left < to_right ? votes.farther : votes.nearer);
+}
+
+void vote(const CheckedView& view, Votes& votes) {
+  for (int y = 0; y < view.disparity.height(); ++y) {
+    int last_known = -1;
+    for (int x = 0; x < view.disparity.width(); ++x) {
+      if (std::isnan(view.disparity(x, y))) continue;
+      if (last_known >= 0 && x - last_known > 2) vote(view, y, last_known + 1, x, votes);
+      last_known = x;
+    }
+  }
+}
+
+}  // namespace
+
+EyeOrderEvidence eye_order_evidence(const StereoPair& pair) {
+  const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());
+  cv::Mat left = small_copy(pair.left, scale), right = small_copy(pair.right, scale);
+  constexpr int least_side_px = 32;
+  if (left.cols < least_side_px || left.rows < least_side_px) return {};
+  const DisparityRange range{-left.cols / 4, left.cols / 4};
+
+  Votes votes;
+  const Image<float> forth = match_plain_sgbm(left, right, range), back = match_plain_sgbm(right, left, range);
+  vote({lab(left), confirmed(forth, back)}, votes);
+  // The right view in a mirror is a left view.
+  cv::flip(right, right, 1);
+  vote({lab(right), confirmed(mirrored(back), mirrored(forth))}, votes);
+
+  EyeOrderEvidence evidence;
+  evidence.bands = votes.farther + votes.nearer;
+  if (evidence.bands > 0) evidence.for_order = static_cast<double>(votes.farther - votes.nearer) / evidence.bands;
+  return evidence;
+}
+
+bool eyes_look_swapped(const StereoPair& pair) {
+  constexpr int least_bands = 60;
+  constexpr double clearly = -0.3;
+  const EyeOrderEvidence evidence = eye_order_evidence(pair);
+  return evidence.bands >= least_bands && evidence.for_order <= clearly;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,282 @@
+#include "wheatstone/matching/match.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/ximgproc/disparity_filter.hpp>
+
+#include "wheatstone/error.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/match_internal.h"
+#include "wheatstone/matching/match_reliability_internal.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr std::array<std::string_view, 4> names{"sgbm", "bm", "dp", "onnx"};
+constexpr std::array<std::string_view, 3> values_names{"255", "1", "imagenet"};
+constexpr std::array<std::string_view, 3> quality_names{"fast", "good", "best"};
+constexpr int least_side_px = 16;
+constexpr double most_pixels = 12e6;
+constexpr int most_disparities = 512;
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+template <class Value>
+std::optional<Value> by_name(std::span<const std::string_view> all, std::string_view name) {
+  const auto found = std::ranges::find(all, name);
+  if (found == all.end()) return {};
+  return static_cast<Value>(found - all.begin());
+}
+
+void check(const StereoPair& pair, const MatchOptions& options) {
+  if (!same_size(pair.left, pair.right))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the right picture is {}x{} pixels, expected the left one's {}x{}", pair.right.width(),
+                            pair.right.height(), pair.left.width(), pair.left.height()));
+  if (pair.left.width() < least_side_px || pair.left.height() < least_side_px)
+    throw Error(ErrorKind::bad_input, fmt::format("the pictures are {}x{} pixels, expected at least {}x{}",
+                                                  pair.left.width(), pair.left.height(), least_side_px, least_side_px));
+  if (options.block_px < 1 || options.block_px > 51 || options.block_px % 2 == 0)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("the matching block is {} pixels wide, expected an odd number, 1 to 51", options.block_px));
+  if (!(options.size > 0 && options.size <= 1))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("the size to match at is {} of the pictures', expected above 0 and up to 1", options.size));
+  if (options.matcher == Matcher::onnx && options.model.empty())
+    throw Error(ErrorKind::wrong_usage, "matching by a network needs its file: an .onnx model");
+  if (options.range &&
+      (options.range->least >= options.range->largest ||
+       std::max(std::abs(options.range->least), std::abs(options.range->largest)) >= pair.left.width()))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("the disparity range is {}:{}, expected least:largest within the width of {} pixels",
+                            options.range->least, options.range->largest, pair.left.width()));
+}
+
+Image<float> match_one_way(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,
+                           const MatchOptions& options) {
+  if (options.matcher == Matcher::onnx) return match_with_network(own, other, options);
+  if (options.matcher != Matcher::dp) return match_with_opencv(own, other, range, options);
+  cv::Mat own_luminance, other_luminance;
+  cv::cvtColor(own, own_luminance, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(other, other_luminance, cv::COLOR_RGB2GRAY);
+  return match_scan_lines(own_luminance, other_luminance, range);
+}
+
+/// The right eye's disparity is the left eye's of the pair seen in a mirror.
+Image<float> match_right(const cv::Mat& left, const cv::Mat& right, const DisparityRange& range,
+                         const MatchOptions& options) {
+  cv::Mat mirrored_left, mirrored_right;
+  cv::flip(left, mirrored_left, 1);
+  cv::flip(right, mirrored_right, 1);
+  Image<float> disparity = match_one_way(mirrored_right, mirrored_left, range, options);
+  cv::Mat matrix = as_mat(disparity);
+  cv::flip(matrix, matrix, 1);
+  return disparity;
+}
+
+/// Drops what the other view's disparity does not confirm.
+Image<float> confirmed(const Image<float>& own, const Image<float>& other, float sign, float tolerance_px) {
+  Image<float> result(own.width(), own.height(), unknown);
+  tbb::parallel_for(0, own.height(), [&](int y) {
+    const auto from = own.row(y), into = other.row(y);
+    const auto to = result.row(y);
+    for (int x = 0; x < own.width(); ++x) {
+      const float target = std::floor(static_cast<float>(x) + 0.5f + sign * from[x]);
+      if (!(target >= 0 && target < static_cast<float>(own.width()))) continue;
+      if (std::abs(into[static_cast<int>(target)] - from[x]) <= tolerance_px) to[x] = from[x];
+    }
+  });
+  return result;
+}
+
+constexpr int unknown_sixteenths = -32768;
+
+cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
+  cv::Mat sixteenths(disparity.height(), disparity.width(), CV_16S);
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x)
+      sixteenths.at<std::int16_t>(y, x) =
+          std::isfinite(disparity(x, y))
+              ? static_cast<std::int16_t>(std::lround(sign * disparity(x, y) * sixteenths_a_px))
+              : static_cast<std::int16_t>(unknown_sixteenths);
+  return sixteenths;
+}
+
+void remove_speckles(Image<float>& disparity, int least_surface_px) {
+  cv::Mat sixteenths = in_sixteenths(disparity, 1);
+  constexpr int same_surface = 2 * sixteenths_a_px;
+  cv::filterSpeckles(sixteenths, unknown_sixteenths, least_surface_px, same_surface);
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x)
+      if (sixteenths.at<std::int16_t>(y, x) == unknown_sixteenths) disparity(x, y) = unknown;
+}
+
+/// Weighted least squares, led by the picture's edges and by what both views agree on. Where the views agree on nothing
+/// far and wide the filter returns numbers without meaning; there the disparity stays as it was.
+Image<float> refined(const Image<float>& left, const Image<float>& right, const cv::Mat& left_picture,
+                     const DisparityRange& range, const MatchOptions& options) {
+  const auto filter = cv::ximgproc::createDisparityWLSFilterGeneric(true);
+  filter->setLambda(options.wls_lambda);
+  filter->setSigmaColor(options.wls_sigma);
+  filter->setLRCthresh(static_cast<int>(options.check_tolerance_px * sixteenths_a_px));
+  filter->setDepthDiscontinuityRadius(options.block_px);
+  cv::Mat result;
+  filter->filter(in_sixteenths(left, 1), left_picture, result, in_sixteenths(right, -1));
+  Image<float> disparity = left;
+  for (int y = 0; y < left.height(); ++y) {
+    for (int x = 0; x < left.width(); ++x) {
+      const float value = static_cast<float>(result.at<std::int16_t>(y, x)) / sixteenths_a_px;
+      if (value >= static_cast<float>(range.least) && value <= static_cast<float>(range.largest))
+        disparity(x, y) = value;
+    }
+  }
+  return disparity;
+}
+
+double finite_share(const Image<float>& disparity) {
+  const auto known = std::ranges::count_if(disparity.pixels(), [](float d) { return std::isfinite(d); });
+  return static_cast<double>(known) / static_cast<double>(disparity.pixels().size());
+}
+
+/// Replaces doubtful places; those that were are NaN in the result, which else is the disparity as it was found. Where
+/// nearly nothing is beyond doubt the disparity stays as it is.
+Image<float> distrust(Image<float>& left, const Image<float>& right, const StereoPair& pair,
+                      const DisparityRange& range) {
+  const Image<std::uint8_t> distinct = find_distinct_matches(as_mat(pair.left), as_mat(pair.right), left, range);
+  constexpr double least_share = 0.05;
+  if (cv::countNonZero(as_mat(distinct)) < least_share * static_cast<double>(distinct.pixels().size())) return left;
+  Image<float> found = left;
+  replace_doubtful(left, right, distinct, range);
+  for (std::size_t i = 0; i < found.pixels().size(); ++i)
+    if (found.pixels()[i] != left.pixels()[i]) found.pixels()[i] = unknown;
+  return found;
+}
+
+/// Refinement knows edges better, but rounds what matching found between whole pixels: where they agree to a pixel,
+/// what was found stays, and so does what replaced doubtful places.
+void keep_confirmed(const Image<float>& before, const Image<float>& found, Image<float>& disparity) {
+  for (std::size_t i = 0; i < before.pixels().size(); ++i) {
+    const float was = before.pixels()[i];
+    const bool replaced = std::isfinite(was) && !std::isfinite(found.pixels()[i]);
+    if (replaced || std::abs(was - disparity.pixels()[i]) <= 1) disparity.pixels()[i] = was;
+  }
+}
+
+MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options) {
+  const cv::Mat left_picture = as_mat(pair.left), right_picture = as_mat(pair.right);
+  Image<float> left, right;
+  tbb::parallel_invoke([&] { left = match_one_way(left_picture, right_picture, range, options); },
+                       [&] { right = match_right(left_picture, right_picture, range, options); });
+  if (options.left_right_check) {
+    Image<float> left_confirmed = confirmed(left, right, -1, options.check_tolerance_px);
+    right = confirmed(right, left, 1, options.check_tolerance_px);
+    left = std::move(left_confirmed);
+  }
+  remove_speckles(left, options.least_surface_px);
+  remove_speckles(right, options.least_surface_px);
+
+  MatchedPair matched;
+  matched.range = range;
+  matched.left_found_share = finite_share(left);
+  matched.right_found_share = finite_share(right);
+  if (matched.left_found_share == 0)
+    throw Error(ErrorKind::bad_input, fmt::format("no pixel of the two pictures matches between disparities {} and {}",
+                                                  range.least, range.largest));
+  Image<float> found = left;
+  if (options.distrust) found = distrust(left, right, pair, range);
+  const Image<float> before = left;
+  fill_from_farther_side(left);
+  fill_from_farther_side(right);
+  if (options.wls) {
+    left = refined(left, right, left_picture, range, options);
+    if (options.wls_keeps_confirmed) keep_confirmed(before, found, left);
+  }
+  // Filling goes scan line by scan line; a median across them takes the streaks out and keeps the edges.
+  cv::Mat matrix = as_mat(left);
+  cv::medianBlur(matrix, matrix, 5);
+  matched.geometry = geometry_from_left(std::move(left));
+  return matched;
+}
+
+/// Smaller by this factor when a pair is too large, or its disparities too many, to be matched as it is.
+double reduction_for(const StereoPair& pair, const DisparityRange& range) {
+  const double pixels = static_cast<double>(pair.left.width()) * pair.left.height();
+  return std::min({1.0, std::sqrt(most_pixels / pixels),
+                   static_cast<double>(most_disparities) / (range.largest - range.least + 1)});
+}
+
+Image<Rgb8> resized(const Image<Rgb8>& picture, double scale) {
+  Image<Rgb8> result(std::max(static_cast<int>(picture.width() * scale), least_side_px),
+                     std::max(static_cast<int>(picture.height() * scale), least_side_px));
+  cv::Mat target = as_mat(result);
+  cv::resize(as_mat(picture), target, target.size(), 0, 0, cv::INTER_AREA);
+  return result;
+}
+
+Image<float> enlarged(const Image<float>& disparity, int width, int height) {
+  Image<float> result(width, height);
+  cv::Mat target = as_mat(result);
+  cv::resize(as_mat(disparity), target, target.size(), 0, 0, cv::INTER_NEAREST);
+  target *= static_cast<double>(width) / disparity.width();
+  return result;
+}
+
+}  // namespace
+
+std::span<const std::string_view> matcher_names() { return names; }
+
+std::optional<Matcher> matcher_by_name(std::string_view name) { return by_name<Matcher>(names, name); }
+
+std::span<const std::string_view> network_values_names() { return values_names; }
+
+std::optional<NetworkValues> network_values_by_name(std::string_view name) {
+  return by_name<NetworkValues>(values_names, name);
+}
+
+std::span<const std::string_view> match_quality_names() { return quality_names; }
+
+std::optional<MatchQuality> match_quality_by_name(std::string_view name) {
+  return by_name<MatchQuality>(quality_names, name);
+}
+
+MatchOptions match_options_for(MatchQuality quality) {
+  MatchOptions options;
+  if (quality == MatchQuality::fast) options.size = 0.5;
+  if (quality == MatchQuality::best) {
+    options.distrust = true;
+    options.wls = true;
+    options.wls_keeps_confirmed = true;
+  }
+  return options;
+}
+
+MatchedPair match(const StereoPair& pair, const MatchOptions& options, const Progress& progress) {
+  check(pair, options);
+  report(progress, "matching", 0);
+  const DisparityRange range = options.range ? *options.range : find_disparity_range(pair);
+  report(progress, "matching", 0.2);
+  const double scale = std::min(options.size, reduction_for(pair, range));
+  MatchedPair matched;
+  if (scale == 1) {
+    matched = match_at_this_size(pair, range, options);
+  } else {
+    const StereoPair small{resized(pair.left, scale), resized(pair.right, scale)};
+    const DisparityRange small_range{static_cast<int>(std::floor(range.least * scale)),
+                                     static_cast<int>(std::ceil(range.largest * scale))};
+    matched = match_at_this_size(small, small_range, options);
+    matched.range = range;
+    matched.geometry =
+        geometry_from_left(enlarged(matched.geometry.left_disparity, pair.left.width(), pair.left.height()));
+  }
+  report(progress, "matching", 1);
+  return matched;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "wheatstone/matching/match.h"
+
+namespace wheatstone {
+
+/// OpenCV's matchers count disparities in sixteenths of a pixel.
+inline constexpr int sixteenths_a_px = 16;
+
+/// Disparity of the first of two 8-bit RGB pictures, in pixels, NaN where nothing was found. One way, unchecked.
+Image<float> match_with_opencv(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,
+                               const MatchOptions& options);
+
+/// SGBM 3WAY as measures use it, with the parameters of OpenCV's example: block 5, left-right check 1, uniqueness 10 %,
+/// speckles 100 pixels within 2.
+Image<float> match_plain_sgbm(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range);
+
+/// The same by dynamic programming, for two luminance pictures: CV_8UC1.
+Image<float> match_scan_lines(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range);
+
+/// The same by the network in `options.model`. Throws Error{bad_input}.
+Image<float> match_with_network(const cv::Mat& own, const cv::Mat& other, const MatchOptions& options);
+
+}  // namespace wheatstone

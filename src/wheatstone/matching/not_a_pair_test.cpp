@@ -1,0 +1,87 @@
+#include "wheatstone/matching/not_a_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "scenes/test_photographs.h"
+#include "wheatstone/matching/eye_order.h"
+
+namespace wheatstone {
+namespace {
+
+struct NamedPair {
+  std::string name;
+  StereoPair pair;
+};
+
+std::vector<NamedPair> all_pairs() {
+  std::vector<NamedPair> pairs;
+  for (const std::uint64_t seed : {1, 2, 3})
+    pairs.push_back({"still " + std::to_string(seed), still_for_test(480, 360, seed)});
+  for (const char* name : {"teddy", "motorcycle", "aloe"})
+    if (auto pair = shared_pair(name)) pairs.push_back({name, std::move(*pair)});
+  return pairs;
+}
+
+StereoPair swapped(const StereoPair& pair) { return {pair.right, pair.left}; }
+
+TEST(NotAPair, IsNotSaidOfPairs) {
+  for (const NamedPair& pair : all_pairs()) {
+    SCOPED_TRACE(pair.name);
+    const PairEvidence evidence = pair_evidence(pair.pair);
+    testing::Test::RecordProperty(pair.name + " inliers", evidence.inliers);
+    EXPECT_GE(evidence.inliers, 200);
+    EXPECT_GE(evidence.block_share, 0.5);
+    EXPECT_FALSE(not_a_pair(pair.pair));
+    EXPECT_FALSE(not_a_pair(swapped(pair.pair)));
+  }
+}
+
+TEST(NotAPair, IsSaidOfTwoScenes) {
+  // Two seeds move the same things about on the same table: neither one scene nor two.
+  std::vector<NamedPair> pairs = all_pairs();
+  pairs.erase(pairs.begin() + 1, pairs.begin() + 3);
+  for (const NamedPair& a : pairs) {
+    for (const NamedPair& b : pairs) {
+      if (a.name == b.name) continue;
+      SCOPED_TRACE(a.name + ", " + b.name);
+      const StereoPair mixed{a.pair.left, b.pair.right};
+      const PairEvidence evidence = pair_evidence(mixed);
+      EXPECT_LE(evidence.inliers, 12);
+      EXPECT_LE(evidence.block_share, 0.03);
+      EXPECT_TRUE(not_a_pair(mixed));
+    }
+  }
+}
+
+TEST(NotAPair, IsNotSaidWhereThereIsTooLittleToGoBy) {
+  EXPECT_FALSE(not_a_pair({Image<Rgb8>(64, 48, {9, 9, 9}), Image<Rgb8>(64, 48, {200, 9, 9})}));
+  EXPECT_FALSE(not_a_pair({Image<Rgb8>(1, 1), Image<Rgb8>(1, 1)}));
+}
+
+TEST(EyeOrder, IsSeenWhereSwappedAndNeverWhereNot) {
+  int noticed = 0, asked = 0;
+  for (const NamedPair& pair : all_pairs()) {
+    SCOPED_TRACE(pair.name);
+    const EyeOrderEvidence right = eye_order_evidence(pair.pair), wrong = eye_order_evidence(swapped(pair.pair));
+    EXPECT_GE(right.for_order, 0.4);
+    EXPECT_LE(wrong.for_order, -0.4);
+    EXPECT_FALSE(eyes_look_swapped(pair.pair));
+    noticed += eyes_look_swapped(swapped(pair.pair)) ? 1 : 0;
+    ++asked;
+  }
+  EXPECT_EQ(noticed, asked);
+}
+
+TEST(EyeOrder, IsLeftOpenWhereNothingTells) {
+  const StereoPair flat{Image<Rgb8>(200, 100, {9, 9, 9}), Image<Rgb8>(200, 100, {9, 9, 9})};
+  EXPECT_FALSE(eyes_look_swapped(flat));
+  EXPECT_EQ(eye_order_evidence(flat).bands, 0);
+  const Image<Rgb8> left = still_for_test().left;
+  EXPECT_FALSE(eyes_look_swapped({left, left}));
+  EXPECT_FALSE(eyes_look_swapped({Image<Rgb8>(1, 1), Image<Rgb8>(1, 1)}));
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,40 @@
+#include "wheatstone/motion/fitting_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "wheatstone/error.h"
+
+namespace wheatstone {
+
+void check_fits(std::span<const SceneView> views) {
+  if (views.empty() || views[0].picture.empty())
+    throw Error(ErrorKind::bad_input, "the scene has no picture, or one with no pixels");
+  const ImageView<const Rgb8> reference = views[0].picture;
+  const auto check = [&](const auto& image, std::string_view name) {
+    if (!same_size(image, reference))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{} is {}x{} pixels, expected the reference view's {}x{}", name, image.width(),
+                              image.height(), reference.width(), reference.height()));
+  };
+  for (const SceneView& view : views) {
+    check(view.picture, "a view's picture");
+    check(view.disparity, "a view's disparity");
+    if (!view.only_here.empty()) check(view.only_here, "a view's mask");
+    for (int y = 0; y < view.disparity.height(); ++y)
+      if (!std::ranges::all_of(view.disparity.row(y), [](float value) { return std::isfinite(value); }))
+        throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
+  }
+}
+
+void check_fits(const FlowPair& flow, std::span<const SceneView> views) {
+  for (const Flow* direction : {&flow.forward, &flow.backward})
+    for (const Image<float>* component : {&direction->x, &direction->y})
+      if (views.empty() || !same_size(*component, views[0].picture))
+        throw Error(ErrorKind::bad_input, "the flow has not the size of the reference view");
+}
+
+}  // namespace wheatstone

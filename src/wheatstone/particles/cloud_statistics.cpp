@@ -1,0 +1,56 @@
+#include "wheatstone/particles/cloud_statistics.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace wheatstone {
+
+void LogHistogram::add(const std::vector<float>& values) {
+  for (const float value : values) {
+    // The exponent and the first four bits of the mantissa number the step; zero, negative, infinite and NaN have none.
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    if (bits == 0 || bits >= 0x7F800000u) continue;
+    ++counts_[bits >> 19];
+    ++total_;
+  }
+}
+
+float LogHistogram::percentile(double share) const {
+  const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(total_));
+  std::uint64_t below = 0;
+  for (std::size_t step = 0; step < counts_.size(); ++step) {
+    below += counts_[step];
+    if (below > wanted || (below == total_ && below > 0))
+      return std::bit_cast<float>(static_cast<std::uint32_t>(step) << 19 | 1u << 18);
+  }
+  return 0;
+}
+
+void CloudStatistics::add(const Cloud& cloud) {
+  const std::array<const std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (cloud.size() == 0) continue;
+    const auto [least, most] = std::ranges::minmax(*axes[axis]);
+    lower[axis] = count == 0 ? least : std::min(lower[axis], least);
+    upper[axis] = count == 0 ? most : std::max(upper[axis], most);
+  }
+  count += cloud.size();
+  density.add(cloud.density);
+  temperature.add(cloud.temperature);
+  has_density = has_density || !cloud.density.empty();
+  has_temperature = has_temperature || !cloud.temperature.empty();
+  has_colour = has_colour || !cloud.colour.empty();
+  has_smoothing_length = has_smoothing_length || !cloud.smoothing_length.empty();
+}
+
+std::array<float, 3> CloudStatistics::centre() const {
+  return {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2};
+}
+
+float CloudStatistics::radius() const {
+  const float radius = std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]) / 2;
+  return radius > 0 ? radius : 1.f;
+}
+
+}  // namespace wheatstone

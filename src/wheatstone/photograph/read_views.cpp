@@ -1,0 +1,243 @@
+#include "wheatstone/photograph/read_views.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+#include "wheatstone/error.h"
+#include "wheatstone/photograph/find_layout.h"
+#include "wheatstone/photograph/jpeg_segments_internal.h"
+#include "wheatstone/photograph/multi_picture_internal.h"
+#include "wheatstone/photograph/stereo_marks_internal.h"
+#include "wheatstone/pictures/heif_pictures.h"
+#include "wheatstone/pictures/heif_pictures_internal.h"
+#include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/read_image.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, std::string_view what) {
+  throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), what));
+}
+
+/// In small letters.
+std::string ending_of(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8"); }
+
+std::string kind_of(std::string_view bytes, const fs::path& path) {
+  if (is_jpeg(bytes)) return "JPEG";
+  if (bytes.starts_with("\x89PNG")) return "PNG";
+  if (is_heif(bytes)) return "HEIC";
+  std::string ending = ending_of(path);
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::toupper(c); });
+  return ending.empty() ? "picture" : ending.substr(1);
+}
+
+void check_one_size(const std::vector<Image<Rgb8>>& views, const fs::path& path) {
+  for (const Image<Rgb8>& view : views)
+    if (!same_size(view, views.front()))
+      refuse(path, fmt::format("its views have {}x{} and {}x{} pixels, expected one size", views.front().width(),
+                               views.front().height(), view.width(), view.height()));
+}
+
+// ---- a picture a view
+
+bool is_view(const MultiPictureEntry& entry) {
+  return entry.type == multi_picture_disparity || entry.type == multi_picture_primary ||
+         entry.type == multi_picture_undefined;
+}
+
+/// The entries that are views, from left to right; none where the index is of something else.
+std::vector<MultiPictureEntry> views_among(std::vector<MultiPictureEntry> entries, std::string_view bytes) {
+  const bool says_disparity = std::any_of(entries.begin(), entries.end(), [](const MultiPictureEntry& entry) {
+    return entry.type == multi_picture_disparity;
+  });
+  std::erase_if(entries, [](const MultiPictureEntry& entry) { return !is_view(entry); });
+  // Many files say "undefined" of everything. A gain map or a preview among them has not the photograph's size.
+  if (!says_disparity && !entries.empty()) {
+    const auto size_of = [&](const MultiPictureEntry& entry) {
+      return jpeg_size(bytes.substr(entry.begin, entry.length));
+    };
+    const auto size = size_of(entries.front());
+    std::erase_if(entries, [&](const MultiPictureEntry& entry) { return size_of(entry) != size; });
+  }
+  // Views are numbered from the left (DC-007, sec. 5.2.4.1), where all are.
+  const bool numbered = std::all_of(entries.begin(), entries.end(),
+                                    [](const MultiPictureEntry& entry) { return entry.number.has_value(); });
+  if (numbered)
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const MultiPictureEntry& a, const MultiPictureEntry& b) { return *a.number < *b.number; });
+  return entries;
+}
+
+/// The views of a JPEG with an index of them; none where it is an ordinary JPEG.
+std::optional<ViewsFile> multi_picture_views(std::string_view bytes, const fs::path& path,
+                                             const ReadViewsOptions& options) {
+  const bool is_mpo = ending_of(path) == ".mpo";
+  // A program that changed a photograph may have left an index that no longer fits: who says what is in it is believed.
+  if (options.layout && !is_mpo) {
+    try {
+      if (views_among(read_multi_picture_index(bytes, path), bytes).size() < 2) return {};
+    } catch (const Error&) {
+      return {};
+    }
+  }
+  const std::vector<MultiPictureEntry> all = read_multi_picture_index(bytes, path);
+  const std::vector<MultiPictureEntry> entries = views_among(all, bytes);
+  if (entries.size() < 2) {
+    if (!is_mpo) return {};
+    if (all.empty()) refuse(path, "has no index of pictures (MPF), expected an MPO of two views or more");
+    refuse(path, fmt::format("holds {} view{}, expected two or more", entries.empty() ? "no" : "one",
+                             entries.empty() ? "s" : ""));
+  }
+  if (options.layout)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: holds {} pictures, one a view: a layout is for one picture that holds both",
+                            path.string(), entries.size()));
+  ViewsFile file;
+  file.kind = "MPO";
+  for (const MultiPictureEntry& entry : entries)
+    file.views.push_back(decode_jpeg(bytes.substr(entry.begin, entry.length), path));
+  check_one_size(file.views, path);
+  return file;
+}
+
+std::optional<ViewsFile> heif_views(const fs::path& path, const ReadViewsOptions& options) {
+  std::vector<Image<Rgb8>> pictures = read_heif_pictures(path);
+  if (pictures.size() < 2) return {};
+  if (pictures.size() > 2 || !same_size(pictures[0], pictures[1]))
+    refuse(path, fmt::format("holds {} pictures, and the installed libheif {} does not tell which are a stereo pair; "
+                             "expected two of one size",
+                             pictures.size(), heif_version()));
+  if (options.layout)
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("{}: holds 2 pictures, one a view: a layout is for one picture that holds both", path.string()));
+  ViewsFile file;
+  file.kind = "HEIC";
+  file.views = std::move(pictures);
+  file.note = fmt::format("libheif {} does not tell which eye a picture is for: the first is taken for the left",
+                          heif_version());
+  return file;
+}
+
+// ---- one picture that holds both
+
+StereoLayout layout_of(const JpsDescriptor& descriptor, const fs::path& path) {
+  using Arrangement = JpsDescriptor::Arrangement;
+  if (!descriptor.stereo) refuse(path, "says of itself that it is for one eye only (JPS descriptor)");
+  const bool side_by_side = descriptor.arrangement == Arrangement::side_by_side;
+  if (!side_by_side && descriptor.arrangement != Arrangement::over_under)
+    refuse(path,
+           fmt::format("says of itself that it is {} (JPS descriptor), expected side by side or one above the other",
+                       descriptor.arrangement == Arrangement::anaglyph ? "an anaglyph" : "interleaved"));
+  StereoLayout layout = side_by_side ? StereoLayout::left_right : StereoLayout::top_bottom;
+  if (!descriptor.left_first) layout = with_eyes_swapped(layout);
+  return with_half_size(layout, side_by_side ? descriptor.half_width : descriptor.half_height);
+}
+
+struct KnownLayout {
+  StereoLayout layout;
+  HowKnown how;
+};
+
+std::optional<KnownLayout> known_layout(std::string_view bytes, const fs::path& path, ImageView<const Rgb8> picture,
+                                        const ReadViewsOptions& options) {
+  if (options.layout) return KnownLayout{*options.layout, HowKnown::given};
+  if (const auto descriptor = read_jps_descriptor(bytes, path))
+    return KnownLayout{layout_of(*descriptor, path), HowKnown::metadata};
+  if (const auto chunk = read_stereo_chunk(bytes))
+    return KnownLayout{chunk->left_first ? StereoLayout::left_right : StereoLayout::right_left, HowKnown::metadata};
+  const std::optional<StereoLayout> by_name = layout_from_name(path, picture.width(), picture.height());
+  if (by_name) return KnownLayout{*by_name, HowKnown::name};
+  const std::string ending = ending_of(path);
+  if (ending == ".jps" || ending == ".pns") return KnownLayout{StereoLayout::right_left, HowKnown::name};
+  if (const auto seen = layout_from_halves(picture)) return KnownLayout{*seen, HowKnown::halves};
+  return {};
+}
+
+/// Takes out the columns between the two pictures of a PNG with the chunk sTER: the right one begins at a column that
+/// is a multiple of eight, so the whole is wider than two by what is missing there.
+Image<Rgb8> without_gap(Image<Rgb8> picture) {
+  constexpr int alignment = 8;
+  const int width = picture.width();
+  // A view of 8 k + r columns, r from 1 to 8, makes a picture of 16 k + 8 + r.
+  const int rest = (width + alignment - 1) % (2 * alignment) + 1;
+  if (rest > alignment) return picture;
+  const int view = (width - alignment - rest) / 2 + rest;
+  Image<Rgb8> joined(2 * view, picture.height());
+  for (int y = 0; y < picture.height(); ++y) {
+    std::copy_n(picture.row(y).begin(), view, joined.row(y).begin());
+    std::copy_n(picture.row(y).end() - view, view, joined.row(y).begin() + view);
+  }
+  return joined;
+}
+
+std::optional<ViewsFile> views_in_one_picture(std::string_view bytes, const fs::path& path,
+                                              const ReadViewsOptions& options) {
+  Image<Rgb8> picture = read_image(path);
+  const std::optional<KnownLayout> known = known_layout(bytes, path, picture, options);
+  if (!known) return {};
+  if (known->how == HowKnown::metadata && read_stereo_chunk(bytes)) picture = without_gap(std::move(picture));
+  StereoPair pair = cut_apart(picture, known->layout, path.string());
+  ViewsFile file;
+  file.views.push_back(std::move(pair.left));
+  file.views.push_back(std::move(pair.right));
+  file.kind = ending_of(path) == ".jps" && is_jpeg(bytes) ? "JPS" : kind_of(bytes, path);
+  file.layout = known->layout;
+  file.how_known = known->how;
+  return file;
+}
+
+}  // namespace
+
+std::string_view how_known_words(HowKnown how) {
+  switch (how) {
+    case HowKnown::given:
+      return "given";
+    case HowKnown::metadata:
+      return "from its metadata";
+    case HowKnown::name:
+      return "from its name";
+    case HowKnown::halves:
+      break;
+  }
+  return "from comparing its halves";
+}
+
+std::string describe_views(const ViewsFile& file) {
+  if (file.layout) return fmt::format("{} ({})", layout_words(*file.layout), how_known_words(file.how_known));
+  return fmt::format("{}, {} pictures ({})", file.kind, file.views.size(), how_known_words(file.how_known));
+}
+
+std::optional<ViewsFile> find_views(const fs::path& path, const ReadViewsOptions& options) {
+  const std::string bytes = read_picture_bytes(path);
+  std::optional<ViewsFile> file;
+  if (is_jpeg(bytes)) file = multi_picture_views(bytes, path, options);
+  if (is_heif(bytes)) file = heif_views(path, options);
+  if (!file) file = views_in_one_picture(bytes, path, options);
+  if (file && options.swap) std::reverse(file->views.begin(), file->views.end());
+  return file;
+}
+
+ViewsFile read_views(const fs::path& path, const ReadViewsOptions& options) {
+  std::optional<ViewsFile> file = find_views(path, options);
+  if (file) return std::move(*file);
+  refuse(
+      path,
+      "is one picture, and neither its left and right nor its upper and lower half look like two views of one scene; "
+      "expected two files, or a stereo photograph whose layout is found or given (--layout)");
+}
+
+}  // namespace wheatstone

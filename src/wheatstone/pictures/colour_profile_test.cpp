@@ -1,0 +1,132 @@
+// Profiles as they come in each kind of file; what a known colour becomes is said by the profile's own primaries.
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <lcms2.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "temporary_folder.h"
+#include "wheatstone/image/srgb.h"
+#include "wheatstone/pictures/colour_profile_internal.h"
+#include "wheatstone/pictures/read_image.h"
+
+namespace wheatstone {
+namespace {
+
+std::string saved(cmsHPROFILE profile) {
+  cmsUInt32Number size = 0;
+  cmsSaveProfileToMem(profile, nullptr, &size);
+  std::string bytes(size, '\0');
+  cmsSaveProfileToMem(profile, bytes.data(), &size);
+  cmsCloseProfile(profile);
+  return bytes;
+}
+
+/// Display P3: D65, wider primaries, sRGB's curve (here the nearest power).
+std::string display_p3() {
+  const cmsCIExyY white{0.3127, 0.3290, 1};
+  const cmsCIExyYTRIPLE primaries{{0.680, 0.320, 1}, {0.265, 0.690, 1}, {0.150, 0.060, 1}};
+  constexpr double srgb_curve[] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
+  cmsToneCurve* curve = cmsBuildParametricToneCurve(nullptr, 4, srgb_curve);
+  cmsToneCurve* curves[] = {curve, curve, curve};
+  const std::string bytes = saved(cmsCreateRGBProfile(&white, &primaries, curves));
+  cmsFreeToneCurve(curve);
+  return bytes;
+}
+
+std::string grey_gamma(double gamma) {
+  const cmsCIExyY white{0.3127, 0.3290, 1};
+  cmsToneCurve* curve = cmsBuildGamma(nullptr, gamma);
+  const std::string bytes = saved(cmsCreateGrayProfile(&white, curve));
+  cmsFreeToneCurve(curve);
+  return bytes;
+}
+
+void put_with_profile(const std::filesystem::path& path, Rgb8 colour, const std::string& profile) {
+  constexpr int side = 16;
+  OIIO::ImageSpec spec(side, side, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())), profile.data());
+  spec.attribute("Compression", path.extension() == ".jpg" ? "jpeg:100" : "zip");
+  const Image<Rgb8> picture(side, side, colour);
+  const auto output = OIIO::ImageOutput::create(path.string());
+  ASSERT_TRUE(output && output->open(path.string(), spec) &&
+              output->write_image(OIIO::TypeDesc::UINT8, picture.pixels().data()) && output->close());
+}
+
+void expect_near(Rgb8 found, Rgb8 expected, int tolerance) {
+  EXPECT_LE(std::abs(found.r - expected.r), tolerance) << int(found.r);
+  EXPECT_LE(std::abs(found.g - expected.g), tolerance) << int(found.g);
+  EXPECT_LE(std::abs(found.b - expected.b), tolerance) << int(found.b);
+}
+
+/// Display P3 to sRGB by the matrix of CSS Color 4, sec. 10.9: an independent way.
+Rgb8 srgb_from_p3(Rgb8 colour) {
+  const float r = linear_from_srgb(colour.r), g = linear_from_srgb(colour.g), b = linear_from_srgb(colour.b);
+  return {srgb_from_linear(1.2249f * r - 0.2247f * g), srgb_from_linear(-0.0420f * r + 1.0419f * g),
+          srgb_from_linear(-0.0197f * r - 0.0786f * g + 1.0979f * b)};
+}
+
+TEST(ColourProfile, IsBroughtToSrgbInEveryKindOfFile) {
+  const TemporaryFolder folder;
+  const Rgb8 colour{200, 120, 90};
+  const Rgb8 expected = srgb_from_p3(colour);
+  ASSERT_GE(std::abs(expected.r - colour.r), 8) << "the colour must be one that the profile moves";
+  for (const char* name : {"a.png", "a.jpg", "a.tif"}) {
+    SCOPED_TRACE(name);
+    put_with_profile(folder / name, colour, display_p3());
+    expect_near(read_image(folder / name)(8, 8), expected, 2);
+  }
+}
+
+TEST(ColourProfile, OfAWebpIsFound) {
+  const TemporaryFolder folder;
+  const Rgb8 colour{200, 120, 90};
+  put_with_profile(folder / "a.webp", colour, display_p3());
+  const Rgb8 plain = read_image(folder / "a.webp")(8, 8);
+  // The encoder leaves the profile out: an extended file of its picture and a profile, as others write it.
+  const std::string bytes = bytes_of(folder / "a.webp");
+  const std::string profile = display_p3();
+  const auto little = [](std::size_t number) {
+    std::string text;
+    for (int i = 0; i < 4; ++i) text += static_cast<char>(number >> (8 * i));
+    return text;
+  };
+  const std::string head = std::string("VP8X") + little(10) + std::string("\x20\0\0\0\x0f\0\0\x0f\0\0", 10);
+  const std::string chunk = "ICCP" + little(profile.size()) + profile + std::string(profile.size() % 2, '\0');
+  const std::string body = "WEBP" + head + chunk + bytes.substr(12);
+  put_bytes(folder / "b.webp", "RIFF" + little(body.size()) + body);
+  expect_near(read_image(folder / "b.webp")(8, 8), srgb_from_p3(plain), 2);
+}
+
+TEST(ColourProfile, OfSrgbLeavesTheBytesAlone) {
+  const TemporaryFolder folder;
+  const Rgb8 colour{201, 121, 91};
+  put_with_profile(folder / "a.png", colour, saved(cmsCreate_sRGBProfile()));
+  EXPECT_EQ(read_image(folder / "a.png")(3, 3), colour);
+}
+
+TEST(ColourProfile, OfGreyIsAppliedToGrey) {
+  Image<Rgb8> picture(2, 1, {100, 100, 100});
+  bring_to_srgb(picture, grey_gamma(1.0), true);
+  const auto expected = srgb_from_linear(100 / 255.0f);
+  expect_near(picture(1, 0), {expected, expected, expected}, 2);
+}
+
+TEST(ColourProfile, ThatIsDamagedOrOfOtherChannelsIsLeftAside) {
+  Image<Rgb8> picture(2, 1, {100, 50, 20});
+  const Image<Rgb8> before = picture;
+  const std::string whole = display_p3();
+  for (std::size_t length = 0; length < whole.size(); length += 7) {
+    bring_to_srgb(picture, std::string_view(whole).substr(0, length), false);
+    ASSERT_EQ(picture, before) << length;
+  }
+  bring_to_srgb(picture, grey_gamma(1.0), false);
+  EXPECT_EQ(picture, before);
+  bring_to_srgb(picture, whole, false);
+  EXPECT_NE(picture, before);
+}
+
+}  // namespace
+}  // namespace wheatstone

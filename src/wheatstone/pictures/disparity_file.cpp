@@ -1,0 +1,138 @@
+#include "wheatstone/pictures/disparity_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "wheatstone/error.h"
+#include "wheatstone/files/temporary_file.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/portable_float_map.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 31;
+constexpr float kitti_scale = 256;
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+/// Disparities beyond this are somebody's way of saying unknown.
+constexpr float largest_disparity_px = 65535;
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string_view complaint) {
+  throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), complaint));
+}
+
+std::string ending(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// The first channel of a picture file, as stored: integers as their values, floats as they are.
+struct StoredChannel {
+  Image<float> values;
+  OIIO::TypeDesc type;
+};
+
+StoredChannel read_first_channel(const std::filesystem::path& path) {
+  const auto input = OIIO::ImageInput::open(path.string());
+  if (!input) {
+    OIIO::geterror();
+    refuse(path, "is not a disparity map, expected PNG, PFM or EXR");
+  }
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.image_bytes() > most_bytes)
+    refuse(path, fmt::format("is {}x{} pixels, which is no size for a disparity map", spec.width, spec.height));
+  if (spec.nchannels >= 3) refuse(path, fmt::format("has {} channels, expected one", spec.nchannels));
+  StoredChannel stored{Image<float>(spec.width, spec.height), spec.format};
+  if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data()))
+    refuse(path, "is damaged or truncated");
+  // OpenImageIO brings integers to 0..1.
+  const float full = spec.format == OIIO::TypeDesc::UINT8    ? 255.f
+                     : spec.format == OIIO::TypeDesc::UINT16 ? 65535.f
+                                                             : 1.f;
+  if (full > 1)
+    for (float& value : stored.values.pixels()) value = std::round(value * full);
+  return stored;
+}
+
+void invalidate(Image<float>& disparity, float scale, bool zero_is_unknown) {
+  for (float& value : disparity.pixels()) {
+    const bool known = std::isfinite(value) && !(zero_is_unknown && value == 0);
+    value = known ? value / scale : unknown;
+    if (std::abs(value) > largest_disparity_px) value = unknown;
+  }
+}
+
+void check_scale(const std::filesystem::path& path, std::optional<float> scale) {
+  if (scale && !(std::isfinite(*scale) && *scale > 0))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: the scale is {}, expected a number above 0", path.string(), *scale));
+}
+
+void write_png(const std::filesystem::path& path, ImageView<const float> disparity) {
+  std::vector<std::uint16_t> values;
+  for (int y = 0; y < disparity.height(); ++y) {
+    for (const float d : disparity.row(y)) {
+      if (std::isfinite(d) && (d < 0 || d * kitti_scale > 65535))
+        refuse(path, fmt::format("a disparity of {} does not fit a 16-bit PNG, expected 0 to 255; write .pfm", d));
+      // A known 0 is written as the smallest step: 0 itself means unknown.
+      values.push_back(std::isfinite(d) ? static_cast<std::uint16_t>(std::max(std::lround(d * kitti_scale), 1L)) : 0);
+    }
+  }
+  TemporaryFile temporary(path);
+  const auto output = OIIO::ImageOutput::create(path.string());
+  const OIIO::ImageSpec spec(disparity.width(), disparity.height(), 1, OIIO::TypeDesc::UINT16);
+  const bool written = output && output->open(temporary.path().string(), spec) &&
+                       output->write_image(OIIO::TypeDesc::UINT16, values.data());
+  if (!output || !output->close() || !written)
+    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot be written", path.string()));
+  temporary.commit();
+}
+
+void write_exr(const std::filesystem::path& path, ImageView<const float> disparity) {
+  TemporaryFile temporary(path);
+  const auto output = OIIO::ImageOutput::create(path.string());
+  OIIO::ImageSpec spec(disparity.width(), disparity.height(), 1, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"disparity"};
+  const bool written =
+      output && output->open(temporary.path().string(), spec) &&
+      output->write_image(OIIO::TypeDesc::FLOAT, disparity.data(), sizeof(float),
+                          static_cast<OIIO::stride_t>(disparity.stride() * static_cast<std::ptrdiff_t>(sizeof(float))));
+  if (!output || !output->close() || !written)
+    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot be written", path.string()));
+  temporary.commit();
+}
+
+}  // namespace
+
+Image<float> read_disparity(const std::filesystem::path& path, std::optional<float> scale) {
+  check_scale(path, scale);
+  const std::string bytes = read_whole_file(path, most_bytes);
+  if (bytes.starts_with("Pf") || bytes.starts_with("PF")) {
+    Image<float> disparity = decode_pfm(bytes, path.string());
+    invalidate(disparity, scale.value_or(1), false);
+    return disparity;
+  }
+  StoredChannel stored = read_first_channel(path);
+  const bool integer = stored.type == OIIO::TypeDesc::UINT8 || stored.type == OIIO::TypeDesc::UINT16;
+  const float usual_scale = stored.type == OIIO::TypeDesc::UINT16 ? kitti_scale : 1.f;
+  invalidate(stored.values, scale.value_or(usual_scale), integer);
+  return std::move(stored.values);
+}
+
+void write_disparity(const std::filesystem::path& path, ImageView<const float> disparity) {
+  const std::string kind = ending(path);
+  if (kind == ".pfm") return write_whole_file(path, encode_pfm(disparity));
+  if (kind == ".png") return write_png(path, disparity);
+  if (kind == ".exr") return write_exr(path, disparity);
+  throw Error(
+      ErrorKind::wrong_usage,
+      fmt::format("{}: there is no disparity format for '{}', expected .pfm, .png or .exr", path.string(), kind));
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,124 @@
+#include "wheatstone/pictures/disparity_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/portable_float_map.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path in_folder(const std::string& name) {
+  const fs::path folder = fs::path(testing::TempDir()) / "wheatstone_disparity_file";
+  fs::create_directories(folder);
+  return folder / name;
+}
+
+Image<float> ramp(float offset) {
+  Image<float> disparity(7, 5);
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 7; ++x) disparity(x, y) = offset + static_cast<float>(x) + 0.25f * static_cast<float>(y);
+  disparity(3, 2) = std::numeric_limits<float>::quiet_NaN();
+  return disparity;
+}
+
+void expect_equal(const Image<float>& a, const Image<float>& b, float tolerance) {
+  ASSERT_TRUE(same_size(a, b));
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    if (std::isnan(b.pixels()[i])) {
+      EXPECT_TRUE(std::isnan(a.pixels()[i]));
+    } else {
+      EXPECT_NEAR(a.pixels()[i], b.pixels()[i], tolerance);
+    }
+  }
+}
+
+TEST(DisparityFile, ComesBackFromPfmAndExrAsItWas) {
+  for (const char* name : {"ramp.pfm", "ramp.exr"}) {
+    write_disparity(in_folder(name), ramp(-3));
+    expect_equal(read_disparity(in_folder(name)), ramp(-3), 0);
+  }
+}
+
+TEST(DisparityFile, ComesBackFromPngWithinItsStep) {
+  write_disparity(in_folder("ramp.png"), ramp(1));
+  expect_equal(read_disparity(in_folder("ramp.png")), ramp(1), 0.5f / 256);
+}
+
+TEST(DisparityFile, RefusesNegativeDisparityInPng) {
+  EXPECT_THROW(write_disparity(in_folder("negative.png"), ramp(-3)), Error);
+  EXPECT_FALSE(fs::exists(in_folder("negative.png")));
+}
+
+TEST(DisparityFile, ScalesEightBitPngAndTakesZeroForUnknown) {
+  const std::uint8_t values[] = {0, 4, 200, 255};
+  const fs::path path = in_folder("eight.png");
+  const auto output = OIIO::ImageOutput::create(path.string());
+  ASSERT_TRUE(output->open(path.string(), OIIO::ImageSpec(4, 1, 1, OIIO::TypeDesc::UINT8)));
+  output->write_image(OIIO::TypeDesc::UINT8, values);
+  output->close();
+  const Image<float> disparity = read_disparity(path, 4.f);
+  EXPECT_TRUE(std::isnan(disparity(0, 0)));
+  EXPECT_FLOAT_EQ(disparity(1, 0), 1);
+  EXPECT_FLOAT_EQ(disparity(3, 0), 63.75f);
+}
+
+TEST(DisparityFile, ReadsBigEndianPfm) {
+  std::string bytes = "Pf\n2 1\n1.0\n";
+  bytes += std::string("\x3F\x80\x00\x00\xC0\x00\x00\x00", 8);  // 1 and −2
+  const Image<float> disparity = decode_pfm(bytes, "big.pfm");
+  EXPECT_FLOAT_EQ(disparity(0, 0), 1);
+  EXPECT_FLOAT_EQ(disparity(1, 0), -2);
+}
+
+TEST(DisparityFile, TakesInfinityForUnknown) {
+  Image<float> disparity(2, 1, 5);
+  disparity(1, 0) = std::numeric_limits<float>::infinity();
+  write_whole_file(in_folder("infinite.pfm"), encode_pfm(disparity));
+  EXPECT_TRUE(std::isnan(read_disparity(in_folder("infinite.pfm"))(1, 0)));
+}
+
+TEST(DisparityFile, NamesTheFileAndTheTroubleInOneLine) {
+  const auto message_of = [](const std::string& bytes) -> std::string {
+    write_whole_file(in_folder("bad.pfm"), bytes);
+    try {
+      read_disparity(in_folder("bad.pfm"));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(message_of("Pf\n2 2\n-1\nabc"), testing::HasSubstr("bad.pfm: is truncated"));
+  EXPECT_THAT(message_of("Pf\n-2 2\n-1\nabc"), testing::HasSubstr("-2x2"));
+  EXPECT_THAT(message_of("Pf\n2 2\n0\nabc"), testing::HasSubstr("scale"));
+  EXPECT_THAT(message_of("Pf\n99999999999 2\n-1\n"), testing::HasSubstr("not a number"));
+  EXPECT_THAT(message_of("hello"), testing::HasSubstr("not a disparity map"));
+}
+
+TEST(PortableFloatMap, SurvivesEveryFlippedByte) {
+  const std::string good = encode_pfm(ramp(2));
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    for (const int flip : {0x01, 0x80, 0xFF}) {
+      std::string bad = good;
+      bad[i] = static_cast<char>(bad[i] ^ flip);
+      try {
+        EXPECT_GT(decode_pfm(bad, "flipped").pixels().size(), 0u);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,100 @@
+#include "wheatstone/pictures/heif_pictures.h"
+
+#include <fmt/format.h>
+#include <libheif/heif.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+
+#include "wheatstone/error.h"
+#include "wheatstone/pictures/colour_profile_internal.h"
+#include "wheatstone/pictures/heif_pictures_internal.h"
+#include "wheatstone/pictures/open_picture_internal.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FreeContext {
+  void operator()(heif_context* context) const { heif_context_free(context); }
+};
+struct ReleaseHandle {
+  void operator()(heif_image_handle* handle) const { heif_image_handle_release(handle); }
+};
+struct ReleaseImage {
+  void operator()(heif_image* image) const { heif_image_release(image); }
+};
+using Context = std::unique_ptr<heif_context, FreeContext>;
+using Handle = std::unique_ptr<heif_image_handle, ReleaseHandle>;
+using Decoded = std::unique_ptr<heif_image, ReleaseImage>;
+
+/// The file's directory; none where it is damaged. The bytes must outlive it.
+Context open_context(std::string_view bytes) {
+  Context context(heif_context_alloc());
+  const heif_error error =
+      heif_context_read_from_memory_without_copy(context.get(), bytes.data(), bytes.size(), nullptr);
+  return error.code == heif_error_Ok ? std::move(context) : nullptr;
+}
+
+std::string profile_of(const Handle& handle) {
+  std::string profile(heif_image_handle_get_raw_color_profile_size(handle.get()), '\0');
+  if (profile.empty()) return profile;
+  const heif_error error = heif_image_handle_get_raw_color_profile(handle.get(), profile.data());
+  return error.code == heif_error_Ok ? profile : std::string();
+}
+
+Image<Rgb8> decoded(const fs::path& path, const Context& context, heif_item_id id) {
+  heif_image_handle* found = nullptr;
+  heif_error error = heif_context_get_image_handle(context.get(), id, &found);
+  const Handle handle(found);
+  if (error.code != heif_error_Ok) refuse_damaged(path, error.message);
+  heif_image* pixels = nullptr;
+  error = heif_decode_image(handle.get(), &pixels, heif_colorspace_RGB, heif_chroma_interleaved_RGB, nullptr);
+  const Decoded image(pixels);
+  if (error.code != heif_error_Ok) refuse_damaged(path, error.message);
+  int stride = 0;
+  const std::uint8_t* plane = heif_image_get_plane_readonly(image.get(), heif_channel_interleaved, &stride);
+  Image<Rgb8> picture(heif_image_get_width(image.get(), heif_channel_interleaved),
+                      heif_image_get_height(image.get(), heif_channel_interleaved));
+  for (int y = 0; y < picture.height(); ++y)
+    std::memcpy(picture.row(y).data(), plane + static_cast<std::ptrdiff_t>(y) * stride, picture.row(y).size_bytes());
+  bring_to_srgb(picture, profile_of(handle), false);
+  return picture;
+}
+
+}  // namespace
+
+// ISO/IEC 14496-12, sec. 4.3: the first box names what the file is.
+bool is_heif(std::string_view bytes) {
+  if (bytes.size() < 12 || bytes.substr(4, 4) != "ftyp") return false;
+  constexpr std::string_view brands[] = {"heic", "heix", "heim", "heis", "hevc",
+                                         "hevx", "mif1", "msf1", "avif", "avis"};
+  return std::find(std::begin(brands), std::end(brands), bytes.substr(8, 4)) != std::end(brands);
+}
+
+std::string heif_profile(std::string_view bytes) {
+  const Context context = open_context(bytes);
+  heif_image_handle* found = nullptr;
+  if (!context || heif_context_get_primary_image_handle(context.get(), &found).code != heif_error_Ok) return {};
+  return profile_of(Handle(found));
+}
+
+std::vector<Image<Rgb8>> read_heif_pictures(const fs::path& path) {
+  const std::string bytes = read_picture_bytes(path);
+  const Context context = open_context(bytes);
+  if (!is_heif(bytes) || !context)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: not a HEIC file, or a damaged one", path.string()));
+  std::vector<heif_item_id> ids(heif_context_get_number_of_top_level_images(context.get()));
+  ids.resize(heif_context_get_list_of_top_level_image_IDs(context.get(), ids.data(), static_cast<int>(ids.size())));
+  std::vector<Image<Rgb8>> pictures;
+  pictures.reserve(ids.size());
+  for (const heif_item_id id : ids) pictures.push_back(decoded(path, context, id));
+  return pictures;
+}
+
+std::string heif_version() { return heif_get_version(); }
+
+}  // namespace wheatstone

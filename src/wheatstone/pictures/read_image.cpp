@@ -1,0 +1,139 @@
+#include "wheatstone/pictures/read_image.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "wheatstone/pictures/colour_profile_internal.h"
+#include "wheatstone/pictures/open_picture_internal.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The channels that are shown, as numbers of the file's channels; alpha is -1 where there is none.
+struct ShownChannels {
+  int r = 0, g = 0, b = 0, alpha = -1;
+};
+
+ShownChannels shown_channels(const OIIO::ImageSpec& spec) {
+  ShownChannels shown;
+  shown.alpha = spec.alpha_channel;
+  if (spec.nchannels < 3) return shown;
+  // EXR may hold its channels in any order.
+  const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  const bool all_named = std::all_of(named.begin(), named.end(), [](int channel) { return channel >= 0; });
+  shown.r = all_named ? named[0] : 0;
+  shown.g = all_named ? named[1] : 1;
+  shown.b = all_named ? named[2] : 2;
+  return shown;
+}
+
+std::uint8_t to_byte(float value) {
+  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f)));
+}
+
+float srgb_from_linear(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+/// What is done to every pixel on its way to 8-bit sRGB over white.
+struct Conversion {
+  ShownChannels shown;
+  bool linear = false;         ///< float values in linear light
+  bool premultiplied = false;  ///< colour is already multiplied by alpha
+};
+
+Conversion conversion_of(const OIIO::ImageSpec& spec) {
+  Conversion conversion;
+  conversion.shown = shown_channels(spec);
+  const bool is_float = spec.format.is_floating_point();
+  const std::string encoding = spec.get_string_attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
+  conversion.linear = is_float && encoding != "sRGB";
+  conversion.premultiplied = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
+  return conversion;
+}
+
+void convert_row(std::span<const float> values, int channels, const Conversion& how, std::span<Rgb8> out) {
+  const auto encoded = [&](float value) { return how.linear ? srgb_from_linear(std::max(value, 0.0f)) : value; };
+  for (std::size_t x = 0; x < out.size(); ++x) {
+    const float* pixel = values.data() + x * channels;
+    const float alpha = how.shown.alpha < 0 ? 1.0f : std::clamp(pixel[how.shown.alpha], 0.0f, 1.0f);
+    const auto over_white = [&](int channel) {
+      const float colour = how.premultiplied ? pixel[channel] : pixel[channel] * alpha;
+      // Light adds up linearly: a linear picture meets its white before it is encoded.
+      return to_byte(encoded(colour + 1 - alpha));
+    };
+    out[x] = {over_white(how.shown.r), over_white(how.shown.g), over_white(how.shown.b)};
+  }
+}
+
+Image<Rgb8> read_converted(const fs::path& path, OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
+  Image<Rgb8> picture(spec.width, spec.height);
+  const std::size_t row_values = static_cast<std::size_t>(spec.width) * spec.nchannels;
+  const bool plain = spec.nchannels == 3 && spec.format == OIIO::TypeDesc::UINT8 && spec.alpha_channel < 0;
+  if (plain) {
+    if (!input.read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, picture.pixels().data())) {
+      refuse_damaged(path, input.geterror());
+    }
+    return picture;
+  }
+  const auto values = std::make_unique_for_overwrite<float[]>(row_values * spec.height);
+  if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.get())) {
+    refuse_damaged(path, input.geterror());
+  }
+  const Conversion how = conversion_of(spec);
+  for (int y = 0; y < spec.height; ++y) {
+    convert_row({values.get() + y * row_values, row_values}, spec.nchannels, how, picture.row(y));
+  }
+  return picture;
+}
+
+// EXIF 2.3, tag Orientation: 1 to 4 turn and mirror, 5 to 8 also swap rows and columns. Our own, because
+// ImageBufAlgo::reorient confuses 5 and 7 (OpenImageIO 2.4.7).
+Image<Rgb8> upright(Image<Rgb8> stored, int orientation) {
+  if (orientation <= 1 || orientation > 8) return stored;
+  const bool swapped = orientation >= 5;
+  const bool from_right = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
+  const bool from_below = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+  Image<Rgb8> shown(swapped ? stored.height() : stored.width(), swapped ? stored.width() : stored.height());
+  for (int y = 0; y < shown.height(); ++y) {
+    const std::span<Rgb8> row = shown.row(y);
+    for (int x = 0; x < shown.width(); ++x) {
+      const int column = swapped ? y : x;
+      const int line = swapped ? x : y;
+      row[x] =
+          stored(from_right ? stored.width() - 1 - column : column, from_below ? stored.height() - 1 - line : line);
+    }
+  }
+  return shown;
+}
+
+Image<Rgb8> read_opened(const fs::path& path, const OpenPicture& open) {
+  const OIIO::ImageSpec spec = open.decoder->spec();
+  Image<Rgb8> picture = read_converted(path, *open.decoder, spec);
+  // JPEG's decoder complains of stray bytes between the markers: they come from cameras and are harmless.
+  const std::string complaint = open.decoder->geterror();
+  if (!complaint.empty() && open.decoder->format_name() != std::string_view("jpeg")) refuse_damaged(path, complaint);
+  if (!conversion_of(spec).linear) bring_to_srgb(picture, open.colour_profile, spec.nchannels < 3);
+  return upright(std::move(picture), spec.get_int_attribute("Orientation", 1));
+}
+
+}  // namespace
+
+Image<Rgb8> read_image(const fs::path& path) { return read_opened(path, open_picture(path)); }
+
+Image<Rgb8> decode_jpeg(std::string_view bytes, const fs::path& path) {
+  return read_opened(path, open_jpeg(bytes, path));
+}
+
+}  // namespace wheatstone

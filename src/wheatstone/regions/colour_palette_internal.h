@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "wheatstone/image/image.h"
+#include "wheatstone/regions/posterise.h"
+
+namespace wheatstone {
+
+/// The colours that stand best for a picture's: k-means in RGB, begun as k-means++ (Arthur & Vassilvitskii 2007). At
+/// most `count`; fewer where the picture has fewer. The same for the same seed.
+std::vector<PaletteColour> find_palette(ImageView<const Rgb8> picture, int count, std::uint64_t seed);
+
+/// Moves a palette towards the colours of the film's next picture: a few rounds of k-means from where it is, of which
+/// each colour takes a share, so that colours never jump.
+void follow_palette(ImageView<const Rgb8> picture, std::vector<PaletteColour>& palette);
+
+std::vector<Rgb8> rounded(const std::vector<PaletteColour>& palette);
+
+/// The index of the palette's colour that is nearest in RGB; the palette is not empty.
+std::size_t nearest_colour(const std::vector<Rgb8>& palette, Rgb8 colour);
+
+}  // namespace wheatstone

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <tuple>
+
+#include "wheatstone/image/grain.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/motion/fitting_scene.h"
+#include "wheatstone/random.h"
+#include "wheatstone/regions/plan_regions_internal.h"
+#include "wheatstone/stereo/fitting_pair.h"
+#include "wheatstone/stereo/occlusion.h"
+
+namespace wheatstone {
+namespace {
+
+void sort_far_to_near(RegionPainting& painting) {
+  const auto key = [](const RegionMark& mark) {
+    return std::tuple(mark.views == ViewRange{}, std::lround(mark.disparity));
+  };
+  std::ranges::stable_sort(painting.marks, {}, key);
+}
+
+}  // namespace
+
+RegionPainting plan_regions(std::span<const SceneView> views, const Style& style, const CutView& cut) {
+  check_style(style);
+  check_fits(views);
+  const int width = views[0].picture.width();
+  const float scale = style_scale(style, width);
+  const bool independent = style.propagation == Propagation::independent;
+  RegionPainting painting{width, views[0].picture.height(), {}, {}, {}};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const SceneView& view = views[i];
+    const Image<float> disparity = without_outliers(view.disparity);
+    ViewToCut to_cut{.photograph = view.picture,
+                     .disparity = disparity,
+                     .mask = {},
+                     .number = i,
+                     .view = view.position,
+                     .views = {},
+                     .seed = style.seed,
+                     .scale = scale,
+                     .depth_threshold_px = style.depth_threshold_px * scale};
+    if (i > 0 || independent) to_cut.views = {view.position, view.position};
+    if (i > 0 && independent) to_cut.seed = hash({style.seed, i});
+    Image<std::uint8_t> only_here;
+    if (i > 0 && !independent && !view.only_here.empty()) {
+      // Grown, so that the marks reach under those of the reference view.
+      constexpr float overlap_px = 3;
+      only_here = dilate_occlusion(view.only_here, static_cast<int>(std::ceil(overlap_px * scale)));
+      to_cut.mask = only_here;
+    }
+    cut(to_cut, style, painting);
+  }
+  std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.ring_count == 0; });
+  sort_far_to_near(painting);
+  return painting;
+}
+
+RegionPainting plan_regions(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+                            const CutView& cut) {
+  check_style(style);
+  check_fits(photographs, geometry);
+  return plan_regions(scene_from_left(photographs, geometry), style, cut);
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,178 @@
+// Posterised pictures and mosaics of a small scene: both eyes must show the same regions.
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/two_surfaces.h"
+#include "throws_error.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/error.h"
+#include "wheatstone/measures/consistency.h"
+#include "wheatstone/painting/paint.h"
+
+namespace wheatstone {
+namespace {
+
+Style small_style(std::string_view name, Propagation propagation = Propagation::strokes) {
+  Style style = style_by_name(name);
+  style.absolute_radii = true;
+  style.propagation = propagation;
+  return style;
+}
+
+PaintedPair paint_scene(const Style& style) {
+  return paint(test_scene::as_photographed(), test_scene::geometry(), style);
+}
+
+double difference_of(const PaintedPair& painted) {
+  return measure_left_right_difference(painted.pictures, test_scene::geometry().left_disparity).mean_absolute;
+}
+
+class PolygonStyle : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(PolygonStyle, FusesWhereIndependentEyesDoNot) {
+  const double both = difference_of(paint_scene(small_style(GetParam())));
+  const double independent = difference_of(paint_scene(small_style(GetParam(), Propagation::independent)));
+  RecordProperty("both", std::to_string(both));
+  RecordProperty("independent", std::to_string(independent));
+  EXPECT_LT(both, 0.35 * independent);
+}
+
+TEST_P(PolygonStyle, CoversBothEyes) {
+  const PaintedPair painted = paint_scene(small_style(GetParam()));
+  EXPECT_LT(painted.left_bare_share, 0.005);
+  EXPECT_LT(painted.right_bare_share, 0.005);
+}
+
+TEST_P(PolygonStyle, LeavesTheRightEyeBareWithoutWhatOnlyItSees) {
+  RegionPainting regions = paint_scene(small_style(GetParam())).regions;
+  std::erase_if(regions.marks, [](const RegionMark& mark) { return mark.reference_view == right_eye; });
+  EXPECT_GT(draw(regions, right_eye).bare_share, 0.02);
+  EXPECT_LT(draw(regions, left_eye).bare_share, 0.005);
+}
+
+TEST_P(PolygonStyle, GivesTheSameBytesOnAnyNumberOfThreads) {
+  PaintedPair first;
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    PaintedPair painted = paint_scene(small_style(GetParam()));
+    if (first.regions.marks.empty()) first = painted;
+    EXPECT_EQ(painted.regions, first.regions);
+    EXPECT_EQ(painted.pictures.left, first.pictures.left);
+    EXPECT_EQ(painted.pictures.right, first.pictures.right);
+  }
+}
+
+/// How many marks have points of both surfaces.
+std::size_t spanning_marks(const RegionPainting& regions) {
+  return static_cast<std::size_t>(std::ranges::count_if(regions.marks, [&](const RegionMark& mark) {
+    float least = 1e9f, most = -1e9f;
+    for (const Ring& ring : regions.rings_of(mark)) {
+      for (const ControlPoint& point : regions.points_of(ring)) {
+        least = std::min(least, point.disparity);
+        most = std::max(most, point.disparity);
+      }
+    }
+    return most - least > 1;
+  }));
+}
+
+TEST_P(PolygonStyle, NoPolygonSpansTwoSurfacesUnlessDepthIsIgnored) {
+  Style style = small_style(GetParam());
+  const RegionPainting regions = paint_scene(style).regions;
+  EXPECT_EQ(spanning_marks(regions), 0u);
+  for (const Ring& ring : regions.rings) EXPECT_GE(ring.point_count, 3u);
+  style.depth_threshold_px = 100;
+  EXPECT_GT(spanning_marks(paint_scene(style).regions), 0u);
+}
+
+TEST_P(PolygonStyle, StaysWhatItIsOnPicturesOfAnySize) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {1, 7}, {9, 5}}) {
+    const StereoPair tiny{Image<Rgb8>(width, height, {9, 99, 199}), Image<Rgb8>(width, height, {9, 99, 199})};
+    const PaintedPair painted =
+        paint(tiny, geometry_from_left(Image<float>(width, height, 0)), small_style(GetParam()));
+    EXPECT_EQ(painted.left_bare_share, 0) << width << "x" << height;
+    EXPECT_EQ(painted.pictures.left, painted.pictures.right) << width << "x" << height;
+  }
+}
+
+TEST_P(PolygonStyle, RefusesWhatDoesNotFit) {
+  StereoGeometry geometry = test_scene::geometry();
+  geometry.left_disparity = Image<float>(3, 3);
+  expect_error(ErrorKind::bad_input, "3x3",
+               [&] { paint(test_scene::photographs(), geometry, small_style(GetParam())); });
+  expect_error(ErrorKind::wrong_usage, "raster", [&] { paint_scene(small_style(GetParam(), Propagation::raster)); });
+  expect_error(ErrorKind::wrong_usage, "not brush strokes",
+               [&] { plan_painting(test_scene::photographs(), test_scene::geometry(), small_style(GetParam())); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PolygonStyle, testing::Values("posterise", "mosaic"));
+
+TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
+  Style style = small_style("posterise");
+  style.colours = 3;
+  std::vector<std::uint32_t> colours;
+  for (const RegionMark& mark : paint_scene(style).regions.marks)
+    colours.push_back(mark.colour.r * 65536u + mark.colour.g * 256u + mark.colour.b);
+  std::ranges::sort(colours);
+  colours.erase(std::unique(colours.begin(), colours.end()), colours.end());
+  EXPECT_EQ(colours.size(), 3u);
+}
+
+/// How far the joints inside a diagonal stripe run along it or across: 1 all, 0 they stand anyhow, −1 none.
+double diagonal_order(const RegionPainting& regions) {
+  double order = 0, all = 0;
+  for (const Ring& ring : regions.rings) {
+    const auto points = regions.points_of(ring);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const ControlPoint &a = points[i], &b = points[(i + 1) % points.size()];
+      constexpr float inside = 20;
+      if (std::abs(a.x - a.y) > inside || std::abs(b.x - b.y) > inside) continue;
+      const double dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y);
+      order -= std::hypot(dx, dy) * std::cos(4 * std::atan2(dy, dx));
+      all += std::hypot(dx, dy);
+    }
+  }
+  return order / all;
+}
+
+TEST(Mosaic, TurnsItsTilesAlongTheEdgesOfThePicture) {
+  constexpr int size = 120;
+  Image<Rgb8> stripe(size, size), flat(size, size, {220, 200, 60});
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) stripe(x, y) = std::abs(x - y) < 30 ? Rgb8{220, 200, 60} : Rgb8{40, 60, 160};
+  Style style = small_style("mosaic");
+  style.tile_px = 12;
+  const StereoGeometry geometry = geometry_from_left(Image<float>(size, size, 0));
+  EXPECT_GT(diagonal_order(paint({stripe, stripe}, geometry, style).regions), 0.1);
+  EXPECT_LT(diagonal_order(paint({flat, flat}, geometry, style).regions), -0.1);
+}
+
+TEST(DrawPolygons, LeavesHolesAndHidesByDepth) {
+  // A far square with a hole, and a nearer one that moves over it.
+  RegionPainting painting{20, 20, {}, {}, {}};
+  const auto add_square = [&](float low, float high, float disparity) {
+    painting.rings.push_back({static_cast<std::uint32_t>(painting.points.size()), 4});
+    for (const auto& [x, y] : {std::pair{low, low}, {high, low}, {high, high}, {low, high}})
+      painting.points.push_back({x, y, disparity});
+  };
+  add_square(2, 18, 0);
+  add_square(8, 12, 0);
+  add_square(14, 16, 4);
+  painting.marks = {{.first_ring = 0, .ring_count = 2, .colour = {200, 0, 0}},
+                    {.first_ring = 2, .ring_count = 1, .colour = {0, 200, 0}, .disparity = 4}};
+  const DrawnView left = draw(painting, left_eye), right = draw(painting, right_eye);
+  EXPECT_EQ(left.picture(15, 15), (Rgb8{0, 200, 0}));
+  EXPECT_EQ(right.picture(11, 15), (Rgb8{0, 200, 0}));
+  EXPECT_EQ(right.picture(15, 15), (Rgb8{200, 0, 0}));
+  EXPECT_EQ(left.bare(10, 10), 255);
+  EXPECT_EQ(left.bare(5, 5), 0);
+  std::ranges::reverse(painting.marks);  // what is nearer hides what is farther, whatever the order
+  EXPECT_EQ(draw(painting, right_eye).picture(11, 15), (Rgb8{0, 200, 0}));
+}
+
+}  // namespace
+}  // namespace wheatstone

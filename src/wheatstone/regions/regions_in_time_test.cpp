@@ -1,0 +1,256 @@
+// Posterised films and mosaics of films: they must not flicker, and both eyes must still show the same regions.
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
+#include "throws_error.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/error.h"
+#include "wheatstone/measures/consistency.h"
+#include "wheatstone/measures/film_measures.h"
+#include "wheatstone/regions/mosaic.h"
+#include "wheatstone/regions/posterise.h"
+#include "wheatstone/synthetic/synthetic_film.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int width = 192, height = 108;
+
+/// A film, its central views, and the flow between these as it is estimated.
+struct TestFilm {
+  std::vector<SyntheticFilmFrame> frames;
+  std::vector<CentralView> centres;
+  std::vector<FlowPair> flows;  ///< of each frame but the first
+
+  std::vector<SceneView> scene(std::size_t i) const {
+    return scene_from_centre(centres[i], frames[i].pictures, frames[i].geometry);
+  }
+  const FlowPair* flow_to(std::size_t i) const { return i == 0 ? nullptr : &flows[i - 1]; }
+};
+
+TestFilm make_film(FilmMotion motion) {
+  SyntheticFilmOptions options;
+  options.still.width = width;
+  options.still.height = height;
+  options.still.samples_a_side = 2;
+  options.cut = 0;
+  options.motion = motion;
+  options.noise = 5;
+  TestFilm film;
+  constexpr int frames = 4;
+  for (int i = 0; i < frames; ++i) {
+    film.frames.push_back(make_synthetic_film_frame(options, i));
+    film.centres.push_back(make_central_view(film.frames.back().pictures, film.frames.back().geometry));
+  }
+  for (std::size_t i = 1; i < film.centres.size(); ++i)
+    film.flows.push_back(estimate_flow(film.centres[i - 1].picture, film.centres[i].picture));
+  return film;
+}
+
+const TestFilm& walk() {
+  static const TestFilm film = make_film(FilmMotion::walk);
+  return film;
+}
+
+const TestFilm& pan() {
+  static const TestFilm film = make_film(FilmMotion::pan);
+  return film;
+}
+
+Style style_of(std::string_view name) {
+  Style style = style_by_name(name);
+  style.tile_px = 24;  // so that tiles are not lost among the few pixels
+  return style;
+}
+
+/// Either kind of painting with its memory.
+class Painter {
+ public:
+  explicit Painter(std::string_view name, TilePlaces places = TilePlaces::follow)
+      : style_(style_of(name)), places_(places) {}
+
+  RegionPainting plan(const FilmFrame& frame) {
+    return style_.marks == Marks::regions ? plan_posterised(frame, style_, areas_)
+                                          : plan_mosaic(frame, style_, tiles_, places_);
+  }
+  RegionPainting plan_still(const StereoPair& pair, const StereoGeometry& geometry) const {
+    return style_.marks == Marks::regions ? plan_posterised(pair, geometry, style_)
+                                          : plan_mosaic(pair, geometry, style_);
+  }
+  RegionPainting plan_frame(const TestFilm& film, std::size_t i, bool afresh = false) {
+    const std::vector<SceneView> views = film.scene(i);
+    return plan({views, afresh ? nullptr : film.flow_to(i)});
+  }
+
+ private:
+  Style style_;
+  TilePlaces places_;
+  PosterisedMemory areas_;
+  MosaicMemory tiles_;
+};
+
+/// E_warp of the left eye's film.
+double flicker(const TestFilm& film, Painter painter, bool afresh = false) {
+  TemporalError error;
+  Image<Rgb8> before;
+  for (std::size_t i = 0; i < film.frames.size(); ++i) {
+    Image<Rgb8> now = draw(painter.plan_frame(film, i, afresh), left_eye).picture;
+    if (i > 0) error.add(before, now, relate_frames(FlowPair{film.frames[i - 1].to_next, film.frames[i].to_previous}));
+    before = std::move(now);
+  }
+  return error.mean();
+}
+
+/// How much less than frame by frame.
+double flicker_left(const TestFilm& film, std::string_view name) {
+  const double left = flicker(film, Painter(name)) / flicker(film, Painter(name), true);
+  testing::Test::RecordProperty(&film == &walk() ? "walk" : "pan", std::to_string(left));
+  return left;
+}
+
+TEST(Posterise, LeavesLessThanTwoThirdsOfTheFlickerOfFrameByFrame) {
+  EXPECT_LT(flicker_left(walk(), "posterise"), 0.67);
+  EXPECT_LT(flicker_left(pan(), "posterise"), 0.5);
+}
+
+TEST(Mosaic, LeavesLessThanTwoThirdsOfTheFlickerOfFrameByFrame) {
+  EXPECT_LT(flicker_left(walk(), "mosaic"), 0.67);
+  EXPECT_LT(flicker_left(pan(), "mosaic"), 0.6);
+}
+
+TEST(Mosaic, FlickersWithTilesThatKeepTheirPlacesWhereThePictureMoves) {
+  EXPECT_LT(flicker(pan(), Painter("mosaic", TilePlaces::keep)), 0.6 * flicker(pan(), Painter("mosaic"), true));
+  EXPECT_GT(flicker(walk(), Painter("mosaic", TilePlaces::keep)), 1.3 * flicker(walk(), Painter("mosaic")));
+}
+
+class PolygonsInTime : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(PolygonsInTime, BeginASceneAsIfNothingHadBeenBefore) {
+  Painter used(GetParam()), unused(GetParam());
+  used.plan_frame(walk(), 0);
+  used.plan_frame(walk(), 1);
+  EXPECT_EQ(used.plan_frame(pan(), 0), unused.plan_frame(pan(), 0));
+  EXPECT_EQ(used.plan_frame(pan(), 1), unused.plan_frame(pan(), 1));
+}
+
+TEST_P(PolygonsInTime, BeginWithTheStill) {
+  const SyntheticFilmFrame& frame = walk().frames[0];
+  const std::vector<SceneView> views = scene_from_left(frame.pictures, frame.geometry);
+  const RegionPainting film = Painter(GetParam()).plan({views, nullptr});
+  const RegionPainting still = Painter(GetParam()).plan_still(frame.pictures, frame.geometry);
+  EXPECT_EQ(draw(film, left_eye).picture, draw(still, left_eye).picture);
+}
+
+TEST_P(PolygonsInTime, GiveTheSameBytesOnAnyNumberOfThreads) {
+  std::optional<RegionPainting> first;
+  for (const std::size_t threads : {1u, 2u}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    Painter painter(GetParam());
+    painter.plan_frame(walk(), 0);
+    painter.plan_frame(walk(), 1);
+    const RegionPainting painting = painter.plan_frame(walk(), 2);
+    if (!first) first = painting;
+    EXPECT_EQ(painting, *first);
+  }
+}
+
+TEST_P(PolygonsInTime, FuseAsWellAsTheStill) {
+  Painter painter(GetParam());
+  RegionPainting painting;
+  for (std::size_t i = 0; i < walk().frames.size(); ++i) painting = painter.plan_frame(walk(), i);
+  const RegionPainting afresh = painter.plan_frame(walk(), walk().frames.size() - 1, true);
+  const SyntheticFilmFrame& frame = walk().frames.back();
+  const auto difference = [&](const RegionPainting& regions) {
+    return measure_left_right_difference({draw(regions, left_eye).picture, draw(regions, right_eye).picture},
+                                         frame.geometry.left_disparity)
+        .mean_absolute;
+  };
+  EXPECT_LT(difference(painting), 1.05 * difference(afresh));
+  // The left eye's own view is drawn without being moved.
+  EXPECT_LT(difference(painting), 1.25 * difference(painter.plan_still(frame.pictures, frame.geometry)));
+  EXPECT_LT(draw(painting, left_eye).bare_share, 0.005);
+  EXPECT_LT(draw(painting, right_eye).bare_share, 0.005);
+}
+
+TEST_P(PolygonsInTime, LeaveTheEyesBareWithoutWhatOnlyOneSees) {
+  Painter painter(GetParam());
+  painter.plan_frame(walk(), 0);
+  RegionPainting painting = painter.plan_frame(walk(), 1);
+  std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.reference_view != 0; });
+  EXPECT_GT(draw(painting, left_eye).bare_share, 0.01);
+  EXPECT_GT(draw(painting, right_eye).bare_share, 0.01);
+}
+
+TEST_P(PolygonsInTime, PaintAFilmOfOneView) {
+  const Image<float> flat(width, height);
+  Painter painter(GetParam());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const SceneView view{walk().centres[i].picture, flat, {}, 0};
+    const RegionPainting painting = painter.plan({{&view, 1}, walk().flow_to(i)});
+    EXPECT_EQ(draw(painting, left_eye).picture, draw(painting, right_eye).picture);
+    EXPECT_LT(draw(painting, 0).bare_share, 0.005);
+  }
+}
+
+TEST_P(PolygonsInTime, RefuseWhatDoesNotFit) {
+  Painter painter(GetParam());
+  expect_error(ErrorKind::bad_input, "no picture", [&] { painter.plan({}); });
+  std::vector<SceneView> views = walk().scene(1);
+  const FlowPair small{{Image<float>(3, 3), Image<float>(3, 3)}, {Image<float>(3, 3), Image<float>(3, 3)}};
+  expect_error(ErrorKind::bad_input, "flow", [&] { painter.plan({views, &small}); });
+  const Image<float> unknown(width, height, std::numeric_limits<float>::quiet_NaN()), other(7, 5);
+  views[1].disparity = unknown;
+  expect_error(ErrorKind::bad_input, "unknown", [&] { painter.plan({views, nullptr}); });
+  views[1].disparity = other;
+  expect_error(ErrorKind::bad_input, "7x5", [&] { painter.plan({views, nullptr}); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PolygonsInTime, testing::Values("posterise", "mosaic"));
+
+TEST(Posterise, KeepsItsPaletteThroughAScene) {
+  const Style style = style_of("posterise");
+  PosterisedMemory memory;
+  std::vector<PaletteColour> before;
+  for (std::size_t i = 0; i < walk().frames.size(); ++i) {
+    const std::vector<SceneView> views = walk().scene(i);
+    plan_posterised({views, walk().flow_to(i)}, style, memory);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      EXPECT_LT(std::abs(memory.palette[k].red - before[k].red), 4);
+      EXPECT_LT(std::abs(memory.palette[k].green - before[k].green), 4);
+      EXPECT_LT(std::abs(memory.palette[k].blue - before[k].blue), 4);
+    }
+    before = memory.palette;
+  }
+  EXPECT_EQ(before.size(), 14u);
+}
+
+TEST(Mosaic, LeavesTilesOfAStillPictureWhereTheyAre) {
+  const Image<float> flat(width, height);
+  const SceneView view{walk().centres[0].picture, flat, {}, 0};
+  const FlowPair no_motion{{flat, flat}, {flat, flat}};
+  const Style style = style_of("mosaic");
+  MosaicMemory memory;
+  plan_mosaic({{&view, 1}, nullptr}, style, memory);
+  const std::vector<MosaicTile> first = memory.tiles;
+  for (int i = 0; i < 3; ++i) plan_mosaic({{&view, 1}, &no_motion}, style, memory);
+  const auto count = static_cast<double>(first.size());
+  ASSERT_NEAR(static_cast<double>(memory.tiles.size()), count, 0.03 * count);
+  std::size_t moved = 0;
+  for (const MosaicTile& tile : memory.tiles)
+    moved += std::ranges::none_of(
+        first, [&](const MosaicTile& other) { return std::hypot(other.x - tile.x, other.y - tile.y) < 1; });
+  EXPECT_LT(static_cast<double>(moved), 0.05 * count);
+}
+
+static_assert(std::is_trivially_copyable_v<PaletteColour> && std::is_trivially_copyable_v<MosaicTile>);
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,228 @@
+#include "wheatstone/strokes/carry_strokes_internal.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/visible_runs_internal.h"
+
+namespace wheatstone {
+namespace {
+
+float median(float a, float b, float c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
+
+/// The middle of up to three steps, each way by itself.
+PointStep middle_of(std::span<const PointStep> steps) {
+  if (steps.size() == 1) return steps[0];
+  if (steps.size() == 2) return {(steps[0].x + steps[1].x) / 2, (steps[0].y + steps[1].y) / 2, true};
+  return {median(steps[0].x, steps[1].x, steps[2].x), median(steps[0].y, steps[1].y, steps[2].y), true};
+}
+
+/// Median over three neighbours on the stroke (Bukenberger et al. 2015, sec. 3.1), of those that are confirmed if any
+/// is.
+PointStep smoothed(std::span<const PointStep> steps, std::size_t i) {
+  const std::size_t first = i == 0 ? 0 : i - 1, last = std::min(i + 1, steps.size() - 1);
+  std::array<PointStep, 3> confirmed;
+  std::size_t count = 0;
+  for (std::size_t k = first; k <= last; ++k)
+    if (steps[k].confirmed) confirmed[count++] = steps[k];
+  if (count > 0) return middle_of(std::span(confirmed).first(count));
+  return middle_of(steps.subspan(first, last - first + 1));
+}
+
+bool is_inside(const ControlPoint& point, const ImageView<const float>& picture) {
+  return point.x >= 0 && point.y >= 0 && point.x < static_cast<float>(picture.width()) &&
+         point.y < static_cast<float>(picture.height());
+}
+
+/// Where a point came to lie.
+enum class Landing { on_surface, before_it, behind_it };
+
+/// Gives a moved point the disparity of its surface, if that is there or a pixel beside it: edges are known to a pixel
+/// at best.
+Landing land(const SceneView& now, float depth_threshold_px, ControlPoint& point) {
+  const float there = surface_disparity(now.disparity, point.x, point.y, depth_threshold_px);
+  if (std::abs(there - point.disparity) <= depth_threshold_px) {
+    point.disparity = there;
+    return Landing::on_surface;
+  }
+  const int column = static_cast<int>(point.x), row = static_cast<int>(point.y);
+  float nearest = there;
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, now.disparity.height() - 1); ++y)
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, now.disparity.width() - 1); ++x)
+      if (std::abs(now.disparity(x, y) - point.disparity) < std::abs(nearest - point.disparity))
+        nearest = now.disparity(x, y);
+  if (std::abs(nearest - point.disparity) > depth_threshold_px)
+    return there > point.disparity ? Landing::behind_it : Landing::before_it;
+  point.disparity = nearest;
+  return Landing::on_surface;
+}
+
+/// Moves one stroke. False where its points came to lie on other surfaces.
+bool move_stroke(const SceneMotion& motion, const SceneView& now, float depth_threshold_px, const Stroke& stroke,
+                 std::span<ControlPoint> points) {
+  std::vector<PointStep> steps(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) steps[i] = motion.of(points[i], stroke.reference_view);
+  std::size_t slipped = 0, buried = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ControlPoint& point = points[i];
+    const PointStep step = smoothed(steps, i);
+    point.x += step.x;
+    point.y += step.y;
+    if (!is_inside(point, now.disparity)) continue;
+    const Landing landing = land(now, depth_threshold_px, point);
+    buried += landing == Landing::behind_it ? 1 : 0;
+    slipped += landing == Landing::before_it ? 1 : 0;
+  }
+  return 8 * slipped <= points.size() && 2 * buried <= points.size();
+}
+
+}  // namespace
+
+float length_px(std::span<const ControlPoint> points) {
+  float length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    length += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+  return length;
+}
+
+void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_threshold_px, const CarryOptions& options,
+                 TrackedLayer& tracked) {
+  Layer& layer = tracked.layer;
+  tbb::parallel_for(std::size_t{0}, tracked.tracks.size(), [&](std::size_t i) {
+    Stroke& stroke = layer.strokes[i];
+    const std::span points = std::span(layer.points).subspan(stroke.first_point, stroke.point_count);
+    StrokeTrack& life = tracked.tracks[i];
+    const bool fits = move_stroke(motion, now, depth_threshold_px, stroke, points);
+    // The order of strokes goes by their disparities: noise must not make them change places.
+    constexpr float share_of_new = 0.3f;
+    stroke.disparity += share_of_new * (points.front().disparity - stroke.disparity);
+    constexpr float rounding_px = 1;
+    const float most_change_px = std::max(options.length_tolerance * life.first_length_px, rounding_px);
+    if (!fits || std::abs(length_px(points) - life.first_length_px) > most_change_px) life.ends = 1;
+  });
+}
+
+float first_shown(bool scene_begins, const CarryOptions& options) {
+  return scene_begins ? 1 : 1.f / static_cast<float>(std::max(options.fade_in_frames, 1));
+}
+
+void fade(const CarryOptions& options, TrackedLayer& tracked) {
+  for (StrokeTrack& life : tracked.tracks) {
+    const bool ends = life.ends != 0;
+    const float step = 1.f / static_cast<float>(std::max(ends ? options.fade_out_frames : options.fade_in_frames, 1));
+    life.shown = ends ? life.shown - step : std::min(life.shown + step, 1.f);
+  }
+  constexpr float nothing = 1e-4f;
+  keep_if(tracked, [&](std::size_t i) { return tracked.tracks[i].shown > nothing; });
+}
+
+ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const FitGround& ground) {
+  float own = 0, below = 0;
+  int count = 0, covered = 0;
+  for (const ControlPoint& point : points) {
+    const float x = point.x / ground.reduction, y = point.y / ground.reduction;
+    if (!(x >= 0 && y >= 0 && x < static_cast<float>(ground.disparity.width()) &&
+          y < static_cast<float>(ground.disparity.height())))
+      continue;
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    if (ground.disparity(column, row) * ground.reduction > point.disparity + ground.depth_threshold_px) continue;
+    const auto distance_to = [&](float red, float green, float blue) {
+      const float r = static_cast<float>(ground.reference.red(column, row)) - red;
+      const float g = static_cast<float>(ground.reference.green(column, row)) - green;
+      const float b = static_cast<float>(ground.reference.blue(column, row)) - blue;
+      return std::sqrt(r * r + g * g + b * b);
+    };
+    const float difference = distance_to(colour.r, colour.g, colour.b);
+    own += difference;
+    ++count;
+    const Canvas& canvas = ground.canvas;
+    if (canvas.coverage(column, row) < 0.5f) continue;
+    below += distance_to(canvas.red(column, row), canvas.green(column, row), canvas.blue(column, row)) - difference;
+    ++covered;
+  }
+  if (count == 0) return {};
+  return {own / static_cast<float>(count), covered == 0 ? 0 : below / static_cast<float>(covered)};
+}
+
+namespace {
+
+/// The points of a stroke that a view shows.
+std::size_t visible_points(std::span<const ControlPoint> points, float reference, const SceneView& view,
+                           float tolerance_px) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      points, [&](const ControlPoint& p) { return is_visible(p, reference, view, tolerance_px); }));
+}
+
+/// True where some of a stroke's paint may lie in one of the views' pictures.
+bool reaches_a_picture(std::span<const ControlPoint> points, const Stroke& stroke, std::span<const SceneView> views) {
+  const float reach = stroke.radius_px + 1;
+  return std::ranges::any_of(views, [&](const SceneView& view) {
+    const auto width = static_cast<float>(view.disparity.width()), height = static_cast<float>(view.disparity.height());
+    return std::ranges::any_of(points, [&](const ControlPoint& p) {
+      const float x = x_in_view(p, stroke.reference_view, view.position);
+      return x > -reach && p.y > -reach && x < width + reach && p.y < height + reach;
+    });
+  });
+}
+
+/// The view that a stroke belongs to now; the number of views where to none.
+std::size_t home_of(const Stroke& stroke, std::span<const ControlPoint> points, std::size_t home,
+                    std::span<const SceneView> views, float tolerance_px) {
+  if (!reaches_a_picture(points, stroke, views)) return views.size();
+  const auto visible = [&](std::size_t view) {
+    return visible_points(points, stroke.reference_view, views[view], tolerance_px);
+  };
+  const std::size_t in_reference = visible(0);
+  if (home == 0 ? 2 * in_reference >= points.size() : in_reference == points.size()) return 0;
+  if (home != 0 && visible(home) > 0) return home;
+  for (std::size_t view = 1; view < views.size(); ++view)
+    if (2 * visible(view) > points.size()) return view;
+  return in_reference > 0 ? 0 : views.size();
+}
+
+void move_home(const TrackedLayer& from, std::size_t i, float position, TrackedLayer& to) {
+  Stroke stroke = from.layer.strokes[i];
+  const std::span<const ControlPoint> points = from.layer.points_of(stroke);
+  const auto first = static_cast<std::uint32_t>(to.layer.points.size());
+  for (ControlPoint point : points) {
+    point.x = x_in_view(point, stroke.reference_view, position);
+    to.layer.points.push_back(point);
+  }
+  stroke.first_point = first;
+  stroke.reference_view = position;
+  to.layer.strokes.push_back(stroke);
+  to.tracks.push_back(from.tracks[i]);
+}
+
+}  // namespace
+
+void settle(std::span<const SceneView> views, float depth_threshold_px, std::span<TrackedLayer* const> layers) {
+  std::vector<std::vector<std::size_t>> homes(views.size());
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    const TrackedLayer& tracked = *layers[view];
+    homes[view].resize(tracked.tracks.size());
+    tbb::parallel_for(std::size_t{0}, tracked.tracks.size(), [&](std::size_t i) {
+      const Stroke& stroke = tracked.layer.strokes[i];
+      homes[view][i] = home_of(stroke, tracked.layer.points_of(stroke), view, views, depth_threshold_px);
+    });
+  }
+  std::vector<TrackedLayer> arrived(views.size());
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    for (std::size_t i = 0; i < homes[view].size(); ++i)
+      if (homes[view][i] != view && homes[view][i] < views.size())
+        move_home(*layers[view], i, views[homes[view][i]].position, arrived[homes[view][i]]);
+    keep_if(*layers[view], [&](std::size_t i) { return homes[view][i] == view; });
+  }
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    TrackedLayer& tracked = *layers[view];
+    append_strokes(arrived[view].layer, tracked.layer);
+    tracked.tracks.insert(tracked.tracks.end(), arrived[view].tracks.begin(), arrived[view].tracks.end());
+  }
+}
+
+}  // namespace wheatstone

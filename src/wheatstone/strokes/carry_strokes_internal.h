@@ -1,0 +1,68 @@
+#pragma once
+
+#include <span>
+
+#include "wheatstone/drawing/canvas.h"
+#include "wheatstone/strokes/reference_picture.h"
+#include "wheatstone/strokes/scene_motion_internal.h"
+#include "wheatstone/strokes/strokes_in_time.h"
+
+namespace wheatstone {
+
+/// Length of the polygon of a stroke's control points.
+float length_px(std::span<const ControlPoint> points);
+
+/// Moves all strokes of one view's layer to this frame. Those whose length, or the disparity of whose points, changed
+/// too much begin to end.
+void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_threshold_px, const CarryOptions& options,
+                 TrackedLayer& tracked);
+
+/// How much of a stroke's opacity is shown at first.
+float first_shown(bool scene_begins, const CarryOptions& options);
+
+/// Lets strokes that were ending fade by another step, drops those that are gone, and lets new ones come on.
+void fade(const CarryOptions& options, TrackedLayer& tracked);
+
+/// Gives every stroke to the view that sees it: what the reference view hides and another one shows belongs to that
+/// one, and what it shows whole is its own. Strokes that no view shows, or whose paint lies outside the picture, are
+/// dropped. `layers` has one layer for each of the scene's views.
+void settle(std::span<const SceneView> views, float depth_threshold_px, std::span<TrackedLayer* const> layers);
+
+/// How well a stroke's colour fits the picture: mean RGB distances over its points.
+struct ColourFit {
+  float difference = 0;  ///< of its colour from the picture
+  float gain = 0;        ///< by how much more the paint under it differs from the picture; 0 over bare canvas
+};
+
+/// `reference`, `canvas` and `disparity` are of one size, and each point `reduction` times nearer to the corner there.
+/// Only points in the picture and not behind its surface count; where there is none, all fits.
+struct FitGround {
+  const ReferencePicture& reference;
+  const Canvas& canvas;
+  ImageView<const float> disparity;
+  float reduction = 1;
+  float depth_threshold_px = 2;  ///< in the stroke's pixels
+};
+ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const FitGround& ground);
+
+/// Keeps the strokes for which `keeps` holds, with their tracks; the points of the others are dropped.
+template <class Keeps>
+void keep_if(TrackedLayer& tracked, Keeps keeps) {
+  TrackedLayer kept;
+  kept.layer.radius_px = tracked.layer.radius_px;
+  kept.layer.points.reserve(tracked.layer.points.size());
+  kept.layer.strokes.reserve(tracked.layer.strokes.size());
+  kept.tracks.reserve(tracked.tracks.size());
+  for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
+    if (!keeps(i)) continue;
+    Stroke stroke = tracked.layer.strokes[i];
+    const std::span<const ControlPoint> points = tracked.layer.points_of(stroke);
+    stroke.first_point = static_cast<std::uint32_t>(kept.layer.points.size());
+    kept.layer.points.insert(kept.layer.points.end(), points.begin(), points.end());
+    kept.layer.strokes.push_back(stroke);
+    kept.tracks.push_back(tracked.tracks[i]);
+  }
+  tracked = std::move(kept);
+}
+
+}  // namespace wheatstone

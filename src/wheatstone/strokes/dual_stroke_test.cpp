@@ -1,0 +1,66 @@
+// Strokes of two colours: they must fuse as single ones do, and be worth more.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes/two_surfaces.h"
+#include "wheatstone/measures/consistency.h"
+#include "wheatstone/painting/paint.h"
+
+namespace wheatstone {
+namespace {
+
+Style small_style(bool dual, float threshold, Propagation propagation = Propagation::strokes) {
+  Style style = style_by_name(dual ? "dual" : "impressionist");
+  style.radii_px = {8, 4, 2};
+  style.absolute_radii = true;
+  style.threshold = threshold;
+  style.propagation = propagation;
+  return style;
+}
+
+/// A painting's root mean squared RGB distance from its photograph in the left eye, and the strokes that were planned
+/// for it; the two halves of a dual stroke are one.
+struct Effort {
+  double error = 0;
+  double strokes = 0;
+};
+
+Effort effort_of(bool dual, float threshold) {
+  const StereoPair photographs = test_scene::photographs();
+  const PaintedView painted =
+      paint_view(photographs.left, test_scene::geometry().left_disparity, left_eye, small_style(dual, threshold));
+  Effort effort;
+  for (const Layer& layer : painted.painting.layers)
+    for (const Stroke& stroke : layer.strokes) effort.strokes += dual && stroke.point_count > 1 ? 0.5 : 1;
+  for (std::size_t i = 0; i < painted.picture.pixels().size(); ++i) {
+    const Rgb8 a = painted.picture.pixels()[i], b = photographs.left.pixels()[i];
+    effort.error += std::pow(a.r - b.r, 2) + std::pow(a.g - b.g, 2) + std::pow(a.b - b.b, 2);
+  }
+  effort.error = std::sqrt(effort.error / static_cast<double>(painted.picture.pixels().size()));
+  return effort;
+}
+
+TEST(DualStroke, ReachesTheSameErrorWithFewerStrokes) {
+  const Effort single = effort_of(false, 50), dual = effort_of(true, 50);
+  EXPECT_LE(dual.error, single.error);
+  EXPECT_LT(dual.strokes, 0.65 * single.strokes);
+  // As few single strokes do worse.
+  const Effort few = effort_of(false, 80);
+  EXPECT_GT(few.error, 1.15 * dual.error);
+  EXPECT_LT(few.strokes, dual.strokes);
+}
+
+TEST(DualStroke, FusesWhereIndependentEyesDoNot) {
+  const auto difference = [](Propagation propagation) {
+    const PaintedPair painted =
+        paint(test_scene::photographs(), test_scene::geometry(), small_style(true, 50, propagation));
+    EXPECT_LT(painted.right_bare_share, 0.005);
+    return measure_left_right_difference(painted.pictures, test_scene::geometry().left_disparity).mean_absolute;
+  };
+  EXPECT_LT(difference(Propagation::strokes), 0.35 * difference(Propagation::independent));
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,64 @@
+#include "wheatstone/strokes/layer_order.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheatstone/random.h"
+
+namespace wheatstone {
+namespace {
+
+/// Puts a layer's strokes where `places` name them.
+template <class Place>
+void put_in_order(const std::vector<Place>& places, Layer& layer) {
+  std::vector<Stroke> sorted;
+  sorted.reserve(places.size());
+  for (const Place& place : places) sorted.push_back(layer.strokes[place.stroke]);
+  layer.strokes = std::move(sorted);
+}
+
+}  // namespace
+
+void append_strokes(const Layer& part, Layer& whole) {
+  const auto offset = static_cast<std::uint32_t>(whole.points.size());
+  whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+  whole.strokes.reserve(whole.strokes.size() + part.strokes.size());
+  for (Stroke stroke : part.strokes) {
+    stroke.first_point += offset;
+    whole.strokes.push_back(stroke);
+  }
+}
+
+void sort_far_to_near(Layer& layer, std::uint64_t seed) {
+  struct Place {
+    std::int32_t depth;
+    std::uint32_t stroke;
+    std::uint64_t random;
+  };
+  std::vector<Place> places(layer.strokes.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i)
+    places[i] = {static_cast<std::int32_t>(std::lround(layer.strokes[i].disparity)), i, hash({seed, i})};
+  std::ranges::sort(places, [](const Place& a, const Place& b) {
+    if (a.depth != b.depth) return a.depth < b.depth;
+    return a.random != b.random ? a.random < b.random : a.stroke < b.stroke;
+  });
+  put_in_order(places, layer);
+}
+
+void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed) {
+  struct Place {
+    float depth;
+    std::uint32_t stroke;
+  };
+  std::vector<Place> places(layer.strokes.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const Stroke& stroke = layer.strokes[i];
+    places[i] = {stroke.disparity + unit_float(hash({seed, stroke.number})), i};
+  }
+  std::ranges::sort(places, [](const Place& a, const Place& b) {
+    return a.depth != b.depth ? a.depth < b.depth : a.stroke < b.stroke;
+  });
+  put_in_order(places, layer);
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,85 @@
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+
+#include "wheatstone/drawing/rasterise.h"
+#include "wheatstone/random.h"
+#include "wheatstone/strokes/depth_edges_internal.h"
+#include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/plan_layer_internal.h"
+
+namespace wheatstone {
+
+ScaledStyle::ScaledStyle(const Style& style, int width, float reduction)
+    : depth_threshold_px(style.depth_threshold_px * style_scale(style, width) / reduction) {
+  constexpr float least_px = 1;
+  for (const float radius : style.radii_px)
+    radii_px.push_back(std::max(radius * style_scale(style, width), least_px) / reduction);
+}
+
+LayerPlanner::LayerPlanner(ImageView<const Rgb8> photograph_, ImageView<const float> disparity_, float view_,
+                           const Style& style)
+    : photograph(photograph_),
+      disparity(disparity_),
+      view(view_),
+      canvas(style.background == Background::photograph
+                 ? make_canvas(photograph)
+                 : Canvas(photograph.width(), photograph.height(), style.canvas_colour)) {}
+
+LayerSight look(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer) {
+  const float radius = scaled.radii_px[layer], threshold = scaled.depth_threshold_px;
+  const bool finest = layer + 1 == static_cast<int>(scaled.radii_px.size());
+  LayerSight sight;
+  tbb::parallel_invoke([&] { sight.reference = make_reference(planner.photograph, radius, style); },
+                       [&] {
+                         if (!style.depth_test) return;
+                         sight.depth_edges = near_depth_edge(planner.disparity, radius, threshold);
+                         if (!finest) return;
+                         sight.edge_distance = distance_to_depth_edge(planner.disparity, threshold, radius + 1);
+                         if (planner.avoid_mixed_colours)
+                           sight.mixed_colours = behind_depth_edge(planner.disparity, radius / 2, threshold);
+                       });
+  return sight;
+}
+
+Layer plan_on(const LayerPlanner& planner, const LayerSight& sight, const Style& style, const ScaledStyle& scaled,
+              int layer, ImageView<const std::uint8_t> seeds) {
+  const LayerPlan plan{.reference = sight.reference,
+                       .canvas = planner.canvas,
+                       .disparity = planner.disparity,
+                       .seeds = seeds,
+                       .view = planner.view,
+                       .radius_px = scaled.radii_px[layer],
+                       .layer = layer,
+                       .depth_threshold_px = scaled.depth_threshold_px,
+                       .depth_edges = sight.depth_edges,
+                       .edge_distance = sight.edge_distance,
+                       .mixed_colours = sight.mixed_colours};
+  return plan_layer(plan, style);
+}
+
+Layer plan_on(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer,
+              ImageView<const std::uint8_t> seeds) {
+  return plan_on(planner, look(planner, style, scaled, layer), style, scaled, layer, seeds);
+}
+
+void order_strokes(Layer& strokes, const Style& style, int layer) {
+  sort_far_to_near(strokes, hash({style.seed, static_cast<std::uint64_t>(layer)}));
+}
+
+StrokePainting plan_alone(LayerPlanner& planner, const Style& style, const ScaledStyle& scaled,
+                          ImageView<const std::uint8_t> seeds, const Progress& progress) {
+  StrokePainting painting{planner.canvas.width, planner.canvas.height, style.canvas_colour, {}};
+  const int layers = static_cast<int>(scaled.radii_px.size());
+  for (int i = 0; i < layers; ++i) {
+    report(progress, "painting", static_cast<double>(i) / layers);
+    painting.layers.push_back(plan_on(planner, style, scaled, i, seeds));
+    order_strokes(painting.layers.back(), style, i);
+    if (i + 1 < layers) rasterise(painting.layers.back(), planner.view, planner.canvas);
+  }
+  report(progress, "painting", 1);
+  return painting;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "wheatstone/drawing/canvas.h"
+#include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/marks/style.h"
+#include "wheatstone/progress.h"
+#include "wheatstone/strokes/reference_picture.h"
+
+namespace wheatstone {
+
+/// A style's lengths in pixels of the picture at hand: one `width` pixels wide, or that picture reduced by a factor.
+struct ScaledStyle {
+  ScaledStyle(const Style& style, int width, float reduction = 1);
+  std::vector<float> radii_px;
+  float depth_threshold_px;
+};
+
+/// One eye at work: what it sees, and the canvas that its next layer is planned against.
+struct LayerPlanner {
+  LayerPlanner(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view, const Style& style);
+
+  ImageView<const Rgb8> photograph;
+  ImageView<const float> disparity;
+  float view;
+  Canvas canvas;
+  /// Begin no stroke where two surfaces' colours mix, if it can be helped: they part in the other eye.
+  bool avoid_mixed_colours = true;
+};
+
+/// What one layer of one eye looks at, whatever is on the canvas. Of the depth test, all are empty where the style
+/// wants none.
+struct LayerSight {
+  ReferencePicture reference;
+  Image<std::uint8_t> depth_edges, mixed_colours;
+  Image<float> edge_distance;
+};
+
+LayerSight look(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer);
+
+/// Plans layer number `layer` of one eye, with strokes that begin only on the seeds, or anywhere where there are none.
+Layer plan_on(const LayerPlanner& planner, const LayerSight& sight, const Style& style, const ScaledStyle& scaled,
+              int layer, ImageView<const std::uint8_t> seeds);
+Layer plan_on(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer,
+              ImageView<const std::uint8_t> seeds = {});
+
+/// Puts the strokes of layer number `layer` into drawing order.
+void order_strokes(Layer& strokes, const Style& style, int layer);
+
+/// Plans all layers of one eye, for it alone, each against what the coarser ones left on the canvas.
+StrokePainting plan_alone(LayerPlanner& planner, const Style& style, const ScaledStyle& scaled,
+                          ImageView<const std::uint8_t> seeds, const Progress& progress = {});
+
+}  // namespace wheatstone

@@ -1,0 +1,28 @@
+#include "wheatstone/strokes/occluded_part.h"
+
+#include <cmath>
+
+#include "wheatstone/image/half_view.h"
+#include "wheatstone/marks/resize_strokes.h"
+#include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/strokes/layer_planner.h"
+
+namespace wheatstone {
+StrokePainting plan_occluded_part(const Image<Rgb8>& photograph, const Image<float>& disparity,
+                                  const Image<std::uint8_t>& occlusion, float view, const Style& style) {
+  const int width = photograph.width(), height = photograph.height();
+  const float largest_radius_px = ScaledStyle(style, width).radii_px.front();
+  const Image<std::uint8_t> seeds =
+      dilate_occlusion(occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
+  const HalfView half = halved(photograph, disparity, seeds);
+  StrokePainting part{width, height, style.canvas_colour, std::vector<Layer>(style.radii_px.size())};
+  if (half.photograph.empty()) return part;
+
+  LayerPlanner planner(half.photograph, half.disparity, view, style);
+  planner.avoid_mixed_colours = false;  // no other eye sees them
+  part.layers = plan_alone(planner, style, ScaledStyle(style, width, HalfView::reduction), half.seeds).layers;
+  for (Layer& layer : part.layers) resize_strokes(layer, HalfView::reduction);
+  return part;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,183 @@
+#include "wheatstone/strokes/plan_layer_internal.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheatstone/random.h"
+#include "wheatstone/strokes/dual_stroke_internal.h"
+#include "wheatstone/strokes/jitter_internal.h"
+#include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/seed_internal.h"
+#include "wheatstone/strokes/trace_stroke_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// A grid of cells f_g·R wide, half that beside depth edges; the last row and column may be cut off by the picture's
+/// edge.
+struct Grid {
+  Grid(const LayerPlan& plan, const Style& style, Place place)
+      : cell_px(std::max(style.grid * plan.radius_px * (place == Place::open ? 1.f : 0.5f), 1.f)),
+        width(plan.canvas.width),
+        height(plan.canvas.height) {}
+
+  int columns() const { return static_cast<int>(std::ceil(static_cast<float>(width) / cell_px)); }
+  int rows() const { return static_cast<int>(std::ceil(static_cast<float>(height) / cell_px)); }
+  int left(int column) const { return std::min(static_cast<int>(static_cast<float>(column) * cell_px), width); }
+  int top(int row) const { return std::min(static_cast<int>(static_cast<float>(row) * cell_px), height); }
+
+  float cell_px;
+  int width, height;
+};
+
+/// Where on a bare cell a stroke would begin: the jitter of the grid.
+struct Target {
+  float x, y;
+};
+
+bool may_begin(const LayerPlan& plan, Place place, int x, int y) {
+  if (!plan.seeds.empty() && plan.seeds(x, y) == 0) return false;
+  if (plan.depth_edges.empty()) return place == Place::open;
+  if ((plan.depth_edges(x, y) != 0) != (place == Place::beside_edge)) return false;
+  return plan.mixed_colours.empty() || plan.mixed_colours(x, y) == 0;
+}
+
+/// How much a stroke is wanted at a pixel; negative: not at all. Among bare pixels, which are all infinitely wrong, the
+/// one nearest to the cell's target is wanted most. A pixel right on a depth edge mixes two surfaces' colours: it is
+/// taken only where nothing else in the cell is bare.
+float desire(const LayerPlan& plan, Place place, float error, int x, int y, const Target& target) {
+  const bool on_edge = place == Place::beside_edge && !plan.mixed_colours.empty() && plan.edge_distance(x, y) < 1;
+  if (error < bare_error) return on_edge ? -1 : error;
+  if (on_edge) return bare_error / 4;
+  const float dx = static_cast<float>(x) - target.x, dy = static_cast<float>(y) - target.y;
+  return bare_error - std::min(dx * dx + dy * dy, bare_error / 2);
+}
+
+/// Looks through one row of one cell for a better pixel than the seed's.
+void improve_seed(const LayerPlan& plan, Place place, const float* errors, int begin, int end, int y,
+                  const Target& target, Seed& seed) {
+  for (int x = begin; x < end; ++x) {
+    if (!may_begin(plan, place, x, y)) continue;
+    const float error = desire(plan, place, errors[x], x, y, target);
+    if (error > seed.error) seed = {error, x, y};
+  }
+}
+
+/// True where the mask has anything in the rectangle; an empty mask is a full one.
+bool has_any(ImageView<const std::uint8_t> mask, int left, int right, int top, int bottom) {
+  if (mask.empty()) return true;
+  for (int y = top; y < bottom; ++y)
+    for (const std::uint8_t value : mask.row(y).subspan(left, right - left))
+      if (value != 0) return true;
+  return false;
+}
+
+/// A run of neighbouring cells in one row of cells.
+struct CellRun {
+  int first, end;
+};
+
+/// The cells of a row in which strokes may begin at all.
+std::vector<CellRun> runs_of_active_cells(const LayerPlan& plan, Place place, const Grid& grid, int row) {
+  std::vector<CellRun> runs;
+  for (int column = 0; column < grid.columns(); ++column) {
+    const auto holds = [&](ImageView<const std::uint8_t> mask) {
+      return has_any(mask, grid.left(column), grid.left(column + 1), grid.top(row), grid.top(row + 1));
+    };
+    if (!holds(plan.seeds) || (place == Place::beside_edge && !holds(plan.depth_edges))) continue;
+    if (!runs.empty() && runs.back().end == column) {
+      ++runs.back().end;
+    } else {
+      runs.push_back({column, column + 1});
+    }
+  }
+  return runs;
+}
+
+/// What a random number decides.
+enum Purpose : std::uint64_t { jitter_x, jitter_y, stroke_choices };
+
+std::uint64_t cell_hash(const LayerPlan& plan, const Style& style, Place place, int column, int row, Purpose purpose) {
+  return hash({style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(place),
+               static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), purpose});
+}
+
+void add_stroke(const LayerPlan& plan, const Style& style, Place place, const Seed& seed, std::uint64_t random,
+                Layer& layer) {
+  Stroke stroke;
+  stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
+  stroke.radius_px = stroke_radius(plan, place, seed);
+  trace_stroke(plan, style, seed, stroke.radius_px, (random & 1) != 0, layer.points);
+  stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
+  stroke.opacity = style.opacity;
+  const ReferencePicture& reference = plan.reference;
+  stroke.colour =
+      jittered({reference.red(seed.x, seed.y), reference.green(seed.x, seed.y), reference.blue(seed.x, seed.y)},
+               style.jitter, random);
+  stroke.disparity = plan.disparity(seed.x, seed.y);
+  stroke.reference_view = plan.view;
+  stroke.views = {plan.view, plan.view};
+  layer.strokes.push_back(stroke);
+  if (style.dual) make_dual(plan, layer);
+}
+
+Target target_of(const LayerPlan& plan, const Style& style, Place place, const Grid& grid, int column, int row) {
+  const float u = unit_float(cell_hash(plan, style, place, column, row, jitter_x));
+  const float v = unit_float(cell_hash(plan, style, place, column, row, jitter_y));
+  return {(static_cast<float>(column) + u) * grid.cell_px, (static_cast<float>(row) + v) * grid.cell_px};
+}
+
+/// The strokes that begin in one row of cells.
+Layer plan_cells(const LayerPlan& plan, const Style& style, Place place, const Grid& grid, int row) {
+  const std::vector<CellRun> runs = runs_of_active_cells(plan, place, grid, row);
+  Layer layer;
+  if (runs.empty()) return layer;
+  std::vector<Seed> seeds(grid.columns());
+  std::vector<Target> targets(grid.columns());
+  for (const CellRun& run : runs)
+    for (int column = run.first; column < run.end; ++column)
+      targets[column] = target_of(plan, style, place, grid, column, row);
+
+  std::vector<float> errors(plan.canvas.width);
+  for (int y = grid.top(row); y < grid.top(row + 1); ++y) {
+    for (const CellRun& run : runs) {
+      squared_errors(plan.reference, plan.canvas, {y, grid.left(run.first), grid.left(run.end)}, errors.data());
+      for (int column = run.first; column < run.end; ++column)
+        improve_seed(plan, place, errors.data(), grid.left(column), grid.left(column + 1), y, targets[column],
+                     seeds[column]);
+    }
+  }
+  const float squared_threshold = style.threshold * style.threshold;
+  for (int column = 0; column < grid.columns(); ++column) {
+    if (seeds[column].error > squared_threshold)
+      add_stroke(plan, style, place, seeds[column], cell_hash(plan, style, place, column, row, stroke_choices), layer);
+  }
+  return layer;
+}
+
+void plan_place(const LayerPlan& plan, const Style& style, Place place, Layer& layer) {
+  const Grid grid(plan, style, place);
+  std::vector<Layer> rows(grid.rows());
+  tbb::parallel_for(0, grid.rows(), [&](int row) { rows[row] = plan_cells(plan, style, place, grid, row); });
+  for (const Layer& row : rows) append_strokes(row, layer);
+}
+
+}  // namespace
+
+float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed) {
+  if (place == Place::open) return plan.radius_px;
+  const float least_px = std::min(0.75f, plan.radius_px);
+  return std::clamp(plan.edge_distance(seed.x, seed.y), least_px, plan.radius_px);
+}
+
+Layer plan_layer(const LayerPlan& plan, const Style& style) {
+  Layer layer;
+  layer.radius_px = plan.radius_px;
+  plan_place(plan, style, Place::open, layer);
+  if (!plan.edge_distance.empty()) plan_place(plan, style, Place::beside_edge, layer);
+  return layer;
+}
+
+}  // namespace wheatstone

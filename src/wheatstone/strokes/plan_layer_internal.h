@@ -1,0 +1,33 @@
+#pragma once
+
+#include "wheatstone/drawing/canvas.h"
+#include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/marks/style.h"
+#include "wheatstone/strokes/reference_picture.h"
+
+namespace wheatstone {
+
+/// What one layer of one view is planned from; everything has the view's size.
+struct LayerPlan {
+  const ReferencePicture& reference;
+  const Canvas& canvas;                 ///< as the coarser layers left it
+  ImageView<const float> disparity;     ///< pixels, no unknowns
+  ImageView<const std::uint8_t> seeds;  ///< strokes begin only where it is not 0; empty: everywhere
+  float view = left_eye;
+  float radius_px = 4;
+  int layer = 0;  ///< numbers the layer's random choices
+
+  // The depth test; all are empty where the style wants none.
+  float depth_threshold_px = 2;                    ///< T_depth in pixels of this view
+  ImageView<const std::uint8_t> depth_edges = {};  ///< as near_depth_edge
+  ImageView<const float> edge_distance = {};  ///< as distance_to_depth_edge; empty: leave the edges to a finer layer
+  ImageView<const std::uint8_t> mixed_colours = {};  ///< as behind_depth_edge: no stroke takes its colour there
+};
+
+/// Plans the strokes of one layer (Hertzmann 1998; Stavrakis & Gelautz 2004, sec. 3.2 and 3.3): one for every grid cell
+/// whose largest error, over the cell, is above the threshold. Beside depth edges, where the brush does not fit, it is
+/// used edgeways: on a grid of half the cells, strokes as wide as the distance to the edge allows. In the order of the
+/// cells, not yet in drawing order.
+Layer plan_layer(const LayerPlan& plan, const Style& style);
+
+}  // namespace wheatstone

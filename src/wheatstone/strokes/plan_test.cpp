@@ -1,0 +1,286 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "scenes/two_surfaces.h"
+#include "wheatstone/drawing/flatten_internal.h"
+#include "wheatstone/strokes/depth_edges_internal.h"
+#include "wheatstone/strokes/jitter_internal.h"
+#include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/propagate.h"
+#include "wheatstone/strokes/reference_picture.h"
+#include "wheatstone/strokes/seed_internal.h"
+#include "wheatstone/strokes/trace_stroke_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// A view that is planned on a bare canvas of its own.
+struct Bench {
+  explicit Bench(Image<Rgb8> picture, Style wanted = {})
+      : style(std::move(wanted)),
+        photograph(std::move(picture)),
+        reference(make_reference(photograph, 4, style)),
+        canvas(photograph.width(), photograph.height(), {0, 0, 0}),
+        disparity(photograph.width(), photograph.height(), 5.f) {}
+
+  LayerPlan plan() const {
+    return {.reference = reference, .canvas = canvas, .disparity = disparity, .seeds = {}, .radius_px = 4};
+  }
+
+  void cover(float level) {
+    for (Image<float>* plane : {&canvas.red, &canvas.green, &canvas.blue}) std::ranges::fill(plane->pixels(), level);
+    std::ranges::fill(canvas.coverage.pixels(), 1.f);
+  }
+
+  Style style;
+  Image<Rgb8> photograph;
+  ReferencePicture reference;
+  Canvas canvas;
+  Image<float> disparity;
+};
+
+Image<Rgb8> horizontal_stripes(int width, int height) {
+  Image<Rgb8> picture(width, height);
+  for (int y = 0; y < height; ++y) {
+    const auto level = static_cast<std::uint8_t>(128 + 100 * std::sin(0.2 * y));
+    std::ranges::fill(picture.row(y), Rgb8{level, level, level});
+  }
+  return picture;
+}
+
+TEST(DepthEdges, AreExactlyThePixelsWhoseWindowHoldsAJump) {
+  const Image<float> disparity = test_scene::geometry().left_disparity;
+  for (const float radius : {1.f, 2.5f, 9.f}) {
+    const Image<std::uint8_t> marked = near_depth_edge(disparity, radius, 2);
+    const int reach = static_cast<int>(std::ceil(radius));
+    for (int y = 0; y < disparity.height(); ++y) {
+      for (int x = 0; x < disparity.width(); ++x) {
+        bool jump = false;
+        for (int v = std::max(y - reach, 0); v <= std::min(y + reach, disparity.height() - 1); ++v)
+          for (int u = std::max(x - reach, 0); u <= std::min(x + reach, disparity.width() - 1); ++u)
+            jump = jump || std::abs(disparity(u, v) - disparity(x, y)) > 2;
+        ASSERT_EQ(marked(x, y) != 0, jump) << x << "," << y << " radius " << radius;
+      }
+    }
+  }
+}
+
+TEST(DepthEdges, DistanceIsHalfAPixelBesideAnEdge) {
+  Image<float> disparity(20, 3, 1);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 10; x < 20; ++x) disparity(x, y) = 9;
+  const Image<float> distance = distance_to_depth_edge(disparity, 2, 6);
+  EXPECT_FLOAT_EQ(distance(9, 1), 0.5f);
+  EXPECT_FLOAT_EQ(distance(10, 1), 0.5f);
+  EXPECT_NEAR(distance(14, 1), 4.5f, 0.3f);
+}
+
+TEST(DepthEdges, OnlyTheFarSideLiesBehindOne) {
+  Image<float> disparity(20, 3, 1);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 10; x < 20; ++x) disparity(x, y) = 9;
+  const Image<std::uint8_t> behind = behind_depth_edge(disparity, 2, 2);
+  EXPECT_EQ(behind(9, 1), 255);
+  EXPECT_EQ(behind(7, 1), 0);
+  EXPECT_EQ(behind(10, 1), 0);
+}
+
+TEST(Reference, KernelWidthIsTwiceTheBlurTimesTheRadiusPlusOne) {
+  EXPECT_EQ(blur_kernel_px(0.5f, 8), 9);
+  EXPECT_EQ(blur_kernel_px(0.5f, 2), 3);
+  EXPECT_EQ(blur_kernel_px(0, 8), 1);
+}
+
+TEST(Reference, ReducedMedianStaysNearTheFullOne) {
+  const StereoPair pair = test_scene::photographs();
+  Style style;
+  for (const float radius : {8.f, 24.f}) {
+    const ReferencePicture reduced = make_reference(pair.left, radius, style);
+    // The full median, by sorting.
+    const int reach = blur_kernel_px(style.blur, radius) / 2;
+    double difference = 0;
+    int count = 0;
+    for (int y = reach; y < pair.left.height() - reach; y += 3) {
+      for (int x = reach; x < pair.left.width() - reach; x += 3) {
+        std::vector<std::uint8_t> window;
+        for (int v = y - reach; v <= y + reach; ++v)
+          for (int u = x - reach; u <= x + reach; ++u) window.push_back(pair.left(u, v).g);
+        std::ranges::nth_element(window, window.begin() + static_cast<std::ptrdiff_t>(window.size() / 2));
+        difference += std::abs(window[window.size() / 2] - reduced.green(x, y));
+        ++count;
+      }
+    }
+    EXPECT_LT(difference / count, 6) << radius;
+  }
+}
+
+TEST(Plan, EveryCellOfABareCanvasGetsAStroke) {
+  const Bench bench(horizontal_stripes(80, 60));
+  const Layer layer = plan_layer(bench.plan(), bench.style);
+  EXPECT_EQ(layer.strokes.size(), 20u * 15u);
+}
+
+TEST(Plan, NothingIsPaintedWhereThePictureIsRightAlready) {
+  Bench bench(Image<Rgb8>(80, 60, {100, 100, 100}));
+  bench.cover(100);
+  EXPECT_TRUE(plan_layer(bench.plan(), bench.style).strokes.empty());
+  bench.cover(100 + 60);  // 60·√3 = 104 > T = 100
+  EXPECT_FALSE(plan_layer(bench.plan(), bench.style).strokes.empty());
+  bench.cover(100 + 55);  // 95 < T
+  EXPECT_TRUE(plan_layer(bench.plan(), bench.style).strokes.empty());
+}
+
+TEST(Plan, AStrokeBeginsAtTheLargestErrorOfItsCell) {
+  Image<Rgb8> picture(40, 40, {100, 100, 100});
+  picture(13, 22) = {255, 255, 255};
+  Style style;
+  style.blur = 0;
+  style.max_length = style.min_length = 0;
+  Bench bench(picture, style);
+  bench.cover(100);
+  const Layer layer = plan_layer(bench.plan(), bench.style);
+  ASSERT_EQ(layer.strokes.size(), 1u);
+  EXPECT_EQ(layer.points[0], (ControlPoint{13.5f, 22.5f, 5}));
+  EXPECT_EQ(layer.strokes[0].colour, (Rgb8{255, 255, 255}));
+}
+
+TEST(Plan, StrokesRunAcrossTheGradientWithPointsOneRadiusApart) {
+  const Bench bench(horizontal_stripes(200, 80));
+  std::vector<ControlPoint> points;
+  trace_stroke(bench.plan(), bench.style, {.x = 100, .y = 40}, 4, false, points);
+  ASSERT_GT(points.size(), 4u);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    EXPECT_NEAR(std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y), 4, 1e-3);
+    EXPECT_NEAR(points[i].y, points[0].y, 1);
+  }
+}
+
+TEST(Plan, StrokesHaveNoMorePointsThanTheirLongest) {
+  const Bench bench(horizontal_stripes(400, 60));
+  for (const Layer layer = plan_layer(bench.plan(), bench.style); const Stroke& stroke : layer.strokes)
+    EXPECT_LE(stroke.point_count, 16u);
+}
+
+TEST(Plan, StrokesEndWhereTheCanvasIsNearerThanTheirColour) {
+  // Left half dark, right half light; the canvas has the light tone already.
+  Image<Rgb8> picture(200, 40, {20, 20, 20});
+  for (int y = 0; y < 40; ++y)
+    for (int x = 100; x < 200; ++x) picture(x, y) = {220, 220, 220};
+  Style style;
+  style.min_length = 1;
+  Bench bench(picture, style);
+  bench.cover(220);
+  std::vector<ControlPoint> points;
+  // A steady direction to the right is forced by a strong memory of it.
+  bench.style.curvature = 0.01f;
+  for (const bool backwards : {false, true})
+    trace_stroke(bench.plan(), bench.style, {.x = 90, .y = 20}, 4, backwards, points);
+  for (const ControlPoint& point : points) EXPECT_LT(point.x, 100 + 2 * 4);
+}
+
+TEST(Plan, GradientOrientationEndsStrokesWhereItVanishes) {
+  const Image<Rgb8> flat(80, 60, {90, 120, 60});
+  Style style;
+  style.orientation = Orientation::gradient;
+  const Bench paper(flat, style), ours(flat, {});
+  const Layer dots = plan_layer(paper.plan(), paper.style);
+  const Layer strokes = plan_layer(ours.plan(), ours.style);
+  EXPECT_TRUE(std::ranges::all_of(dots.strokes, [](const Stroke& s) { return s.point_count == 1; }));
+  EXPECT_TRUE(std::ranges::any_of(strokes.strokes, [](const Stroke& s) { return s.point_count > 4; }));
+}
+
+TEST(Plan, StrokesBeginOnlyOnTheirSeeds) {
+  const Bench bench(horizontal_stripes(80, 60));
+  Image<std::uint8_t> seeds(80, 60);
+  for (int y = 20; y < 40; ++y)
+    for (int x = 30; x < 50; ++x) seeds(x, y) = 255;
+  LayerPlan plan = bench.plan();
+  plan.seeds = seeds;
+  const Layer layer = plan_layer(plan, bench.style);
+  ASSERT_FALSE(layer.strokes.empty());
+  for (const Stroke& stroke : layer.strokes) {
+    const ControlPoint& begin = layer.points[stroke.first_point];
+    EXPECT_NE(seeds(static_cast<int>(begin.x), static_cast<int>(begin.y)), 0);
+  }
+}
+
+TEST(Plan, IsTheSameForTheSameSeedOnly) {
+  Bench bench(horizontal_stripes(80, 60));
+  const Layer layer = plan_layer(bench.plan(), bench.style);
+  EXPECT_EQ(plan_layer(bench.plan(), bench.style), layer);
+  bench.style.seed = 2;
+  EXPECT_NE(plan_layer(bench.plan(), bench.style), layer);
+}
+
+TEST(LayerOrder, GoesFromFarToNear) {
+  Layer layer;
+  for (int i = 0; i < 500; ++i) {
+    layer.points.push_back({});
+    layer.strokes.push_back({.first_point = static_cast<std::uint32_t>(i),
+                             .point_count = 1,
+                             .disparity = static_cast<float>((i * 37) % 11) - 5});
+  }
+  Layer other = layer;
+  sort_far_to_near(layer, 7);
+  for (std::size_t i = 1; i < layer.strokes.size(); ++i)
+    EXPECT_LE(layer.strokes[i - 1].disparity, layer.strokes[i].disparity);
+  sort_far_to_near(other, 8);
+  EXPECT_NE(layer.strokes, other.strokes) << "equal depths are permuted by the seed";
+}
+
+TEST(Propagation, SplitsAStrokeWhereItBecomesOccluded) {
+  Image<std::uint8_t> occlusion(100, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 40; x < 60; ++x) occlusion(x, y) = 255;
+  Layer planned;
+  for (int i = 0; i < 9; ++i) planned.points.push_back({5.f + 10.f * static_cast<float>(i), 5, 3});
+  planned.strokes.push_back({.point_count = 9, .radius_px = 4, .views = {left_eye, left_eye}});
+  const Layer split = propagate_to_other_eye(planned, occlusion);
+  ASSERT_EQ(split.strokes.size(), 3u);
+  EXPECT_EQ(split.strokes[0].point_count, 4u);
+  EXPECT_EQ(split.strokes[0].views, ViewRange{});
+  EXPECT_EQ(split.strokes[1].point_count, 2u);
+  EXPECT_EQ(split.strokes[1].views, (ViewRange{left_eye, left_eye}));
+  EXPECT_EQ(split.strokes[2].views, ViewRange{});
+}
+
+TEST(Propagation, TakesSingleWrongDisparitiesOutOfAStroke) {
+  Layer planned;
+  for (const float d : {10.f, 10.f, 40.f, 10.f, 10.f}) planned.points.push_back({5, 5, d});
+  planned.strokes.push_back({.point_count = 5, .radius_px = 4});
+  for (const Layer split = propagate_to_other_eye(planned, Image<std::uint8_t>(10, 10));
+       const ControlPoint& point : split.points)
+    EXPECT_EQ(point.disparity, 10);
+}
+
+TEST(Jitter, StaysWithinHalfOfItsAmountAndIsSpreadOverIt) {
+  ColourJitter jitter;
+  jitter.red = 0.3f;
+  std::set<int> reds;
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    const Rgb8 colour = jittered({128, 60, 200}, jitter, hash({i}));
+    EXPECT_NEAR(colour.r, 128, 0.15f * 255 + 1);
+    EXPECT_NEAR(colour.g, 60, 1);
+    reds.insert(colour.r);
+  }
+  EXPECT_GT(reds.size(), 60u);
+}
+
+TEST(Jitter, LeavesColoursAloneWithoutAny) { EXPECT_EQ(jittered({1, 2, 3}, {}, 99), (Rgb8{1, 2, 3})); }
+
+TEST(Flatten, CurvesBeginAndEndOnTheirOuterControlPoints) {
+  Layer layer;
+  layer.points = {{10, 10, 2}, {20, 14, 2}, {25, 30, 2}, {40, 31, 2}};
+  layer.strokes.push_back({.point_count = 4, .radius_px = 3});
+  const FlatLayer flat = flatten(layer, left_eye);
+  EXPECT_FLOAT_EQ(flat.x.front(), 10);
+  EXPECT_NEAR(flat.x.back(), 40, 1e-3);
+  EXPECT_NEAR(flat.y.back(), 31, 1e-3);
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+
+#include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone {
+
+/// How well the strokes of the two eyes belong together.
+struct StrokeMeasures {
+  std::size_t strokes = 0;
+  std::size_t visible_to_both = 0;  ///< no control point lies on an occluded pixel of the stroke's own view
+  double paired_share = 0;          ///< of those visible to both, 0..1, the ones that appear in both eyes
+  double shape_differs_share = 0;  ///< of those in both eyes, the ones whose length differs by over a tenth and a pixel
+};
+
+StrokeMeasures measure_strokes(const StrokePainting& painting, const StereoGeometry& geometry);
+
+/// How much paint of one layer runs over depth edges, in the views in which its strokes were planned: the share of its
+/// strokes, 0..1, that jump from one surface to another, by more than `threshold_px` of disparity, or whose centre line
+/// strays onto another surface, and that come farther away from the edge there than their radius.
+double spilling_share(const Layer& layer, const StereoGeometry& geometry, float threshold_px);
+
+}  // namespace wheatstone

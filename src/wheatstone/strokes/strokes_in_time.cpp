@@ -1,0 +1,295 @@
+#include "wheatstone/strokes/strokes_in_time.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "wheatstone/drawing/rasterise.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/half_view.h"
+#include "wheatstone/marks/resize_strokes.h"
+#include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/strokes/carry_strokes_internal.h"
+#include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/seed_internal.h"
+#include "wheatstone/strokes/visible_runs_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// One view at work: its planner, of half the size where only a part of the view is wanted.
+class ViewAtWork {
+ public:
+  ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, bool scene_begins)
+      : part_(part_of(view, reference, style, scene_begins)),
+        reduction_(part_ ? HalfView::reduction : 1),
+        scaled_(style, view.picture.width(), static_cast<float>(reduction_)),
+        style_(style),
+        easel_(part_ ? part_->photograph.view() : view.picture, part_ ? part_->disparity.view() : view.disparity,
+               view.position, style) {
+    easel_.avoid_mixed_colours = !part_;  // no other eye sees them
+  }
+
+  /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.
+  void plan(int layer, bool scene_begins, const CarryOptions& options, TrackedLayer& tracked) {
+    if (easel_.photograph.empty()) return;
+    const LayerSight sight = look(easel_, style_, scaled_, layer);
+    Image<std::uint8_t> seeds = where_paint_is_wanted(sight);
+    if (!tracked.tracks.empty()) {
+      end_wrong_colours(sight, options, tracked);
+      put_on_easel(carried(tracked));
+      keep_away_from(tracked, layer, seeds);
+    }
+    Layer begun = plan_on(easel_, sight, style_, scaled_, layer, seeds);
+    order_strokes(begun, style_, layer);
+    Layer whole_size = begun;
+    if (part_) resize_strokes(whole_size, static_cast<float>(reduction_));
+    add(whole_size, sight, scene_begins, options, tracked);
+    const bool finest = layer + 1 == static_cast<int>(scaled_.radii_px.size());
+    if (!finest) rasterise(begun, easel_.view, easel_.canvas);
+  }
+
+ private:
+  /// What a view alone shows. Grown at first, so that its strokes reach under those of the reference view; later those
+  /// are there, and what they may show is theirs.
+  static std::optional<HalfView> part_of(const SceneView& view, const SceneView& reference, const Style& style,
+                                         bool scene_begins) {
+    if (view.only_here.empty()) return {};
+    const ScaledStyle scaled(style, view.picture.width());
+    if (scene_begins) {
+      const auto growth_px = static_cast<int>(std::lround(style.occlusion_dilation * scaled.radii_px.front()));
+      return halved(view.picture, view.disparity, dilate_occlusion(view.only_here, growth_px));
+    }
+    Image<std::uint8_t> alone(view.picture.width(), view.picture.height());
+    tbb::parallel_for(0, alone.height(), [&](int y) {
+      for (int x = 0; x < alone.width(); ++x) {
+        if (view.only_here(x, y) == 0) continue;
+        const ControlPoint point{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)};
+        alone(x, y) = is_visible(point, view.position, reference, scaled.depth_threshold_px) ? 0 : 255;
+      }
+    });
+    return halved(view.picture, view.disparity, alone);
+  }
+
+  float depth_threshold_px() const { return scaled_.depth_threshold_px * static_cast<float>(reduction_); }
+
+  ColourFit fit(const LayerSight& sight, const Layer& layer, const Stroke& stroke) const {
+    return colour_fit(
+        layer.points_of(stroke), stroke.colour,
+        {sight.reference, easel_.canvas, easel_.disparity, static_cast<float>(reduction_), depth_threshold_px()});
+  }
+
+  /// True where a depth edge came under more than a quarter of a stroke's points, into the inner half of the brush.
+  bool spills(const LayerSight& sight, const Layer& layer, const Stroke& stroke) const {
+    if (sight.edge_distance.empty()) return false;
+    const std::span<const ControlPoint> points = layer.points_of(stroke);
+    const auto reduction = static_cast<float>(reduction_);
+    const float least_px = stroke.radius_px / reduction / 2 - 0.5f;
+    const auto over_edge = std::ranges::count_if(points, [&](const ControlPoint& point) {
+      const int column = static_cast<int>(point.x / reduction), row = static_cast<int>(point.y / reduction);
+      return sight.edge_distance.contains(column, row) && sight.edge_distance(column, row) < least_px;
+    });
+    return 4 * static_cast<std::size_t>(over_edge) > points.size();
+  }
+
+  /// A stroke whose colour fits worse than at first, or that now makes the picture worse, has stayed behind.
+  void end_wrong_colours(const LayerSight& sight, const CarryOptions& options, TrackedLayer& tracked) const {
+    tbb::parallel_for(std::size_t{0}, tracked.tracks.size(), [&](std::size_t i) {
+      StrokeTrack& life = tracked.tracks[i];
+      if (life.ends != 0) return;
+      const ColourFit now = fit(sight, tracked.layer, tracked.layer.strokes[i]);
+      if (now.difference > life.first_colour_difference + options.colour_tolerance ||
+          now.gain < std::min(life.first_gain, 0.f) - options.gain_tolerance ||
+          spills(sight, tracked.layer, tracked.layer.strokes[i]))
+        life.ends = 1;
+    });
+  }
+
+  /// The strokes that stay, as the planner's canvas is to have them.
+  Layer carried(const TrackedLayer& tracked) const {
+    Layer layer{tracked.layer.radius_px, tracked.layer.points, {}};
+    for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
+      if (tracked.tracks[i].ends != 0) continue;
+      layer.strokes.push_back(tracked.layer.strokes[i]);
+      layer.strokes.back().opacity *= tracked.tracks[i].shown;
+    }
+    sort_numbered_far_to_near(layer, style_.seed);
+    return layer;
+  }
+
+  void put_on_easel(Layer layer) {
+    for (Stroke& stroke : layer.strokes) stroke.views = {easel_.view, easel_.view};
+    if (part_) resize_strokes(layer, 1.f / static_cast<float>(reduction_));
+    rasterise(layer, easel_.view, easel_.canvas);
+  }
+
+  /// 255 where the coarser layers leave something to do.
+  Image<std::uint8_t> where_paint_is_wanted(const LayerSight& sight) const {
+    const int width = easel_.photograph.width(), height = easel_.photograph.height();
+    Image<std::uint8_t> mask(width, height);
+    const float squared_threshold = style_.threshold * style_.threshold;
+    tbb::parallel_for(0, height, [&](int y) {
+      std::vector<float> errors(width);
+      squared_errors(sight.reference, easel_.canvas, {y, 0, width}, errors.data());
+      for (int x = 0; x < width; ++x)
+        mask(x, y) = errors[x] > squared_threshold && (!part_ || part_->seeds(x, y) != 0) ? 255 : 0;
+    });
+    return mask;
+  }
+
+  /// Of the layer's own strokes one is enough where there would be one in each cell of the grid; but not on what they
+  /// left bare.
+  void keep_away_from(const TrackedLayer& tracked, int layer, Image<std::uint8_t>& seeds) const {
+    const Image<std::uint8_t> wanted = seeds;
+    const auto reduction = static_cast<float>(reduction_);
+    for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
+      if (tracked.tracks[i].ends != 0) continue;
+      const Stroke& stroke = tracked.layer.strokes[i];
+      const ControlPoint& first = tracked.layer.points[stroke.first_point];
+      const bool edgeways = stroke.radius_px < tracked.layer.radius_px;
+      const float reach = (edgeways ? 0.4f : 0.75f) * style_.grid * scaled_.radii_px[layer];
+      const auto bound = [&](float place, float offset, int size) {
+        return std::clamp(static_cast<int>(std::lround(place / reduction + offset)), 0, size);
+      };
+      const int left = bound(first.x, -reach, seeds.width()), right = bound(first.x, reach, seeds.width());
+      const int top = bound(first.y, -reach, seeds.height()), bottom = bound(first.y, reach, seeds.height());
+      for (int y = top; y < bottom && left < right; ++y) std::fill_n(&seeds(left, y), right - left, std::uint8_t{0});
+    }
+    tbb::parallel_for(0, seeds.height(), [&](int y) {
+      for (int x = 0; x < seeds.width(); ++x)
+        if (easel_.canvas.coverage(x, y) < 0.5f) seeds(x, y) = wanted(x, y);
+    });
+  }
+
+  void add(const Layer& begun, const LayerSight& sight, bool scene_begins, const CarryOptions& options,
+           TrackedLayer& tracked) const {
+    tracked.layer.radius_px = begun.radius_px;
+    for (const Stroke& stroke : begun.strokes) {
+      StrokeTrack life;
+      life.shown = first_shown(scene_begins, options);
+      life.first_length_px = length_px(begun.points_of(stroke));
+      const ColourFit first = fit(sight, begun, stroke);
+      life.first_colour_difference = first.difference;
+      life.first_gain = first.gain;
+      tracked.tracks.push_back(life);
+    }
+    append_strokes(begun, tracked.layer);
+  }
+
+  std::optional<HalfView> part_;
+  int reduction_;
+  ScaledStyle scaled_;
+  const Style& style_;
+  LayerPlanner easel_;
+};
+
+std::int64_t living_strokes(const StrokeMemory& memory) {
+  std::int64_t count = 0;
+  for (const std::vector<TrackedLayer>& layers : memory.views)
+    for (const TrackedLayer& tracked : layers)
+      count += std::ranges::count_if(tracked.tracks, [](const StrokeTrack& life) { return life.ends == 0; });
+  return count;
+}
+
+/// Brings all strokes to this frame.
+void carry(const FilmFrame& frame, const Style& style, const CarryOptions& options, StrokeMemory& memory) {
+  const ScaledStyle scaled(style, frame.views.front().picture.width());
+  const float threshold_px = scaled.depth_threshold_px;
+  const SceneMotion motion(frame, memory.reference_disparity, threshold_px);
+  for (std::size_t i = 0; i < scaled.radii_px.size(); ++i) {
+    std::vector<TrackedLayer*> layers;
+    for (std::size_t view = 0; view < frame.views.size(); ++view) {
+      layers.push_back(&memory.views[view][i]);
+      carry_layer(motion, frame.views[view], threshold_px, options, memory.views[view][i]);
+      fade(options, memory.views[view][i]);
+    }
+    settle(frame.views, threshold_px, layers);
+  }
+}
+
+/// New strokes that no view shows are dropped: they would come up later at once.
+void drop_hidden(const FilmFrame& frame, float depth_threshold_px, TrackedLayer& tracked) {
+  std::vector<std::uint8_t> shown(tracked.tracks.size());
+  tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
+    const Stroke& stroke = tracked.layer.strokes[i];
+    shown[i] =
+        stroke.number != 0 || std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
+          return std::ranges::any_of(frame.views, [&](const SceneView& view) {
+            return is_visible(point, stroke.reference_view, view, depth_threshold_px);
+          });
+        });
+  });
+  keep_if(tracked, [&](std::size_t i) { return shown[i] != 0; });
+}
+
+/// New strokes have no number yet: they get them in the order of views, layers and planning.
+std::int64_t give_numbers(StrokeMemory& memory) {
+  std::int64_t given = 0;
+  for (std::vector<TrackedLayer>& layers : memory.views)
+    for (TrackedLayer& tracked : layers)
+      for (Stroke& stroke : tracked.layer.strokes)
+        if (stroke.number == 0) {
+          stroke.number = ++memory.last_number;
+          ++given;
+        }
+  return given;
+}
+
+StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const StrokeMemory& memory) {
+  const ImageView<const Rgb8> picture = frame.views.front().picture;
+  const ScaledStyle scaled(style, picture.width());
+  StrokePainting painting{picture.width(), picture.height(), style.canvas_colour,
+                          std::vector<Layer>(scaled.radii_px.size())};
+  tbb::parallel_for(std::size_t{0}, painting.layers.size(), [&](std::size_t i) {
+    Layer& shown = painting.layers[i];
+    shown.radius_px = scaled.radii_px[i];
+    for (const std::vector<TrackedLayer>& view : memory.views) {
+      const Layer& layer = view[i].layer;
+      for (std::size_t k = 0; k < layer.strokes.size(); ++k) {
+        Stroke stroke = layer.strokes[k];
+        stroke.opacity *= view[i].tracks[k].shown;
+        append_visible_runs(stroke, layer.points_of(stroke), frame.views, scaled.depth_threshold_px, shown);
+      }
+    }
+    sort_numbered_far_to_near(shown, style.seed);
+  });
+  return painting;
+}
+
+}  // namespace
+
+CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                             StrokeMemory& memory) {
+  check_style(style);
+  if (style.marks != Marks::strokes)
+    throw Error(ErrorKind::wrong_usage, "style: its marks are not strokes, which alone are carried as strokes");
+  const std::size_t layers = style.radii_px.size();
+  const float depth_threshold_px = ScaledStyle(style, frame.views.front().picture.width()).depth_threshold_px;
+  const bool scene_begins = frame.flow == nullptr || memory.views.size() != frame.views.size();
+  CarriedPainting result;
+  if (scene_begins) {
+    memory.views.assign(frame.views.size(), std::vector<TrackedLayer>(layers));
+  } else {
+    result.counts.before = living_strokes(memory);
+    carry(frame, style, options, memory);
+  }
+  tbb::parallel_for(std::size_t{0}, frame.views.size(), [&](std::size_t view) {
+    ViewAtWork work(frame.views[view], frame.views.front(), style, scene_begins);
+    for (std::size_t i = 0; i < layers; ++i)
+      work.plan(static_cast<int>(i), scene_begins, options, memory.views[view][i]);
+    for (TrackedLayer& tracked : memory.views[view]) drop_hidden(frame, depth_threshold_px, tracked);
+  });
+  result.counts.begun = give_numbers(memory);
+  result.counts.carried = living_strokes(memory) - result.counts.begun;
+  const ImageView<const float> disparity = frame.views.front().disparity;
+  memory.reference_disparity = Image<float>(disparity.width(), disparity.height());
+  for (int y = 0; y < disparity.height(); ++y)
+    std::ranges::copy(disparity.row(y), memory.reference_disparity.row(y).begin());
+  result.painting = shown_painting(frame, style, memory);
+  return result;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/marks/style.h"
+#include "wheatstone/motion/film_frame.h"
+
+namespace wheatstone {
+
+/// When a stroke is carried from a frame of a film to the next, and how it comes and goes (Bukenberger et al. 2015,
+/// sec. 3.1, 3.2 and 5.2).
+struct CarryOptions {
+  int fade_in_frames = 2;
+  int fade_out_frames = 4;
+  float colour_tolerance = 45;     ///< RGB distance, 0..441, by which its colour may fit worse than when it was made
+  float gain_tolerance = 12;       ///< RGB distance by which it may be worse than the coarser layers' paint under it
+  float length_tolerance = 0.25f;  ///< by which its length may change, as a share of what it was made with
+};
+
+/// What a stroke's number stands for beside the stroke itself.
+struct StrokeTrack {
+  float shown = 1;         ///< of the stroke's opacity, 0..1
+  std::uint32_t ends = 0;  ///< not 0: it fades out
+  float first_length_px = 0;
+  float first_colour_difference = 0;  ///< mean RGB distance of its colour from the picture under it
+  float first_gain = 0;               ///< by how much smaller that was than the distance of the coarser layers' paint
+  friend bool operator==(const StrokeTrack&, const StrokeTrack&) = default;
+};
+
+/// The strokes of one brush radius in one view, whole, whatever hides them; `tracks` belongs to `layer.strokes`.
+struct TrackedLayer {
+  Layer layer;
+  std::vector<StrokeTrack> tracks;
+  friend bool operator==(const TrackedLayer&, const TrackedLayer&) = default;
+};
+
+/// What is carried from frame to frame. Empty before the first.
+struct StrokeMemory {
+  std::vector<std::vector<TrackedLayer>> views;  ///< of the scene, in their order: layers, coarse to fine
+  Image<float> reference_disparity;              ///< of the reference view, as it was
+  std::uint32_t last_number = 0;                 ///< given to a stroke
+};
+
+/// What became of the strokes of the frame before that were not fading out, and how many are new.
+struct StrokeCounts {
+  std::int64_t before = 0;
+  std::int64_t carried = 0;  ///< of these, go on; the others fade out, left the picture or are hidden in all views
+  std::int64_t begun = 0;
+};
+
+/// The strokes of a frame: those of the frame before, moved with the flow, as long as they fit; new ones where paint
+/// is missing or wrong. What fails fades out, what is new fades in; where a scene begins, all is new and whole. Strokes
+/// keep their numbers, and their order as far as their depths let them. Throws Error{wrong_usage} for a style that is
+/// not of strokes.
+struct CarriedPainting {
+  StrokePainting painting;
+  StrokeCounts counts;
+};
+CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                             StrokeMemory& memory);
+
+/// Begins dots that cover the bare pixels, 255 in `bare`, of the scene's view number `view`. They fade in unless the
+/// scene begins. Returns them as they are to be drawn with the finest layer.
+Layer cover_bare(const FilmFrame& frame, std::size_t view, ImageView<const std::uint8_t> bare, const Style& style,
+                 const CarryOptions& options, StrokeMemory& memory);
+
+/// Adds strokes to a layer whose strokes have numbers, each in its place.
+void insert_strokes(const Layer& part, const Style& style, Layer& whole);
+
+}  // namespace wheatstone

@@ -1,0 +1,272 @@
+// Strokes of films: they are carried, nothing is left bare, nothing pops, and both eyes still show the same strokes.
+
+#include "wheatstone/strokes/strokes_in_time.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "throws_error.h"
+#include "wheatstone/measures/consistency.h"
+#include "wheatstone/measures/depth_survival.h"
+#include "wheatstone/measures/film_measures.h"
+#include "wheatstone/motion/central_flow.h"
+#include "wheatstone/painting/paint_frame.h"
+#include "wheatstone/strokes/strokes_between_frames.h"
+#include "wheatstone/strokes/visible_runs_internal.h"
+#include "wheatstone/synthetic/synthetic_film.h"
+
+namespace wheatstone {
+namespace {
+
+/// A film of a camera that walks and fruit that hops, with the true flow of its central views.
+struct TestFilm {
+  std::vector<SyntheticFilmFrame> frames;
+  std::vector<CentralView> centres;
+  std::vector<FlowPair> flows;  ///< of each frame but the first
+
+  std::vector<SceneView> scene(std::size_t i) const {
+    return scene_from_centre(centres[i], frames[i].pictures, frames[i].geometry);
+  }
+  const FlowPair* flow_to(std::size_t i) const { return i == 0 ? nullptr : &flows[i - 1]; }
+  FlowPair left_flow_to(std::size_t i) const { return {frames[i - 1].to_next, frames[i].to_previous}; }
+};
+
+const TestFilm& film() {
+  static const TestFilm made = [] {
+    SyntheticFilmOptions options;
+    options.still = {.width = 320, .height = 180, .samples_a_side = 2};
+    options.cut = 0;
+    TestFilm result;
+    constexpr int frames = 5;
+    for (int i = 0; i < frames; ++i) {
+      result.frames.push_back(make_synthetic_film_frame(options, i));
+      result.centres.push_back(make_central_view(result.frames.back().pictures, result.frames.back().geometry));
+    }
+    for (std::size_t i = 1; i < result.frames.size(); ++i) {
+      const auto frame = [&](std::size_t k) {
+        return MovingMoment{result.frames[k].geometry.left_disparity, result.centres[k].disparity};
+      };
+      result.flows.push_back(central_flow(result.left_flow_to(i), frame(i - 1), frame(i)));
+    }
+    return result;
+  }();
+  return made;
+}
+
+/// The film painted, with or without what is carried.
+std::vector<PaintedFrame> painted(const Style& style, bool anew) {
+  std::vector<PaintedFrame> frames;
+  PaintingMemory memory;
+  for (std::size_t i = 0; i < film().frames.size(); ++i) {
+    const std::vector<SceneView> scene = film().scene(i);
+    if (anew) memory = {};
+    frames.push_back(paint_frame({scene, anew ? nullptr : film().flow_to(i)}, style, {}, memory));
+  }
+  return frames;
+}
+
+const std::vector<PaintedFrame>& carried() {
+  static const std::vector<PaintedFrame> made = painted({}, false);
+  return made;
+}
+
+const std::vector<PaintedFrame>& frame_by_frame() {
+  static const std::vector<PaintedFrame> made = painted({}, true);
+  return made;
+}
+
+double temporal_error(const std::vector<PaintedFrame>& frames) {
+  TemporalError error;
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    error.add(frames[i - 1].painted.pictures.left, frames[i].painted.pictures.left,
+              relate_frames(film().left_flow_to(i)));
+  return error.mean();
+}
+
+double rms_from_source(const std::vector<PaintedFrame>& frames) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Image<Rgb8>&a = frames[i].painted.pictures.left, &b = film().frames[i].pictures.left;
+    for (std::size_t k = 0; k < a.pixels().size(); ++k) {
+      const Rgb8 p = a.pixels()[k], q = b.pixels()[k];
+      sum += std::pow(p.r - q.r, 2) + std::pow(p.g - q.g, 2) + std::pow(p.b - q.b, 2);
+      count += 3;
+    }
+  }
+  return std::sqrt(sum / count);
+}
+
+TEST(StrokesInTime, FlickerFarLessThanFrameByFrameAndPaintAsTruly) {
+  EXPECT_LT(temporal_error(carried()), 0.3 * temporal_error(frame_by_frame()));
+  EXPECT_LT(rms_from_source(carried()), 1.05 * rms_from_source(frame_by_frame()));
+}
+
+TEST(StrokesInTime, SurviveLeaveNothingBareAndDoNotPop) {
+  StrokeChanges sum;
+  for (std::size_t i = 0; i < carried().size(); ++i) {
+    EXPECT_EQ(carried()[i].painted.left_bare_share, 0) << i;
+    EXPECT_EQ(carried()[i].painted.right_bare_share, 0) << i;
+    if (i == 0) continue;
+    const double largest_step = 1.0 / CarryOptions().fade_in_frames;
+    const StrokeChanges changes =
+        compare_strokes(carried()[i - 1].painted.painting.layers, carried()[i].painted.painting.layers, largest_step);
+    sum.whole += changes.whole;
+    sum.survived += changes.survived;
+    EXPECT_EQ(changes.popped, 0) << i;
+  }
+  // Small pictures have small, hasty strokes; wide ones do better.
+  EXPECT_GT(static_cast<double>(sum.survived) / static_cast<double>(sum.whole), 0.93);
+}
+
+TEST(StrokesInTime, FuseAsWellAsThoseOfAFrameAlone) {
+  const auto left_right = [](const std::vector<PaintedFrame>& frames) {
+    return measure_left_right_difference(frames.back().painted.pictures, film().frames.back().geometry.left_disparity)
+        .mean_absolute;
+  };
+  const auto bad_2 = [](const StereoPair& pictures) {
+    return measure_depth_survival(pictures, film().frames.back().geometry.left_disparity).bad_2;
+  };
+  EXPECT_LT(left_right(carried()), 1.3 * left_right(frame_by_frame()));
+  EXPECT_LT(bad_2(carried().back().painted.pictures), bad_2(film().frames.back().pictures) + 0.03);
+}
+
+TEST(StrokesInTime, ASceneBegunAfreshRemembersNothing) {
+  StrokeMemory used;
+  const std::vector<SceneView> first = film().scene(0), second = film().scene(1);
+  plan_strokes({first, nullptr}, {}, {}, used);
+  plan_strokes({second, film().flow_to(1)}, {}, {}, used);
+  StrokeMemory fresh;
+  const CarriedPainting expected = plan_strokes({first, nullptr}, {}, {}, fresh);
+  const CarriedPainting begun = plan_strokes({first, nullptr}, {}, {}, used);
+  ASSERT_EQ(begun.painting.layers.size(), expected.painting.layers.size());
+  for (std::size_t i = 0; i < expected.painting.layers.size(); ++i)
+    EXPECT_EQ(begun.painting.layers[i].strokes.size(), expected.painting.layers[i].strokes.size());
+  for (const Layer& layer : begun.painting.layers)
+    for (const Stroke& stroke : layer.strokes) ASSERT_EQ(stroke.opacity, Style().opacity);
+  EXPECT_EQ(begun.counts.before, 0);
+}
+
+TEST(StrokesInTime, AreTheSameOnAnyNumberOfThreads) {
+  const auto two_moments = [] {
+    StrokeMemory memory;
+    const std::vector<SceneView> first = film().scene(0), second = film().scene(1);
+    plan_strokes({first, nullptr}, {}, {}, memory);
+    return plan_strokes({second, film().flow_to(1)}, {}, {}, memory).painting;
+  };
+  const StrokePainting many = two_moments();
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(two_moments(), many);
+}
+
+TEST(StrokesInTime, ComeAndGoOverTheFramesAsked) {
+  CarryOptions options;
+  options.fade_in_frames = 3;
+  StrokeMemory memory;
+  const std::vector<SceneView> first = film().scene(0), second = film().scene(1);
+  plan_strokes({first, nullptr}, {}, options, memory);
+  const std::uint32_t last = memory.last_number;
+  plan_strokes({second, film().flow_to(1)}, {}, options, memory);
+  int begun = 0, ending = 0;
+  for (const std::vector<TrackedLayer>& view : memory.views) {
+    for (const TrackedLayer& tracked : view) {
+      for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
+        if (tracked.layer.strokes[i].number > last) {
+          ++begun;
+          EXPECT_FLOAT_EQ(tracked.tracks[i].shown, 1.f / 3);
+        } else if (tracked.tracks[i].ends != 0) {
+          ++ending;
+          // Those that the new picture told apart begin to fade with the next frame.
+          EXPECT_GE(tracked.tracks[i].shown, 0.75f);
+        }
+      }
+    }
+  }
+  EXPECT_GT(begun, 0);
+  EXPECT_GT(ending, 0);
+}
+
+TEST(StrokesInTime, AFilmOfOneEyeIsPaintedToo) {
+  PaintingMemory memory;
+  std::vector<Layer> before;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Image<Rgb8>& picture = film().frames[i].pictures.left;
+    const Image<float> flat(picture.width(), picture.height());
+    const std::vector<SceneView> scene{{picture, flat, {}, 0}};
+    const FlowPair flow = i == 0 ? FlowPair{} : film().left_flow_to(i);
+    FlowPair known = flow;
+    for (Image<float>* image : {&known.forward.x, &known.forward.y, &known.backward.x, &known.backward.y})
+      for (float& value : image->pixels())
+        if (std::isnan(value)) value = 0;
+    const PaintedFrame frame = paint_frame({scene, i == 0 ? nullptr : &known}, {}, {}, memory);
+    EXPECT_TRUE(frame.painted.pictures.right.empty());
+    EXPECT_EQ(frame.painted.left_bare_share, 0);
+    if (i > 0) {
+      const StrokeChanges changes = compare_strokes(before, frame.painted.painting.layers, 0.5);
+      EXPECT_GT(static_cast<double>(changes.survived) / static_cast<double>(changes.whole), 0.85);
+      EXPECT_EQ(changes.popped, 0);
+    }
+    before = frame.painted.painting.layers;
+  }
+}
+
+TEST(StrokesInTime, RefusesAStyleWithoutStrokes) {
+  StrokeMemory memory;
+  const std::vector<SceneView> scene = film().scene(0);
+  expect_error(ErrorKind::wrong_usage, "not strokes", [&] {
+    plan_strokes({scene, nullptr}, style_by_name("mosaic"), {}, memory);
+  });
+}
+
+TEST(VisibleRuns, ShowEachEyeWhatItSees) {
+  // A far wall with a near post before its middle, which hides another part of it from either eye.
+  constexpr int width = 40;
+  Image<float> centre(width, 4, 2.f), left(width, 4, 2.f), right(width, 4, 2.f);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 18; x < 22; ++x) {
+      centre(x, y) = 12;
+      left(x + 6, y) = 12;
+      right(x - 6, y) = 12;
+    }
+  const Image<Rgb8> picture(width, 4);
+  const std::vector<SceneView> views{
+      {picture, centre, {}, 0}, {picture, left, {}, left_eye}, {picture, right, {}, right_eye}};
+  std::vector<ControlPoint> points;
+  for (int x = 4; x < 36; x += 2) points.push_back({static_cast<float>(x) + 0.5f, 1.5f, 2});
+  Layer shown;
+  append_visible_runs({.point_count = static_cast<std::uint32_t>(points.size()), .reference_view = 0}, points, views, 1,
+                      shown);
+  const auto is_shown = [&](float x, float view) {
+    return std::ranges::any_of(shown.strokes, [&](const Stroke& stroke) {
+      return stroke.views.contains(view) &&
+             std::ranges::any_of(shown.points_of(stroke), [&](const ControlPoint& p) { return p.x == x; });
+    });
+  };
+  EXPECT_TRUE(is_shown(4.5f, left_eye) && is_shown(4.5f, right_eye));
+  EXPECT_TRUE(is_shown(24.5f, right_eye));
+  EXPECT_FALSE(is_shown(24.5f, left_eye));
+  EXPECT_TRUE(is_shown(14.5f, left_eye));
+  EXPECT_FALSE(is_shown(14.5f, right_eye));
+}
+
+TEST(CompareStrokes, TellsWhatPopsFromWhatFades) {
+  const auto frame = [](std::initializer_list<std::pair<std::uint32_t, float>> strokes) {
+    Layer layer;
+    for (const auto& [number, opacity] : strokes) layer.strokes.push_back({.opacity = opacity, .number = number});
+    return std::vector<Layer>{layer};
+  };
+  const auto first = frame({{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 0.5f}});
+  const StrokeChanges fades = compare_strokes(first, frame({{1, 1}, {2, 0.75f}, {4, 1}, {5, 1}, {6, 0.5f}}), 0.5);
+  EXPECT_EQ(fades.whole, 4);
+  EXPECT_EQ(fades.survived, 2);
+  EXPECT_EQ(fades.hidden, 1);
+  EXPECT_EQ(fades.popped, 0);
+  EXPECT_EQ(compare_strokes(first, frame({{1, 0.25f}, {7, 1}}), 0.5).popped, 2);
+}
+
+}  // namespace
+}  // namespace wheatstone

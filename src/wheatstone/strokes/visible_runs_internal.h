@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/stereo/scene_view.h"
+
+namespace wheatstone {
+
+/// The disparity of the surface that a view shows at a place, interpolated where it is one surface; beyond the border,
+/// that of the border.
+float surface_disparity(ImageView<const float> disparity, float x, float y, float depth_threshold_px);
+
+/// True where no surface of the view lies before the point by more than `tolerance_px` of disparity. `reference` is the
+/// view position in which the point stands.
+bool is_visible(const ControlPoint& point, float reference, const SceneView& view, float tolerance_px);
+
+/// Appends a stroke, cut into runs of points that the same views of the scene show; what none shows is left out.
+/// `points` are the stroke's own.
+void append_visible_runs(const Stroke& stroke, std::span<const ControlPoint> points, std::span<const SceneView> views,
+                         float tolerance_px, Layer& shown);
+
+}  // namespace wheatstone
