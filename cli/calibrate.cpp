@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <array>
@@ -87,7 +88,7 @@ std::vector<PictureFiles> files_from(const Arguments& arguments) {
   return pairs;
 }
 
-void print_json(const CalibrationResult& result, const Arguments& arguments) {
+void print_json(const CalibrationResult& result, const Arguments& arguments, const Session& session) {
   nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
   for (const CalibrationPair& pair : result.pairs)
     pairs.push_back({{"left", pair.left_name},
@@ -104,29 +105,30 @@ void print_json(const CalibrationResult& result, const Arguments& arguments) {
                                  result.calibration.translation[2])},
       {"eyes_swapped", eyes_swapped(result.calibration)},
       {"pairs", pairs}};
-  fmt::print("{}\n", facts.dump(2));
+  fmt::print(session.output, "{}\n", facts.dump(2));
 }
 
-void print_summary(const CalibrationResult& result, const Arguments& arguments) {
+void print_summary(const CalibrationResult& result, const Arguments& arguments, const Session& session) {
   for (const CalibrationPair& pair : result.pairs) {
     const std::string names = fmt::format("{}, {}", pair.left_name, pair.right_name);
     if (pair.used) {
-      fmt::print("{}: {:.3f} and {:.3f} px\n", names, pair.left_error_px, pair.right_error_px);
+      fmt::print(session.output, "{}: {:.3f} and {:.3f} px\n", names, pair.left_error_px, pair.right_error_px);
     } else {
-      fmt::print("{}: left out: {}\n", names, pair.why_not);
+      fmt::print(session.output, "{}: left out: {}\n", names, pair.why_not);
     }
   }
   const auto used = std::ranges::count_if(result.pairs, &CalibrationPair::used);
   const auto& [x, y, z] = result.calibration.translation;
-  fmt::print("used                  {} of {} pairs\n", used, result.pairs.size());
-  fmt::print("reprojection error    {:.3f} px\n", result.calibration.reprojection_error_px);
-  fmt::print("rows differ           {:.3f} px after rectification, median of the corners\n", result.row_difference_px);
-  fmt::print("eye separation        {:.2f} mm\n", std::hypot(x, y, z));
+  fmt::print(session.output, "used                  {} of {} pairs\n", used, result.pairs.size());
+  fmt::print(session.output, "reprojection error    {:.3f} px\n", result.calibration.reprojection_error_px);
+  fmt::print(session.output, "rows differ           {:.3f} px after rectification, median of the corners\n",
+             result.row_difference_px);
+  fmt::print(session.output, "eye separation        {:.2f} mm\n", std::hypot(x, y, z));
   if (eyes_swapped(result.calibration))
-    fmt::print(
-        "note                  the left pictures are those of the camera on the right: left and right are "
-        "swapped\n");
-  fmt::print("written to            {}\n", arguments.output);
+    fmt::print(session.output,
+               "note                  the left pictures are those of the camera on the right: left and right are "
+               "swapped\n");
+  fmt::print(session.output, "written to            {}\n", arguments.output);
 }
 
 void run(const Arguments& arguments, const Session& session) {
@@ -136,9 +138,9 @@ void run(const Arguments& arguments, const Session& session) {
   const CalibrationResult result = calibrate(sightings, board, {}, session.progress);
   write_stereo_calibration(arguments.output, result.calibration);
   if (session.json) {
-    print_json(result, arguments);
+    print_json(result, arguments, session);
   } else {
-    print_summary(result, arguments);
+    print_summary(result, arguments, session);
   }
 }
 

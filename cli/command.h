@@ -2,23 +2,26 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <iosfwd>
 
 #include "wheatstone/progress.h"
 
 namespace wheatstone::cli {
 
-/// What every command shares; filled from the command line before a command runs.
+/// What every command shares; filled from the command line before a command runs. Commands print to its streams only.
 struct Session {
-  bool json = false;  ///< print one JSON object on standard output instead of text
+  std::ostream& output;  ///< takes the results
+  std::ostream& errors;  ///< takes what is said beside them
+  bool json = false;     ///< print one JSON object as the output instead of text
   bool verbose = false;
-  bool quiet = false;  ///< nothing on standard error but errors
+  bool quiet = false;  ///< no progress and no remarks, only errors
   int threads = 0;     ///< 0: as many as the machine has
   std::uint64_t seed = 1;
   Progress progress;  ///< draws the bar and throws Error{interrupted} after Ctrl-C
 };
 
-// Each adds its command to the program. A command throws wheatstone::Error; main turns that into one line and the
-// exit code. The session outlives the commands and is filled when their callbacks run.
+// Each adds its command to the program. A command throws wheatstone::Error; run_command_line turns that into one line
+// and the exit code. The session outlives the commands and is filled when their callbacks run.
 void add_calibrate_command(CLI::App& program, const Session& session);
 void add_rectify_command(CLI::App& program, const Session& session);
 void add_match_command(CLI::App& program, const Session& session);

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <cctype>
 #include <cmath>
@@ -72,20 +73,21 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
                                        {"pixel_in_front_mm", -perceived_depth_mm(viewing, -pitch)},
                                        {"pixel_behind_mm", perceived_depth_mm(viewing, pitch)},
                                        {"warnings", warnings}};
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
-  fmt::print("screen: {:.0f} mm wide, {} pixels a view, {:.4f} mm a pixel; seen from {:.0f} mm, eyes {:.0f} mm apart\n",
+  fmt::print(session.output,
+             "screen: {:.0f} mm wide, {} pixels a view, {:.4f} mm a pixel; seen from {:.0f} mm, eyes {:.0f} mm apart\n",
              viewing.screen_width_mm, viewing.width_px, pitch, viewing.viewing_distance_mm, viewing.eye_separation_mm);
-  fmt::print("{:.0f} mm before the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n", arguments.near_mm,
-             before, before / pitch, angular_disparity_deg(viewing, -arguments.near_mm));
-  fmt::print("{:.0f} mm behind the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n", arguments.far_mm,
-             behind, behind / pitch, angular_disparity_deg(viewing, arguments.far_mm));
-  fmt::print("depth planes: {:.1f}\n", planes);
-  fmt::print("one pixel at the screen: {:.1f} mm before it, {:.1f} mm behind it\n",
+  fmt::print(session.output, "{:.0f} mm before the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n",
+             arguments.near_mm, before, before / pitch, angular_disparity_deg(viewing, -arguments.near_mm));
+  fmt::print(session.output, "{:.0f} mm behind the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n",
+             arguments.far_mm, behind, behind / pitch, angular_disparity_deg(viewing, arguments.far_mm));
+  fmt::print(session.output, "depth planes: {:.1f}\n", planes);
+  fmt::print(session.output, "one pixel at the screen: {:.1f} mm before it, {:.1f} mm behind it\n",
              -perceived_depth_mm(viewing, -pitch), perceived_depth_mm(viewing, pitch));
-  fmt::print("total parallax: {:.1f} % of the width\n", percent);
-  for (const std::string& warning : warnings) fmt::print("comfort: {}\n", warning);
+  fmt::print(session.output, "total parallax: {:.1f} % of the width\n", percent);
+  for (const std::string& warning : warnings) fmt::print(session.output, "comfort: {}\n", warning);
 }
 
 }  // namespace

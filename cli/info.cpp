@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -209,19 +210,19 @@ std::string as_text(const ordered_json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-void print_as_text(const ordered_json& facts) {
+void print_as_text(const ordered_json& facts, const Session& session) {
   for (const auto& [name, value] : facts.items()) {
     std::string label = name;
     std::replace(label.begin(), label.end(), '_', ' ');
     if (!value.is_array()) {
-      fmt::print("{}: {}\n", label, as_text(value));
+      fmt::print(session.output, "{}: {}\n", label, as_text(value));
       continue;
     }
-    fmt::print("{}:\n", label);
+    fmt::print(session.output, "{}:\n", label);
     for (const ordered_json& entry : value) {
       std::string line;
       for (const auto& [key, part] : entry.items()) line += fmt::format("  {} {}", key, as_text(part));
-      fmt::print("{}\n", line);
+      fmt::print(session.output, "{}\n", line);
     }
   }
 }
@@ -257,9 +258,9 @@ void add_info_command(CLI::App& program, const Session& session) {
     const ordered_json facts =
         facts_of(arguments->file, arguments->scale, arguments->type, arguments->layout, arguments->display);
     if (session.json) {
-      fmt::print("{}\n", facts.dump(2));
+      fmt::print(session.output, "{}\n", facts.dump(2));
     } else {
-      print_as_text(facts);
+      print_as_text(facts, session);
     }
   });
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -41,13 +42,13 @@ void run(const Arguments& arguments, const Session& session) {
                                        {"largest_disparity_px", matched.range.largest},
                                        {"left_found_share", matched.left_found_share},
                                        {"right_found_share", matched.right_found_share}};
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
-  fmt::print("disparities looked for   {} to {} px\n", matched.range.least, matched.range.largest);
-  fmt::print("found, not filled        {:.1f} % of the left view, {:.1f} % of the right\n",
+  fmt::print(session.output, "disparities looked for   {} to {} px\n", matched.range.least, matched.range.largest);
+  fmt::print(session.output, "found, not filled        {:.1f} % of the left view, {:.1f} % of the right\n",
              100 * matched.left_found_share, 100 * matched.right_found_share);
-  fmt::print("written to               {}\n", arguments.folder);
+  fmt::print(session.output, "written to               {}\n", arguments.folder);
 }
 
 }  // namespace

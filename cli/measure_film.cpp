@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <cmath>
@@ -165,23 +166,23 @@ Json to_json(const Arguments& arguments, const std::vector<MeasuredFilm>& films,
   return facts;
 }
 
-void print_table(const std::vector<MeasuredFilm>& films, const std::vector<int>& cuts) {
+void print_table(const std::vector<MeasuredFilm>& films, const std::vector<int>& cuts, const Session& session) {
   std::size_t width = 16;
   for (const MeasuredFilm& film : films) width = std::max(width, film.name.size());
   constexpr auto line = "{:<{}}{:>14}{:>12}{:>11}{:>14}{:>14}\n";
-  fmt::print(line, "", width, "E_warp x 1000", "of source", "compared", "left - right", "depth found");
+  fmt::print(session.output, line, "", width, "E_warp x 1000", "of source", "compared", "left - right", "depth found");
   const double source_error = films.front().temporal.mean();
   for (const MeasuredFilm& film : films) {
     const TemporalError& error = film.temporal;
     const bool stereo = !film.stereo.empty(), temporal = error.pairs() > 0;
     const Json mean = stereo ? mean_of(film.stereo) : Json();
-    fmt::print(line, film.name, width, temporal ? fmt::format("{:.4f}", 1000 * error.mean()) : "",
+    fmt::print(session.output, line, film.name, width, temporal ? fmt::format("{:.4f}", 1000 * error.mean()) : "",
                source_error > 0 ? fmt::format("{:.2f}", error.mean() / source_error) : "",
                temporal ? fmt::format("{:.1f} %", 100 * error.compared_share()) : "",
                stereo ? fmt::format("{:.2f}", mean.at("left_right_mean_absolute").get<double>()) : "",
                stereo ? fmt::format("{:.1f} %", 100 * mean.at("survival_density").get<double>()) : "");
   }
-  if (!cuts.empty()) fmt::print("cuts before frame {}\n", fmt::join(cuts, ", "));
+  if (!cuts.empty()) fmt::print(session.output, "cuts before frame {}\n", fmt::join(cuts, ", "));
 }
 
 /// What became of the strokes of a painted film whose frames' marks were kept.
@@ -259,12 +260,13 @@ void run(const Arguments& arguments, const Session& session) {
   if (session.json) {
     Json facts = to_json(arguments, films, frame, cuts);
     if (marks) facts["marks"] = to_json(*marks);
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
-  print_table(films, cuts);
+  print_table(films, cuts, session);
   if (marks)
-    fmt::print("strokes: {:.1f} % carried from frame to frame, {} popped; bare at most {:.3f} % of an eye\n",
+    fmt::print(session.output,
+               "strokes: {:.1f} % carried from frame to frame, {} popped; bare at most {:.3f} % of an eye\n",
                100 * survival_of(marks->changes), marks->changes.popped, 100 * marks->worst_bare_share);
 }
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -130,24 +131,26 @@ constexpr Row rows[] = {
      [](const PairMeasures& m) { return 100 * ratio(m.right_gradient_energy, m.left_gradient_energy); }},
 };
 
-void print_table(const Measured& measured) {
-  fmt::print("{:<30}{:>12}{:>14}\n", "", "stylised", measured.photographs ? "photographs" : "");
+void print_table(const Measured& measured, const Session& session) {
+  fmt::print(session.output, "{:<30}{:>12}{:>14}\n", "", "stylised", measured.photographs ? "photographs" : "");
   for (const Row& row : rows) {
     const auto text = [&](const PairMeasures& m) { return fmt::format(fmt::runtime(row.format), row.value(m)); };
-    fmt::print("{:<30}{:>12}{:>14}\n", row.name, text(measured.stylised),
+    fmt::print(session.output, "{:<30}{:>12}{:>14}\n", row.name, text(measured.stylised),
                measured.photographs ? text(*measured.photographs) : "");
   }
   if (measured.photographs) {
     const auto kept = [](double stylised, double photograph) {
       return fmt::format("{:.1f} %", 100 * ratio(stylised, photograph));
     };
-    fmt::print("{:<30}{:>12}\n", "  left of its photograph",
+    fmt::print(session.output, "{:<30}{:>12}\n", "  left of its photograph",
                kept(measured.stylised.left_gradient_energy, measured.photographs->left_gradient_energy));
-    fmt::print("{:<30}{:>12}\n", "  right of its photograph",
+    fmt::print(session.output, "{:<30}{:>12}\n", "  right of its photograph",
                kept(measured.stylised.right_gradient_energy, measured.photographs->right_gradient_energy));
   }
   if (!measured.painting) return;
-  const auto line = [](const char* name, const std::string& value) { fmt::print("{:<30}{:>12}\n", name, value); };
+  const auto line = [&session](const char* name, const std::string& value) {
+    fmt::print(session.output, "{:<30}{:>12}\n", name, value);
+  };
   const PaintingGuards& guards = *measured.painting;
   line("strokes", fmt::format("{}", guards.strokes.strokes));
   line("  in both eyes, of visible", fmt::format("{:.1f} %", 100 * guards.strokes.paired_share));
@@ -178,9 +181,9 @@ void run(const Arguments& arguments, const Session& session) {
   if (photographs) measured.photographs = measure_pair(*photographs, truth.left_disparity);
   if (!arguments.painting.empty()) measured.painting = measure_guards(arguments, stylised, truth.geometry);
   if (session.json) {
-    fmt::print("{}\n", to_json(measured).dump(2));
+    fmt::print(session.output, "{}\n", to_json(measured).dump(2));
   } else {
-    print_table(measured);
+    print_table(measured, session);
   }
 }
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,21 +85,21 @@ Json to_json(const std::vector<MeasuredView>& measured, int noticeable) {
   return {{"noticeable", noticeable}, {"views", views}, {"worst", to_json(worst_of(measured))}};
 }
 
-void print_line(const std::string& name, std::size_t width, const ViewMeasures& m) {
-  fmt::print("{:<{}}{:>10}{:>11}{:>11.2f}{:>9}{:>7}{:>14.2f}\n", name, width,
+void print_line(const std::string& name, std::size_t width, const ViewMeasures& m, const Session& session) {
+  fmt::print(session.output, "{:<{}}{:>10}{:>11}{:>11.2f}{:>9}{:>7}{:>14.2f}\n", name, width,
              std::isfinite(m.psnr_db) ? fmt::format("{:.1f}", m.psnr_db) : "equal", m.differing_pixels,
              100 * m.differing_share, m.isolated_splats, m.lost_splats, m.largest_position_error_px);
 }
 
-void print_table(const std::vector<MeasuredView>& measured, int noticeable) {
+void print_table(const std::vector<MeasuredView>& measured, int noticeable, const Session& session) {
   std::size_t width = 16;
   for (const MeasuredView& view : measured) width = std::max(width, view.name.size());
   constexpr auto heads = "{:<{}}{:>10}{:>11}{:>11}{:>9}{:>7}{:>14}\n";
-  fmt::print(heads, "", width, "PSNR", fmt::format("off by >{}", noticeable), "off at all", "isolated", "lost",
-             "position off");
-  fmt::print(heads, "view", width, "dB", "pixels", "%", "splats", "", "px, at most");
-  for (const auto& [name, measures] : measured) print_line(name, width, measures);
-  if (measured.size() > 1) print_line("worst", width, worst_of(measured));
+  fmt::print(session.output, heads, "", width, "PSNR", fmt::format("off by >{}", noticeable), "off at all", "isolated",
+             "lost", "position off");
+  fmt::print(session.output, heads, "view", width, "dB", "pixels", "%", "splats", "", "px, at most");
+  for (const auto& [name, measures] : measured) print_line(name, width, measures, session);
+  if (measured.size() > 1) print_line("worst", width, worst_of(measured), session);
 }
 
 void run(const Arguments& arguments, const Session& session) {
@@ -119,9 +120,9 @@ void run(const Arguments& arguments, const Session& session) {
     measured.push_back({views[i].filename().string(), measure_view(view, reference, arguments.options)});
   }
   if (session.json) {
-    fmt::print("{}\n", to_json(measured, arguments.options.noticeable).dump(2));
+    fmt::print(session.output, "{}\n", to_json(measured, arguments.options.noticeable).dump(2));
   } else {
-    print_table(measured, arguments.options.noticeable);
+    print_table(measured, arguments.options.noticeable, session);
   }
 }
 

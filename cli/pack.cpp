@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -52,12 +53,13 @@ void run(const Arguments& arguments, const Session& session) {
                                        {"width", views.front().width()},
                                        {"height", views.front().height()},
                                        {"input", read.how}};
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
   if (session.verbose)
-    fmt::print("{} views of {}x{} pixels, {}\n", views.size(), views.front().width(), views.front().height(), read.how);
-  fmt::print("written to {}\n", written);
+    fmt::print(session.output, "{} views of {}x{} pixels, {}\n", views.size(), views.front().width(),
+               views.front().height(), read.how);
+  fmt::print(session.output, "written to {}\n", written);
 }
 
 }  // namespace

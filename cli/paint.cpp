@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -70,29 +71,31 @@ ZeroParallax parse_zero_parallax(const Arguments& arguments) {
   return wanted;
 }
 
-void print_summary(const PaintedPhotograph& result, const PaintingMeasures* measures, const Arguments& arguments) {
+void print_summary(const PaintedPhotograph& result, const PaintingMeasures* measures, const Arguments& arguments,
+                   const Session& session) {
   const PaintedPair& painted = result.painted;
   std::size_t strokes = 0;
   for (const Layer& layer : painted.painting.layers) strokes += layer.strokes.size();
   const double seconds = painted.times.planning_s + painted.times.rasterising_s;
   if (!painted.curves.lines.empty()) {
-    fmt::print("painted          {} lines beside edges, {:.2f} s\n", painted.curves.lines.size(), seconds);
-  } else if (painted.regions.marks.empty()) {
-    fmt::print("painted          {} strokes in {} layers, {:.2f} s\n", strokes, painted.painting.layers.size(),
+    fmt::print(session.output, "painted          {} lines beside edges, {:.2f} s\n", painted.curves.lines.size(),
                seconds);
+  } else if (painted.regions.marks.empty()) {
+    fmt::print(session.output, "painted          {} strokes in {} layers, {:.2f} s\n", strokes,
+               painted.painting.layers.size(), seconds);
   } else {
-    fmt::print("painted          {} regions, {:.2f} s\n", painted.regions.marks.size(), seconds);
+    fmt::print(session.output, "painted          {} regions, {:.2f} s\n", painted.regions.marks.size(), seconds);
   }
-  fmt::print("left bare        {:.2f} % of the left eye, {:.2f} % of the right\n", 100 * painted.left_bare_share,
-             100 * painted.right_bare_share);
-  fmt::print("zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
+  fmt::print(session.output, "left bare        {:.2f} % of the left eye, {:.2f} % of the right\n",
+             100 * painted.left_bare_share, 100 * painted.right_bare_share);
+  fmt::print(session.output, "zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
   if (measures != nullptr) {
-    fmt::print("left - right     {:.2f} of 255 (photographs {:.2f})\n", measures->painting.difference.mean_absolute,
-               measures->photographs.difference.mean_absolute);
-    fmt::print("depth lost       {:.1f} % off by over 2 px (photographs {:.1f} %)\n",
+    fmt::print(session.output, "left - right     {:.2f} of 255 (photographs {:.2f})\n",
+               measures->painting.difference.mean_absolute, measures->photographs.difference.mean_absolute);
+    fmt::print(session.output, "depth lost       {:.1f} % off by over 2 px (photographs {:.1f} %)\n",
                100 * measures->painting.survival.bad_2, 100 * measures->photographs.survival.bad_2);
   }
-  fmt::print("written to       {}\n", arguments.folder);
+  fmt::print(session.output, "written to       {}\n", arguments.folder);
 }
 
 /// What a display wants, where the user does not say otherwise.
@@ -133,15 +136,15 @@ void paint_for_display(const Arguments& arguments, const StereoPair& photographs
                                        {"span", result.span},
                                        {"zero_parallax_px", result.zero_parallax_px},
                                        {"worst_bare_share", result.worst_bare_share}};
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
-  fmt::print("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n",
+  fmt::print(session.output, "painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n",
              result.views.size(), options.width, options.height, result.span);
-  fmt::print("zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
-  fmt::print("left bare        at most {:.2f} % of a view, filled from its neighbours\n",
+  fmt::print(session.output, "zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
+  fmt::print(session.output, "left bare        at most {:.2f} % of a view, filled from its neighbours\n",
              100 * result.worst_bare_share);
-  fmt::print("written to       {}\n", written);
+  fmt::print(session.output, "written to       {}\n", written);
 }
 
 void paint_photographs(const Arguments& arguments, const Session& session) {
@@ -173,15 +176,15 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
   write_results(folder, photographs, result, options.style, measured, {.html = arguments.html}, session.progress);
   if (session.json) {
-    fmt::print("{}", report_json(result, options.style, measured));
+    fmt::print(session.output, "{}", report_json(result, options.style, measured));
   } else {
-    print_summary(result, measured, arguments);
+    print_summary(result, measured, arguments, session);
   }
 }
 
 void run(const Arguments& arguments, const Session& session) {
   if (!arguments.print_style.empty()) {
-    fmt::print("{}", style_to_toml(read_style(arguments.print_style)));
+    fmt::print(session.output, "{}", style_to_toml(read_style(arguments.print_style)));
     return;
   }
   const std::string& left = arguments.photographs.left;
@@ -190,9 +193,9 @@ void run(const Arguments& arguments, const Session& session) {
   if (!arguments.photographs.right.empty() || !left.ends_with(".wst")) return paint_photographs(arguments, session);
   draw_again(read_painting(left), arguments.scale, arguments.folder);
   if (session.json) {
-    fmt::print("{{\"folder\": \"{}\"}}\n", arguments.folder);
+    fmt::print(session.output, "{{\"folder\": \"{}\"}}\n", arguments.folder);
   } else {
-    fmt::print("written to       {}\n", arguments.folder);
+    fmt::print(session.output, "written to       {}\n", arguments.folder);
   }
 }
 

@@ -30,8 +30,7 @@ void lay_out_help(CLI::App& app, const std::string& word) {
   }
 }
 
-void add_shared_options(CLI::App& program, SharedOptions& options) {
-  Session& session = options.session;
+void add_shared_options(CLI::App& program, Session& session) {
   program.add_flag("--json", session.json, "Print one JSON object instead of text");
   program.add_option("--threads", session.threads, "Threads to use; 0 for as many as the machine has")
       ->check(CLI::Range(0, 4096))
@@ -49,7 +48,7 @@ void add_shared_options(CLI::App& program, SharedOptions& options) {
 
 }  // namespace
 
-std::unique_ptr<CLI::App> make_program(SharedOptions& options) {
+std::unique_ptr<CLI::App> make_program(Session& session) {
   auto program = std::make_unique<CLI::App>("Pictures for two eyes, and for forty-five.", "wheatstone");
   // Taken over by every command: what all share may stand before or behind the command's name.
   program->fallthrough();
@@ -57,9 +56,8 @@ std::unique_ptr<CLI::App> make_program(SharedOptions& options) {
   program->footer(
       "'wheatstone COMMAND --help' tells more. Exit codes: 0 done, 2 wrong usage, 3 bad input,\n"
       "4 cannot read or write, 5 interrupted.");
-  add_shared_options(*program, options);
+  add_shared_options(*program, session);
 
-  const Session& session = options.session;
   add_calibrate_command(*program, session);
   add_rectify_command(*program, session);
   add_match_command(*program, session);

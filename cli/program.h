@@ -6,12 +6,7 @@
 
 namespace wheatstone::cli {
 
-/// What the command line says beside the session.
-struct SharedOptions {
-  Session session;
-};
-
-/// The program with all its commands. `options` is filled when a line is parsed and must outlive the program.
-std::unique_ptr<CLI::App> make_program(SharedOptions& options);
+/// The program with all its commands. `session` is filled when a line is parsed and must outlive the program.
+std::unique_ptr<CLI::App> make_program(Session& session);
 
 }  // namespace wheatstone::cli

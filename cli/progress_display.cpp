@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
+#include <ostream>
 
 namespace wheatstone::cli {
 namespace {
@@ -17,13 +17,10 @@ constexpr int bar_width = 30;
 
 std::string_view first_word(std::string_view text) { return text.substr(0, text.find(' ')); }
 
-// Progress is a courtesy: where standard error is closed the run goes on.
-void put(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stderr);
-  std::fflush(stderr);
-}
-
 }  // namespace
+
+// Progress is a courtesy: where standard error is closed the run goes on.
+void ProgressDisplay::put(std::string_view text) { errors_ << text << std::flush; }
 
 void ProgressDisplay::show(std::string_view step, double done) {
   if (style_ == Style::none) return;

@@ -1,18 +1,20 @@
 #pragma once
 
 #include <chrono>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace wheatstone::cli {
 
-/// Shows on standard error how far a run is: a bar that redraws itself on a terminal, one line a step elsewhere.
+/// Shows how far a run is: a bar that redraws itself on a terminal, one line a step elsewhere.
 class ProgressDisplay {
  public:
   enum class Style { bar, lines, none };
 
-  explicit ProgressDisplay(Style style) : style_(style) {}
+  /// `errors` must outlive the display.
+  ProgressDisplay(Style style, std::ostream& errors) : style_(style), errors_(errors) {}
   ~ProgressDisplay() { clear(); }
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -25,8 +27,10 @@ class ProgressDisplay {
 
  private:
   void draw_bar(std::string_view step, double done);
+  void put(std::string_view text);
 
   Style style_;
+  std::ostream& errors_;
   std::optional<std::string> step_;
   std::chrono::steady_clock::time_point drawn_;
   bool bar_visible_ = false;

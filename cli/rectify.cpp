@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -35,7 +36,7 @@ RectifiedPair rectified(const Arguments& arguments, const Session& session) {
   }
 }
 
-void print_json(const RectifiedPair& pair, const Arguments& arguments) {
+void print_json(const RectifiedPair& pair, const Arguments& arguments, const Session& session) {
   const auto vertical = [&](const VerticalDisparity& of) -> nlohmann::ordered_json {
     if (pair.measured_matches == 0) return nullptr;
     return {{"median_px", of.median_px}, {"percentile_95_px", of.percentile_95_px}};
@@ -53,35 +54,41 @@ void print_json(const RectifiedPair& pair, const Arguments& arguments) {
   if (pair.colour) facts["colour"] = {{"gain", pair.colour->gain}, {"gamma", pair.colour->gamma}};
   if (pair.homographies)
     facts["homographies"] = {{"left", pair.homographies->left}, {"right", pair.homographies->right}};
-  fmt::print("{}\n", facts.dump(2));
+  fmt::print(session.output, "{}\n", facts.dump(2));
 }
 
-void print_summary(const RectifiedPair& pair, const Arguments& arguments) {
+void print_summary(const RectifiedPair& pair, const Arguments& arguments, const Session& session) {
   if (pair.measured_matches == 0) {
-    fmt::print("rows                  not measured: the pictures have too few features in common\n");
+    fmt::print(session.output, "rows                  not measured: the pictures have too few features in common\n");
   } else {
-    fmt::print("rows differed by      {:.2f} px, median; {:.2f} px, 95th percentile of {} feature matches\n",
+    fmt::print(session.output,
+               "rows differed by      {:.2f} px, median; {:.2f} px, 95th percentile of {} feature matches\n",
                pair.before.median_px, pair.before.percentile_95_px, pair.measured_matches);
-    fmt::print("rows differ by        {:.2f} px, median; {:.2f} px, 95th percentile\n", pair.after.median_px,
-               pair.after.percentile_95_px);
+    fmt::print(session.output, "rows differ by        {:.2f} px, median; {:.2f} px, 95th percentile\n",
+               pair.after.median_px, pair.after.percentile_95_px);
   }
-  fmt::print("kept                  {}x{} pixels\n", pair.pictures.left.width(), pair.pictures.left.height());
+  fmt::print(session.output, "kept                  {}x{} pixels\n", pair.pictures.left.width(),
+             pair.pictures.left.height());
   if (pair.shift_px > 0) {
-    fmt::print("horizontal shift      {:.0f} px, so that all disparities are at least 0\n", pair.shift_px);
+    fmt::print(session.output, "horizontal shift      {:.0f} px, so that all disparities are at least 0\n",
+               pair.shift_px);
   } else {
-    fmt::print("horizontal shift      none{}\n", pair.eyes_swapped ? "" : ": all disparities are at least 0");
+    fmt::print(session.output, "horizontal shift      none{}\n",
+               pair.eyes_swapped ? "" : ": all disparities are at least 0");
   }
   if (pair.colour) {
     const auto& [gain, gamma] = *pair.colour;
-    fmt::print("colour of the right   red {:.3f}, green {:.3f}, blue {:.3f} times; gamma {:.3f}, {:.3f}, {:.3f}\n",
+    fmt::print(session.output,
+               "colour of the right   red {:.3f}, green {:.3f}, blue {:.3f} times; gamma {:.3f}, {:.3f}, {:.3f}\n",
                gain[0], gain[1], gain[2], gamma[0], gamma[1], gamma[2]);
   } else if (arguments.match_colour) {
-    fmt::print("colour of the right   left as it is: too few features to compare\n");
+    fmt::print(session.output, "colour of the right   left as it is: too few features to compare\n");
   }
   if (pair.eyes_swapped)
     fmt::print(
+        session.output,
         "note                  the left picture is that of the camera on the right: left and right are swapped\n");
-  fmt::print("written to            {}\n", arguments.folder);
+  fmt::print(session.output, "written to            {}\n", arguments.folder);
 }
 
 void run(const Arguments& arguments, const Session& session) {
@@ -91,9 +98,9 @@ void run(const Arguments& arguments, const Session& session) {
   write_image(folder.file("right.png"), pair.pictures.right);
   folder.commit();
   if (session.json) {
-    print_json(pair, arguments);
+    print_json(pair, arguments, session);
   } else {
-    print_summary(pair, arguments);
+    print_summary(pair, arguments, session);
   }
 }
 

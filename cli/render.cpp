@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <charconv>
 #include <cmath>
@@ -206,18 +207,20 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"planes", result.rendered.planes},
                                  {"exposure", result.rendered.exposure},
                                  {"warnings", result.warnings}};
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
-  if (result.dropped > 0) fmt::print("left out: {} particles without a finite position\n", result.dropped);
+  if (result.dropped > 0)
+    fmt::print(session.output, "left out: {} particles without a finite position\n", result.dropped);
   if (result.mended > 0)
-    fmt::print("taken as the least there is: {} densities or temperatures that are not above 0\n", result.mended);
-  if (result.density_estimated) fmt::print("density: estimated from each particle's neighbours\n");
-  for (const std::string& warning : result.warnings) fmt::print("note: {}\n", warning);
+    fmt::print(session.output, "taken as the least there is: {} densities or temperatures that are not above 0\n",
+               result.mended);
+  if (result.density_estimated) fmt::print(session.output, "density: estimated from each particle's neighbours\n");
+  for (const std::string& warning : result.warnings) fmt::print(session.output, "note: {}\n", warning);
   if (session.verbose)
-    fmt::print("method: {}\nplanes: {}\nexposure: {:.4g}\n", result.rendered.reason, result.rendered.planes,
-               result.rendered.exposure);
-  fmt::print("written to {}\n", written);
+    fmt::print(session.output, "method: {}\nplanes: {}\nexposure: {:.4g}\n", result.rendered.reason,
+               result.rendered.planes, result.rendered.exposure);
+  fmt::print(session.output, "written to {}\n", written);
 }
 
 void run(const Arguments& given, const CLI::App& command, const Session& session) {

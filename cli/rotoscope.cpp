@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <charconv>
@@ -152,21 +153,21 @@ nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm&
   return facts;
 }
 
-void print_summary(const Arguments& arguments, const RotoscopedFilm& film) {
+void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const Session& session) {
   const RotoscopeTotals& totals = film.totals;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
-  fmt::print("painted          {} frames in {} scenes", film.frames, totals.scenes);
-  if (film.resumed_frames > 0) fmt::print(", the first {} by an earlier run", film.resumed_frames);
-  fmt::print("\ntime             {:.2f} s a frame, {:.2f} core-seconds\n", film.seconds / painted,
+  fmt::print(session.output, "painted          {} frames in {} scenes", film.frames, totals.scenes);
+  if (film.resumed_frames > 0) fmt::print(session.output, ", the first {} by an earlier run", film.resumed_frames);
+  fmt::print(session.output, "\ntime             {:.2f} s a frame, {:.2f} core-seconds\n", film.seconds / painted,
              film.core_seconds / painted);
   if (totals.whole_strokes > 0)
-    fmt::print("carried          {:.1f} % of the strokes from frame to frame, {} popped\n",
+    fmt::print(session.output, "carried          {:.1f} % of the strokes from frame to frame, {} popped\n",
                100 * static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes),
                totals.popped_strokes);
-  fmt::print("left bare        at most {:.3f} % of an eye\n", 100 * totals.worst_bare_share);
-  if (film.loss) fmt::print("source           {}\n", *film.loss);
-  for (const std::string& note : film.notes) fmt::print("note             {}\n", note);
-  fmt::print("written to       {}\n", arguments.output);
+  fmt::print(session.output, "left bare        at most {:.3f} % of an eye\n", 100 * totals.worst_bare_share);
+  if (film.loss) fmt::print(session.output, "source           {}\n", *film.loss);
+  for (const std::string& note : film.notes) fmt::print(session.output, "note             {}\n", note);
+  fmt::print(session.output, "written to       {}\n", arguments.output);
 }
 
 void run(const Arguments& arguments, const Session& session) {
@@ -194,7 +195,7 @@ void run(const Arguments& arguments, const Session& session) {
   }
   StereoFilmReader source = open_film(film, reading);
   if (session.verbose && film.right.empty())
-    fmt::print(stderr, "layout: {} ({})\n", name_of(source.layout()), source.layout_how());
+    fmt::print(session.errors, "layout: {} ({})\n", name_of(source.layout()), source.layout_how());
   options.made_by += fmt::format(" from {}", name_of(source.layout()));
   options.writing = writing_options(arguments, film, source, reading);
   options.expected_frames = expected_frames(source.facts(), reading);
@@ -202,9 +203,9 @@ void run(const Arguments& arguments, const Session& session) {
   if (!film.right.empty()) options.made_from.push_back(film.right);
   const RotoscopedFilm result = rotoscope_film(source, arguments.output, options, session.progress);
   if (session.json) {
-    fmt::print("{}\n", to_json(arguments, result).dump(2));
+    fmt::print(session.output, "{}\n", to_json(arguments, result).dump(2));
   } else {
-    print_summary(arguments, result);
+    print_summary(arguments, result, session);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "stereo_arguments.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <cstdio>
@@ -28,7 +29,7 @@ void check_sizes(const StereoPair& pair, const std::string& left, const std::str
 }
 
 void tell(const Session& session, std::string_view line) {
-  if (!session.quiet) fmt::print(stderr, "{}\n", line);
+  if (!session.quiet) fmt::print(session.errors, "{}\n", line);
 }
 
 /// The two views that are painted or matched: neighbours in the middle where there are more.

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <map>
 #include <memory>
@@ -56,9 +57,9 @@ void run(const Arguments& arguments, const Session& session) {
     const nlohmann::ordered_json facts{
         {"folder", arguments.folder},   {"frames", options.frames},       {"cut", cut},
         {"width", options.still.width}, {"height", options.still.height}, {"seed", options.still.seed}};
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
   } else {
-    fmt::print("written to {}\n", arguments.folder);
+    fmt::print(session.output, "written to {}\n", arguments.folder);
   }
 }
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <memory>
@@ -61,9 +62,9 @@ void run(const Arguments& arguments, const Session& session) {
   if (session.json) {
     const nlohmann::ordered_json facts{
         {"folder", arguments.folder}, {"width", options.width}, {"height", options.height}, {"seed", options.seed}};
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
   } else {
-    fmt::print("written to {}\n", arguments.folder);
+    fmt::print(session.output, "written to {}\n", arguments.folder);
   }
 }
 

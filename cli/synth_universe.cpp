@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -36,9 +37,9 @@ void run(const Arguments& arguments, const Session& session) {
   if (session.json) {
     const nlohmann::ordered_json facts{
         {"file", arguments.file}, {"particles", written}, {"redshift", options.redshift}, {"seed", options.seed}};
-    fmt::print("{}\n", facts.dump(2));
+    fmt::print(session.output, "{}\n", facts.dump(2));
   } else {
-    fmt::print("written to {}\n", arguments.file);
+    fmt::print(session.output, "written to {}\n", arguments.file);
   }
 }
 

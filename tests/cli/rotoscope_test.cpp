@@ -287,7 +287,7 @@ TEST(RotoscopeCommand, MemoryDoesNotGrowWithTheFilm) {
     const ProgramResult result =
         run_program({"rotoscope", "a.mp4", "--layout", "mono", "--style", "broad.toml", "--flow", "dis", "--checkpoint",
                      "12", "--threads", "2", "--preset", "ultrafast", "--quiet", "-o", "o.mp4"},
-                    {.folder = folder / ""});
+                    {.folder = folder / "", .own_process = true});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     return static_cast<double>(result.peak_bytes);
   };

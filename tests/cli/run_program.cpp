@@ -8,7 +8,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
+
+#include "cli/run.h"
 
 namespace wheatstone {
 namespace {
@@ -37,9 +40,57 @@ void redirect(int descriptor, const fs::path& path, int flags) {
   ::_exit(127);
 }
 
-}  // namespace
+/// Sends a descriptor of this process into a file as long as it lives.
+class RedirectedDescriptor {
+ public:
+  RedirectedDescriptor(int descriptor, const fs::path& path) : descriptor_(descriptor), before_(::dup(descriptor)) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT, 0600);
+    if (before_ < 0 || file < 0 || ::dup2(file, descriptor) < 0) throw std::runtime_error("cannot redirect");
+    ::close(file);
+  }
+  ~RedirectedDescriptor() {
+    ::dup2(before_, descriptor_);
+    ::close(before_);
+  }
+  RedirectedDescriptor(const RedirectedDescriptor&) = delete;
+  RedirectedDescriptor& operator=(const RedirectedDescriptor&) = delete;
 
-ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramRun& run) {
+ private:
+  int descriptor_;
+  int before_;
+};
+
+class CurrentFolder {
+ public:
+  explicit CurrentFolder(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
+  ~CurrentFolder() { fs::current_path(before_); }
+  CurrentFolder(const CurrentFolder&) = delete;
+  CurrentFolder& operator=(const CurrentFolder&) = delete;
+
+ private:
+  fs::path before_;
+};
+
+ProgramResult run_here(const std::vector<std::string>& arguments, const fs::path& folder) {
+  const TemporaryFolder scratch;
+  ProgramResult result;
+  std::ostringstream output;
+  std::ostringstream errors;
+  std::fflush(nullptr);
+  {
+    // What a library prints past the streams would reach the user, too.
+    const RedirectedDescriptor direct_output(STDOUT_FILENO, scratch / "output");
+    const RedirectedDescriptor direct_errors(STDERR_FILENO, scratch / "errors");
+    const CurrentFolder inside(folder);
+    result.exit_code = cli::run_command_line(arguments, output, errors);
+    std::fflush(nullptr);
+  }
+  result.output = bytes_of(scratch / "output") + output.str();
+  result.errors = bytes_of(scratch / "errors") + errors.str();
+  return result;
+}
+
+ProgramResult run_in_own_process(const std::vector<std::string>& arguments, const ProgramRun& run) {
   const TemporaryFolder scratch;
   std::vector<std::string> words = {WHEATSTONE_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -58,6 +109,13 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const Progr
   result.errors = bytes_of(scratch / "errors");
   if (run.standard_output.empty()) result.output = bytes_of(output);
   return result;
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramRun& run) {
+  const bool here = !run.own_process && run.standard_output.empty() && run.largest_file == 0 && !run.while_running;
+  return here ? run_here(arguments, run.folder) : run_in_own_process(arguments, run);
 }
 
 std::set<std::string> files_in(const fs::path& folder) {

@@ -15,17 +15,20 @@ struct ProgramResult {
   int exit_code = 0;  ///< 128 + the signal where one ended the program
   std::string output;
   std::string errors;
-  std::size_t peak_bytes = 0;  ///< of memory in use at any time
+  std::size_t peak_bytes = 0;  ///< of memory in use at any time; only of a run in a process of its own
 };
 
 struct ProgramRun {
   std::filesystem::path folder = ".";
+  // What needs a process of its own:
+  bool own_process = false;
   std::filesystem::path standard_output;           ///< takes the output instead of the result, where it is given
   std::size_t largest_file = 0;                    ///< in bytes, 0 for no limit; a write beyond fails as on a full disk
   std::function<void(int process)> while_running;  ///< called once the program has started
 };
 
-/// Runs `wheatstone ARGUMENTS` and waits for it.
+/// Runs `wheatstone ARGUMENTS` and waits for it: in this process, through the function that main calls, which spares
+/// the start; or in a process of its own where `run` asks for what needs one.
 ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramRun& run = {});
 
 /// The names of all files in a folder and below it.

@@ -1,0 +1,130 @@
+#include "run.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "interrupt.h"
+#include "program.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::cli {
+namespace {
+
+constexpr int internal_error = 1;
+
+int code_of(ErrorKind kind) { return static_cast<int>(kind); }
+
+/// Says on one line what went wrong and hands the exit code on.
+int fail(std::ostream& errors, int code, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  fmt::print(errors, "wheatstone: {}\n", message);
+  errors.flush();
+  return code;
+}
+
+/// What is wrong with the line, and where to read on.
+std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
+  const auto commands = program.get_subcommands();
+  const std::string hint = commands.empty() ? "see 'wheatstone --help'"
+                                            : fmt::format("see 'wheatstone {} --help'", commands.front()->get_name());
+  const std::string found = error.what();
+  if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr) {
+    return fmt::format("--config: unknown option '{}' in the file; {}", found.substr(found.rfind(' ') + 1), hint);
+  }
+  if (commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    const std::vector<std::string> words = program.remaining();
+    return words.empty() ? fmt::format("no command given; {}", hint)
+                         : fmt::format("{}: no such command; {}", words.front(), hint);
+  }
+  return fmt::format("{}; {}", found, hint);
+}
+
+/// At most so many threads for TBB and OpenCV, as long as it lives.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads)
+      : tbb_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+        opencv_before_(cv::getNumThreads()) {
+    cv::setNumThreads(threads);
+  }
+  ~ThreadLimit() { cv::setNumThreads(opencv_before_); }
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  tbb::global_control tbb_;
+  int opencv_before_;
+};
+
+int run_program(std::span<const std::string> arguments, Session& session, ProgressDisplay::Style progress) {
+  std::optional<ProgressDisplay> display;
+  std::optional<ThreadLimit> thread_limit;
+  const std::unique_ptr<CLI::App> program = make_program(session);
+  // Runs when the whole line is understood and before the command does.
+  program->parse_complete_callback([&] {
+    display.emplace(session.quiet ? ProgressDisplay::Style::none : progress, session.errors);
+    session.progress = [&display](std::string_view step, double done) {
+      throw_if_interrupted();
+      display->show(step, done);
+    };
+    if (session.threads > 0) thread_limit.emplace(session.threads);
+  });
+
+  try {
+    // CLI11 takes the last word first.
+    program->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    throw_if_interrupted();
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for_help = error.get_exit_code() == 0;
+    if (asked_for_help) return program->exit(error, session.output, session.errors);
+    const bool missing_file = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
+    return fail(session.errors, code_of(missing_file ? ErrorKind::bad_input : ErrorKind::wrong_usage),
+                usage_message(*program, error));
+  } catch (const Error& error) {
+    display.reset();
+    return fail(session.errors, code_of(error.kind()), error.what());
+  }
+}
+
+/// A result must reach its reader: a full disk or a closed pipe behind the output is an error.
+int check_output(int code, const Session& session) {
+  session.output.flush();
+  if (session.output) return code;
+  return fail(session.errors, code_of(ErrorKind::cannot_read_write), "standard output: cannot write");
+}
+
+}  // namespace
+
+int run_command_line(std::span<const std::string> arguments, std::ostream& output, std::ostream& errors,
+                     ProgressDisplay::Style progress) {
+  Session session{output, errors};
+  // What no one planned for still ends in one line.
+  try {
+    return check_output(run_program(arguments, session, progress), session);
+  } catch (const std::bad_alloc&) {
+    return fail(errors, code_of(ErrorKind::cannot_read_write), "not enough memory");
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) {
+      return fail(errors, code_of(ErrorKind::cannot_read_write), "not enough memory");
+    }
+    return fail(errors, internal_error, fmt::format("internal error in OpenCV: {} ({})", error.err, error.func));
+  } catch (const std::system_error& error) {
+    return fail(errors, code_of(ErrorKind::cannot_read_write), error.what());
+  } catch (const std::exception& error) {
+    return fail(errors, internal_error, fmt::format("internal error: {}", error.what()));
+  }
+}
+
+}  // namespace wheatstone::cli
