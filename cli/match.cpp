@@ -8,6 +8,7 @@
 #include "match_options.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/app/report.h"
 #include "wheatstone/display/disparity_picture.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
@@ -21,7 +22,11 @@ struct Arguments {
   MatchArguments matching;
 };
 
-void write(OutputFolder& output, const StereoGeometry& geometry) {
+void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry& geometry) {
+  if (pair.rectified) {
+    write_image(output.file("left.png"), pair.pictures.left);
+    write_image(output.file("right.png"), pair.pictures.right);
+  }
   write_disparity(output.file("left_disparity.pfm"), geometry.left_disparity);
   write_disparity(output.file("right_disparity.pfm"), geometry.right_disparity);
   write_image(output.file("left_disparity.png"), disparity_picture(geometry.left_disparity));
@@ -32,16 +37,17 @@ void write(OutputFolder& output, const StereoGeometry& geometry) {
 }
 
 void run(const Arguments& arguments, const Session& session) {
-  const StereoPair pair = read_photographs(arguments.photographs, session);
+  const PreparedPair pair = read_photographs(arguments.photographs, false, session);
   OutputFolder folder(arguments.folder);
-  const MatchedPair matched = match(pair, match_options_from(arguments.matching), session.progress);
-  write(folder, matched.geometry);
+  const MatchedPair matched = match(pair.pictures, match_options_from(arguments.matching), session.progress);
+  write(folder, pair, matched.geometry);
   if (session.json) {
     const nlohmann::ordered_json facts{{"folder", arguments.folder},
                                        {"least_disparity_px", matched.range.least},
                                        {"largest_disparity_px", matched.range.largest},
                                        {"left_found_share", matched.left_found_share},
-                                       {"right_found_share", matched.right_found_share}};
+                                       {"right_found_share", matched.right_found_share},
+                                       {"pair", nlohmann::ordered_json::parse(preparation_json(pair))}};
     fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
@@ -63,11 +69,13 @@ void add_match_command(CLI::App& program, const Session& session) {
   command.add_option("RIGHT", arguments->photographs.right, "Right photograph, of the same size");
   command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
   add_stereo_options(command, arguments->photographs);
+  add_rectify_option(command, arguments->photographs);
   add_match_options(command, arguments->matching);
   command.footer(
       "Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is "
       "red),\n"
-      "and the occlusion masks (white: the other eye does not see it).\n\n"
+      "and the occlusion masks (white: the other eye does not see it); with --rectify always also left.png and "
+      "right.png,\nthe rectified pair that they belong to.\n\n"
       "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched\n"
       "  wheatstone match photograph.mpo -o matched");
   command.callback([arguments, &session] { run(*arguments, session); });

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "numbers_argument.h"
+#include "stereo_arguments.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/arrange.h"
@@ -102,11 +103,19 @@ void expect_two(const Packing& packing, std::span<const Image<Rgb8>> views) {
 
 StereoPair pair_of(std::span<const Image<Rgb8>> views) { return {views[0], views[1]}; }
 
+/// The left view's disparity by matching.
+Image<float> disparity_between(const Packing& packing, std::span<const Image<Rgb8>> views, const Session& session) {
+  const std::string name = fmt::format("--to {}", packing.name);
+  const PreparedPair pair = prepare_named_pair(pair_of(views), {}, name, session);
+  tell_row_warning(pair, name, session);
+  return match(pair.pictures, {}, session.progress).geometry.left_disparity;
+}
+
 /// The left view's disparity by matching, or the depth that it means.
 void write_matched(const Packing& packing, const PackingArguments& arguments, std::span<const Image<Rgb8>> views,
                    const std::string& output, const Session& session) {
   expect_two(packing, views);
-  Image<float> disparity = match(pair_of(views), {}, session.progress).geometry.left_disparity;
+  Image<float> disparity = disparity_between(packing, views, session);
   if (packing.kind == PackingKind::depth)
     for (float& d : disparity.pixels())
       d = d > 0 ? depth_from_disparity(d, arguments.depth_scale) : std::numeric_limits<float>::quiet_NaN();
@@ -120,8 +129,7 @@ Image<Rgb8> one_picture(const Packing& packing, const PackingArguments& argument
   if (packing.kind == PackingKind::anaglyph) return anaglyph(pair_of(views), *packing.anaglyph);
   if (packing.kind == PackingKind::interlaced) return interlaced(views[0], views[1], packing.interlacing);
   if (packing.kind == PackingKind::layout) return put_together(views[0], views[1], packing.layout);
-  const MatchedPair matched = match(pair_of(views), {}, session.progress);
-  return depth_beside(views[0], matched.geometry.left_disparity);
+  return depth_beside(views[0], disparity_between(packing, views, session));
 }
 
 }  // namespace

@@ -123,10 +123,10 @@ std::string write_views(const Arguments& arguments, const PaintedViews& result) 
   return arguments.folder;
 }
 
-void paint_for_display(const Arguments& arguments, const StereoPair& photographs,
+void paint_for_display(const Arguments& arguments, const PreparedPair& photographs,
                        const PaintPhotographOptions& painting, const Session& session) {
   const PaintViewsOptions options = views_options(arguments, painting);
-  const PaintedViews result = paint_views(photographs, options, session.progress);
+  const PaintedViews result = paint_views(photographs.pictures, options, session.progress);
   const std::string written = write_views(arguments, result);
   if (session.json) {
     const nlohmann::ordered_json facts{{"output", written},
@@ -135,7 +135,8 @@ void paint_for_display(const Arguments& arguments, const StereoPair& photographs
                                        {"height", options.height},
                                        {"span", result.span},
                                        {"zero_parallax_px", result.zero_parallax_px},
-                                       {"worst_bare_share", result.worst_bare_share}};
+                                       {"worst_bare_share", result.worst_bare_share},
+                                       {"pair", nlohmann::ordered_json::parse(preparation_json(photographs))}};
     fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
@@ -157,7 +158,8 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
   if (!arguments.disparity.empty() && !arguments.matching.range.empty())
     throw Error(ErrorKind::wrong_usage, "--range says how to match, but --disparity gives the disparity: choose one");
   if (!arguments.display.empty()) views_options(arguments, options);  // what makes no sense is said at once
-  const StereoPair photographs = read_photographs(arguments.photographs, session);
+  const PreparedPair prepared = read_photographs(arguments.photographs, !arguments.disparity.empty(), session);
+  const StereoPair& photographs = prepared.pictures;
   std::optional<Image<float>> truth;
   if (!arguments.disparity.empty()) {
     truth = read_disparity_argument(arguments.disparity);
@@ -165,7 +167,7 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
   }
   if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
 
-  if (!arguments.display.empty()) return paint_for_display(arguments, photographs, options, session);
+  if (!arguments.display.empty()) return paint_for_display(arguments, prepared, options, session);
 
   // Before the work, so that a folder that cannot be written to is known at once.
   OutputFolder folder(arguments.folder);
@@ -174,9 +176,10 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
   if (arguments.measure)
     measures = measure_painting(photographs, result, truth ? *truth : result.geometry.left_disparity);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
-  write_results(folder, photographs, result, options.style, measured, {.html = arguments.html}, session.progress);
+  const PaintingReport report{result, options.style, &prepared, measured};
+  write_results(folder, photographs, report, {.html = arguments.html}, session.progress);
   if (session.json) {
-    fmt::print(session.output, "{}", report_json(result, options.style, measured));
+    fmt::print(session.output, "{}", report_json(report));
   } else {
     print_summary(result, measured, arguments, session);
   }
@@ -236,6 +239,7 @@ void add_paint_command(CLI::App& program, const Session& session) {
   command.add_flag("--report", arguments->measure, "Measure how well the painting's two eyes fit together");
   command.add_flag("--html", arguments->html, "Also write index.html, which shows the pictures");
   add_stereo_options(command, arguments->photographs);
+  add_rectify_option(command, arguments->photographs);
   add_style_options(command, arguments->style);
   add_match_options(command, arguments->matching);
   command.footer(

@@ -78,26 +78,60 @@ void add_stereo_options(CLI::App& command, StereoArguments& arguments) {
   command.add_flag("--swap", arguments.swap, "The left eye's picture is the right one");
 }
 
+void add_rectify_option(CLI::App& command, StereoArguments& arguments) {
+  command
+      .add_option("--rectify", arguments.rectify,
+                  fmt::format("Whether the pair is rectified first, as 'wheatstone rectify' does: {}",
+                              fmt::join(rectify_policy_names(), ", ")))
+      ->capture_default_str();
+}
+
 StereoPair read_pair(const std::string& left, const std::string& right) {
   StereoPair pair{read_image(left), read_image(right)};
   check_sizes(pair, left, right);
   return pair;
 }
 
-StereoPair read_photographs(const StereoArguments& arguments, const Session& session) {
+PreparedPair prepare_named_pair(StereoPair pair, const PreparePairOptions& options, const std::string& name,
+                                const Session& session) {
+  try {
+    return prepare_pair(std::move(pair), options, session.progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_input) throw;
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+void tell_row_warning(const PreparedPair& pair, const std::string& name, const Session& session) {
+  if (const std::string warning = row_warning(pair); !warning.empty())
+    tell(session, fmt::format("warning: {}: {}", name, warning));
+}
+
+PreparedPair read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session) {
+  const std::optional<RectifyPolicy> policy = rectify_policy_by_name(arguments.rectify);
+  if (!policy)
+    throw Error(ErrorKind::wrong_usage, fmt::format("--rectify: is '{}', expected one of: {}", arguments.rectify,
+                                                    fmt::join(rectify_policy_names(), ", ")));
+  if (disparity_is_given && *policy != RectifyPolicy::never)
+    throw Error(ErrorKind::wrong_usage,
+                "--rectify changes the pictures, but --disparity belongs to them as they are: choose one");
   const bool one_file = arguments.right.empty();
   ReadPhotographs read = one_file ? read_one_file(arguments) : read_two_files(arguments);
-  if (not_a_pair(read.pair)) {
-    throw Error(ErrorKind::bad_input,
-                one_file ? fmt::format("{}: its views show different scenes, read as: {}", arguments.left, read.how)
-                         : fmt::format("{}: shows another scene than {}, expected two views of one scene",
-                                       arguments.right, arguments.left));
+  const std::string name = one_file ? fmt::format("{} ({})", arguments.left, read.how)
+                                    : fmt::format("{}, {}", arguments.left, arguments.right);
+  PreparedPair prepared;
+  if (disparity_is_given) {
+    if (not_a_pair(read.pair)) throw Error(ErrorKind::bad_input, fmt::format("{}: show different scenes", name));
+    prepared.pictures = std::move(read.pair);
+  } else {
+    prepared = prepare_named_pair(std::move(read.pair), {.rectify = *policy}, name, session);
   }
   if (one_file) tell(session, fmt::format("{}: {}", arguments.left, read.how));
-  if (!read.eyes_known_from_picture && eyes_look_swapped(read.pair))
+  if (!read.eyes_known_from_picture && eyes_look_swapped(prepared.pictures))
     tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
                               arguments.left, arguments.swap ? "leave out" : "add"));
-  return std::move(read.pair);
+  tell_row_warning(prepared, name, session);
+  return prepared;
 }
 
 }  // namespace wheatstone::cli

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "command.h"
+#include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone::cli {
@@ -13,16 +14,28 @@ struct StereoArguments {
   std::string left, right;  ///< right is empty where left holds both
   std::string layout;       ///< of one picture that holds both; empty: find it
   bool swap = false;
+  std::string rectify = "never";
 };
 
 /// Adds --layout and --swap.
 void add_stereo_options(CLI::App& command, StereoArguments& arguments);
 
+/// Adds --rectify.
+void add_rectify_option(CLI::App& command, StereoArguments& arguments);
+
 /// Reads two photographs. Throws Error{bad_input} that names both where their sizes differ.
 StereoPair read_pair(const std::string& left, const std::string& right);
 
+/// As prepare_pair; what is wrong gets `name`, that of the files.
+PreparedPair prepare_named_pair(StereoPair pair, const PreparePairOptions& options, const std::string& name,
+                                const Session& session);
+
+/// Says on standard error, under the files' name, where the rows do not fit.
+void tell_row_warning(const PreparedPair& pair, const std::string& name, const Session& session);
+
 /// Reads photographs from two files or one, and says on standard error how one was understood, and where the eyes look
-/// swapped. Throws Error: bad_input where they are no pair, wrong_usage.
-StereoPair read_photographs(const StereoArguments& arguments, const Session& session);
+/// swapped. Where `disparity_is_given` they are taken as they are, and else prepared for matching: what makes them no
+/// pair is refused, rows that do not fit are told on standard error. Throws Error: bad_input, wrong_usage.
+PreparedPair read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session);
 
 }  // namespace wheatstone::cli

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
@@ -102,14 +103,84 @@ TEST(Photograph, ThatIsNoPairIsRefused) {
   write_image(folder / "mixed_sbs.png", side_by_side(still().left, turned));
   for (const std::string command : {"match", "paint"}) {
     expect_refused(folder, {command, "left.png", "other.png", "-o", "results"}, 3,
-                   "other.png: shows another scene than left.png");
+                   "left.png, other.png: the pictures show different scenes");
     expect_refused(folder, {command, "mixed_sbs.png", "-o", "results"}, 3,
-                   "mixed_sbs.png: its views show different scenes, read as: side by side");
+                   "mixed_sbs.png (side by side, left eye left (from its name)): the pictures show different scenes");
     expect_refused(folder, {command, "left.png", "-o", "results"}, 3, "left.png: is one picture");
     expect_refused(folder, {command, "left.png", "--layout", "anaglyph", "-o", "results"}, 2, "cannot be taken apart");
     expect_refused(folder, {command, "left.png", "--layout", "woven", "-o", "results"}, 2, "left-right-half");
     expect_refused(folder, {command, "left.png", "left.png", "--layout", "tb", "-o", "results"}, 2, "--layout");
   }
+}
+
+/// Writes the still with its right eye turned by a small angle.
+void put_unrectified(const TemporaryFolder& folder) {
+  StereoPair pair = still();
+  constexpr float slope = 0.05f;
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const int from = y + static_cast<int>(slope * static_cast<float>(x - 160)) + 12;
+      pair.right(x, y) = still().right(x, std::clamp(from, 0, 239));
+    }
+  write_image(folder / "left.png", pair.left);
+  write_image(folder / "low.png", pair.right);
+}
+
+TEST(Photograph, ThatIsNotRectifiedIsMatchedWithAWarning) {
+  const TemporaryFolder folder;
+  put_unrectified(folder);
+  const ProgramResult result = match_one(folder, {"left.png", "low.png", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors,
+              HasSubstr("warning: left.png, low.png: the pictures are not rectified: their rows differ"));
+  EXPECT_THAT(result.errors, HasSubstr("'wheatstone rectify'"));
+  const auto pair = nlohmann::json::parse(result.output)["pair"];
+  EXPECT_NEAR(pair["row_difference_px"], 12, 4);
+  EXPECT_THAT(pair["warning"], HasSubstr("wheatstone rectify"));
+  const ProgramResult packed =
+      run_program({"pack", "left.png", "low.png", "--to", "rgbd", "-o", "a.png"}, {.folder = folder / ""});
+  EXPECT_EQ(packed.exit_code, 0);
+  EXPECT_THAT(packed.errors, HasSubstr("not rectified"));
+}
+
+TEST(Photograph, ThatIsNotRectifiedIsPaintedRectifiedOnDemand) {
+  const TemporaryFolder folder;
+  put_unrectified(folder);
+  const std::vector<std::string> line{"paint", "left.png", "low.png", "-o", "painted", "--json"};
+  ProgramResult result = run_program(line, {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.errors, HasSubstr("not rectified"));
+  EXPECT_THAT(nlohmann::json::parse(result.output)["pair"]["warning"], HasSubstr("rows differ"));
+  std::vector<std::string> rectified = line;
+  rectified.insert(rectified.end(), {"--rectify", "always"});
+  result = run_program(rectified, {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors, testing::Not(HasSubstr("warning")));
+  const auto pair = nlohmann::json::parse(result.output)["pair"];
+  EXPECT_EQ(pair["rectified"], true);
+  EXPECT_TRUE(pair["warning"].is_null());
+  EXPECT_LT(pair["row_difference_px"], 1);
+  rectified.back() = "perhaps";
+  expect_refused(folder, rectified, 2, "expected one of: never, always");
+}
+
+TEST(Photograph, ThatIsUpsideDownMirroredOrBlackIsRefused) {
+  const TemporaryFolder folder;
+  Image<Rgb8> down(320, 240), mirrored(320, 240);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      down(x, y) = still().right(319 - x, 239 - y);
+      mirrored(x, y) = still().right(319 - x, y);
+    }
+  write_image(folder / "left.png", still().left);
+  write_image(folder / "down.png", down);
+  write_image(folder / "mirrored.png", mirrored);
+  write_image(folder / "black.png", Image<Rgb8>(320, 240));
+  expect_refused(folder, {"paint", "left.png", "down.png", "-o", "results"}, 3,
+                 "left.png, down.png: the right picture is upside down");
+  expect_refused(folder, {"match", "left.png", "mirrored.png", "-o", "results"}, 3, "mirrored");
+  expect_refused(folder, {"paint", "left.png", "black.png", "-o", "results"}, 3, "blank");
+  expect_refused(folder, {"pack", "left.png", "down.png", "--to", "depth", "-o", "a.pfm"}, 3, "upside down");
 }
 
 TEST(Photograph, IsToldOfByInfo) {

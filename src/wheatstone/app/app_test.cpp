@@ -81,7 +81,8 @@ TEST(PaintPhotograph, WritesEverythingThatItPromises) {
   const PaintedPhotograph result = paint_photograph(still().pictures, options);
   const PaintingMeasures measures = measure_painting(still().pictures, result, still().geometry.left_disparity);
   OutputFolder output(folder / "out");
-  const auto names = write_results(output, still().pictures, result, options.style, &measures, {.html = true});
+  const auto names =
+      write_results(output, still().pictures, {result, options.style, nullptr, &measures}, {.html = true});
   for (const std::string& name : names) EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
   EXPECT_EQ(read_image(folder / "out" / "left.png"), result.painted.pictures.left);
   EXPECT_EQ(read_painting(folder / "out" / "painting.wst").painting, result.painted.painting);
@@ -135,7 +136,7 @@ TEST(Redraw, MakesTheSamePicturesOfAPaintingFileInEveryStyle) {
     options.style.texture = options.style.marks == Marks::strokes;
     const PaintedPhotograph result = paint_photograph(still().pictures, options);
     OutputFolder output(folder / "out");
-    write_results(output, still().pictures, result, options.style, nullptr);
+    write_results(output, still().pictures, {result, options.style});
     draw_again(read_painting(folder / "out" / "painting.wst"), 1, folder / "again");
     for (const std::string file : {"left.png", "right.png", "left.svg"})
       EXPECT_EQ(read_whole_file(folder / "again" / file, 1 << 26), read_whole_file(folder / "out" / file, 1 << 26))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/app/output_folder.h"
@@ -12,6 +13,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/svg.h"
 #include "wheatstone/error.h"
+#include "wheatstone/percentile.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
@@ -21,9 +23,7 @@ float nearest_disparity(const Painting& painting) {
   std::vector<float> disparities = disparities_of_marks(painting);
   if (disparities.empty()) return 0;
   constexpr double nearest_share = 0.995;
-  const auto index = static_cast<std::ptrdiff_t>(nearest_share * static_cast<double>(disparities.size() - 1));
-  std::ranges::nth_element(disparities, disparities.begin() + index);
-  return disparities[static_cast<std::size_t>(index)];
+  return percentile(std::move(disparities), nearest_share);
 }
 
 }  // namespace

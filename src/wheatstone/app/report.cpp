@@ -52,7 +52,19 @@ PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPh
 
 std::string pair_measures_json(const PairMeasures& measures) { return to_json(measures).dump(2); }
 
-std::string report_json(const PaintedPhotograph& result, const Style& style, const PaintingMeasures* measures) {
+std::string preparation_json(const PreparedPair& pair) {
+  const std::string warning = row_warning(pair);
+  Json facts{{"rectified", pair.rectified},
+             {"compared_features", pair.compared_features},
+             {"row_difference_px", nullptr},
+             {"warning", nullptr}};
+  if (pair.row_difference_px) facts["row_difference_px"] = rounded(*pair.row_difference_px);
+  if (!warning.empty()) facts["warning"] = warning;
+  return facts.dump(2);
+}
+
+std::string report_json(const PaintingReport& told) {
+  const auto& [result, style, pair, measures] = told;
   const StrokePainting& painting = result.painted.painting;
   Json report{{"width", painting.width},
               {"height", painting.height},
@@ -75,6 +87,7 @@ std::string report_json(const PaintedPhotograph& result, const Style& style, con
                          {"left_found_share", rounded(result.matched->left_found_share)},
                          {"right_found_share", rounded(result.matched->right_found_share)}};
   }
+  if (pair != nullptr) report["pair"] = Json::parse(preparation_json(*pair));
   if (measures != nullptr) {
     report["measures"] = {{"painting", to_json(measures->painting)},
                           {"photographs", to_json(measures->photographs)},

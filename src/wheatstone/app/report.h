@@ -3,6 +3,7 @@
 #include <string>
 
 #include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/calibration/prepare_pair.h"
 
 namespace wheatstone {
 
@@ -20,7 +21,19 @@ PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPh
 /// The measures of one pair as a JSON object, in the words of the command line.
 std::string pair_measures_json(const PairMeasures& measures);
 
-/// What was done and how it came out, as a JSON document; `measures` may be null.
-std::string report_json(const PaintedPhotograph& result, const Style& style, const PaintingMeasures* measures);
+/// How a pair was prepared as a JSON object: `rectified`, `compared_features`, `row_difference_px` and `warning`, the
+/// last two null where there is nothing to tell.
+std::string preparation_json(const PreparedPair& pair);
+
+/// What a report tells of; borrowed.
+struct PaintingReport {
+  const PaintedPhotograph& painted;
+  const Style& style;
+  const PreparedPair* pair = nullptr;          ///< that was painted; none: nothing is told of it
+  const PaintingMeasures* measures = nullptr;  ///< none: not measured
+};
+
+/// What was done and how it came out, as a JSON document.
+std::string report_json(const PaintingReport& told);
 
 }  // namespace wheatstone

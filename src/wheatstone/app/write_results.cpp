@@ -17,18 +17,17 @@
 
 namespace wheatstone {
 
-std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs,
-                                       const PaintedPhotograph& result, const Style& style,
-                                       const PaintingMeasures* measures, const ResultOptions& options,
-                                       const Progress& progress) {
+std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs, const PaintingReport& told,
+                                       const ResultOptions& options, const Progress& progress) {
   using Path = std::filesystem::path;
   struct Output {
     std::string name;
     std::function<void(const Path&)> write;
   };
+  const PaintedPhotograph& result = told.painted;
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
-  const Painting painting = marks_of(result.painted, style);
+  const Painting painting = marks_of(result.painted, told.style);
   const StereoPair presented = set_convergence(pictures, result.zero_parallax_px);
   std::vector<Output> outputs{
       {"left.png", [&](const Path& path) { write_image(path, pictures.left); }},
@@ -43,14 +42,13 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
       {"painting.wst", [&](const Path& path) { write_painting(path, painting); }},
       {"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }},
       {"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }},
-      {"report.json", [&](const Path& path) { write_whole_file(path, report_json(result, style, measures)); }},
+      {"report.json", [&](const Path& path) { write_whole_file(path, report_json(told)); }},
   };
   if (options.html) {
     outputs.push_back({"left_photograph.png", [&](const Path& path) { write_image(path, photographs.left); }});
     outputs.push_back({"right_photograph.png", [&](const Path& path) { write_image(path, photographs.right); }});
-    outputs.push_back({"index.html", [&](const Path& path) {
-                         write_whole_file(path, gallery_html(report_json(result, style, measures)));
-                       }});
+    outputs.push_back(
+        {"index.html", [&](const Path& path) { write_whole_file(path, gallery_html(report_json(told))); }});
   }
 
   std::mutex reporting;

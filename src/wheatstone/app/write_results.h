@@ -18,9 +18,7 @@ struct ResultOptions {
 /// left_disparity.pfm, right_disparity.pfm, left_occlusion.png, right_occlusion.png; painting.wst,
 /// left.svg, right.svg, report.json. Returns the names written. Throws Error{cannot_read_write}; then nothing is
 /// committed.
-std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs,
-                                       const PaintedPhotograph& result, const Style& style,
-                                       const PaintingMeasures* measures, const ResultOptions& options = {},
-                                       const Progress& progress = {});
+std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs, const PaintingReport& told,
+                                       const ResultOptions& options = {}, const Progress& progress = {});
 
 }  // namespace wheatstone

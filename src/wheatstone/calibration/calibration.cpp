@@ -8,6 +8,7 @@
 
 #include "wheatstone/calibration/calibration_internal.h"
 #include "wheatstone/error.h"
+#include "wheatstone/percentile.h"
 
 namespace wheatstone {
 namespace {
@@ -98,12 +99,6 @@ void calibrate_rig(Observations& seen, cv::Size size, StereoCalibration& calibra
   }
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// How well one pair's left pose and the rig's geometry that another pair stands for explain where the right camera saw
 /// the corners: root mean square, in pixels.
 double right_error(const Observations& seen, const CameraOnItsOwn& left, const CameraOnItsOwn& right, std::size_t pair,
@@ -135,11 +130,11 @@ void drop_strangers(const Observations& seen, cv::Size size, std::vector<Calibra
     std::vector<double> errors;
     for (std::size_t pair = 0; pair < seen.pairs.size(); ++pair)
       errors.push_back(right_error(seen, left, right, pair, rig));
-    if (best.empty() || median(errors) < median(best)) best = std::move(errors);
+    if (best.empty() || percentile(errors, 0.5) < percentile(best, 0.5)) best = std::move(errors);
   }
   // One pair on its own decides a rig badly: only what is far off is strange.
   constexpr double least_px = 5, worst_to_median = 6;
-  const double limit = std::max(least_px, worst_to_median * median(best));
+  const double limit = std::max(least_px, worst_to_median * percentile(best, 0.5));
   for (std::size_t i = 0; i < best.size(); ++i) {
     if (best[i] <= limit) continue;
     CalibrationPair& pair = pairs[seen.pairs[i]];
@@ -148,7 +143,7 @@ void drop_strangers(const Observations& seen, cv::Size size, std::vector<Calibra
     pair.why_not = fmt::format(
         "its corners are off by {:.0f} px, the median of all pairs is {:.2f}: the two pictures "
         "are not of one moment, or the rig was moved",
-        best[i], median(best));
+        best[i], percentile(best, 0.5));
   }
 }
 
@@ -161,7 +156,7 @@ bool drop_outliers(const Observations& seen, const CalibrationOptions& options, 
     pairs[seen.pairs[i]].right_error_px = seen.right_error[i];
   }
   // A tenth of a pixel is as good as corners are found; nothing below it is an outlier.
-  const double usual = std::max(median(worst), 0.1);
+  const double usual = std::max(percentile(worst, 0.5), 0.1);
   const double limit = options.worst_to_median * usual;
   std::size_t left_over = seen.pairs.size();
   for (const double error : worst) left_over -= error > limit ? 1 : 0;
@@ -233,7 +228,7 @@ double row_difference(const Observations& seen, const StereoCalibration& calibra
     for (std::size_t corner = 0; corner < left.size(); ++corner)
       differences.push_back(std::abs(static_cast<double>(left[corner].y) - static_cast<double>(right[corner].y)));
   }
-  return median(std::move(differences));
+  return percentile(std::move(differences), 0.5);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "wheatstone/percentile.h"
 namespace wheatstone {
 namespace {
 
@@ -42,8 +44,7 @@ void fit_channel(const std::vector<Sample>& samples, double& gain, double& gamma
   constexpr double likely_off = 0.08, faith_in_gamma = 0.5;
   std::vector<double> ratios;
   for (const Sample& sample : samples) ratios.push_back(sample.left - sample.right);
-  std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));
-  double height = ratios[ratios.size() / 2], slope = 1;
+  double height = percentile(std::move(ratios), 0.5), slope = 1;
   for (int round = 0; round < rounds; ++round) {
     double weights = 0, right = 0, left = 0;
     std::vector<double> weight;

@@ -11,9 +11,11 @@
 #include "wheatstone/calibration/calibration_internal.h"
 #include "wheatstone/calibration/common_window_internal.h"
 #include "wheatstone/calibration/rectifying_turn_internal.h"
+#include "wheatstone/calibration/vertical_disparity_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match_features.h"
+#include "wheatstone/percentile.h"
 
 namespace wheatstone {
 namespace {
@@ -38,22 +40,6 @@ void check(const StereoPair& pair) {
 }
 
 cv::Size size_of(const StereoPair& pair) { return {pair.left.width(), pair.left.height()}; }
-
-/// How far from its epipolar line a right match may be; features are found to about half a pixel.
-double tolerance_for(cv::Size size) { return std::max(1.0, std::max(size.width, size.height) / 1000.0); }
-
-double percentile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
-  return values[at];
-}
-
-VerticalDisparity vertical_disparity(std::span<const FeatureMatch> matches) {
-  std::vector<double> differences;
-  for (const FeatureMatch& match : matches) differences.push_back(std::abs(match.left.y - match.right.y));
-  if (differences.empty()) return {};
-  return {percentile(differences, 0.5), percentile(differences, 0.95)};
-}
 
 /// Every fifth match is kept aside to measure with.
 struct SplitMatches {
@@ -139,7 +125,7 @@ struct Estimate {
 
 Estimate estimate(const StereoPair& pair, const Progress& progress) {
   const cv::Size size = size_of(pair);
-  const double tolerance = tolerance_for(size);
+  const double tolerance = epipolar_tolerance_px(std::max(size.width, size.height));
   report(progress, "matching features", 0);
   const FeatureMatches features = match_features(pair.left, pair.right);
   check_features(features);
@@ -256,7 +242,7 @@ PicturePoint undistorted(const PicturePoint& point, const CameraModel& camera, c
 std::vector<FeatureMatch> measure(const StereoPair& photographs, const StereoCalibration& calibration,
                                   const cv::Rect& window, RectifiedPair& result) {
   const FeatureMatches features = match_features(photographs.left, photographs.right);
-  const double tolerance = 2 * tolerance_for(size_of(photographs));
+  const double tolerance = 2 * epipolar_tolerance_px(std::max(photographs.left.width(), photographs.left.height()));
   const EpipolarGeometry geometry = find_epipolar_geometry(features.matches, tolerance);
   if (features.matches.empty() || !shows_one_scene(geometry, features.matches.size(), features)) return {};
   std::vector<FeatureMatch> after;

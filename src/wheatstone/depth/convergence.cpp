@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "wheatstone/percentile.h"
 
 namespace wheatstone {
 
@@ -20,9 +23,7 @@ float disparity_percentile(ImageView<const float> disparity, double share) {
   for (int y = 0; y < disparity.height(); ++y)
     std::ranges::copy_if(disparity.row(y), std::back_inserter(known), [](float d) { return std::isfinite(d); });
   if (known.empty()) return std::numeric_limits<float>::quiet_NaN();
-  const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(known.size() - 1));
-  std::ranges::nth_element(known, known.begin() + index);
-  return known[static_cast<std::size_t>(index)];
+  return percentile(std::move(known), share);
 }
 
 }  // namespace wheatstone

@@ -4,9 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/image/srgb.h"
+#include "wheatstone/percentile.h"
 
 namespace wheatstone {
 namespace {
@@ -65,9 +67,7 @@ double light_around(ImageView<const Rgb8> picture, Pixel at) {
     if (std::max(std::abs(x - at.x), std::abs(y - at.y)) > spot_radius + search)
       ring.push_back(light_of(picture(x, y)));
   });
-  const auto middle = ring.begin() + static_cast<std::ptrdiff_t>(ring.size() / 2);
-  std::ranges::nth_element(ring, middle);
-  return *middle;
+  return percentile(std::move(ring), 0.5);
 }
 
 Pixel brightest_near(ImageView<const Rgb8> picture, Pixel at) {

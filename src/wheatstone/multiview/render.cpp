@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/multiview/cost_model.h"
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/percentile.h"
 
 namespace wheatstone {
 
@@ -44,9 +46,7 @@ float exposure_for(std::vector<float> brightest) {
   constexpr float target = 0.75f;
   std::erase_if(brightest, [](float light) { return light <= 0; });
   if (brightest.empty()) return 1;
-  const auto at = brightest.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(brightest.size() - 1));
-  std::ranges::nth_element(brightest, at);
-  return target / (1 - target) / *at;
+  return target / (1 - target) / percentile(std::move(brightest), 0.99);
 }
 
 float automatic_exposure(const Cloud& cloud, const Scene& scene, const Rig& rig) {

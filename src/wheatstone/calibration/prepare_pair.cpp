@@ -1,0 +1,157 @@
+#include "wheatstone/calibration/prepare_pair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "wheatstone/calibration/rectify.h"
+#include "wheatstone/calibration/vertical_disparity_internal.h"
+#include "wheatstone/error.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/match_features.h"
+#include "wheatstone/matching/not_a_pair.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr std::array<std::string_view, 2> policy_names{"never", "always"};
+
+/// Enough to tell, and quick.
+constexpr FeatureOptions quick_search{.most_features = 1000, .search_side_px = 960};
+
+/// What two pictures have in common, as far as one geometry of two cameras explains it.
+struct CommonFeatures {
+  std::vector<FeatureMatch> inliers;
+  bool convincing = false;  ///< most of the matches fit, and they are more than chance makes
+};
+
+CommonFeatures common_features(ImageView<const Rgb8> left, ImageView<const Rgb8> right) {
+  constexpr std::size_t least_inliers = 16;
+  const FeatureMatches found = match_features(left, right, quick_search);
+  EpipolarGeometry geometry =
+      find_epipolar_geometry(found.matches, epipolar_tolerance_px(std::max(left.width(), left.height())));
+  CommonFeatures common;
+  common.convincing = geometry.inliers.size() >= least_inliers && 2 * geometry.inliers.size() >= found.matches.size();
+  common.inliers = std::move(geometry.inliers);
+  return common;
+}
+
+/// Whether a picture shows nothing: black, or of one colour but for noise.
+bool is_blank(const Image<Rgb8>& picture) {
+  constexpr int small_side_px = 64;
+  constexpr double least_deviation = 1.5;
+  cv::Mat small;
+  const cv::Size size(std::min(picture.width(), small_side_px), std::min(picture.height(), small_side_px));
+  cv::resize(as_mat(picture), small, size, 0, 0, cv::INTER_AREA);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(small, mean, deviation);
+  return std::max({deviation[0], deviation[1], deviation[2]}) < least_deviation;
+}
+
+/// By which angle the right picture is turned against the left one, in degrees from −180 to 180: the least squares of
+/// the matches' places around their means.
+double turn_between(std::span<const FeatureMatch> matches) {
+  PicturePoint left, right;
+  const double share = 1 / static_cast<double>(matches.size());
+  for (const FeatureMatch& match : matches) {
+    left = {left.x + share * match.left.x, left.y + share * match.left.y};
+    right = {right.x + share * match.right.x, right.y + share * match.right.y};
+  }
+  double along = 0, across = 0;
+  for (const FeatureMatch& match : matches) {
+    const double from_x = match.left.x - left.x, from_y = match.left.y - left.y;
+    const double to_x = match.right.x - right.x, to_y = match.right.y - right.y;
+    along += from_x * to_x + from_y * to_y;
+    across += from_x * to_y - from_y * to_x;
+  }
+  return std::atan2(across, along) * 180 / std::numbers::pi;
+}
+
+void check_pictures(const StereoPair& pair) {
+  if (!same_size(pair.left, pair.right) || pair.left.empty())
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the right picture is {}x{} pixels, expected the left one's {}x{}", pair.right.width(),
+                            pair.right.height(), pair.left.width(), pair.left.height()));
+  const bool left_is_blank = is_blank(pair.left), right_is_blank = is_blank(pair.right);
+  if (left_is_blank || right_is_blank)
+    throw Error(ErrorKind::bad_input, fmt::format("the {} blank: expected two views of one scene",
+                                                  left_is_blank && right_is_blank ? "pictures are both"
+                                                  : left_is_blank                 ? "left picture is"
+                                                                                  : "right picture is"));
+}
+
+void check_upright(std::span<const FeatureMatch> matches) {
+  constexpr double on_its_side = 45, upside_down = 135;
+  const double turn = std::abs(turn_between(matches));
+  if (turn > upside_down) throw Error(ErrorKind::bad_input, "the right picture is upside down against the left one");
+  if (turn > on_its_side)
+    throw Error(ErrorKind::bad_input, "the right picture is turned by 90 degrees against the left one");
+}
+
+/// Why pictures with hardly any features in common are none of a pair, where that can be told.
+void check_dissimilar(const StereoPair& pair) {
+  Image<Rgb8> mirrored(pair.right.width(), pair.right.height());
+  cv::Mat target = as_mat(mirrored);
+  cv::flip(as_mat(pair.right), target, 1);
+  const CommonFeatures common = common_features(pair.left, mirrored);
+  if (common.convincing) {
+    const bool upside_down = std::abs(turn_between(common.inliers)) > 90;
+    throw Error(ErrorKind::bad_input, upside_down ? "the right picture is upside down and mirrored against the left one"
+                                                  : "the right picture is mirrored against the left one");
+  }
+  if (not_a_pair(pair))
+    throw Error(ErrorKind::bad_input, "the pictures show different scenes, expected two views of one scene");
+}
+
+}  // namespace
+
+std::span<const std::string_view> rectify_policy_names() { return policy_names; }
+
+std::optional<RectifyPolicy> rectify_policy_by_name(std::string_view name) {
+  const auto found = std::ranges::find(policy_names, name);
+  if (found == policy_names.end()) return std::nullopt;
+  return static_cast<RectifyPolicy>(found - policy_names.begin());
+}
+
+PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& options, const Progress& progress) {
+  check_pictures(photographs);
+  const CommonFeatures common = common_features(photographs.left, photographs.right);
+  if (common.convincing) {
+    check_upright(common.inliers);
+  } else {
+    check_dissimilar(photographs);
+  }
+
+  PreparedPair prepared;
+  // A place in a reduced copy is known no better than to a quarter of its pixels.
+  const int longer_side = std::max(photographs.left.width(), photographs.left.height());
+  prepared.tolerated_row_difference_px = std::max(1.0, 0.25 * longer_side / quick_search.search_side_px);
+  if (options.rectify == RectifyPolicy::always) {
+    RectifiedPair rectified = rectify(photographs, {}, progress);
+    prepared.pictures = std::move(rectified.pictures);
+    prepared.rectified = true;
+    prepared.compared_features = rectified.measured_matches;
+    if (rectified.measured_matches > 0) prepared.row_difference_px = rectified.after.median_px;
+    return prepared;
+  }
+  prepared.pictures = std::move(photographs);
+  if (!common.convincing) return prepared;
+  prepared.compared_features = static_cast<int>(common.inliers.size());
+  prepared.row_difference_px = vertical_disparity(common.inliers).median_px;
+  return prepared;
+}
+
+std::string row_warning(const PreparedPair& pair) {
+  if (!pair.row_difference_px || *pair.row_difference_px <= pair.tolerated_row_difference_px) return {};
+  return fmt::format(
+      "the pictures are not rectified: their rows differ by {:.1f} pixels (median), expected at most {:.3g}; rectify "
+      "them first with 'wheatstone rectify'",
+      *pair.row_difference_px, pair.tolerated_row_difference_px);
+}
+
+}  // namespace wheatstone
