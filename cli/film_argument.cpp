@@ -45,7 +45,7 @@ std::set<std::string> patterns_in(const fs::path& folder) {
   return patterns;
 }
 
-FilmArgument find_in_folder(const fs::path& folder, std::optional<FilmLayout> layout) {
+FilmArgument find_in_folder(const fs::path& folder, std::optional<StereoLayout> layout) {
   const std::set<std::string> patterns = patterns_in(folder);
   if (patterns.empty())
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no numbered pictures, expected a film's", folder.string()));
@@ -53,23 +53,23 @@ FilmArgument find_in_folder(const fs::path& folder, std::optional<FilmLayout> la
     if (!pattern.starts_with("left_%")) continue;
     const std::string right = "right" + pattern.substr(4);
     if (patterns.contains(right)) return {folder / pattern, folder / right, {}};
-    return {folder / pattern, {}, layout.value_or(FilmLayout::mono)};
+    return {folder / pattern, {}, layout.value_or(StereoLayout::mono)};
   }
   if (patterns.size() > 1)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: has numbered pictures of {} names ({}, {}), expected one, or left_ and right_",
                             folder.string(), patterns.size(), *patterns.begin(), *std::next(patterns.begin())));
-  return {folder / *patterns.begin(), {}, layout.value_or(FilmLayout::mono)};
+  return {folder / *patterns.begin(), {}, layout.value_or(StereoLayout::mono)};
 }
 
 }  // namespace
 
-FilmArgument find_film(const std::string& argument, std::optional<FilmLayout> layout) {
+FilmArgument find_film(const std::string& argument, std::optional<StereoLayout> layout) {
   if (fs::is_directory(argument)) return find_in_folder(argument, layout);
   const std::size_t comma = argument.find(',');
   if (comma != std::string::npos && !fs::exists(argument))
     return {argument.substr(0, comma), argument.substr(comma + 1), {}};
-  if (!layout && frame_pattern(argument)) layout = FilmLayout::mono;
+  if (!layout && frame_pattern(argument)) layout = StereoLayout::mono;
   return {argument, {}, layout};
 }
 
@@ -78,12 +78,12 @@ StereoFilmReader open_film(const FilmArgument& film, const FilmReaderOptions& op
                             : open_eye_films(film.film, film.right, options);
 }
 
-std::optional<FilmLayout> film_layout_option(const std::string& option, const std::string& name) {
+std::optional<StereoLayout> film_layout_option(const std::string& option, const std::string& name) {
   if (name.empty()) return {};
-  const std::optional<FilmLayout> layout = film_layout_named(name);
+  const std::optional<StereoLayout> layout = find_stereo_layout(name);
   if (!layout)
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: there is no layout '{}', expected one of {}", option, name, film_layout_names()));
+                fmt::format("{}: there is no layout '{}', expected one of {}", option, name, stereo_layout_names()));
   return layout;
 }
 

@@ -53,7 +53,7 @@ ordered_json facts_of_film(const std::filesystem::path& path) {
     facts["pixel_aspect"] = fmt::format("{}:{}", film.pixel_aspect.numerator, film.pixel_aspect.denominator);
   }
   if (film.rotation_degrees != 0) facts["rotation_applied_degrees"] = film.rotation_degrees;
-  facts["layout"] = film.layout_how.empty() ? "unsaid" : name_of(film.layout);
+  facts["layout"] = film.layout_how.empty() ? std::string("unsaid") : std::string(layout_name(film.layout));
   put(facts, "layout_from", film.layout_how);
   if (film.frame_rate.numerator > 0) facts["frames_per_second"] = film.frame_rate.value();
   if (film.frame_count) facts["frames"] = *film.frame_count;

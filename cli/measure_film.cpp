@@ -238,7 +238,7 @@ Json to_json(const MarksOfFilm& marks) {
 }
 
 void run(const Arguments& arguments, const Session& session) {
-  const std::optional<FilmLayout> layout = film_layout_option("--layout", arguments.layout);
+  const std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
   std::vector<MeasuredFilm> films;
   films.push_back({arguments.source, open_film(find_film(arguments.source, layout))});
   for (const std::string& name : arguments.films) films.push_back({name, open_film(find_film(name, layout))});

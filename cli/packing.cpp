@@ -22,6 +22,7 @@
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
@@ -54,7 +55,6 @@ std::string all_names() {
   std::string names = "anaglyph";
   for (const AnaglyphKind& kind : anaglyph_kinds()) names += fmt::format(", {}", kind.name);
   for (const std::string_view name : layout_names()) names += fmt::format(", {}", name);
-  for (const InterlacingName& name : interlacing_names()) names += fmt::format(", {}", name.name);
   for (const Named& named : plain) names += fmt::format(", {}", named.name);
   return names;
 }
@@ -73,16 +73,11 @@ std::optional<Packing> packing_named(const std::string& name) {
   for (const AnaglyphKind& kind : anaglyph_kinds())
     if (name == kind.name || (!kind.ffmpeg.empty() && name == kind.ffmpeg))
       return Packing{.kind = PackingKind::anaglyph, .name = name, .anaglyph = &kind};
-  for (const InterlacingName& known : interlacing_names())
-    if (name == known.name || name == known.ffmpeg)
-      return Packing{.kind = PackingKind::interlaced, .name = name, .interlacing = known.interlacing};
   for (const Named& named : plain)
     if (name == named.name) return Packing{.kind = named.kind, .name = name};
-  try {
-    return Packing{.kind = PackingKind::layout, .name = name, .layout = layout_by_name(name)};
-  } catch (const Error&) {
-    return std::nullopt;  // the caller lists all names, not only those of layouts
-  }
+  const std::optional<StereoLayout> layout = find_stereo_layout(name);
+  if (!layout || !is_packed(*layout)) return std::nullopt;
+  return Packing{.kind = PackingKind::layout, .name = name, .layout = *layout};
 }
 
 std::string name_by_ending(const std::string& output) {
@@ -127,7 +122,6 @@ Image<Rgb8> one_picture(const Packing& packing, const PackingArguments& argument
   if (packing.kind == PackingKind::lenticular) return interleave(views, find_lenticular(arguments.screen));
   expect_two(packing, views);
   if (packing.kind == PackingKind::anaglyph) return anaglyph(pair_of(views), *packing.anaglyph);
-  if (packing.kind == PackingKind::interlaced) return interlaced(views[0], views[1], packing.interlacing);
   if (packing.kind == PackingKind::layout) return put_together(views[0], views[1], packing.layout);
   return depth_beside(views[0], disparity_between(packing, views, session));
 }

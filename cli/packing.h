@@ -8,7 +8,6 @@
 
 #include "command.h"
 #include "wheatstone/display/anaglyph.h"
-#include "wheatstone/display/interlaced.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/stereo/stereo_layout.h"
@@ -29,7 +28,6 @@ struct PackingArguments {
 enum class PackingKind {
   anaglyph,
   layout,
-  interlaced,
   mpo,
   jps,
   views,
@@ -47,7 +45,6 @@ struct Packing {
   std::string name;
   const AnaglyphKind* anaglyph = nullptr;
   StereoLayout layout = StereoLayout::left_right;
-  Interlacing interlacing = Interlacing::rows;
   std::optional<QuiltLayout> quilt;
   double aspect = 0;  ///< of a quilt's display; 0: a view's own
 };

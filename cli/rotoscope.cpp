@@ -59,16 +59,16 @@ KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
 }
 
 /// How the eyes lie in a painted frame: as in the source, where a frame can hold them so.
-FilmLayout layout_of_output(const Arguments& arguments, const StereoFilmReader& source, bool two_films) {
+StereoLayout layout_of_output(const Arguments& arguments, const StereoFilmReader& source, bool two_films) {
   if (const auto asked = film_layout_option("--output-layout", arguments.output_layout)) {
-    if (source.layout() == FilmLayout::mono && !two_films && *asked != FilmLayout::mono)
+    if (source.layout() == StereoLayout::mono && !two_films && *asked != StereoLayout::mono)
       throw Error(ErrorKind::wrong_usage,
                   fmt::format("--output-layout: is '{}', but the film has one eye", arguments.output_layout));
     return *asked;
   }
   const bool in_time =
-      source.layout() == FilmLayout::alternating || source.layout() == FilmLayout::alternating_right_first;
-  return two_films || in_time ? FilmLayout::left_right : source.layout();
+      source.layout() == StereoLayout::alternating || source.layout() == StereoLayout::alternating_right_first;
+  return two_films || in_time ? StereoLayout::left_right : source.layout();
 }
 
 FilmWriterOptions writing_options(const Arguments& arguments, const FilmArgument& film, const StereoFilmReader& source,
@@ -195,8 +195,8 @@ void run(const Arguments& arguments, const Session& session) {
   }
   StereoFilmReader source = open_film(film, reading);
   if (session.verbose && film.right.empty())
-    fmt::print(session.errors, "layout: {} ({})\n", name_of(source.layout()), source.layout_how());
-  options.made_by += fmt::format(" from {}", name_of(source.layout()));
+    fmt::print(session.errors, "layout: {} ({})\n", layout_name(source.layout()), source.layout_how());
+  options.made_by += fmt::format(" from {}", layout_name(source.layout()));
   options.writing = writing_options(arguments, film, source, reading);
   options.expected_frames = expected_frames(source.facts(), reading);
   options.made_from = {film.film};

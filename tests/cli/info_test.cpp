@@ -74,7 +74,7 @@ TEST(Info, TellsOfAPaintingOfAreas) {
 
 TEST(Info, TellsOfAFilm) {
   const TemporaryFolder folder;
-  FilmWriter writer(folder / "f.mkv", {.layout = FilmLayout::right_left, .frame_rate = {25, 1}});
+  FilmWriter writer(folder / "f.mkv", {.layout = StereoLayout::right_left, .frame_rate = {25, 1}});
   for (int i = 0; i < 5; ++i) writer.write({Image<Rgb8>(64, 32), i, {1, 25}, 1});
   writer.finish();
   const nlohmann::json facts = facts_of(folder / "f.mkv");

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "cli/run_program.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/moving_picture_internal.h"
 
 namespace wheatstone {
@@ -26,10 +27,10 @@ constexpr int interval = 4;
 class Workplace {
  public:
   Workplace() {
-    FilmWriter writer(folder_ / "source.mp4", {.preset = "ultrafast", .layout = FilmLayout::left_right});
+    FilmWriter writer(folder_ / "source.mp4", {.preset = "ultrafast", .layout = StereoLayout::left_right});
     for (int i = 0; i < frame_count; ++i) {
       const Image<Rgb8> left = moving_picture(128, 80, i), right = moving_picture(128, 80, i, 4);
-      writer.write({join(left, right, FilmLayout::left_right), i, {1, 25}, 1});
+      writer.write({put_together(left, right, StereoLayout::left_right), i, {1, 25}, 1});
     }
     writer.finish();
   }

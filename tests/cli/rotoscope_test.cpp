@@ -9,6 +9,7 @@
 
 #include "cli/run_program.h"
 #include "shared_data.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/moving_picture_internal.h"
 #include "wheatstone/video/stereo_film.h"
@@ -140,35 +141,35 @@ TEST(RotoscopeCommand, TheSameEyesGiveTheSamePaintingInEveryLayout) {
   const std::vector<StereoFrame> source =
       eyes_of(open_eye_films(folder / "film/left_%04d.png", folder / "film/right_%04d.png"));
   ASSERT_EQ(source.size(), 4u);
-  const auto write = [&](const std::string& name, FilmLayout layout, auto picture_of) {
+  const auto write = [&](const std::string& name, StereoLayout layout, auto picture_of) {
     FilmWriter writer(folder / name, {.codec = "ffv1", .layout = layout});
     for (int i = 0; i < 4; ++i) writer.write({picture_of(source[i]), i, {1, 25}, 1});
     writer.finish();
   };
-  const auto both = [](FilmLayout layout) {
-    return [layout](const StereoFrame& eyes) { return join(eyes.left, eyes.right, layout); };
+  const auto both = [](StereoLayout layout) {
+    return [layout](const StereoFrame& eyes) { return put_together(eyes.left, eyes.right, layout); };
   };
-  write("sbs.mkv", FilmLayout::left_right, both(FilmLayout::left_right));
-  write("tb.mkv", FilmLayout::top_bottom, both(FilmLayout::top_bottom));
-  write("silent.mkv", FilmLayout::mono, both(FilmLayout::left_right));
-  write("l.mkv", FilmLayout::mono, [](const StereoFrame& eyes) { return eyes.left; });
-  write("r.mkv", FilmLayout::mono, [](const StereoFrame& eyes) { return eyes.right; });
+  write("sbs.mkv", StereoLayout::left_right, both(StereoLayout::left_right));
+  write("tb.mkv", StereoLayout::top_bottom, both(StereoLayout::top_bottom));
+  write("silent.mkv", StereoLayout::mono, both(StereoLayout::left_right));
+  write("l.mkv", StereoLayout::mono, [](const StereoFrame& eyes) { return eyes.left; });
+  write("r.mkv", StereoLayout::mono, [](const StereoFrame& eyes) { return eyes.right; });
 
   rotoscope(folder, {"film", "--codec", "ffv1", "-o", "o.mkv"});
   const std::vector<StereoFrame> expected = eyes_of(open_stereo_film(folder / "o.mkv"));
   ASSERT_EQ(expected.size(), 4u);
   struct Case {
     Words source;
-    FilmLayout layout;
+    StereoLayout layout;
   };
-  const std::vector<Case> cases{{{"sbs.mkv"}, FilmLayout::left_right},
-                                {{"tb.mkv"}, FilmLayout::top_bottom},
-                                {{"silent.mkv"}, FilmLayout::left_right},  // guessed
-                                {{"silent.mkv", "--layout", "sbs"}, FilmLayout::left_right},
-                                {{"l.mkv", "r.mkv"}, FilmLayout::left_right},
-                                {{"l.mkv,r.mkv"}, FilmLayout::left_right},
-                                {{"film/left_%04d.png,film/right_%04d.png"}, FilmLayout::left_right},
-                                {{"sbs.mkv", "--output-layout", "tb"}, FilmLayout::top_bottom}};
+  const std::vector<Case> cases{{{"sbs.mkv"}, StereoLayout::left_right},
+                                {{"tb.mkv"}, StereoLayout::top_bottom},
+                                {{"silent.mkv"}, StereoLayout::left_right},  // guessed
+                                {{"silent.mkv", "--layout", "sbs"}, StereoLayout::left_right},
+                                {{"l.mkv", "r.mkv"}, StereoLayout::left_right},
+                                {{"l.mkv,r.mkv"}, StereoLayout::left_right},
+                                {{"film/left_%04d.png,film/right_%04d.png"}, StereoLayout::left_right},
+                                {{"sbs.mkv", "--output-layout", "tb"}, StereoLayout::top_bottom}};
   for (const Case& c : cases) {
     SCOPED_TRACE(testing::PrintToString(c.source));
     Words words = c.source;
@@ -180,7 +181,7 @@ TEST(RotoscopeCommand, TheSameEyesGiveTheSamePaintingInEveryLayout) {
     expect_same_eyes(eyes_of(open_stereo_film(folder / "again.mkv")), expected);
   }
   rotoscope(folder, {"film", "-o", "out_%04d.png"});
-  expect_same_eyes(eyes_of(open_stereo_film(folder / "out_%04d.png", FilmLayout::left_right)), expected);
+  expect_same_eyes(eyes_of(open_stereo_film(folder / "out_%04d.png", StereoLayout::left_right)), expected);
   EXPECT_TRUE(fs::exists(folder / "out_0001.png")) << "numbers from 1";
 }
 
@@ -192,7 +193,7 @@ TEST(RotoscopeCommand, OneEyeGivesOneEye) {
   EXPECT_EQ(facts.width, 64);
   EXPECT_EQ(facts.height, 48);
   const StereoFilmReader read = open_stereo_film(folder / "o.mkv");
-  EXPECT_EQ(read.layout(), FilmLayout::mono);
+  EXPECT_EQ(read.layout(), StereoLayout::mono);
 }
 
 TEST(RotoscopeCommand, NumberedPicturesHaveTheRateThatIsAskedFor) {

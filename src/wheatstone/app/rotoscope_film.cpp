@@ -12,6 +12,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/segmented_film.h"
 
@@ -83,8 +84,9 @@ class Output {
     const bool at_checkpoint = state.frames % frames_between_checkpoints_ == 0;
     // Before the segment of these frames is closed: each closed segment has its state.
     if (at_checkpoint) write_rotoscope_state(state_file(state.frames), state);
-    Image<Rgb8> picture = painted.pictures.right.empty() ? painted.pictures.left
-                                                         : join(painted.pictures.left, painted.pictures.right, layout_);
+    Image<Rgb8> picture = painted.pictures.right.empty()
+                              ? painted.pictures.left
+                              : put_together(painted.pictures.left, painted.pictures.right, layout_);
     film_->write({std::move(picture), source.pts, source.time_base, source.duration});
     if (!at_checkpoint) return;
     std::error_code ignored;
@@ -119,7 +121,7 @@ class Output {
   fs::path state_file(std::int64_t frames) const { return segment_folder(path_) / fmt::format("state_{:09}", frames); }
 
   fs::path path_;
-  FilmLayout layout_;
+  StereoLayout layout_;
   int frames_between_checkpoints_;
   Style style_;
   std::optional<FramePattern> marks_;

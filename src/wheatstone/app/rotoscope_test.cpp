@@ -127,7 +127,7 @@ TEST(Rotoscope, SizesThatChangeAreRefused) {
 /// A film of one eye, painted into "o.mp4".
 RotoscopedFilm paint_film(const TemporaryFolder& folder, const RotoscopeFilmOptions& options,
                           const std::string& name = "o.mp4", const Progress& progress = {}) {
-  StereoFilmReader source = open_stereo_film(folder / "a.mp4", FilmLayout::mono);
+  StereoFilmReader source = open_stereo_film(folder / "a.mp4", StereoLayout::mono);
   return rotoscope_film(source, folder / name, options, progress);
 }
 

@@ -1,4 +1,4 @@
-// Quilts, lenticular and interlaced screens.
+// Quilts and lenticular screens.
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -9,7 +9,6 @@
 
 #include "temporary_folder.h"
 #include "throws_error.h"
-#include "wheatstone/display/interlaced.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/files/whole_file.h"
@@ -223,55 +222,6 @@ TEST(Lenticular, RefusesBadCalibrationsAndUnknownNames) {
     interleave(views, {});
   });
   expect_error(ErrorKind::wrong_usage, "step-9", [] { find_lenticular("moon"); });
-}
-
-TEST(Interlaced, EachPixelShowsItsView) {
-  const std::vector<Image<Rgb8>> views = numbered(2, 5, 3);
-  const auto shown = [&](Interlacing interlacing) {
-    const Image<Rgb8> picture = interlaced(views[0], views[1], interlacing);
-    std::string pattern;
-    for (int y = 0; y < 3; ++y) {
-      for (int x = 0; x < 5; ++x) {
-        pattern += picture(x, y).g == 0 ? 'L' : 'R';
-        EXPECT_EQ(view_of_pixel(interlacing, x, y), picture(x, y).b);
-      }
-      pattern += ' ';
-    }
-    return pattern;
-  };
-  EXPECT_EQ(shown(Interlacing::rows), "LLLLL RRRRR LLLLL ");
-  EXPECT_EQ(shown(Interlacing::columns), "LRLRL LRLRL LRLRL ");
-  EXPECT_EQ(shown(Interlacing::checkerboard), "LRLRL RLRLR LRLRL ");
-}
-
-TEST(Interlaced, PixelsStayWhereTheyAre) {
-  Image<Rgb8> left(7, 5);
-  Image<Rgb8> right(7, 5);
-  for (int y = 0; y < 5; ++y)
-    for (int x = 0; x < 7; ++x) {
-      left(x, y) = {std::uint8_t(x), std::uint8_t(y), 0};
-      right(x, y) = {std::uint8_t(x), std::uint8_t(y), 1};
-    }
-  for (const InterlacingName& name : interlacing_names()) {
-    const Image<Rgb8> picture = interlaced(left, right, name.interlacing);
-    for (int y = 0; y < 5; ++y)
-      for (int x = 0; x < 7; ++x) {
-        EXPECT_EQ(picture(x, y).r, x);
-        EXPECT_EQ(picture(x, y).g, y);
-      }
-  }
-}
-
-TEST(Interlaced, IsFoundByEitherName) {
-  std::set<Interlacing> found;
-  for (const InterlacingName& name : interlacing_names()) {
-    EXPECT_EQ(find_interlacing(name.name), find_interlacing(name.ffmpeg));
-    found.insert(find_interlacing(name.name));
-  }
-  EXPECT_EQ(found.size(), 3u);
-  expect_error(ErrorKind::wrong_usage, "checkerboard (chl)", [] { find_interlacing("zigzag"); });
-  expect_error(ErrorKind::wrong_usage, "3x2 and 2x3",
-               [] { interlaced(Image<Rgb8>(3, 2), Image<Rgb8>(2, 3), Interlacing::rows); });
 }
 
 }  // namespace

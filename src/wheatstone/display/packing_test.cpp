@@ -13,13 +13,12 @@
 #include "throws_error.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
-#include "wheatstone/display/interlaced.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/wiggle.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
-#include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/stereo/packed_pair.h"
 
 namespace wheatstone {
 namespace {
@@ -96,22 +95,21 @@ TEST(Packing, LayoutsAndRowsAreAsFfmpegMakesThem) {
     EXPECT_EQ(put_together(pair.left, pair.right, layout), by_ffmpeg(folder, pair, mode)) << mode;
   // ffmpeg keeps all pixels of both, and its picture is twice as large: a screen of that size, on which the views were
   // doubled, shows the same.
-  const auto interleaved = [&](int columns, int rows, Interlacing interlacing) {
-    return interlaced(repeated(pair.left, columns, rows), repeated(pair.right, columns, rows), interlacing);
+  const auto interleaved = [&](int columns, int rows, StereoLayout layout) {
+    return put_together(repeated(pair.left, columns, rows), repeated(pair.right, columns, rows), layout);
   };
-  EXPECT_EQ(interleaved(2, 1, Interlacing::columns), by_ffmpeg(folder, pair, "icl"));
-  EXPECT_EQ(interleaved(2, 1, Interlacing::checkerboard), by_ffmpeg(folder, pair, "chl"));
-  EXPECT_EQ(interleaved(1, 2, Interlacing::rows), by_ffmpeg(folder, pair, "irl"));
+  EXPECT_EQ(interleaved(2, 1, StereoLayout::even_odd_columns), by_ffmpeg(folder, pair, "icl"));
+  EXPECT_EQ(interleaved(2, 1, StereoLayout::checkerboard), by_ffmpeg(folder, pair, "chl"));
+  EXPECT_EQ(interleaved(1, 2, StereoLayout::even_odd_rows), by_ffmpeg(folder, pair, "irl"));
 }
 
 TEST(Packing, LayoutsComeApartAgain) {
   const StereoPair pair = noisy_pair();
-  for (const std::string_view name : layout_names()) {
-    const StereoLayout layout = layout_by_name(name);
-    if (is_half_size(layout)) continue;
-    const StereoPair back = cut_apart(put_together(pair.left, pair.right, layout), layout, "it");
-    EXPECT_EQ(back.left, pair.left) << name;
-    EXPECT_EQ(back.right, pair.right) << name;
+  for (const LayoutTraits& traits : stereo_layouts()) {
+    if (traits.half || !is_packed(traits.layout)) continue;
+    const StereoPair back = cut_apart(put_together(pair.left, pair.right, traits.layout), traits.layout, "it");
+    EXPECT_EQ(back.left, pair.left) << traits.name;
+    EXPECT_EQ(back.right, pair.right) << traits.name;
   }
 }
 

@@ -9,59 +9,32 @@
 
 #include "wheatstone/matching/block_agreement.h"
 #include "wheatstone/matching/eye_order.h"
+#include "wheatstone/stereo/packed_pair.h"
 
 namespace wheatstone {
 namespace {
 
-/// What a word at the end of a name means.
-enum class WordKind { layout, half_layout, full_layout, half, full, nothing_new };
+/// What a word at the end of a name says.
 struct Word {
-  std::string_view word;
-  WordKind kind;
-  StereoLayout layout = StereoLayout::left_right;
+  bool known = false;
+  std::optional<StereoLayout> layout{};
+  std::optional<bool> half{};
 };
 
-constexpr Word words[] = {
-    {"sbs", WordKind::layout, StereoLayout::left_right},
-    {"sidebyside", WordKind::layout, StereoLayout::left_right},
-    {"parallel", WordKind::layout, StereoLayout::left_right},
-    {"lr", WordKind::layout, StereoLayout::left_right},
-    {"rl", WordKind::layout, StereoLayout::right_left},
-    {"crosseyed", WordKind::layout, StereoLayout::right_left},
-    {"crosseye", WordKind::layout, StereoLayout::right_left},
-    {"crossview", WordKind::layout, StereoLayout::right_left},
-    {"tb", WordKind::layout, StereoLayout::top_bottom},
-    {"tab", WordKind::layout, StereoLayout::top_bottom},
-    {"ou", WordKind::layout, StereoLayout::top_bottom},
-    {"ab", WordKind::layout, StereoLayout::top_bottom},
-    {"overunder", WordKind::layout, StereoLayout::top_bottom},
-    {"topbottom", WordKind::layout, StereoLayout::top_bottom},
-    {"bt", WordKind::layout, StereoLayout::bottom_top},
-    {"hsbs", WordKind::half_layout, StereoLayout::left_right},
-    {"lrh", WordKind::half_layout, StereoLayout::left_right},
-    {"lrq", WordKind::half_layout, StereoLayout::left_right},
-    {"rlh", WordKind::half_layout, StereoLayout::right_left},
-    {"rlq", WordKind::half_layout, StereoLayout::right_left},
-    {"htb", WordKind::half_layout, StereoLayout::top_bottom},
-    {"htab", WordKind::half_layout, StereoLayout::top_bottom},
-    {"hou", WordKind::half_layout, StereoLayout::top_bottom},
-    {"tbh", WordKind::half_layout, StereoLayout::top_bottom},
-    {"tbq", WordKind::half_layout, StereoLayout::top_bottom},
-    {"bth", WordKind::half_layout, StereoLayout::bottom_top},
-    {"btq", WordKind::half_layout, StereoLayout::bottom_top},
-    {"lrf", WordKind::full_layout, StereoLayout::left_right},
-    {"fsbs", WordKind::full_layout, StereoLayout::left_right},
-    {"rlf", WordKind::full_layout, StereoLayout::right_left},
-    {"tbf", WordKind::full_layout, StereoLayout::top_bottom},
-    {"half", WordKind::half},
-    {"h", WordKind::half},
-    {"full", WordKind::full},
-    {"f", WordKind::full},
-    {"3d", WordKind::nothing_new},
-    {"180", WordKind::nothing_new},
-    {"360", WordKind::nothing_new},
-    {"vr", WordKind::nothing_new},
-};
+/// Words that say how large the eyes are, and those that stand beside a layout and change nothing.
+constexpr std::string_view half_words = "half h", full_words = "full f", idle_words = "3d 180 360 vr";
+
+Word meaning_of(std::string_view word) {
+  for (const LayoutTraits& traits : stereo_layouts()) {
+    if (traits.arrangement != Arrangement::side_by_side && traits.arrangement != Arrangement::over_under) continue;
+    const bool says_full = is_among(traits.full_aliases, word);
+    if (!says_full && !is_among(traits.aliases, word)) continue;
+    return {true, traits.layout, says_full || traits.half ? std::optional(traits.half) : std::nullopt};
+  }
+  if (is_among(half_words, word)) return {true, {}, true};
+  if (is_among(full_words, word)) return {true, {}, false};
+  return {is_among(idle_words, word), {}, {}};
+}
 
 /// The words of a name in small letters: what stands between its spaces, dots, dashes and underscores.
 std::vector<std::string> words_of(const std::string& name) {
@@ -89,25 +62,11 @@ std::optional<StereoLayout> layout_from_name(const std::filesystem::path& path, 
   std::optional<bool> half;
   // Only the last words: elsewhere "ou" and "ab" are words like others.
   for (std::size_t i = name.size(); i-- > 0;) {
-    const auto* known =
-        std::find_if(std::begin(words), std::end(words), [&](const Word& w) { return w.word == name[i]; });
-    if (known == std::end(words)) break;
-    switch (known->kind) {
-      case WordKind::half_layout:
-      case WordKind::full_layout:
-        if (!half) half = known->kind == WordKind::half_layout;
-        [[fallthrough]];
-      case WordKind::layout:
-        // What stands first is more exact: "RL_SBS".
-        layout = known->layout;
-        break;
-      case WordKind::half:
-      case WordKind::full:
-        if (!half) half = known->kind == WordKind::half;
-        break;
-      case WordKind::nothing_new:
-        break;
-    }
+    const Word word = meaning_of(name[i]);
+    if (!word.known) break;
+    // What stands first is more exact: "RL_SBS".
+    if (word.layout) layout = word.layout;
+    if (!half) half = word.half;
   }
   if (!layout) return {};
   return half ? with_half_size(*layout, *half) : with_likely_size(*layout, width, height);

@@ -16,6 +16,7 @@
 #include "wheatstone/pictures/heif_pictures_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/packed_pair.h"
 
 namespace wheatstone {
 namespace {
@@ -217,7 +218,7 @@ std::string_view how_known_words(HowKnown how) {
 }
 
 std::string describe_views(const ViewsFile& file) {
-  if (file.layout) return fmt::format("{} ({})", layout_words(*file.layout), how_known_words(file.how_known));
+  if (file.layout) return fmt::format("{} ({})", traits_of(*file.layout).words, how_known_words(file.how_known));
   return fmt::format("{}, {} pictures ({})", file.kind, file.views.size(), how_known_words(file.how_known));
 }
 

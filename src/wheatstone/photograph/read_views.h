@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wheatstone/image/image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 
 namespace wheatstone {

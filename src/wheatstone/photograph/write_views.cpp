@@ -10,6 +10,7 @@
 #include "wheatstone/photograph/multi_picture_internal.h"
 #include "wheatstone/photograph/stereo_marks_internal.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/packed_pair.h"
 
 namespace wheatstone {
 namespace {
@@ -38,6 +39,11 @@ void write_jps(const std::filesystem::path& path, ImageView<const Rgb8> left, Im
                StereoLayout layout, int quality) {
   const ImageView<const Rgb8> views[] = {left, right};
   check(path, views);
+  const LayoutTraits& traits = traits_of(layout);
+  if (traits.arrangement != Arrangement::side_by_side && traits.arrangement != Arrangement::over_under)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: a JPS cannot hold eyes {}, expected side by side or one above the other",
+                            path.string(), traits.words));
   JpsDescriptor descriptor;
   descriptor.arrangement =
       is_side_by_side(layout) ? JpsDescriptor::Arrangement::side_by_side : JpsDescriptor::Arrangement::over_under;

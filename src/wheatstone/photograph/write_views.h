@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 
+#include "wheatstone/image/image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 
 namespace wheatstone {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
 
 namespace wheatstone {
@@ -95,7 +95,7 @@ void FilmFile::say_layout(AVStream& stream) {
   const Container container = container_of(path_);
   const LayoutTraits& traits = traits_of(options_.layout);
   if (container == Container::matroska) {
-    av_dict_set(&stream.metadata, "stereo_mode", traits.matroska, 0);
+    av_dict_set(&stream.metadata, "stereo_mode", std::string(traits.matroska).c_str(), 0);
     return;
   }
   const bool in_box = container == Container::mp4 && !traits.right_first &&

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/colour_tags.h"
-#include "wheatstone/video/film_layout.h"
 #include "wheatstone/video/frame.h"
 
 namespace wheatstone {
@@ -44,7 +44,7 @@ struct FilmFacts {
   Rational time_base{1, 1};                 ///< of the frames' pts
   double duration_s = 0;                    ///< of the whole film, 0 where unknown
   std::optional<std::int64_t> frame_count;  ///< of the whole film, where it says
-  FilmLayout layout = FilmLayout::mono;
+  StereoLayout layout = StereoLayout::mono;
   std::string layout_how;  ///< "Matroska StereoMode", … ; empty where the film says nothing of it
   ColourTags colour;
   std::vector<SideStream> side_streams;

@@ -8,7 +8,7 @@
 #include "shared_data.h"
 #include "throws_error.h"
 #include "wheatstone/pictures/write_image.h"
-#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/guess_layout.h"
 #include "wheatstone/video/moving_picture_internal.h"
 #include "wheatstone/video/picture_conversion_internal.h"
@@ -32,7 +32,7 @@ TEST(FilmReader, TellsAndDelivers) {
   EXPECT_EQ(facts.frame_count, 30);
   EXPECT_EQ(facts.frame_rate, (Rational{25, 1}));
   EXPECT_NEAR(facts.duration_s, 1.2, 1e-9);
-  EXPECT_EQ(facts.layout, FilmLayout::mono);
+  EXPECT_EQ(facts.layout, StereoLayout::mono);
   EXPECT_TRUE(facts.side_streams.empty());
   const std::vector<Frame> frames = frames_of(std::move(reader));
   ASSERT_EQ(frames.size(), 30u);
@@ -354,8 +354,8 @@ TEST(FilmReader, RealFilms) {
     for (Frame& frame : frames_of(path, {.every = 40})) pictures.push_back(std::move(frame.picture));
     return guess_layout(pictures).layout;
   };
-  EXPECT_EQ(guess(data / "mary_sbs.mp4"), FilmLayout::left_right);
-  EXPECT_EQ(guess(data / "tokyo_walk_mono.mp4"), FilmLayout::mono);
+  EXPECT_EQ(guess(data / "mary_sbs.mp4"), StereoLayout::left_right);
+  EXPECT_EQ(guess(data / "tokyo_walk_mono.mp4"), StereoLayout::mono);
   FilmReader reader = open_film(data / "mary_sbs.mp4");
   EXPECT_EQ(reader.facts().colour.matrix, "bt709");
   EXPECT_EQ(reader.skip(1000), 120);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/colour_tags.h"
-#include "wheatstone/video/film_layout.h"
 #include "wheatstone/video/frame.h"
 
 namespace wheatstone {
@@ -18,7 +18,7 @@ struct FilmWriterOptions {
   std::optional<double> crf;      ///< quality of h264 and hevc, 0 (best) to 51; 16 and 18 where not given
   std::string preset = "medium";  ///< effort of h264 and hevc: "ultrafast" to "placebo"
   std::string pixel_format;       ///< "yuv420p", "yuv422p", "yuv444p"; "bgr0" (ffv1: RGB). Empty: yuv420p, ffv1 bgr0
-  FilmLayout layout = FilmLayout::mono;  ///< written wherever the container and the codec can say it
+  StereoLayout layout = StereoLayout::mono;  ///< written wherever the container and the codec can say it
   Rational frame_rate;          ///< on average, for the encoder's planning; each frame's own time is what counts
   Rational pixel_aspect{1, 1};  ///< what the layout asks for goes before it
   ColourTags colour;            ///< RGB is converted with this matrix and range, and tagged so

@@ -6,7 +6,7 @@
 #include <csignal>
 
 #include "throws_error.h"
-#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/libav_internal.h"
 #include "wheatstone/video/moving_picture_internal.h"
 
@@ -177,18 +177,18 @@ TEST(FilmWriter, APartOfAFilmBringsItsPartOfTheSound) {
 TEST(FilmWriter, LayoutsComeBackAndAreShownToOthers) {
   const TemporaryFolder folder;
   const bool has_ffprobe = has_program("ffprobe");
-  for (const LayoutTraits& traits : all_layouts()) {
+  for (const LayoutTraits& traits : stereo_layouts()) {
     for (const char* name : {"a.mkv", "a.mp4", "a.mov"}) {
       FilmWriter writer(folder / name, {.layout = traits.layout});
       for (int i = 0; i < 3; ++i) writer.write(moving_frame(64, 48, i));
       writer.finish();
       const FilmFacts facts = open_film(folder / name).facts();
-      const std::string what = std::string(name) + " " + traits.name;
+      const std::string what = std::string(name) + " " + std::string(traits.name);
       const bool unsaid = !writer.notes().empty();
-      EXPECT_EQ(facts.layout, unsaid ? FilmLayout::mono : traits.layout) << what;
+      EXPECT_EQ(facts.layout, unsaid ? StereoLayout::mono : traits.layout) << what;
       // Matroska can say all; the others cannot say that the right eye comes first.
       EXPECT_EQ(unsaid, name != std::string("a.mkv") && traits.right_first) << what;
-      if (!has_ffprobe || unsaid || traits.layout == FilmLayout::mono) continue;
+      if (!has_ffprobe || unsaid || traits.layout == StereoLayout::mono) continue;
       const std::string shown =
           ffprobe("-show_streams -show_frames -read_intervals %+#1 " + (folder / name).string(), folder);
       EXPECT_THAT(shown, testing::HasSubstr("Stereo 3D")) << what;
@@ -198,8 +198,8 @@ TEST(FilmWriter, LayoutsComeBackAndAreShownToOthers) {
 
 TEST(FilmWriter, HevcInMp4SaysItsLayoutInABox) {
   const TemporaryFolder folder;
-  make_film(folder / "a.mp4", 3, {.codec = "hevc", .layout = FilmLayout::top_bottom_half});
-  EXPECT_EQ(open_film(folder / "a.mp4").facts().layout, FilmLayout::top_bottom_half);
+  make_film(folder / "a.mp4", 3, {.codec = "hevc", .layout = StereoLayout::top_bottom_half});
+  EXPECT_EQ(open_film(folder / "a.mp4").facts().layout, StereoLayout::top_bottom_half);
   EXPECT_THAT(bytes_of(folder / "a.mp4"), testing::HasSubstr("st3d"));
   EXPECT_THAT(bytes_of(folder / "a.mp4"), testing::HasSubstr("hvc1"));
 }

@@ -52,7 +52,7 @@ std::string fingerprint_of(const FilmWriterOptions& options, const SegmentOption
   Fingerprint print;
   const ColourTags& colour = options.colour;
   print.add(fmt::format("{} {} {} {}", options.codec, options.crf.value_or(-1), options.preset, options.pixel_format));
-  print.add(name_of(options.layout));
+  print.add(layout_name(options.layout));
   print.add(fmt::format("{}/{} {}/{}", options.frame_rate.numerator, options.frame_rate.denominator,
                         options.pixel_aspect.numerator, options.pixel_aspect.denominator));
   print.add(fmt::format("{} {} {} {}", colour.matrix, colour.range, colour.primaries, colour.transfer));

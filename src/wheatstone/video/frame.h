@@ -26,4 +26,13 @@ struct Frame {
   double seconds() const { return static_cast<double>(pts) * time_base.value(); }
 };
 
+/// Two eyes' pictures of one moment, same size; `right` is empty where the film has one eye. Times as in Frame.
+struct StereoFrame {
+  Image<Rgb8> left;
+  Image<Rgb8> right;
+  std::int64_t pts = 0;
+  Rational time_base{1, 1};
+  std::int64_t duration = 0;
+};
+
 }  // namespace wheatstone

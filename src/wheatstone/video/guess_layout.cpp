@@ -78,22 +78,22 @@ Likenesses likenesses_of(std::span<const Image<Rgb8>> frames) {
 
 GuessedLayout guess_layout(std::span<const Image<Rgb8>> frames) {
   const Likenesses found = likenesses_of(frames);
-  if (found.frames == 0) return {FilmLayout::mono, "the frames are too flat or too small to tell"};
+  if (found.frames == 0) return {StereoLayout::mono, "the frames are too flat or too small to tell"};
   const double best = std::max(found.side_by_side, found.over_under);
   if (best < enough) {
-    return {FilmLayout::mono, fmt::format("no two halves are alike (side by side {:.2f}, one above the other {:.2f})",
-                                          found.side_by_side, found.over_under)};
+    return {StereoLayout::mono, fmt::format("no two halves are alike (side by side {:.2f}, one above the other {:.2f})",
+                                            found.side_by_side, found.over_under)};
   }
   const Image<Rgb8>& frame = frames.front();
   const double proportions = static_cast<double>(frame.width()) / frame.height();
   if (found.side_by_side >= found.over_under) {
     const bool half = proportions / 2 < 0.95;
-    return {half ? FilmLayout::left_right_half : FilmLayout::left_right,
+    return {half ? StereoLayout::left_right_half : StereoLayout::left_right,
             fmt::format("the left and right halves are alike ({:.2f}){}; the left eye is assumed on the left", best,
                         half ? " and upright, so squeezed" : "")};
   }
   const bool half = proportions * 2 > 2.4;
-  return {half ? FilmLayout::top_bottom_half : FilmLayout::top_bottom,
+  return {half ? StereoLayout::top_bottom_half : StereoLayout::top_bottom,
           fmt::format("the upper and lower halves are alike ({:.2f}){}; the left eye is assumed on top", best,
                       half ? " and very wide, so squeezed" : "")};
 }

@@ -3,13 +3,14 @@
 #include <span>
 #include <string>
 
-#include "wheatstone/video/film_layout.h"
+#include "wheatstone/image/image.h"
+#include "wheatstone/stereo/stereo_layout.h"
 
 namespace wheatstone {
 
 /// A layout and, in a few words for the user, how it is known.
 struct GuessedLayout {
-  FilmLayout layout = FilmLayout::mono;
+  StereoLayout layout = StereoLayout::mono;
   std::string how;
 };
 

@@ -28,7 +28,7 @@ FilmWriterOptions bare(FilmWriterOptions options) {
   options.side_streams_from.clear();
   options.start_s = 0;
   options.end_s.reset();
-  options.layout = FilmLayout::mono;
+  options.layout = StereoLayout::mono;
   return options;
 }
 

@@ -56,7 +56,7 @@ TEST(SegmentedFilm, InterruptedAndResumedIsTheSameFilm) {
   for (const char* name : {"a.mp4", "a.mkv"}) {
     for (const char* codec : {"h264", "hevc", "ffv1"}) {
       if (codec == std::string("ffv1") && name == std::string("a.mp4")) continue;
-      const FilmWriterOptions options{.codec = codec, .layout = FilmLayout::top_bottom};
+      const FilmWriterOptions options{.codec = codec, .layout = StereoLayout::top_bottom};
       const std::string whole = std::string("whole_") + name;
       EXPECT_EQ(run(folder / whole, options), frame_count);
       int made = 0;
@@ -77,7 +77,7 @@ TEST(SegmentedFilm, InterruptedAndResumedIsTheSameFilm) {
         EXPECT_GT(psnr(resumed[i].picture, truth.picture), 36) << name << " " << codec << " " << i;
         EXPECT_NEAR(resumed[i].seconds(), truth.seconds(), name == std::string("a.mp4") ? 1e-12 : 0.00051);
       }
-      EXPECT_EQ(open_film(folder / name).facts().layout, FilmLayout::top_bottom);
+      EXPECT_EQ(open_film(folder / name).facts().layout, StereoLayout::top_bottom);
       fs::remove(folder / name);
     }
   }

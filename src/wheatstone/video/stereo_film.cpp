@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/guess_layout.h"
 
 namespace wheatstone {
@@ -84,7 +84,14 @@ struct StereoFilmReader::Implementation {
       std::swap(eyes.right, other.picture);
     } else {
       if (!left.read(frame)) return false;
-      eyes = split(frame.picture, layout.layout);
+      if (layout.layout == StereoLayout::mono) {
+        std::swap(eyes.left, frame.picture);
+        eyes.right = {};
+      } else {
+        StereoPair pair = cut_apart(frame.picture, layout.layout, "frame");
+        eyes.left = std::move(pair.left);
+        eyes.right = std::move(pair.right);
+      }
     }
     eyes.pts = frame.pts;
     eyes.time_base = frame.time_base;
@@ -101,7 +108,7 @@ StereoFilmReader& StereoFilmReader::operator=(StereoFilmReader&&) noexcept = def
 StereoFilmReader::~StereoFilmReader() = default;
 
 const FilmFacts& StereoFilmReader::facts() const { return implementation_->left.facts(); }
-FilmLayout StereoFilmReader::layout() const { return implementation_->layout.layout; }
+StereoLayout StereoFilmReader::layout() const { return implementation_->layout.layout; }
 const std::string& StereoFilmReader::layout_how() const { return implementation_->layout.how; }
 bool StereoFilmReader::read(StereoFrame& frame) { return implementation_->read(frame); }
 
@@ -134,7 +141,7 @@ std::optional<std::string> StereoFilmReader::loss() const {
   return left ? left : right;
 }
 
-StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::optional<FilmLayout> layout,
+StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::optional<StereoLayout> layout,
                                   const FilmReaderOptions& options) {
   FilmReader reader = open_film(packed, options);
   GuessedLayout found;
@@ -167,7 +174,7 @@ StereoFilmReader open_eye_films(const std::filesystem::path& left, const std::fi
                                                   *a.frame_count, left.string()));
   }
   auto both = std::make_unique<StereoFilmReader::Implementation>(std::move(left_reader), left,
-                                                                 GuessedLayout{FilmLayout::mono, "a film an eye"});
+                                                                 GuessedLayout{StereoLayout::mono, "a film an eye"});
   both->right = std::move(right_reader);
   both->right_path = right;
   return StereoFilmReader(std::move(both));

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "wheatstone/video/film_layout.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/film_reader.h"
 
 namespace wheatstone {
@@ -20,7 +20,7 @@ class StereoFilmReader {
 
   /// Of the packed film, or of the left eye's.
   const FilmFacts& facts() const;
-  FilmLayout layout() const;              ///< mono where there is a film an eye
+  StereoLayout layout() const;            ///< mono where there is a film an eye
   const std::string& layout_how() const;  ///< how it is known, for the user
 
   /// The next moment; of an alternating film, two frames. `right` stays empty where the film is mono. Throws
@@ -36,7 +36,7 @@ class StereoFilmReader {
  private:
   struct Implementation;
   explicit StereoFilmReader(std::unique_ptr<Implementation> implementation);
-  friend StereoFilmReader open_stereo_film(const std::filesystem::path&, std::optional<FilmLayout>,
+  friend StereoFilmReader open_stereo_film(const std::filesystem::path&, std::optional<StereoLayout>,
                                            const FilmReaderOptions&);
   friend StereoFilmReader open_eye_films(const std::filesystem::path&, const std::filesystem::path&,
                                          const FilmReaderOptions&);
@@ -45,7 +45,7 @@ class StereoFilmReader {
 
 /// Opens a film, or numbered pictures, that hold both eyes: in the layout given, else in the one that the film says,
 /// else in the one that its first frames let guess (guess_layout). Throws as open_film.
-StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::optional<FilmLayout> layout = {},
+StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::optional<StereoLayout> layout = {},
                                   const FilmReaderOptions& options = {});
 
 /// Opens a film, or numbered pictures, an eye. Throws as open_film, and Error{bad_input} where the eyes differ in size

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "throws_error.h"
-#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/moving_picture_internal.h"
 
 namespace wheatstone {
@@ -11,8 +11,8 @@ namespace {
 
 constexpr double eye_shift = 7;
 
-void make_stereo_film(const std::filesystem::path& path, FilmLayout layout, bool say_it) {
-  FilmWriter writer(path, {.codec = "ffv1", .layout = say_it ? layout : FilmLayout::mono});
+void make_stereo_film(const std::filesystem::path& path, StereoLayout layout, bool say_it) {
+  FilmWriter writer(path, {.codec = "ffv1", .layout = say_it ? layout : StereoLayout::mono});
   const LayoutTraits& traits = traits_of(layout);
   for (int i = 0; i < 12; ++i) {
     const Image<Rgb8> left = moving_picture(96, 54, i), right = moving_picture(96, 54, i, eye_shift);
@@ -20,7 +20,7 @@ void make_stereo_film(const std::filesystem::path& path, FilmLayout layout, bool
       writer.write({traits.right_first ? right : left, 2 * i, {1, 50}, 1});
       writer.write({traits.right_first ? left : right, 2 * i + 1, {1, 50}, 1});
     } else {
-      writer.write({join(left, right, layout), i, {1, 25}, 1});
+      writer.write({put_together(left, right, layout), i, {1, 25}, 1});
     }
   }
   writer.finish();
@@ -28,7 +28,7 @@ void make_stereo_film(const std::filesystem::path& path, FilmLayout layout, bool
 
 TEST(StereoFilm, EveryLayoutDeliversBothEyes) {
   const TemporaryFolder folder;
-  for (const LayoutTraits& traits : all_layouts()) {
+  for (const LayoutTraits& traits : stereo_layouts()) {
     make_stereo_film(folder / "a.mkv", traits.layout, true);
     StereoFilmReader reader = open_stereo_film(folder / "a.mkv", traits.layout);
     EXPECT_EQ(reader.layout_how(), "as asked");
@@ -38,7 +38,7 @@ TEST(StereoFilm, EveryLayoutDeliversBothEyes) {
     for (; reader.read(eyes); ++count) {
       EXPECT_GT(psnr(eyes.left, moving_picture(96, 54, count)), traits.half ? 26 : 1000) << traits.name;
       EXPECT_NEAR(static_cast<double>(eyes.pts) * eyes.time_base.value(), count / 25.0, 1e-9) << traits.name;
-      if (traits.layout == FilmLayout::mono) {
+      if (traits.layout == StereoLayout::mono) {
         EXPECT_TRUE(eyes.right.empty());
       } else {
         EXPECT_GT(psnr(eyes.right, moving_picture(96, 54, count, eye_shift)), traits.half ? 26 : 1000) << traits.name;
@@ -51,10 +51,10 @@ TEST(StereoFilm, EveryLayoutDeliversBothEyes) {
 
 TEST(StereoFilm, OfAlternatingFilmsWholeMomentsAreChosen) {
   const TemporaryFolder folder;
-  make_stereo_film(folder / "a.mkv", FilmLayout::alternating_right_first, true);
+  make_stereo_film(folder / "a.mkv", StereoLayout::alternating_right_first, true);
   // 0.1 s lies between the two frames of a moment.
   StereoFilmReader reader = open_stereo_film(folder / "a.mkv", {}, {.from_s = 0.1, .to_s = 0.36, .every = 2});
-  EXPECT_EQ(reader.layout(), FilmLayout::alternating_right_first);
+  EXPECT_EQ(reader.layout(), StereoLayout::alternating_right_first);
   StereoFrame eyes;
   for (const int number : {3, 5, 7}) {
     ASSERT_TRUE(reader.read(eyes));
@@ -66,12 +66,12 @@ TEST(StereoFilm, OfAlternatingFilmsWholeMomentsAreChosen) {
 
 TEST(StereoFilm, KnowsTheLayoutFromTheFileOrGuessesIt) {
   const TemporaryFolder folder;
-  make_stereo_film(folder / "said.mkv", FilmLayout::right_left, true);
-  EXPECT_EQ(open_stereo_film(folder / "said.mkv").layout(), FilmLayout::right_left);
+  make_stereo_film(folder / "said.mkv", StereoLayout::right_left, true);
+  EXPECT_EQ(open_stereo_film(folder / "said.mkv").layout(), StereoLayout::right_left);
   EXPECT_EQ(open_stereo_film(folder / "said.mkv").layout_how(), "the container's stereo mode");
-  make_stereo_film(folder / "unsaid.mkv", FilmLayout::top_bottom, false);
+  make_stereo_film(folder / "unsaid.mkv", StereoLayout::top_bottom, false);
   const StereoFilmReader guessed = open_stereo_film(folder / "unsaid.mkv");
-  EXPECT_EQ(guessed.layout(), FilmLayout::top_bottom);
+  EXPECT_EQ(guessed.layout(), StereoLayout::top_bottom);
   EXPECT_THAT(guessed.layout_how(), testing::HasSubstr("halves are alike"));
 }
 

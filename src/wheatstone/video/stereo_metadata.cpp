@@ -1,6 +1,6 @@
 #include "wheatstone/video/stereo_metadata_internal.h"
 
-#include "wheatstone/video/film_layout_internal.h"
+#include "wheatstone/stereo/stereo_layout.h"
 
 namespace wheatstone {
 namespace {
@@ -36,18 +36,18 @@ bool is_squeezed(Arrangement arrangement, int width, int height, AVRational pixe
 
 }  // namespace
 
-FilmLayout layout_of(const AVStereo3D& stereo, int width, int height, AVRational pixel_aspect) {
+StereoLayout layout_of(const AVStereo3D& stereo, int width, int height, AVRational pixel_aspect) {
   const Arrangement arrangement = arrangement_of(stereo.type);
   bool right_first = (stereo.flags & AV_STEREO3D_FLAG_INVERT) != 0;
   if (stereo.view != AV_STEREO3D_VIEW_PACKED) {
     // Only the first of two frames says which eye it is.
-    if (arrangement != Arrangement::in_time) return FilmLayout::mono;
+    if (arrangement != Arrangement::in_time) return StereoLayout::mono;
     right_first = stereo.view == AV_STEREO3D_VIEW_RIGHT;
   }
   return layout_with(arrangement, right_first, is_squeezed(arrangement, width, height, pixel_aspect));
 }
 
-std::optional<AVStereo3D> stereo_of(FilmLayout layout) {
+std::optional<AVStereo3D> stereo_of(StereoLayout layout) {
   const LayoutTraits& traits = traits_of(layout);
   AVStereo3D stereo{};
   stereo.flags = traits.right_first ? AV_STEREO3D_FLAG_INVERT : 0;
@@ -77,14 +77,14 @@ std::optional<AVStereo3D> stereo_of(FilmLayout layout) {
   return stereo;
 }
 
-Rational pixel_aspect_of(FilmLayout layout) {
+Rational pixel_aspect_of(StereoLayout layout) {
   const LayoutTraits& traits = traits_of(layout);
   if (traits.half && traits.arrangement == Arrangement::side_by_side) return {2, 1};
   if (traits.half && traits.arrangement == Arrangement::over_under) return {1, 2};
   return {1, 1};
 }
 
-std::optional<int> frame_packing_of(FilmLayout layout) {
+std::optional<int> frame_packing_of(StereoLayout layout) {
   const LayoutTraits& traits = traits_of(layout);
   if (traits.right_first) return {};
   switch (traits.arrangement) {

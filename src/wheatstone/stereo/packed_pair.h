@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone {
+
+/// Takes a picture of this layout apart, into eyes with square pixels: halves are brought back to full size (Lanczos);
+/// in rows, columns and checkerboards the pixels that are there stay, and the others become the mean of their
+/// neighbours. Throws Error{bad_input} that names the picture as `name` where it cannot be halved evenly,
+/// Error{wrong_usage} where the layout does not hold both eyes in one picture.
+StereoPair cut_apart(ImageView<const Rgb8> picture, StereoLayout layout, const std::string& name);
+
+/// Both pictures, of one size, in one: what cut_apart takes apart, exactly where nothing is squeezed. Squeezing
+/// averages the pixels that become one; of an odd number the last stays alone. Rows, columns and checkerboards show of
+/// each eye the pixels of its places, on the screen's own pixels: scale before. Mono gives the left picture. Throws
+/// Error{wrong_usage} where the sizes differ, and for layouts in time.
+Image<Rgb8> put_together(ImageView<const Rgb8> left, ImageView<const Rgb8> right, StereoLayout layout);
+
+}  // namespace wheatstone
