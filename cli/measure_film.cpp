@@ -194,7 +194,7 @@ struct MarksOfFilm {
 
 /// How much of either eye, or of the one there is, no mark covers.
 double bare_share_of(const Painting& marks, bool two_eyes) {
-  if (!two_eyes) return draw(marks, 0).bare_share;
+  if (!two_eyes) return draw(marks, central_view).bare_share;
   return std::max(draw(marks, left_eye).bare_share, draw(marks, right_eye).bare_share);
 }
 

@@ -10,6 +10,7 @@
 #include "size_argument.h"
 #include "synth_kinds.h"
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/depth/rig.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
@@ -46,16 +47,14 @@ void run(const Arguments& arguments, const Session& session) {
 
   OutputFolder output(arguments.folder);
   if (arguments.view) {
-    write(output, "view", make_synthetic_view(options, *arguments.view));
+    write(output, "view", make_synthetic_view(options, ViewPosition(*arguments.view)));
   } else if (arguments.views == 2) {
     write(output, make_synthetic_still(options));
   } else {
-    // From the left eye to the right, evenly.
+    const Rig rig = evenly_spaced(options.width, options.height, arguments.views);
     for (int i = 0; i < arguments.views; ++i) {
       report(session.progress, "views", static_cast<double>(i) / arguments.views);
-      const float last = static_cast<float>(std::max(arguments.views - 1, 1));
-      const float position = arguments.views == 1 ? 0.f : static_cast<float>(i) / last - 0.5f;
-      write(output, fmt::format("view_{:03}", i), make_synthetic_view(options, position));
+      write(output, fmt::format("view_{:03}", i), make_synthetic_view(options, rig.positions[i]));
     }
   }
   output.commit();

@@ -239,7 +239,8 @@ void print_exact(const Stage& stage) {
   for (int i = 0; i < 10; ++i) render_exact(job, 0, picture);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double cores = (processor_seconds() - before) / wall;
-  const double naive = median_seconds([&] { naive_view(stage.cloud, stage.scene, stage.rig, 0, stage.exposure); }, 1);
+  const double naive =
+      median_seconds([&] { naive_view(stage.cloud, stage.scene, stage.rig, central_view, stage.exposure); }, 1);
   fmt::print("\nExact: {:.1f} ms a view, {:.2f} cores (at least 1.8 of 2), {:.1f} x the naive loop (at least 4)\n",
              1e2 * wall, cores, naive / (wall / 10));
 }

@@ -7,7 +7,7 @@ namespace wheatstone {
 
 /// A hash of a few numbers: the only source of randomness, so that the same input and seed give the same bytes on any
 /// number of threads. The mixing is SplitMix64's.
-constexpr std::uint64_t hash(std::initializer_list<std::uint64_t> keys) {
+constexpr std::uint64_t hash_keys(std::initializer_list<std::uint64_t> keys) {
   std::uint64_t state = 0x9E3779B97F4A7C15ull;
   for (const std::uint64_t key : keys) {
     state += key + 0x9E3779B97F4A7C15ull;

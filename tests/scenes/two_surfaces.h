@@ -22,7 +22,7 @@ inline bool in_square(float x_left_view, int y) {
 /// A surface's colour at a place on it: smooth waves with some grain, so that strokes have something to follow.
 inline Rgb8 colour_at(float x, int y, bool square) {
   const float wave = 0.5f + 0.5f * std::sin(0.21f * x + 0.13f * static_cast<float>(y));
-  const float grain = unit_float(hash({static_cast<std::uint64_t>(x + 1000), static_cast<std::uint64_t>(y)}));
+  const float grain = unit_float(hash_keys({static_cast<std::uint64_t>(x + 1000), static_cast<std::uint64_t>(y)}));
   const auto level = [&](float base, float swing) {
     return static_cast<std::uint8_t>(base + swing * wave + 20 * grain);
   };
@@ -63,7 +63,7 @@ inline StereoPair as_photographed() {
     for (std::size_t i = 0; i < picture->pixels().size(); ++i) {
       const float gain = eye == 2 ? 1.06f : 1.f;
       const auto grainy = [&](std::uint8_t level, std::uint64_t channel) {
-        const float noise = 16 * (unit_float(hash({eye, i, channel})) - 0.5f);
+        const float noise = 16 * (unit_float(hash_keys({eye, i, channel})) - 0.5f);
         return static_cast<std::uint8_t>(std::clamp(gain * static_cast<float>(level) + noise, 0.f, 255.f));
       };
       Rgb8& pixel = picture->pixels()[i];

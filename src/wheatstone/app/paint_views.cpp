@@ -50,19 +50,19 @@ PaintedViews paint_views(const StereoPair& photographs, const PaintViewsOptions&
   const float fill = std::max(static_cast<float>(options.width) / static_cast<float>(photographs.left.width()),
                               static_cast<float>(options.height) / static_cast<float>(photographs.left.height()));
   result.span = span_for(options, range, fill);
-  const float outermost = result.span / 2;
+  result.rig = evenly_spaced(options.width, options.height, options.views, result.span);
+  const ViewPosition first(-result.span / 2), last(result.span / 2);
   const float farthest_moved =
-      fill * outermost * std::max(range.nearest - result.zero_parallax_px, result.zero_parallax_px - range.farthest);
+      fill * (last - central_view) *
+      std::max(range.nearest - result.zero_parallax_px, result.zero_parallax_px - range.farthest);
   const FramedPair pair = framed(photographs, geometry,
                                  {.zero_parallax_px = result.zero_parallax_px,
                                   .width = options.width,
                                   .height = options.height,
                                   .margin_px = static_cast<int>(std::ceil(std::max(farthest_moved, 0.f)))});
   const Style& style = options.painting.style;
-  const WidePainting wide =
-      widen(plan_painting(pair.photographs, pair.geometry, style, progress), pair.photographs, pair.geometry, style,
-            {std::min(-outermost, left_eye), std::max(outermost, right_eye)});
-  result.rig = evenly_spaced(options.width, options.height, options.views, result.span);
+  const WidePainting wide = widen(plan_painting(pair.photographs, pair.geometry, style, progress), pair.photographs,
+                                  pair.geometry, style, {std::min(first, left_eye), std::max(last, right_eye)});
   report(progress, "views", 0);
   for (DrawnView& view : draw_views(wide, result.rig.positions)) {
     result.worst_bare_share = std::max(result.worst_bare_share, view.bare_share);

@@ -127,8 +127,9 @@ RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& 
     state.flow_before = {};
   }
   FrameAtWork frame = look_at(eyes, options, state, known, result.times);
-  frame.views = eyes.right.empty() ? std::vector<SceneView>{{frame.centre.picture, frame.centre.disparity, {}, 0}}
-                                   : scene_from_centre(frame.centre, eyes, frame.geometry);
+  frame.views = eyes.right.empty()
+                    ? std::vector<SceneView>{{frame.centre.picture, frame.centre.disparity, {}, central_view}}
+                    : scene_from_centre(frame.centre, eyes, frame.geometry);
   const bool carries = !result.scene_begins && !options.anew;
   if (carries) {
     const Stopwatch watch(result.times.flow_s);

@@ -7,7 +7,7 @@
 
 namespace wheatstone {
 
-CarriedEdges::CarriedEdges(const DiffusionMemory& before, const FlowPair& flow, std::span<const float> positions,
+CarriedEdges::CarriedEdges(const DiffusionMemory& before, const FlowPair& flow, std::span<const ViewPosition> positions,
                            ImageView<const float> disparity, float depth_threshold_px)
     : memory_(before),
       flow_(flow),

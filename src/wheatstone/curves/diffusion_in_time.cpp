@@ -35,7 +35,7 @@ DiffusionPainting plan_diffusion(const FilmFrame& frame, const Style& style, Dif
   SteadyPicture picture = begins ? begin_steady(reference.picture) : std::move(memory.picture);
   if (!begins) steady(reference.picture, flow->backward, confirmed(flow->backward, flow->forward), picture);
   reference.picture = rounded(picture.colours);
-  std::vector<float> positions;
+  std::vector<ViewPosition> positions;
   for (const ViewOfEdges& view : scene.views) positions.push_back(view.position);
   std::optional<CarriedEdges> before;
   if (!begins) before.emplace(memory, *flow, positions, reference.disparity, scene.depth_threshold_px);

@@ -154,10 +154,10 @@ TEST(DiffusionInTime, PaintsASceneOfOneView) {
   const Image<float> flat(width, height, 0);
   DiffusionMemory memory;
   for (const Shot& shot : walk()) {
-    const std::vector<SceneView> views{{shot.centre.picture, flat, {}, 0}};
+    const std::vector<SceneView> views{{shot.centre.picture, flat, {}, central_view}};
     const DiffusionPainting painting =
         plan_diffusion(FilmFrame{views, shot.flow ? &*shot.flow : nullptr}, style(), memory);
-    const DrawnView drawn = draw(painting, 0);
+    const DrawnView drawn = draw(painting, central_view);
     EXPECT_EQ(drawn.bare_share, 0);
     EXPECT_EQ(drawn.picture, draw(painting, left_eye).picture) << "it has no depth";
   }
@@ -170,7 +170,7 @@ TEST(DiffusionInTime, RefusesWhatDoesNotFit) {
   const FlowPair flow{{small, small}, {small, small}};
   const std::vector<SceneView> views = walk()[0].views();
   expect_error(ErrorKind::bad_input, "flow", [&] { plan_diffusion(FilmFrame{views, &flow}, style(), memory); });
-  const std::vector<SceneView> torn{{views[0].picture, small, {}, 0}};
+  const std::vector<SceneView> torn{{views[0].picture, small, {}, central_view}};
   expect_error(ErrorKind::bad_input, "disparity", [&] { plan_diffusion(FilmFrame{torn, nullptr}, style(), memory); });
 }
 

@@ -188,7 +188,8 @@ void ease(const CarriedEdges& carried, std::uint32_t view, float depth_threshold
 }
 
 /// Adds the runs of a side that are wanted in the same views.
-void add_lines(const TwoSides& line, int side, const SceneOfEdges& scene, float position, DiffusionPainting& painting) {
+void add_lines(const TwoSides& line, int side, const SceneOfEdges& scene, ViewPosition position,
+               DiffusionPainting& painting) {
   const std::vector<Side>& points = line.sides[side];
   for (std::size_t begin = 0; begin < points.size();) {
     std::size_t end = begin + 1;

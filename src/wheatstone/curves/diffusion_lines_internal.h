@@ -13,7 +13,7 @@ struct ViewOfEdges {
   Image<Rgb8> picture;            ///< without grain
   Image<float> disparity;         ///< without outliers
   Image<std::uint8_t> only_here;  ///< what the reference view does not show, grown; empty: all is wanted
-  float position = 0;
+  ViewPosition position;
 };
 
 /// A scene whose edges become lines, the reference view first.

@@ -91,7 +91,7 @@ std::vector<float> tabulate(const DepthMapping& mapping, float w_near, float w_f
   return table;
 }
 
-void check(const DepthMapping& mapping, const std::string& name) {
+void check_depth_mapping(const DepthMapping& mapping, const std::string& name) {
   if (mapping.points.empty()) refuse(name + ": has no points, expected at least one");
   const DepthMapping::Point* before = nullptr;
   for (const DepthMapping::Point& point : mapping.points) {
@@ -118,7 +118,7 @@ DepthMapping many_regions(std::span<const PlacedDepth> placed, const ViewingGeom
                          -point.behind_mm, viewing.viewing_distance_mm));
     mapping.points.push_back({point.depth, screen_parallax_mm(viewing, point.behind_mm) / viewing.pixel_pitch_mm()});
   }
-  check(mapping);
+  check_depth_mapping(mapping);
   return mapping;
 }
 
@@ -137,12 +137,12 @@ DepthMapping regions_by_share(float nearest, std::span<const DepthRegion> region
     const double parallax = nearest_px + passed / total * (static_cast<double>(farthest_px) - nearest_px);
     mapping.points.push_back({region.to_depth, static_cast<float>(parallax)});
   }
-  check(mapping);
+  check_depth_mapping(mapping);
   return mapping;
 }
 
 DepthMapping monotone_curve(const DepthMapping& through, int samples) {
-  check(through);
+  check_depth_mapping(through);
   if (through.points.size() < 3) return through;
   std::vector<Knot> knots;
   for (const DepthMapping::Point& point : through.points) knots.push_back({1.0 / point.depth, point.parallax_px, 0});
@@ -175,7 +175,7 @@ DepthMapping parse_depth_mapping(const std::string& text, const std::string& nam
     if (reader.at == reader.end) break;
     reader.skip(',');
   }
-  check(mapping, name);
+  check_depth_mapping(mapping, name);
   return mapping;
 }
 

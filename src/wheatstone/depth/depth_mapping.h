@@ -32,7 +32,7 @@ std::vector<float> tabulate(const DepthMapping& mapping, float w_near, float w_f
 
 /// Throws Error{wrong_usage}, beginning with `name`, where the mapping has no points, a depth is not above 0 or not
 /// above the one before, a parallax is below the one before, or any is NaN.
-void check(const DepthMapping& mapping, const std::string& name = "depth mapping");
+void check_depth_mapping(const DepthMapping& mapping, const std::string& name = "depth mapping");
 
 /// One region: the scene's nearest depth seems `near_mm` in front of the screen, its farthest `far_mm` behind it.
 /// Throws Error{wrong_usage} where that is behind the viewer, or the depths do not ascend.

@@ -68,7 +68,7 @@ TEST(DepthMapping, CurveGoesThroughItsPointsAndNeverTurns) {
   const DepthMapping through{{{1, -10}, {1.5f, -10}, {2, 10}, {3, 10}, {9, 11}}};
   const DepthMapping curve = monotone_curve(through, 50);
   EXPECT_GT(curve.points.size(), 150u);
-  check(curve);
+  check_depth_mapping(curve);
   for (const DepthMapping::Point& point : through.points)
     EXPECT_EQ(parallax_px(curve, point.depth), point.parallax_px) << point.depth;
   EXPECT_EQ(parallax_px(curve, 1.2f), -10);
@@ -127,7 +127,7 @@ TEST(DepthMapping, RefusesWhatDescendsOrIsNoDepth) {
   for (const std::string text :
        {"20:0,10:5", "10:0,10:5", "10:5,20:4", "0:1,2:3", "-1:1,2:3", "1:nan", "1:inf", "nan:1,2:3"})
     expect_error(ErrorKind::wrong_usage, "expected", [&] { parse_depth_mapping(text); });
-  expect_error(ErrorKind::wrong_usage, "no points", [] { check({}); });
+  expect_error(ErrorKind::wrong_usage, "no points", [] { check_depth_mapping({}); });
   expect_error(ErrorKind::wrong_usage, "behind the viewer", [] { single_region(1, 2, desk, 700, 10); });
   expect_error(ErrorKind::wrong_usage, "ascending", [] { single_region(2, 2, desk, 10, 10); });
   EXPECT_NO_THROW(single_region(1, 2, desk, 699, 10));

@@ -33,8 +33,8 @@ TEST(DisplayPresets, AreConsistent) {
     }
     const Rig rig = rig_of(display);
     EXPECT_EQ(rig.positions.size(), static_cast<std::size_t>(display.views));
-    EXPECT_FLOAT_EQ(rig.positions.front(), -rig.positions.back());
-    EXPECT_GT(rig.positions.back(), 0);
+    EXPECT_FLOAT_EQ(rig.positions.front() - central_view, central_view - rig.positions.back());
+    EXPECT_GT(rig.positions.back(), central_view);
   }
 }
 
@@ -45,7 +45,7 @@ TEST(DisplayPresets, GiveTheThesissPlanes) {
 }
 
 TEST(DisplayPresets, TwoViewsAreTheEyesAndConesAreAsWideAsTheyAreWhereTheViewerIs) {
-  EXPECT_EQ(rig_of(find_display("desk-stereo")).positions, (std::vector<float>{-0.5f, 0.5f}));
+  EXPECT_EQ(rig_of(find_display("desk-stereo")).positions, (std::vector<ViewPosition>{left_eye, right_eye}));
   // 40 degrees, 450 mm away.
   EXPECT_NEAR(span_of(find_display("looking-glass-portrait")), 2 * 450 * std::tan(20 * M_PI / 180) / 65, 1e-4);
   // Nine windows of about half an eye separation.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "wheatstone/depth/camera.h"
@@ -196,10 +197,20 @@ TEST(Comfort, AngularDisparityAndDepthAreInverse) {
   EXPECT_TRUE(std::isinf(depth_of_angular_disparity_mm(viewing, -4)));
 }
 
+TEST(ViewPosition, IsNoNumberButDiffersByOne) {
+  static_assert(!std::is_convertible_v<float, ViewPosition> && !std::is_convertible_v<ViewPosition, float>);
+  EXPECT_EQ(right_eye - left_eye, 1);
+  EXPECT_EQ(left_eye - central_view, -0.5f);
+  EXPECT_LT(left_eye, central_view);
+  EXPECT_EQ(ViewPosition(0.5), right_eye);
+  EXPECT_EQ(ViewPosition(), central_view);
+}
+
 TEST(Rig, ViewsAreEvenlySpacedAroundTheCentre) {
-  EXPECT_EQ(evenly_spaced(4, 3, 5, 2).positions, (std::vector<float>{-1, -0.5f, 0, 0.5f, 1}));
-  EXPECT_EQ(evenly_spaced(4, 3, 1).positions, (std::vector<float>{0}));
-  EXPECT_EQ(evenly_spaced(4, 3, 2).positions, (std::vector<float>{-0.5f, 0.5f}));
+  EXPECT_EQ(evenly_spaced(4, 3, 5, 2).positions,
+            (std::vector<ViewPosition>{ViewPosition(-1.), left_eye, central_view, right_eye, ViewPosition(1.)}));
+  EXPECT_EQ(evenly_spaced(4, 3, 1).positions, (std::vector<ViewPosition>{central_view}));
+  EXPECT_EQ(evenly_spaced(4, 3, 2).positions, (std::vector<ViewPosition>{left_eye, right_eye}));
 }
 
 TEST(Camera, SeesAllOfTheSphereAndNotMuchElse) {

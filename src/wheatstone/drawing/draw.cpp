@@ -4,7 +4,7 @@
 
 namespace wheatstone {
 
-DrawnView draw(const Painting& painting, float view) {
+DrawnView draw(const Painting& painting, ViewPosition view) {
   if (painting.regions.width > 0) return draw(painting.regions, view);
   if (painting.curves.width > 0) return draw(painting.curves, view);
   DrawnView drawn = draw(painting.painting, view);

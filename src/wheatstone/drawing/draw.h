@@ -19,20 +19,20 @@ struct DrawOptions {
 
 /// Draws a whole painting for one view over its background. Works from the nearest stroke to the farthest and leaves
 /// out what is hidden; the picture is that of `rasterise`, layer by layer, within rounding.
-DrawnView draw(const StrokePainting& painting, float view, const DrawOptions& options = {});
+DrawnView draw(const StrokePainting& painting, ViewPosition view, const DrawOptions& options = {});
 
 /// Draws the marks for one view, antialiased, every point moved by its own disparity. A mark covers the earlier ones
 /// unless it lies behind them by more than a pixel of disparity, so that sloped surfaces hide each other rightly. What
 /// no mark covers counts as bare, and takes the colour of the farther of its two neighbours on the row. The same bytes
 /// on any number of threads.
-DrawnView draw(const RegionPainting& painting, float view);
+DrawnView draw(const RegionPainting& painting, ViewPosition view);
 
 /// Draws the lines for one view, every point moved by its own disparity, and lets the colours between them settle: the
 /// Laplace equation, begun by pull and push over a pyramid. The same bytes on any number of threads. Only a painting
 /// without lines is bare; it is grey.
-DrawnView draw(const DiffusionPainting& painting, float view);
+DrawnView draw(const DiffusionPainting& painting, ViewPosition view);
 
 /// Draws a painting for one view as its kind of marks is drawn; strokes over their canvas colour.
-DrawnView draw(const Painting& painting, float view);
+DrawnView draw(const Painting& painting, ViewPosition view);
 
 }  // namespace wheatstone

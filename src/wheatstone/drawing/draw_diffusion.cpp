@@ -28,7 +28,7 @@ struct LinePlace {
 
 /// Calls `use(place)` along every line that the view shows, some places to a pixel.
 template <class Use>
-void walk_lines(const DiffusionPainting& painting, float view, Use use) {
+void walk_lines(const DiffusionPainting& painting, ViewPosition view, Use use) {
   const auto channels = [](Rgb8 c) {
     return std::array{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
   };
@@ -72,7 +72,7 @@ void spread(const LinePlace& place, int width, int height, Use use) {
 /// What the lines say about each pixel. A line gives its colour wholly to a pixel through whose middle it runs, and
 /// less to those up to a pixel away, so that an edge between two lines lies where it lies, not on a pixel's side. The
 /// nearest surface's lines count where they disagree, and their mean where they lie on one surface.
-Image<Known> draw_lines(const DiffusionPainting& painting, float view) {
+Image<Known> draw_lines(const DiffusionPainting& painting, ViewPosition view) {
   constexpr float same_surface_px = 1;
   const int width = painting.width, height = painting.height;
   Image<float> nearest(width, height, -std::numeric_limits<float>::infinity());
@@ -189,7 +189,7 @@ void spread_colours(Image<Known>& known) {
 
 }  // namespace
 
-DrawnView draw(const DiffusionPainting& painting, float view) {
+DrawnView draw(const DiffusionPainting& painting, ViewPosition view) {
   DrawnView drawn{Image<Rgb8>(painting.width, painting.height, {128, 128, 128}), 1,
                   Image<std::uint8_t>(painting.width, painting.height, 255), Image<float>()};
   Image<Known> known = draw_lines(painting, view);

@@ -4,7 +4,7 @@
 
 namespace wheatstone {
 
-DrawnView draw_in_style(ImageView<const Rgb8> photograph, const StrokePainting& painting, float view,
+DrawnView draw_in_style(ImageView<const Rgb8> photograph, const StrokePainting& painting, ViewPosition view,
                         const Style& style) {
   DrawOptions over;
   if (style.background == Background::photograph) over.background = photograph;

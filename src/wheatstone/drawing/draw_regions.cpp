@@ -70,7 +70,7 @@ void fill_between(const Crossing& from, const Crossing& to, int line, std::uint3
   }
 }
 
-void draw_mark(const RegionPainting& painting, std::uint32_t index, float view, Band& band) {
+void draw_mark(const RegionPainting& painting, std::uint32_t index, ViewPosition view, Band& band) {
   const RegionMark& mark = painting.marks[index];
   const auto seen = [&](const ControlPoint& p) {
     return Seen{x_in_view(p, mark.reference_view, view), p.y, p.disparity};
@@ -145,7 +145,7 @@ std::size_t finish_row(std::span<const Pixel> pixels, std::span<Rgb8> to, std::s
 }
 
 /// For every band, the marks that touch it, in drawing order.
-std::vector<std::vector<std::uint32_t>> marks_by_band(const RegionPainting& painting, float view) {
+std::vector<std::vector<std::uint32_t>> marks_by_band(const RegionPainting& painting, ViewPosition view) {
   std::vector<std::vector<std::uint32_t>> bands((painting.height + band_rows - 1) / band_rows);
   const auto last_row = static_cast<float>(painting.height - 1);
   for (std::uint32_t m = 0; m < painting.marks.size(); ++m) {
@@ -168,7 +168,7 @@ std::vector<std::vector<std::uint32_t>> marks_by_band(const RegionPainting& pain
 
 }  // namespace
 
-DrawnView draw(const RegionPainting& painting, float view) {
+DrawnView draw(const RegionPainting& painting, ViewPosition view) {
   DrawnView drawn{Image<Rgb8>(painting.width, painting.height), 0, Image<std::uint8_t>(painting.width, painting.height),
                   Image<float>()};
   if (drawn.picture.empty()) return drawn;

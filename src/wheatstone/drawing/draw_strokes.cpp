@@ -88,7 +88,7 @@ float bare_light_of(const StrokePainting& painting) {
 
 }  // namespace
 
-DrawnView draw(const StrokePainting& painting, float view, const DrawOptions& options) {
+DrawnView draw(const StrokePainting& painting, ViewPosition view, const DrawOptions& options) {
   const ImageView<const Rgb8> background = options.background;
   assert(background.empty() || (background.width() == painting.width && background.height() == painting.height));
   std::vector<BandedLayer> layers(painting.layers.size());

@@ -56,7 +56,7 @@ void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& 
 
 }  // namespace
 
-FlatLayer flatten(const Layer& layer, float view) {
+FlatLayer flatten(const Layer& layer, ViewPosition view) {
   std::vector<const Stroke*> shown;
   shown.reserve(layer.strokes.size());
   for (const Stroke& stroke : layer.strokes)

@@ -26,6 +26,6 @@ struct FlatLayer {
 
 /// Bends every stroke's cubic B-spline (clamped: it begins and ends at its outer control points) into segments that
 /// leave the curve by less than an eighth of a pixel.
-FlatLayer flatten(const Layer& layer, float view);
+FlatLayer flatten(const Layer& layer, ViewPosition view);
 
 }  // namespace wheatstone

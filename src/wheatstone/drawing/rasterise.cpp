@@ -31,7 +31,7 @@ DistanceBand::DistanceBand(int top_, int canvas_width, int canvas_height)
       begin(row_count),
       end(row_count) {}
 
-void rasterise(const Layer& layer, float view, Canvas& canvas) {
+void rasterise(const Layer& layer, ViewPosition view, Canvas& canvas) {
   const FlatLayer flat = flatten(layer, view);
   const auto bands = strokes_by_band(flat, canvas.height);
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {

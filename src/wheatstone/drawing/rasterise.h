@@ -8,6 +8,6 @@ namespace wheatstone {
 /// Draws one layer's strokes over a canvas, in their order, as the view position `view` sees them: what the next layer
 /// is planned against. Antialiased; a stroke's cover is the largest of its dabs', so that where it crosses itself it is
 /// not darker. Parallel over bands of rows; the same bytes on any number of threads.
-void rasterise(const Layer& layer, float view, Canvas& canvas);
+void rasterise(const Layer& layer, ViewPosition view, Canvas& canvas);
 
 }  // namespace wheatstone

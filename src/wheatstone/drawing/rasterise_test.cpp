@@ -17,7 +17,7 @@ namespace {
 Layer random_layer(int width, int height, int count, float opacity) {
   Layer layer;
   layer.radius_px = 4;
-  const auto random = [](std::uint64_t i, std::uint64_t j) { return unit_float(hash({i, j})); };
+  const auto random = [](std::uint64_t i, std::uint64_t j) { return unit_float(hash_keys({i, j})); };
   for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(count); ++i) {
     Stroke stroke;
     stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
@@ -38,7 +38,7 @@ Layer random_layer(int width, int height, int count, float opacity) {
 }
 
 /// The slow, obvious way: every pixel's distance to every segment.
-Image<Rgb8> draw_plainly(const StrokePainting& painting, float view) {
+Image<Rgb8> draw_plainly(const StrokePainting& painting, ViewPosition view) {
   Image<Rgb8> picture(painting.width, painting.height);
   std::vector<FlatLayer> layers;
   for (const Layer& layer : painting.layers) layers.push_back(flatten(layer, view));
@@ -90,10 +90,10 @@ StrokePainting painting_of(int width, int height, float opacity) {
 TEST(Rasteriser, DrawsWhatTheObviousWayDraws) {
   for (const auto& [width, height] : {std::pair{97, 71}, {1, 1}, {16, 33}, {130, 5}}) {
     for (const float opacity : {1.f, 0.5f}) {
-      for (const float view : {left_eye, 0.f, right_eye}) {
+      for (const ViewPosition view : {left_eye, central_view, right_eye}) {
         const StrokePainting painting = painting_of(width, height, opacity);
         EXPECT_LE(largest_difference(draw(painting, view).picture, draw_plainly(painting, view)), 1)
-            << width << "x" << height << " opacity " << opacity << " view " << view;
+            << width << "x" << height << " opacity " << opacity << " view " << view.eye_separations();
       }
     }
   }
@@ -152,7 +152,7 @@ TEST(Rasteriser, ShiftsAStrokeByItsDisparity) {
   EXPECT_EQ(draw(painting, left_eye).picture(30, 10).r, 255);
   EXPECT_EQ(draw(painting, right_eye).picture(22, 10).r, 255);
   EXPECT_EQ(draw(painting, right_eye).picture(30, 10).r, 0);
-  EXPECT_EQ(draw(painting, 0).picture(26, 10).r, 255);
+  EXPECT_EQ(draw(painting, central_view).picture(26, 10).r, 255);
 }
 
 TEST(Rasteriser, LeavesAStrokeOutOfTheViewsThatMayNotShowIt) {

@@ -24,7 +24,7 @@ struct OnStroke {
 float smooth_noise(std::uint64_t seed, float place) {
   const float cell = std::floor(place), t = place - cell;
   const auto at = [&](float c) {
-    return unit_float(hash({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(c))}));
+    return unit_float(hash_keys({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(c))}));
   };
   const float weight = t * t * (3 - 2 * t);
   return at(cell) * (1 - weight) + at(cell + 1) * weight;
@@ -36,7 +36,7 @@ float bristle_height(std::uint64_t seed, float radius_px, float bristle_px, cons
   const float lane = place.beside / bristle_px;
   const float ridge = smooth_noise(seed, lane);
   const float along =
-      smooth_noise(hash({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(lane)))}),
+      smooth_noise(hash_keys({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(lane)))}),
                    place.along / (run_in_bristles * bristle_px));
   const float to_rim = std::clamp(place.distance / radius_px, 0.f, 1.f);
   return (0.7f * ridge + 0.3f * along) * (1 - 0.35f * to_rim * to_rim);
@@ -49,14 +49,14 @@ struct SeenLayer {
   std::vector<std::uint64_t> seeds;  ///< of each flat stroke's bristles
 };
 
-SeenLayer seen_layer(const Layer& layer, float view, int height, std::uint64_t number) {
+SeenLayer seen_layer(const Layer& layer, ViewPosition view, int height, std::uint64_t number) {
   SeenLayer seen{flatten(layer, view), {}, {}};
   seen.bands = strokes_by_band(seen.flat, height);
   // A stroke's number tells its bristles in every view and frame; without one, its place among all of its layer, seen
   // or not.
   for (std::size_t i = 0; i < layer.strokes.size(); ++i) {
     const Stroke& stroke = layer.strokes[i];
-    if (stroke.views.contains(view)) seen.seeds.push_back(hash({number, stroke.number != 0 ? stroke.number : i}));
+    if (stroke.views.contains(view)) seen.seeds.push_back(hash_keys({number, stroke.number != 0 ? stroke.number : i}));
   }
   return seen;
 }
@@ -142,7 +142,7 @@ class ReliefBand {
 
 }  // namespace
 
-Image<float> relief_of(const StrokePainting& painting, float view, float bristle_px) {
+Image<float> relief_of(const StrokePainting& painting, ViewPosition view, float bristle_px) {
   std::vector<SeenLayer> layers(painting.layers.size());
   tbb::parallel_for(std::size_t{0}, layers.size(),
                     [&](std::size_t i) { layers[i] = seen_layer(painting.layers[i], view, painting.height, i); });
@@ -180,7 +180,7 @@ void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& pictu
   });
 }
 
-void light_paint(const StrokePainting& painting, float view, const Relief& relief, Image<Rgb8>& picture) {
+void light_paint(const StrokePainting& painting, ViewPosition view, const Relief& relief, Image<Rgb8>& picture) {
   if (relief.depth_px > 0) light_relief(relief_of(painting, view, relief.bristle_px), relief.depth_px, picture);
 }
 

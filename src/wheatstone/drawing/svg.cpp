@@ -39,7 +39,7 @@ void add_spline(Text& text, const ClampedSpline& spline) {
   }
 }
 
-void add_layer(Text& text, const Layer& layer, float view) {
+void add_layer(Text& text, const Layer& layer, ViewPosition view) {
   add(text, "<g stroke-width=\"{:.2f}\">\n", 2 * BrushProfile(layer.radius_px).middle_px);
   for (const Stroke& stroke : layer.strokes) {
     if (!stroke.views.contains(view)) continue;
@@ -54,7 +54,7 @@ void add_layer(Text& text, const Layer& layer, float view) {
   add(text, "</g>\n");
 }
 
-void add_area(Text& text, const RegionPainting& painting, const RegionMark& mark, float view) {
+void add_area(Text& text, const RegionPainting& painting, const RegionMark& mark, ViewPosition view) {
   add(text, R"(<path fill="#{0:02x}{1:02x}{2:02x}" stroke="#{0:02x}{1:02x}{2:02x}" d=")", mark.colour.r, mark.colour.g,
       mark.colour.b);
   for (const Ring& ring : painting.rings_of(mark)) {
@@ -68,7 +68,7 @@ void add_area(Text& text, const RegionPainting& painting, const RegionMark& mark
   add(text, "\"/>\n");
 }
 
-void add_line(Text& text, const DiffusionPainting& painting, const ColourLine& line, float view) {
+void add_line(Text& text, const DiffusionPainting& painting, const ColourLine& line, ViewPosition view) {
   const auto points = painting.points_of(line);
   std::size_t red = 0, green = 0, blue = 0;
   for (const ColourPoint& point : points) {
@@ -89,7 +89,7 @@ void add_line(Text& text, const DiffusionPainting& painting, const ColourLine& l
 
 }  // namespace
 
-std::string svg_of(const StrokePainting& painting, float view) {
+std::string svg_of(const StrokePainting& painting, ViewPosition view) {
   Text text;
   add(text,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" fill=\"none\" "
@@ -102,7 +102,7 @@ std::string svg_of(const StrokePainting& painting, float view) {
   return fmt::to_string(text);
 }
 
-std::string svg_of(const RegionPainting& painting, float view) {
+std::string svg_of(const RegionPainting& painting, ViewPosition view) {
   Text text;
   add(text,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
@@ -117,7 +117,7 @@ std::string svg_of(const RegionPainting& painting, float view) {
   return fmt::to_string(text);
 }
 
-std::string svg_of(const DiffusionPainting& painting, float view) {
+std::string svg_of(const DiffusionPainting& painting, ViewPosition view) {
   Text text;
   add(text,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" fill=\"none\" "
@@ -129,13 +129,13 @@ std::string svg_of(const DiffusionPainting& painting, float view) {
   return fmt::to_string(text);
 }
 
-std::string svg_of(const Painting& painting, float view) {
+std::string svg_of(const Painting& painting, ViewPosition view) {
   if (painting.regions.width > 0) return svg_of(painting.regions, view);
   if (painting.curves.width > 0) return svg_of(painting.curves, view);
   return svg_of(painting.painting, view);
 }
 
-void write_svg(const std::filesystem::path& path, const Painting& painting, float view) {
+void write_svg(const std::filesystem::path& path, const Painting& painting, ViewPosition view) {
   write_whole_file(path, svg_of(painting, view));
 }
 

@@ -19,7 +19,7 @@ struct ColourPoint {
 struct ColourLine {
   std::uint32_t first_point = 0;  ///< index into its painting's points
   std::uint32_t point_count = 0;
-  float reference_view = left_eye;  ///< the view in which its points stand
+  ViewPosition reference_view = left_eye;  ///< the view in which its points stand
   ViewRange views;
   friend bool operator==(const ColourLine&, const ColourLine&) = default;
 };

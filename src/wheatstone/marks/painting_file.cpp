@@ -40,8 +40,9 @@ flatbuffers::Offset<file::Layer> encode_layer(const Layer& layer, flatbuffers::F
   std::vector<std::uint32_t> numbers;
   bool numbered = false;
   for (const Stroke& s : layer.strokes) {
-    strokes.emplace_back(s.first_point, s.point_count, s.radius_px, s.opacity, s.disparity, s.reference_view,
-                         s.views.first, s.views.last, s.colour.r, s.colour.g, s.colour.b);
+    strokes.emplace_back(s.first_point, s.point_count, s.radius_px, s.opacity, s.disparity,
+                         s.reference_view.eye_separations(), s.views.first.eye_separations(),
+                         s.views.last.eye_separations(), s.colour.r, s.colour.g, s.colour.b);
     numbers.push_back(s.number);
     numbered = numbered || s.number != 0;
   }
@@ -57,8 +58,9 @@ flatbuffers::Offset<file::Regions> encode_regions(const RegionPainting& regions,
   for (const Ring& ring : regions.rings) rings.emplace_back(ring.first_point, ring.point_count);
   std::vector<file::Region> marks;
   for (const RegionMark& m : regions.marks)
-    marks.emplace_back(m.first_ring, m.ring_count, m.disparity, m.reference_view, m.views.first, m.views.last,
-                       m.colour.r, m.colour.g, m.colour.b);
+    marks.emplace_back(m.first_ring, m.ring_count, m.disparity, m.reference_view.eye_separations(),
+                       m.views.first.eye_separations(), m.views.last.eye_separations(), m.colour.r, m.colour.g,
+                       m.colour.b);
   return file::CreateRegionsDirect(builder, &points.x, &points.y, &points.disparity, &rings, &marks);
 }
 
@@ -72,7 +74,8 @@ flatbuffers::Offset<file::Curves> encode_curves(const DiffusionPainting& curves,
   }
   std::vector<file::Line> lines;
   for (const ColourLine& l : curves.lines)
-    lines.emplace_back(l.first_point, l.point_count, l.reference_view, l.views.first, l.views.last);
+    lines.emplace_back(l.first_point, l.point_count, l.reference_view.eye_separations(),
+                       l.views.first.eye_separations(), l.views.last.eye_separations());
   return file::CreateCurvesDirect(builder, &points.x, &points.y, &points.disparity, &colours, &lines);
 }
 
@@ -103,7 +106,7 @@ bool lie_within(std::uint32_t first, std::uint32_t count, std::size_t all, std::
 ViewRange decode_views(const auto& from, const Checker& checker) {
   checker.expect(all_finite({from.first_view(), from.last_view()}) && std::abs(from.reference_view()) <= farthest_view,
                  "a mark's view positions are out of range");
-  return {from.first_view(), from.last_view()};
+  return {ViewPosition(from.first_view()), ViewPosition(from.last_view())};
 }
 
 /// The points of a table that has the three arrays.
@@ -137,7 +140,7 @@ Stroke decode_stroke(const file::Stroke& from, std::size_t point_count, const Ch
           from.opacity(),
           {from.red(), from.green(), from.blue()},
           from.disparity(),
-          from.reference_view(),
+          ViewPosition(from.reference_view()),
           decode_views(from, checker)};
 }
 
@@ -170,7 +173,7 @@ RegionPainting decode_regions(const file::Regions& from, int width, int height, 
                              mark->ring_count(),
                              {mark->red(), mark->green(), mark->blue()},
                              mark->disparity(),
-                             mark->reference_view(),
+                             ViewPosition(mark->reference_view()),
                              decode_views(*mark, checker)});
   }
   return regions;
@@ -188,7 +191,7 @@ DiffusionPainting decode_curves(const file::Curves& from, int width, int height,
     checker.expect(lie_within(line->first_point(), line->point_count(), points.size(), 1),
                    "a line's points lie outside the painting");
     curves.lines.push_back(
-        {line->first_point(), line->point_count(), line->reference_view(), decode_views(*line, checker)});
+        {line->first_point(), line->point_count(), ViewPosition(line->reference_view()), decode_views(*line, checker)});
   }
   return curves;
 }

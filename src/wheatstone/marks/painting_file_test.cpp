@@ -124,7 +124,7 @@ TEST(PaintingFile, DrawsNothingWildFromAPayloadThatWasForged) {
         try {
           const Painting painting = decode_painting(sealed(bad.data(), bad.size(), 2), "some.wst");
           if (painting.painting.width > 100 || painting.painting.height > 100) continue;
-          for (const float view : {left_eye, right_eye}) draw(painting, view);
+          for (const ViewPosition view : {left_eye, right_eye}) draw(painting, view);
           ++drawn;
         } catch (const Error& error) {
           EXPECT_EQ(error.kind(), ErrorKind::bad_input);
@@ -142,7 +142,7 @@ TEST(PaintingFile, RefusesMarksThatReferToNothing) {
   using Spoil = void (*)(Painting&);
   const std::pair<int, Spoil> spoilt[] = {
       {0, [](Painting& p) { p.painting.layers[0].strokes[1].point_count = 2; }},
-      {0, [](Painting& p) { p.painting.layers[0].strokes[1].reference_view = 1e9f; }},
+      {0, [](Painting& p) { p.painting.layers[0].strokes[1].reference_view = ViewPosition(1e9f); }},
       {0, [](Painting& p) { p.painting.layers[0].radius_px = NAN; }},
       {0, [](Painting& p) { p.relief.depth_px = -1; }},
       {0, [](Painting& p) { p.relief.bristle_px = 0; }},
@@ -154,13 +154,13 @@ TEST(PaintingFile, RefusesMarksThatReferToNothing) {
       {1, [](Painting& p) { p.regions.marks[0].ring_count = 0; }},
       {1, [](Painting& p) { p.regions.marks[1].first_ring = ~std::uint32_t{0}; }},
       {1, [](Painting& p) { p.regions.marks[1].disparity = INFINITY; }},
-      {1, [](Painting& p) { p.regions.marks[1].views.last = NAN; }},
+      {1, [](Painting& p) { p.regions.marks[1].views.last = ViewPosition(NAN); }},
       {1, [](Painting& p) { p.regions.points[2].y = NAN; }},
       {1, [](Painting& p) { p.regions.points[2].x = 1e9f; }},
       {2, [](Painting& p) { p.curves.lines[1].point_count = 2; }},
       {2, [](Painting& p) { p.curves.lines[1].point_count = 0; }},
       {2, [](Painting& p) { p.curves.lines[1].first_point = 4; }},
-      {2, [](Painting& p) { p.curves.lines[0].reference_view = -INFINITY; }},
+      {2, [](Painting& p) { p.curves.lines[0].reference_view = ViewPosition(-INFINITY); }},
       {2, [](Painting& p) { p.curves.points[0].at.disparity = NAN; }},
   };
   for (std::size_t i = 0; i < std::size(spoilt); ++i) {

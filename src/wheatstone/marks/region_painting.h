@@ -21,8 +21,8 @@ struct RegionMark {
   std::uint32_t first_ring = 0;  ///< index into its painting's rings
   std::uint32_t ring_count = 0;
   Rgb8 colour;
-  float disparity = 0;              ///< the mark's depth: its mean
-  float reference_view = left_eye;  ///< the view in which its points stand
+  float disparity = 0;                     ///< the mark's depth: its mean
+  ViewPosition reference_view = left_eye;  ///< the view in which its points stand
   ViewRange views;
   friend bool operator==(const RegionMark&, const RegionMark&) = default;
 };

@@ -17,7 +17,7 @@ struct PlanePoint {
 /// so that the curve begins and ends on them. A stroke of one point has no spans.
 class ClampedSpline {
  public:
-  ClampedSpline(std::span<const ControlPoint> points, float reference_view, float view)
+  ClampedSpline(std::span<const ControlPoint> points, ViewPosition reference_view, ViewPosition view)
       : points_(points), reference_view_(reference_view), view_(view) {}
 
   int span_count() const { return points_.size() < 2 ? 0 : static_cast<int>(points_.size()) + 1; }
@@ -31,8 +31,8 @@ class ClampedSpline {
 
  private:
   std::span<const ControlPoint> points_;
-  float reference_view_;
-  float view_;
+  ViewPosition reference_view_;
+  ViewPosition view_;
 };
 
 /// The curve's point at 0 ≤ t ≤ 1 of one of its spans.

@@ -4,13 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "wheatstone/depth/view_position.h"
 #include "wheatstone/image/image.h"
 
 namespace wheatstone {
-
-/// View positions: 0 is the cyclopean view, the eyes are half an eye separation to either side.
-inline constexpr float left_eye = -0.5f;
-inline constexpr float right_eye = 0.5f;
 
 /// A point of a stroke's cubic B-spline: its place in the stroke's reference view, in pixels, and its disparity.
 struct ControlPoint {
@@ -22,9 +19,9 @@ struct ControlPoint {
 
 /// The view positions in which a mark may be drawn, both ends included.
 struct ViewRange {
-  float first = left_eye;
-  float last = right_eye;
-  bool contains(float view) const { return view >= first && view <= last; }
+  ViewPosition first = left_eye;
+  ViewPosition last = right_eye;
+  bool contains(ViewPosition view) const { return view >= first && view <= last; }
   friend bool operator==(const ViewRange&, const ViewRange&) = default;
 };
 
@@ -36,8 +33,8 @@ struct Stroke {
   float radius_px = 0;
   float opacity = 1;
   Rgb8 colour;
-  float disparity = 0;              ///< the stroke's depth: the disparity of the point where it was begun
-  float reference_view = left_eye;  ///< the view in which its points stand
+  float disparity = 0;                     ///< the stroke's depth: the disparity of the point where it was begun
+  ViewPosition reference_view = left_eye;  ///< the view in which its points stand
   ViewRange views;
   std::uint32_t number = 0;  ///< names the stroke across the frames of a film, from 1; 0: none
   friend bool operator==(const Stroke&, const Stroke&) = default;
@@ -66,7 +63,7 @@ struct StrokePainting {
 };
 
 /// Where a control point of a stroke stands in another view: x(v) = x(ref) − (v − ref) · disparity.
-inline float x_in_view(const ControlPoint& point, float reference_view, float view) {
+inline float x_in_view(const ControlPoint& point, ViewPosition reference_view, ViewPosition view) {
   return point.x - (view - reference_view) * point.disparity;
 }
 

@@ -54,7 +54,8 @@ Subject box_before(Wall wall) {
     double value = 30;
     for (int octave = 0; octave < 3; ++octave) {
       const auto cell = [&](int at) { return static_cast<std::uint64_t>((at + 1024) / (2 << octave)); };
-      value += 60 * static_cast<double>(unit_float(hash({cell(x), cell(y), kind, static_cast<std::uint64_t>(octave)})));
+      value +=
+          60 * static_cast<double>(unit_float(hash_keys({cell(x), cell(y), kind, static_cast<std::uint64_t>(octave)})));
     }
     return value;
   };
@@ -72,7 +73,7 @@ Subject box_before(Wall wall) {
         const int on_box = right ? x + box_px : x, on_wall = right ? x + wall_px : x;
         const bool box = on_box >= 200 && on_box < 290 && y >= 110 && y < 220;
         const float noise =
-            4 * unit_float(hash({static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y), right ? 8U : 7U}));
+            4 * unit_float(hash_keys({static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y), right ? 8U : 7U}));
         const double value = (box ? paper(on_box, y, 2) : wall_value(on_wall, y)) + static_cast<double>(noise) - 2;
         const auto grey = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
         (right ? subject.pictures.right : subject.pictures.left)(x, y) = {grey, grey, grey};

@@ -165,7 +165,7 @@ void deposit_splats_between(std::span<const Splat> splats, int top, const PlaneP
   }
 }
 
-void deposit_splats_in_views(std::span<const Splat> splats, int top, std::span<const float> views,
+void deposit_splats_in_views(std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
                              std::span<LightBand> bands) {
   RowWindow rows;
   Spread spread;
@@ -177,7 +177,8 @@ void deposit_splats_in_views(std::span<const Splat> splats, int top, std::span<c
     find_rows(splat, spread, top, bands.front().rows(), rows);
     for (std::size_t v = 0; v < views.size(); ++v) {
       // Rounded once, as the projection of that view rounds it: the views of both renderers are equal to the bit.
-      const auto moved = hn::MulAdd(hn::Set(d1, splat.parallax), hn::Set(d1, views[v]), hn::Set(d1, splat.x));
+      const auto moved =
+          hn::MulAdd(hn::Set(d1, splat.parallax), hn::Set(d1, views[v] - central_view), hn::Set(d1, splat.x));
       const float x = hn::GetLane(moved) - left;
       if (x + spread.reach > 0 && x - spread.reach < width) add(spread, rows, x, bands[v]);
     }
@@ -208,7 +209,7 @@ void deposit_between(std::span<const Splat> splats, int top, const PlanePair& pl
   HWY_DYNAMIC_DISPATCH(deposit_splats_between)(splats, top, planes, nearer, farther);
 }
 
-void deposit_in_views(std::span<const Splat> splats, int top, std::span<const float> views,
+void deposit_in_views(std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
                       std::span<LightBand> bands) {
   if (splats.empty()) return;
   for (LightBand& band : bands) band.note_light();

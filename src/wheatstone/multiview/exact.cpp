@@ -14,14 +14,14 @@ void deposit_band(const std::vector<SplatBlock>& blocks, const SplatOrder& order
 }
 
 std::vector<SplatBlock> splats_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig,
-                                       const CloudStatistics& statistics, const SplatOrder& order, float view) {
+                                       const CloudStatistics& statistics, const SplatOrder& order, ViewPosition view) {
   const Window window{.left = 0, .right = static_cast<float>(rig.width), .height = rig.height};
   return order_splats(cloud, make_projection(scene, statistics, view), window, order);
 }
 
 }  // namespace
 
-void render_exact(const RenderJob& job, float view, ImageView<Rgb8> picture) {
+void render_exact(const RenderJob& job, ViewPosition view, ImageView<Rgb8> picture) {
   const SplatOrder order = bands_of(job.rig, job.scene.splat_style);
   const std::vector<SplatBlock> blocks = splats_of_view(job.cloud, job.scene, job.rig, job.statistics, order, view);
   tbb::enumerable_thread_specific<LightBand> bands([&] { return LightBand(0, job.rig.width, order.band_rows); });
@@ -34,7 +34,7 @@ void render_exact(const RenderJob& job, float view, ImageView<Rgb8> picture) {
 }
 
 std::vector<LightBand> light_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig,
-                                     const CloudStatistics& statistics, float view) {
+                                     const CloudStatistics& statistics, ViewPosition view) {
   const SplatOrder order = bands_of(rig, scene.splat_style);
   const std::vector<SplatBlock> blocks = splats_of_view(cloud, scene, rig, statistics, order, view);
   std::vector<LightBand> light(order.bands, LightBand(0, rig.width, order.band_rows));

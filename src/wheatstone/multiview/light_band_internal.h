@@ -74,8 +74,10 @@ struct PlanePair {
 void deposit_between(std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
                      LightBand& farther);
 
-/// Adds splats to one band a view: each splat's fragments, moved by its parallax times the view's position. The bands
+/// Adds splats to one band a view: each splat's fragments, moved by its parallax times the view's distance from the
+/// central view. The bands
 /// are of one shape.
-void deposit_in_views(std::span<const Splat> splats, int top, std::span<const float> views, std::span<LightBand> bands);
+void deposit_in_views(std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
+                      std::span<LightBand> bands);
 
 }  // namespace wheatstone

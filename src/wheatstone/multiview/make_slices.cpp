@@ -52,7 +52,7 @@ void SliceMaker::State::add_glowing(const std::vector<SplatBlock>& blocks, int b
 void SliceMaker::State::add_opaque(const std::vector<SplatBlock>& blocks, int b) {
   for (int plane = 0; plane < order.parts; ++plane)
     for (const SplatBlock& block : blocks)
-      draw_discs(block.bin(order.bin(b, plane)), b * order.band_rows, 0, opaque[order.bin(b, plane)]);
+      draw_discs(block.bin(order.bin(b, plane)), b * order.band_rows, central_view, opaque[order.bin(b, plane)]);
 }
 
 LinearRgba SliceMaker::State::at(int plane, int x, int y) const {

@@ -12,7 +12,7 @@ namespace wheatstone {
 /// particles there are. The statistics is of all of them.
 class SliceMaker {
  public:
-  /// Slices reach as far to the sides as the rig's outermost views splat_style. Throws Error{bad_input} where they
+  /// Slices reach as far to the sides as the rig's outermost views look. Throws Error{bad_input} where they
   /// would not fit in `memory_limit_bytes`, naming what was needed.
   SliceMaker(const Scene& scene, const CloudStatistics& statistics, const Rig& rig, const RenderOptions& options,
              std::size_t memory_limit_bytes = std::size_t{8} << 30);

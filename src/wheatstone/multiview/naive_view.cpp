@@ -35,7 +35,7 @@ LinearRgba colour_of(const Cloud& cloud, std::size_t i, const SplatStyle& splat_
   return {splat_style.red[entry], splat_style.green[entry], splat_style.blue[entry], 0};
 }
 
-NaiveSplat project(const Cloud& cloud, std::size_t i, const Scene& scene, float view) {
+NaiveSplat project(const Cloud& cloud, std::size_t i, const Scene& scene, ViewPosition view) {
   const Camera& camera = scene.camera;
   const SplatStyle& splat_style = scene.splat_style;
   const std::array<float, 3> from_camera{cloud.x[i] - camera.position[0], cloud.y[i] - camera.position[1],
@@ -46,7 +46,7 @@ NaiveSplat project(const Cloud& cloud, std::size_t i, const Scene& scene, float 
   splat.seen = true;
   splat.x = camera.centre_x_px + camera.focal_px * dot(from_camera, camera.right) / depth;
   splat.y = camera.centre_y_px + camera.focal_px * dot(from_camera, camera.down) / depth;
-  splat.x += view * parallax_px(scene.mapping, depth);
+  splat.x += (view - central_view) * parallax_px(scene.mapping, depth);
 
   // Hassaine 2010, sec. 4.2: a sigmoid of the density makes opacity and size.
   const float log2_density = cloud.density.empty() ? 0.f : std::log2(cloud.density[i]);
@@ -88,7 +88,7 @@ void draw(const NaiveSplat& splat, Image<LinearRgba>& picture) {
 
 }  // namespace
 
-Image<Rgb8> naive_view(const Cloud& cloud, const Scene& scene, const Rig& rig, float view, float exposure) {
+Image<Rgb8> naive_view(const Cloud& cloud, const Scene& scene, const Rig& rig, ViewPosition view, float exposure) {
   Image<LinearRgba> light(rig.width, rig.height);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const NaiveSplat splat = project(cloud, i, scene, view);

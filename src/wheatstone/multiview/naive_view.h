@@ -9,6 +9,6 @@ namespace wheatstone {
 
 /// One view by the book: one thread, one particle after the other, in the formulas' own words. The truth that the
 /// renderers are tested against, and the opponent that they must be faster than.
-Image<Rgb8> naive_view(const Cloud& cloud, const Scene& scene, const Rig& rig, float view, float exposure);
+Image<Rgb8> naive_view(const Cloud& cloud, const Scene& scene, const Rig& rig, ViewPosition view, float exposure);
 
 }  // namespace wheatstone

@@ -31,12 +31,12 @@ void tone_map_rows(const OpaqueBand& band, const ToneMap& tone, int top, ImageVi
 
 }  // namespace
 
-void draw_discs(std::span<const Splat> splats, int top, float view, OpaqueBand& band) {
+void draw_discs(std::span<const Splat> splats, int top, ViewPosition view, OpaqueBand& band) {
   const int width = band.light.width();
   for (const Splat& splat : splats) {
     // At least a pixel's width, so that some centre is met.
     const float radius = std::max(float_from_half(splat.size) / 2, 0.71f);
-    const float x = std::fma(splat.parallax, view, splat.x) - static_cast<float>(band.left) - 0.5f;
+    const float x = std::fma(splat.parallax, view - central_view, splat.x) - static_cast<float>(band.left) - 0.5f;
     const float y = splat.y - static_cast<float>(top) - 0.5f;
     const int first_row = std::max(static_cast<int>(std::ceil(y - radius)), 0);
     const int end_row = std::min(static_cast<int>(std::floor(y + radius)) + 1, band.light.height());
@@ -55,7 +55,8 @@ void draw_discs(std::span<const Splat> splats, int top, float view, OpaqueBand& 
   }
 }
 
-void render_opaque(const RenderJob& job, std::span<const float> views, std::span<const ImageView<Rgb8>> pictures) {
+void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
+                   std::span<const ImageView<Rgb8>> pictures) {
   const SplatOrder order = bands_of(job.rig, job.scene.splat_style);
   const std::vector<SplatBlock> blocks =
       order_splats(job.cloud, make_projection(job.scene, job.statistics), window_around(job.scene, job.rig), order);

@@ -23,6 +23,6 @@ struct OpaqueBand {
 
 /// Draws discs where they are nearer than what is there, moved for the view at `view`. Of two that are equally near the
 /// first stays.
-void draw_discs(std::span<const Splat> splats, int top, float view, OpaqueBand& band);
+void draw_discs(std::span<const Splat> splats, int top, ViewPosition view, OpaqueBand& band);
 
 }  // namespace wheatstone

@@ -74,7 +74,7 @@ Cloud filled_up(const Cloud& cloud) {
 
 }  // namespace
 
-Projection make_projection(const Scene& scene, const CloudStatistics& statistics, float view) {
+Projection make_projection(const Scene& scene, const CloudStatistics& statistics, ViewPosition view) {
   Projection projection{.camera = scene.camera, .splat_style = scene.splat_style, .table = {}, .view = view};
   // Depths of the sphere around all particles.
   const std::array<float, 3> centre = statistics.centre();

@@ -56,7 +56,7 @@ HWY_INLINE Placed place(const Cloud& cloud, std::size_t i, const Projection& pro
   const Vec rest = hn::Sub(at, hn::ConvertTo(d, entry));
   placed.parallax =
       hn::MulAdd(rest, hn::GatherIndex(d, table.step.data(), entry), hn::GatherIndex(d, table.value.data(), entry));
-  placed.x = hn::MulAdd(placed.parallax, hn::Set(d, projection.view), placed.x);
+  placed.x = hn::MulAdd(placed.parallax, hn::Set(d, projection.view - central_view), placed.x);
   return placed;
 }
 

@@ -30,9 +30,9 @@ float look_around_px(const Scene& scene, const Rig& rig) {
   float parallax = 0;
   for (const DepthMapping::Point& point : scene.mapping.points)
     parallax = std::max(parallax, std::abs(point.parallax_px));
-  float position = 0;
-  for (const float view : rig.positions) position = std::max(position, std::abs(view));
-  return parallax * position;
+  float farthest = 0;
+  for (const ViewPosition view : rig.positions) farthest = std::max(farthest, std::abs(view - central_view));
+  return parallax * farthest;
 }
 
 float span_of(const Rig& rig) {
@@ -53,7 +53,7 @@ float automatic_exposure(const Cloud& cloud, const Scene& scene, const Rig& rig)
   CloudStatistics statistics;
   statistics.add(cloud);
   std::vector<float> brightest;
-  for (const LightBand& band : light_of_view(cloud, scene, rig, statistics, 0))
+  for (const LightBand& band : light_of_view(cloud, scene, rig, statistics, central_view))
     for (int row = 0; row < band.rows(); ++row)
       for (int x = 0; x < rig.width; ++x) {
         const float* const pixel = band.row(row) + x * LightBand::channels;

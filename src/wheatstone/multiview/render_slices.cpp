@@ -56,8 +56,8 @@ void add_glowing(const SliceStack& stack, const Rig& rig, SliceFilter filter,
   const Compositing compositing{parallaxes, rig.positions, resampling_of(filter)};
   const ToneMap tone(stack.exposure);
   float reach = 0;
-  for (const float view : rig.positions)
-    for (const float parallax : parallaxes) reach = std::max(reach, std::abs(view * parallax));
+  for (const ViewPosition view : rig.positions)
+    for (const float parallax : parallaxes) reach = std::max(reach, std::abs((view - central_view) * parallax));
   const int around = static_cast<int>(std::ceil(reach)) + 2;
   const int planes = static_cast<int>(stack.slices.size());
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {
@@ -75,11 +75,11 @@ void add_glowing(const SliceStack& stack, const Rig& rig, SliceFilter filter,
 }
 
 /// Light of one pixel of one view, front to back. Slices are read at their nearest pixel: opaque edges stay sharp.
-LinearRgba look_through(const SliceStack& stack, float view, int x, int y) {
+LinearRgba look_through(const SliceStack& stack, ViewPosition view, int x, int y) {
   LinearRgba seen;
   float through = 1;
   for (const Slice& slice : stack.slices) {
-    const int column = x - static_cast<int>(std::lround(view * slice.parallax_px)) - slice.left;
+    const int column = x - static_cast<int>(std::lround((view - central_view) * slice.parallax_px)) - slice.left;
     if (!slice.pixels.contains(column, y - slice.top)) continue;
     const LinearRgba& light = slice.pixels(column, y - slice.top);
     seen.r += through * light.r;
@@ -97,13 +97,13 @@ std::uint8_t byte_of(float light, const ToneMap& tone) {
 }
 
 /// One channel of one sub-pixel of a view: the sum of all slices there, or what of them is not hidden.
-float channel_through(const SliceStack& stack, float view, int x, int y, float LinearRgba::*channel) {
+float channel_through(const SliceStack& stack, ViewPosition view, int x, int y, float LinearRgba::*channel) {
   float seen = 0;
   float through = 1;
   for (const Slice& slice : stack.slices) {
     const int row = y - slice.top;
     if (row < 0 || row >= slice.pixels.height()) continue;
-    const float at = static_cast<float>(x - slice.left) - view * slice.parallax_px;
+    const float at = static_cast<float>(x - slice.left) - (view - central_view) * slice.parallax_px;
     const int column = static_cast<int>(std::floor(at));
     if (column < -1 || column >= slice.pixels.width()) continue;
     const float share = at - static_cast<float>(column);
@@ -140,7 +140,7 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
   return views;
 }
 
-InterleavedView render_interleaved(const SliceStack& stack, std::span<const float> views,
+InterleavedView render_interleaved(const SliceStack& stack, std::span<const ViewPosition> views,
                                    const ViewsOfRow& views_of_row, const Progress& progress) {
   InterleavedView result{.picture = Image<Rgb8>(stack.width, stack.height), .composited = 0};
   const ToneMap tone(stack.exposure);

@@ -24,7 +24,7 @@ struct InterleavedView {
   Image<Rgb8> picture;
   std::uint64_t composited = 0;  ///< sub-pixels
 };
-InterleavedView render_interleaved(const SliceStack& stack, std::span<const float> views,
+InterleavedView render_interleaved(const SliceStack& stack, std::span<const ViewPosition> views,
                                    const ViewsOfRow& views_of_row, const Progress& progress = {});
 
 /// Moves every slice: the parallaxes' range becomes the one given, in pixels. For another display, or less depth.

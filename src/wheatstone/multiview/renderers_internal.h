@@ -51,18 +51,19 @@ float span_of(const Rig& rig);
 /// The factor for pixels whose brightest channels are these.
 float exposure_for(std::vector<float> brightest);
 
-/// How far beyond the sides of the central view the outermost views splat_style, in pixels.
+/// How far beyond the sides of the central view the outermost views look, in pixels.
 float look_around_px(const Scene& scene, const Rig& rig);
 
-void render_exact(const RenderJob& job, float view, ImageView<Rgb8> picture);
+void render_exact(const RenderJob& job, ViewPosition view, ImageView<Rgb8> picture);
 void render_incremental(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures);
 /// The nearest particle of each pixel, in each of the views.
-void render_opaque(const RenderJob& job, std::span<const float> views, std::span<const ImageView<Rgb8>> pictures);
+void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
+                   std::span<const ImageView<Rgb8>> pictures);
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures);
 
 /// The light of a view, band by band.
 std::vector<LightBand> light_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig,
-                                     const CloudStatistics& statistics, float view);
+                                     const CloudStatistics& statistics, ViewPosition view);
 
 }  // namespace wheatstone

@@ -59,7 +59,7 @@ enum class Resampling { nearest, linear, cubic };
 /// What compositing needs besides the slices.
 struct Compositing {
   std::span<const float> parallaxes;  ///< of the planes, in pixels
-  std::span<const float> views;       ///< positions of the views
+  std::span<const ViewPosition> views;
   Resampling resampling = Resampling::cubic;
 };
 

@@ -14,7 +14,7 @@ struct LinearRgba {
 };
 
 /// The picture of one depth plane, cropped to what is not empty. Its upper left pixel is pixel (left, top) of the
-/// central view; slices reach beyond the view's sides by what the rig's outermost views splat_style past them.
+/// central view; slices reach beyond the view's sides by what the rig's outermost views look past them.
 struct Slice {
   float parallax_px = 0;  ///< of the plane, at full eye separation; positive behind the screen
   int left = 0, top = 0;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "wheatstone/depth/view_position.h"
 #include "wheatstone/multiview/scene.h"
 
 namespace wheatstone {
@@ -56,7 +57,7 @@ struct SplatBlock {
   }
 };
 
-/// Parallaxes by w = 1/depth, evenly spaced: one splat_style-up a particle, whatever the mapping.
+/// Parallaxes by w = 1/depth, evenly spaced: one look-up a particle, whatever the mapping.
 struct ParallaxTable {
   static constexpr int size = 1024;
   float first_w = 0, entries_per_w = 0;
@@ -68,10 +69,10 @@ struct Projection {
   Camera camera;
   SplatStyle splat_style;
   ParallaxTable table;
-  float view = 0;  ///< position of the view that is projected: 0 is the reference
+  ViewPosition view = central_view;  ///< that is projected
 };
 
-Projection make_projection(const Scene& scene, const CloudStatistics& statistics, float view = 0);
+Projection make_projection(const Scene& scene, const CloudStatistics& statistics, ViewPosition view = central_view);
 
 /// Projects, lights and orders the particles of a cloud, in blocks that depend on nothing but the cloud.
 std::vector<SplatBlock> order_splats(const Cloud& cloud, const Projection& projection, const Window& window,

@@ -19,7 +19,7 @@
 namespace wheatstone {
 namespace {
 
-float random(std::uint64_t i, std::uint64_t which) { return unit_float(hash({i, which})); }
+float random(std::uint64_t i, std::uint64_t which) { return unit_float(hash_keys({i, which})); }
 
 /// Knots and a thin gas between them, in the unit cube.
 Cloud clumps(std::size_t count) {
@@ -60,7 +60,7 @@ Scene scene_of(const Cloud& cloud, const Rig& rig, float smallest = 2, float lar
 
 Rig nine_views() {
   Rig rig{.width = 320, .height = 180, .positions = {}};
-  for (int i = 0; i < 9; ++i) rig.positions.push_back(static_cast<float>(i) / 8 - 0.5f);
+  for (int i = 0; i < 9; ++i) rig.positions.emplace_back(static_cast<float>(i) / 8 - 0.5f);
   return rig;
 }
 
@@ -163,7 +163,7 @@ TEST(Opaque, NearestParticleHidesTheOthers) {
     cloud.z.push_back(z);
     cloud.temperature.push_back(z);
   }
-  const Rig rig{.width = 64, .height = 32, .positions = {-0.5f, 0.5f}};
+  const Rig rig{.width = 64, .height = 32, .positions = {left_eye, right_eye}};
   CloudStatistics statistics;
   statistics.add(cloud);
   Scene scene;
@@ -292,7 +292,7 @@ TEST(Slices, ServeRigsOfAnyNumberOfViewsAndAnyDepth) {
   const Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig);
   SliceStack stack = make_slices(cloud, scene, rig, {.exposure = 0.5f}, {});
-  const Rig two{.width = rig.width, .height = rig.height, .positions = {-0.5f, 0.5f}};
+  const Rig two{.width = rig.width, .height = rig.height, .positions = {left_eye, right_eye}};
   const auto views = render_slices(stack, two);
   EXPECT_EQ(views[0], render_slices(stack, rig)[0]);
   // Without depth all views are one.

@@ -22,7 +22,7 @@ namespace wheatstone {
 namespace {
 
 /// Plans one eye from its photograph alone.
-StrokePainting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
+StrokePainting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
                               const Style& style, const Progress& progress) {
   LayerPlanner planner(photograph, disparity, view, style);
   return plan_alone(planner, style, ScaledStyle(style, photograph.width()), {}, progress);
@@ -76,7 +76,7 @@ void draw_both(const StereoPair& photographs, const Style& style, PaintedPair& r
 /// Stavrakis & Gelautz 2004, sec. 3.2: the left picture, warped, covers the right eye's paint. The few pixels that
 /// neither reaches show the photograph.
 void lay_left_over_right(const StereoGeometry& geometry, PaintedPair& result) {
-  lay_over(warp_picture(result.pictures.left, geometry.left_disparity, Eye::left), result.pictures.right);
+  lay_over(warp_picture(result.pictures.left, geometry.left_disparity, left_eye, right_eye), result.pictures.right);
   result.right_bare_share = 0;
 }
 
@@ -104,7 +104,7 @@ void plan_other_marks(const StereoPair& photographs, const StereoGeometry& geome
 
 /// Draws both eyes of what was planned.
 void draw_other_marks(const Style& style, PaintedPair& result) {
-  const auto drawn = [&](float view) {
+  const auto drawn = [&](ViewPosition view) {
     return style.marks == Marks::curves ? draw(result.curves, view) : draw(result.regions, view);
   };
   DrawnView left, right;
@@ -167,7 +167,7 @@ PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry,
   return result;
 }
 
-PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
+PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
                        const Style& style, const Progress& progress) {
   check_style(style);
   check_is_of_strokes(style);

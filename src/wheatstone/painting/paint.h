@@ -52,7 +52,7 @@ struct PaintedView {
 };
 
 /// Paints one view from its photograph and disparity, for itself alone, with strokes.
-PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view,
+PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
                        const Style& style, const Progress& progress = {});
 
 }  // namespace wheatstone

@@ -15,7 +15,7 @@ namespace {
 /// The scene's views that are shown: the eyes, or the one view there is.
 std::vector<std::size_t> shown_views(const FilmFrame& frame) {
   std::vector<std::size_t> shown;
-  for (const float eye : {left_eye, right_eye})
+  for (const ViewPosition eye : {left_eye, right_eye})
     for (std::size_t i = 0; i < frame.views.size(); ++i)
       if (frame.views[i].position == eye) shown.push_back(i);
   if (shown.empty()) shown.push_back(0);
@@ -86,7 +86,7 @@ PaintedFrame paint_other_marks(const FilmFrame& frame, const Style& style, Paint
   const std::vector<std::size_t> shown = shown_views(frame);
   std::vector<DrawnView> drawn(shown.size());
   tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
-    const float view = frame.views[shown[i]].position;
+    const ViewPosition view = frame.views[shown[i]].position;
     drawn[i] = style.marks == Marks::curves ? draw(painted.curves, view) : draw(painted.regions, view);
   });
   take_pictures(std::move(drawn), painted);

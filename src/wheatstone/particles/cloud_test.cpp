@@ -101,9 +101,9 @@ TEST(SphDensity, OfALatticeIsOne) {
 TEST(SphDensity, EqualsTheSumOverAllParticles) {
   Cloud cloud;
   for (std::uint64_t i = 0; i < 300; ++i) {
-    cloud.x.push_back(unit_float(hash({i, 1})));
-    cloud.y.push_back(unit_float(hash({i, 2})));
-    cloud.z.push_back(unit_float(hash({i, 3})));
+    cloud.x.push_back(unit_float(hash_keys({i, 1})));
+    cloud.y.push_back(unit_float(hash_keys({i, 2})));
+    cloud.z.push_back(unit_float(hash_keys({i, 3})));
   }
   estimate_density(cloud, 20);
   for (std::size_t i = 0; i < 300; i += 37) {

@@ -31,7 +31,7 @@ std::vector<Colour> sampled(ImageView<const Rgb8> picture) {
 
 /// Each centre is drawn with a chance proportional to the squared distance to the nearest one so far.
 std::vector<Colour> first_centres(const std::vector<Colour>& samples, int count, std::uint64_t seed) {
-  std::vector<Colour> centres{samples[hash({seed, 0}) % samples.size()]};
+  std::vector<Colour> centres{samples[hash_keys({seed, 0}) % samples.size()]};
   std::vector<double> distance(samples.size(), std::numeric_limits<double>::infinity());
   while (static_cast<int>(centres.size()) < count) {
     double sum = 0;
@@ -40,7 +40,7 @@ std::vector<Colour> first_centres(const std::vector<Colour>& samples, int count,
       sum += distance[i];
     }
     if (sum <= 0) break;
-    double left = sum * static_cast<double>(unit_float(hash({seed, centres.size()})));
+    double left = sum * static_cast<double>(unit_float(hash_keys({seed, centres.size()})));
     std::size_t chosen = 0;
     while (chosen + 1 < samples.size() && (left -= distance[chosen]) >= 0) ++chosen;
     centres.push_back(samples[chosen]);

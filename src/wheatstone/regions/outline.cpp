@@ -271,8 +271,8 @@ class RingBuilder {
 
 }  // namespace
 
-void add_outlines(const RegionMap& regions, ImageView<const float> disparity, float view, const OutlineOptions& options,
-                  RegionPainting& painting) {
+void add_outlines(const RegionMap& regions, ImageView<const float> disparity, ViewPosition view,
+                  const OutlineOptions& options, RegionPainting& painting) {
   std::vector<Arc> arcs = Tracer(regions).arcs();
   std::vector<std::vector<Side>> sides(static_cast<std::size_t>(regions.count));
   for (std::size_t i = 0; i < arcs.size(); ++i) {

@@ -18,7 +18,7 @@ struct OutlineOptions {
 /// a painting. Neighbours share the points between them; where they lie on one surface they share the disparities too,
 /// so that they part in no view. A region so narrow that fewer than three points are left of it gets a mark without
 /// rings.
-void add_outlines(const RegionMap& regions, ImageView<const float> disparity, float view, const OutlineOptions& options,
-                  RegionPainting& painting);
+void add_outlines(const RegionMap& regions, ImageView<const float> disparity, ViewPosition view,
+                  const OutlineOptions& options, RegionPainting& painting);
 
 }  // namespace wheatstone

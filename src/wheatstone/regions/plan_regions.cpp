@@ -43,7 +43,7 @@ RegionPainting plan_regions(std::span<const SceneView> views, const Style& style
                      .scale = scale,
                      .depth_threshold_px = style.depth_threshold_px * scale};
     if (i > 0 || independent) to_cut.views = {view.position, view.position};
-    if (i > 0 && independent) to_cut.seed = hash({style.seed, i});
+    if (i > 0 && independent) to_cut.seed = hash_keys({style.seed, i});
     Image<std::uint8_t> only_here;
     if (i > 0 && !independent && !view.only_here.empty()) {
       // Grown, so that the marks reach under those of the reference view.

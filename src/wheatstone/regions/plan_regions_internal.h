@@ -17,7 +17,7 @@ struct ViewToCut {
   ImageView<const float> disparity;
   ImageView<const std::uint8_t> mask;  ///< cut only where it is not 0; empty: everywhere
   std::size_t number = 0;              ///< of the view in its scene; 0 is the reference view
-  float view = left_eye;
+  ViewPosition view = left_eye;
   ViewRange views;  ///< in which its marks may be drawn
   std::uint64_t seed = 1;
   float scale = 1;               ///< pixels for one of a picture 640 pixels wide

@@ -184,7 +184,7 @@ TEST_P(PolygonsInTime, LeaveTheEyesBareWithoutWhatOnlyOneSees) {
   Painter painter(GetParam());
   painter.plan_frame(walk(), 0);
   RegionPainting painting = painter.plan_frame(walk(), 1);
-  std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.reference_view != 0; });
+  std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.reference_view != central_view; });
   EXPECT_GT(draw(painting, left_eye).bare_share, 0.01);
   EXPECT_GT(draw(painting, right_eye).bare_share, 0.01);
 }
@@ -193,10 +193,10 @@ TEST_P(PolygonsInTime, PaintAFilmOfOneView) {
   const Image<float> flat(width, height);
   Painter painter(GetParam());
   for (std::size_t i = 0; i < 2; ++i) {
-    const SceneView view{walk().centres[i].picture, flat, {}, 0};
+    const SceneView view{walk().centres[i].picture, flat, {}, central_view};
     const RegionPainting painting = painter.plan({{&view, 1}, walk().flow_to(i)});
     EXPECT_EQ(draw(painting, left_eye).picture, draw(painting, right_eye).picture);
-    EXPECT_LT(draw(painting, 0).bare_share, 0.005);
+    EXPECT_LT(draw(painting, central_view).bare_share, 0.005);
   }
 }
 
@@ -234,7 +234,7 @@ TEST(Posterise, KeepsItsPaletteThroughAScene) {
 
 TEST(Mosaic, LeavesTilesOfAStillPictureWhereTheyAre) {
   const Image<float> flat(width, height);
-  const SceneView view{walk().centres[0].picture, flat, {}, 0};
+  const SceneView view{walk().centres[0].picture, flat, {}, central_view};
   const FlowPair no_motion{{flat, flat}, {flat, flat}};
   const Style style = style_of("mosaic");
   MosaicMemory memory;

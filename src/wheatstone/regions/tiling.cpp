@@ -118,8 +118,8 @@ class Tiling {
   /// Somewhere in a cell of the lattice, the same in each frame.
   PlanePoint lattice_place(std::uint64_t seed, int column, int row) const {
     const auto jitter = [&](std::uint64_t axis) {
-      return 0.25f +
-             0.5f * unit_float(hash({seed, axis, static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(column)}));
+      return 0.25f + 0.5f * unit_float(hash_keys(
+                                {seed, axis, static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(column)}));
     };
     return {(static_cast<float>(column) + jitter(0)) * cell_px_, (static_cast<float>(row) + jitter(1)) * cell_px_};
   }

@@ -16,9 +16,6 @@
 namespace wheatstone {
 namespace {
 
-/// From an eye to the central view, in eye separations to the right.
-constexpr float from_left = 0.5f, from_right = -0.5f;
-
 /// Disparities of one surface differ by no more.
 constexpr float same_surface_px = 1;
 
@@ -74,9 +71,9 @@ class LanczosRow {
   std::array<std::array<float, taps>, phases + 1> weights_{};
 };
 
-MappedEye map_forward(const Image<Rgb8>& picture, const Image<float>& disparity, float step) {
+MappedEye map_forward(const Image<Rgb8>& picture, const Image<float>& disparity, ViewPosition eye) {
   static const LanczosRow lanczos;
-  WarpedColumns warped = warp_columns(disparity, step);
+  WarpedColumns warped = warp_columns(disparity, eye, central_view);
   MappedEye mapped{Image<Rgb8>(picture.width(), picture.height()), std::move(warped.disparity)};
   tbb::parallel_for(0, picture.height(), [&](int y) {
     const auto columns = warped.column.row(y);
@@ -156,12 +153,13 @@ void merge_average(const MappedEye& right, MappedEye& left) {
 }
 
 /// The pixels of an eye whose points the central view hides or leaves out.
-Image<std::uint8_t> hidden_from_centre(const Image<float>& disparity, float step, const Image<float>& centre) {
+Image<std::uint8_t> hidden_from_centre(const Image<float>& disparity, ViewPosition eye, const Image<float>& centre) {
+  const float separation = central_view - eye;
   Image<std::uint8_t> hidden(disparity.width(), disparity.height());
   tbb::parallel_for(0, disparity.height(), [&](int y) {
     const auto nearest = centre.row(y);
     for (int x = 0; x < disparity.width(); ++x) {
-      const float d = disparity(x, y), place = static_cast<float>(x) + 0.5f - step * d;
+      const float d = disparity(x, y), place = static_cast<float>(x) + 0.5f - separation * d;
       const bool inside = place >= 0 && place < static_cast<float>(centre.width());
       hidden(x, y) = inside && nearest[static_cast<std::size_t>(place)] <= d + same_surface_px ? 0 : 255;
     }
@@ -182,8 +180,8 @@ void check_fits(const StereoPair& pair, const StereoGeometry& geometry) {
 CentralView make_central_view(const StereoPair& pair, const StereoGeometry& geometry, CentralMerge merge) {
   check_fits(pair, geometry);
   MappedEye left, right;
-  tbb::parallel_invoke([&] { left = map_forward(pair.left, geometry.left_disparity, from_left); },
-                       [&] { right = map_forward(pair.right, geometry.right_disparity, from_right); });
+  tbb::parallel_invoke([&] { left = map_forward(pair.left, geometry.left_disparity, left_eye); },
+                       [&] { right = map_forward(pair.right, geometry.right_disparity, right_eye); });
   if (merge == CentralMerge::visible) {
     merge_visible(right, left);
     fill_from_farther_neighbour(left);
@@ -194,8 +192,8 @@ CentralView make_central_view(const StereoPair& pair, const StereoGeometry& geom
   }
   CentralView centre{std::move(left.picture), std::move(left.disparity), {}, {}};
   tbb::parallel_invoke(
-      [&] { centre.left_only = hidden_from_centre(geometry.left_disparity, from_left, centre.disparity); },
-      [&] { centre.right_only = hidden_from_centre(geometry.right_disparity, from_right, centre.disparity); });
+      [&] { centre.left_only = hidden_from_centre(geometry.left_disparity, left_eye, centre.disparity); },
+      [&] { centre.right_only = hidden_from_centre(geometry.right_disparity, right_eye, centre.disparity); });
   return centre;
 }
 

@@ -10,7 +10,7 @@ enum class CentralMerge {
   average   ///< half of each everywhere (Bukenberger et al. 2015, eq. 2): ghosts where only one eye sees
 };
 
-/// A pair as the eye between its two eyes sees it, view position 0.
+/// A pair as the eye between its two eyes sees it: the view at `central_view`.
 struct CentralView {
   Image<Rgb8> picture;     ///< M
   Image<float> disparity;  ///< D⁻¹ (eq. 4), at full eye separation; all finite

@@ -20,7 +20,7 @@ const SyntheticStill& still() {
 }
 
 const SyntheticView& truth() {
-  static const SyntheticView made = make_synthetic_view(options, 0);
+  static const SyntheticView made = make_synthetic_view(options, central_view);
   return made;
 }
 

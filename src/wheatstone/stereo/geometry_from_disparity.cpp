@@ -35,17 +35,17 @@ bool fill_row(std::span<float> row) {
   return true;
 }
 
-/// 255 where a pixel's counterpart lies outside the other view, or behind something that is nearer.
-Image<std::uint8_t> find_occlusion(const Image<float>& own, const Image<float>& other, Eye eye,
+/// 255 where a pixel's counterpart lies outside the other view, which is `separation` eye separations to the right, or
+/// behind something that is nearer.
+Image<std::uint8_t> find_occlusion(const Image<float>& own, const Image<float>& other, float separation,
                                    const GeometryOptions& options) {
   const int width = own.width();
   Image<std::uint8_t> occlusion(width, own.height());
-  const float sign = eye == Eye::left ? -1.f : 1.f;
   tbb::parallel_for(0, own.height(), [&](int y) {
     const auto from = own.row(y), into = other.row(y);
     const auto mask = occlusion.row(y);
     for (int x = 0; x < width; ++x) {
-      const float target = std::floor(static_cast<float>(x) + 0.5f + sign * from[x]);
+      const float target = std::floor(static_cast<float>(x) + 0.5f - separation * from[x]);
       const bool outside = !(target >= 0 && target < static_cast<float>(width));
       const bool hidden = !outside && into[static_cast<int>(target)] > from[x] + options.occlusion_tolerance_px;
       mask[x] = outside || hidden ? 255 : 0;
@@ -57,8 +57,8 @@ Image<std::uint8_t> find_occlusion(const Image<float>& own, const Image<float>& 
 
 StereoGeometry with_occlusion(Image<float> left, Image<float> right, const GeometryOptions& options) {
   StereoGeometry geometry;
-  geometry.left_occlusion = find_occlusion(left, right, Eye::left, options);
-  geometry.right_occlusion = find_occlusion(right, left, Eye::right, options);
+  geometry.left_occlusion = find_occlusion(left, right, right_eye - left_eye, options);
+  geometry.right_occlusion = find_occlusion(right, left, left_eye - right_eye, options);
   geometry.left_disparity = std::move(left);
   geometry.right_disparity = std::move(right);
   return geometry;
@@ -83,7 +83,7 @@ void fill_from_farther_side(Image<float>& disparity) {
 
 StereoGeometry geometry_from_left(Image<float> left_disparity, const GeometryOptions& options) {
   fill_from_farther_side(left_disparity);
-  Image<float> right_disparity = warp_disparity(left_disparity, Eye::left);
+  Image<float> right_disparity = warp_disparity(left_disparity, left_eye, right_eye);
   fill_from_farther_side(right_disparity);
   return with_occlusion(std::move(left_disparity), std::move(right_disparity), options);
 }

@@ -58,7 +58,7 @@ TEST(Warp, LeavesNoCracksInASurfaceThatItStretches) {
   Image<float> disparity(width, 1);
   for (int x = 0; x < width; ++x)
     disparity(x, 0) = 40 - 0.4f * static_cast<float>(x);  // 1.4 times as wide on the right
-  const Image<float> warped = warp_disparity(disparity, Eye::left);
+  const Image<float> warped = warp_disparity(disparity, left_eye, right_eye);
   for (int x = 0; x < width; ++x) {
     // x_right = 1.4·x_left − 40, at pixel centres
     const float x_left = (static_cast<float>(x) + 0.5f - 0.5f + 40) / 1.4f;
@@ -72,7 +72,7 @@ TEST(Warp, CarriesAPictureWithItsDisparity) {
   Image<Rgb8> picture(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) picture(x, y) = {static_cast<std::uint8_t>(2 * x), 0, 0};
-  const WarpedPicture warped = warp_picture(picture, post(), Eye::left);
+  const WarpedPicture warped = warp_picture(picture, post(), left_eye, right_eye);
   EXPECT_EQ(warped.picture(30, 2).r, 2 * 42);
   EXPECT_EQ(warped.picture(70, 2).r, 2 * 72);
   EXPECT_EQ(warped.covered(50, 2), 0) << "only the right eye sees this";
@@ -81,7 +81,7 @@ TEST(Warp, CarriesAPictureWithItsDisparity) {
 
 TEST(Warp, ThereAndBackIsTheSame) {
   Image<float> disparity = post();
-  const Image<float> back = warp_disparity(warp_disparity(disparity, Eye::left), Eye::right);
+  const Image<float> back = warp_disparity(warp_disparity(disparity, left_eye, right_eye), right_eye, left_eye);
   const StereoGeometry geometry = geometry_from_left(post(), exact);
   for (int x = 0; x < width; ++x) {
     if (geometry.left_occlusion(x, 3) == 0) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "wheatstone/depth/view_position.h"
 #include "wheatstone/stereo/central_view.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
@@ -13,7 +14,7 @@ struct SceneView {
   ImageView<const Rgb8> picture;
   ImageView<const float> disparity;         ///< no unknowns
   ImageView<const std::uint8_t> only_here;  ///< 255 for what the reference view does not show; empty: all is wanted
-  float position = 0;                       ///< left eye −½, cyclopean 0, right eye +½
+  ViewPosition position = central_view;
 };
 
 /// The left eye as reference view, and what only the right one sees.

@@ -20,16 +20,13 @@ int floor_of(float value) {
   return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
 }
 
-/// From one eye to the other, in eye separations.
-float step_from(Eye eye) { return eye == Eye::left ? 1.f : -1.f; }
-
 /// Calls `land(x_in_other, disparity, x, t)` for every pixel centre of another view's scan line that the surface of
-/// this one covers: between the pixels x and x + 1, at the fraction t. The other view is `step` eye separations to the
-/// right. Not z-tested; a pixel may be landed on often. Every pixel lands at least where it is (`every_pixel`), or only
-/// those at a surface's edges, which is all that the surface between its pixels does not cover.
+/// this one covers: between the pixels x and x + 1, at the fraction t. The other view is `separation` eye separations
+/// to the right. Not z-tested; a pixel may be landed on often. Every pixel lands at least where it is (`every_pixel`),
+/// or only those at a surface's edges, which is all that the surface between its pixels does not cover.
 template <bool every_pixel = true, class Land>
-void warp_row(std::span<const float> disparity, float step, Land land) {
-  const auto target_of = [step](int x, float d) { return static_cast<float>(x) + 0.5f - step * d; };
+void warp_row(std::span<const float> disparity, float separation, Land land) {
+  const auto target_of = [separation](int x, float d) { return static_cast<float>(x) + 0.5f - separation * d; };
   const int width = static_cast<int>(disparity.size());
   const auto land_inside = [&](int target, float d, int x, float t) {
     if (target >= 0 && target < width) land(target, d, x, t);
@@ -64,26 +61,23 @@ Rgb8 blend(Rgb8 a, Rgb8 b, float t) {
 
 }  // namespace
 
-void warp_disparity_over(ImageView<const float> disparity, float step, Image<float>& nearest) {
+void warp_disparity_over(ImageView<const float> disparity, ViewPosition from, ViewPosition to, Image<float>& nearest) {
   tbb::parallel_for(0, disparity.height(), [&](int y) {
-    const auto to = nearest.row(y);
-    warp_row(disparity.row(y), step, [&](int target, float d, int, float) {
-      if (!(to[target] >= d)) to[target] = d;
+    const auto row = nearest.row(y);
+    warp_row(disparity.row(y), to - from, [&](int target, float d, int, float) {
+      if (!(row[target] >= d)) row[target] = d;
     });
   });
 }
 
-Image<float> warp_disparity(ImageView<const float> disparity, Eye from) {
+Image<float> warp_disparity(ImageView<const float> disparity, ViewPosition from, ViewPosition to) {
   Image<float> warped(disparity.width(), disparity.height(), std::numeric_limits<float>::quiet_NaN());
-  warp_disparity_over(disparity, step_from(from), warped);
+  warp_disparity_over(disparity, from, to, warped);
   return warped;
 }
 
-WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float> disparity, Eye from) {
-  return warp_picture(picture, disparity, step_from(from));
-}
-
-WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float> disparity, float step) {
+WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float> disparity, ViewPosition from,
+                           ViewPosition to) {
   const int width = picture.width();
   WarpedPicture warped{Image<Rgb8>(width, picture.height()), Image<std::uint8_t>(width, picture.height())};
   tbb::parallel_for(tbb::blocked_range<int>(0, picture.height()), [&](const tbb::blocked_range<int>& rows) {
@@ -91,12 +85,12 @@ WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float>
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::ranges::fill(nearest, -std::numeric_limits<float>::infinity());
       const auto colours = picture.row(y);
-      const auto to = warped.picture.row(y);
+      const auto row = warped.picture.row(y);
       const auto covered = warped.covered.row(y);
-      warp_row(disparity.row(y), step, [&](int target, float d, int x, float t) {
+      warp_row(disparity.row(y), to - from, [&](int target, float d, int x, float t) {
         if (d <= nearest[target]) return;
         nearest[target] = d;
-        to[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];
+        row[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];
         covered[target] = 255;
       });
     }
@@ -104,13 +98,13 @@ WarpedPicture warp_picture(ImageView<const Rgb8> picture, ImageView<const float>
   return warped;
 }
 
-WarpedColumns warp_columns(ImageView<const float> disparity, float step) {
+WarpedColumns warp_columns(ImageView<const float> disparity, ViewPosition from, ViewPosition to) {
   constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
   WarpedColumns warped{Image<float>(disparity.width(), disparity.height(), nowhere),
                        Image<float>(disparity.width(), disparity.height(), nowhere)};
   tbb::parallel_for(0, disparity.height(), [&](int y) {
     const auto column = warped.column.row(y), nearest = warped.disparity.row(y);
-    warp_row(disparity.row(y), step, [&](int target, float d, int x, float t) {
+    warp_row(disparity.row(y), to - from, [&](int target, float d, int x, float t) {
       if (nearest[target] >= d) return;
       nearest[target] = d;
       column[target] = static_cast<float>(x) + t;
@@ -119,8 +113,9 @@ WarpedColumns warp_columns(ImageView<const float> disparity, float step) {
   return warped;
 }
 
-void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> disparity, float step, float tolerance_px,
-                       Composition& composition) {
+void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> disparity, ViewPosition from,
+                       float tolerance_px, Composition& composition) {
+  const float separation = composition.position - from;
   constexpr float farthest = -std::numeric_limits<float>::infinity();
   tbb::parallel_for(tbb::blocked_range<int>(0, picture.height()), [&](const tbb::blocked_range<int>& rows) {
     std::vector<float> nearest(picture.width());
@@ -128,7 +123,7 @@ void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> dis
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::ranges::fill(nearest, farthest);
       const auto colours = picture.row(y);
-      warp_row<false>(disparity.row(y), step, [&](int target, float d, int x, float t) {
+      warp_row<false>(disparity.row(y), separation, [&](int target, float d, int x, float t) {
         if (d <= nearest[target]) return;
         nearest[target] = d;
         warped[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];

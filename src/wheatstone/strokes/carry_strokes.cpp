@@ -152,7 +152,7 @@ ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const Fi
 namespace {
 
 /// The points of a stroke that a view shows.
-std::size_t visible_points(std::span<const ControlPoint> points, float reference, const SceneView& view,
+std::size_t visible_points(std::span<const ControlPoint> points, ViewPosition reference, const SceneView& view,
                            float tolerance_px) {
   return static_cast<std::size_t>(std::ranges::count_if(
       points, [&](const ControlPoint& p) { return is_visible(p, reference, view, tolerance_px); }));
@@ -185,7 +185,7 @@ std::size_t home_of(const Stroke& stroke, std::span<const ControlPoint> points, 
   return in_reference > 0 ? 0 : views.size();
 }
 
-void move_home(const TrackedLayer& from, std::size_t i, float position, TrackedLayer& to) {
+void move_home(const TrackedLayer& from, std::size_t i, ViewPosition position, TrackedLayer& to) {
   Stroke stroke = from.layer.strokes[i];
   const std::span<const ControlPoint> points = from.layer.points_of(stroke);
   const auto first = static_cast<std::uint32_t>(to.layer.points.size());

@@ -41,7 +41,7 @@ Triple rgb_from_hsv(const Triple& hsv) {
 Rgb8 jittered(Rgb8 colour, const ColourJitter& jitter, std::uint64_t random) {
   if (jitter == ColourJitter{}) return colour;
   const auto change = [&](float amount, std::uint64_t number) {
-    return amount * (unit_float(hash({random, number})) - 0.5f);
+    return amount * (unit_float(hash_keys({random, number})) - 0.5f);
   };
   const auto clamped = [](float value) { return std::clamp(value, 0.f, 1.f); };
 

@@ -37,7 +37,7 @@ void sort_far_to_near(Layer& layer, std::uint64_t seed) {
   };
   std::vector<Place> places(layer.strokes.size());
   for (std::uint32_t i = 0; i < places.size(); ++i)
-    places[i] = {static_cast<std::int32_t>(std::lround(layer.strokes[i].disparity)), i, hash({seed, i})};
+    places[i] = {static_cast<std::int32_t>(std::lround(layer.strokes[i].disparity)), i, hash_keys({seed, i})};
   std::ranges::sort(places, [](const Place& a, const Place& b) {
     if (a.depth != b.depth) return a.depth < b.depth;
     return a.random != b.random ? a.random < b.random : a.stroke < b.stroke;
@@ -53,7 +53,7 @@ void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed) {
   std::vector<Place> places(layer.strokes.size());
   for (std::uint32_t i = 0; i < places.size(); ++i) {
     const Stroke& stroke = layer.strokes[i];
-    places[i] = {stroke.disparity + unit_float(hash({seed, stroke.number})), i};
+    places[i] = {stroke.disparity + unit_float(hash_keys({seed, stroke.number})), i};
   }
   std::ranges::sort(places, [](const Place& a, const Place& b) {
     return a.depth != b.depth ? a.depth < b.depth : a.stroke < b.stroke;

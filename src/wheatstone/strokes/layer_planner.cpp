@@ -18,7 +18,7 @@ ScaledStyle::ScaledStyle(const Style& style, int width, float reduction)
     radii_px.push_back(std::max(radius * style_scale(style, width), least_px) / reduction);
 }
 
-LayerPlanner::LayerPlanner(ImageView<const Rgb8> photograph_, ImageView<const float> disparity_, float view_,
+LayerPlanner::LayerPlanner(ImageView<const Rgb8> photograph_, ImageView<const float> disparity_, ViewPosition view_,
                            const Style& style)
     : photograph(photograph_),
       disparity(disparity_),
@@ -65,7 +65,7 @@ Layer plan_on(const LayerPlanner& planner, const Style& style, const ScaledStyle
 }
 
 void order_strokes(Layer& strokes, const Style& style, int layer) {
-  sort_far_to_near(strokes, hash({style.seed, static_cast<std::uint64_t>(layer)}));
+  sort_far_to_near(strokes, hash_keys({style.seed, static_cast<std::uint64_t>(layer)}));
 }
 
 StrokePainting plan_alone(LayerPlanner& planner, const Style& style, const ScaledStyle& scaled,

@@ -19,11 +19,12 @@ struct ScaledStyle {
 
 /// One eye at work: what it sees, and the canvas that its next layer is planned against.
 struct LayerPlanner {
-  LayerPlanner(ImageView<const Rgb8> photograph, ImageView<const float> disparity, float view, const Style& style);
+  LayerPlanner(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
+               const Style& style);
 
   ImageView<const Rgb8> photograph;
   ImageView<const float> disparity;
-  float view;
+  ViewPosition view;
   Canvas canvas;
   /// Begin no stroke where two surfaces' colours mix, if it can be helped: they part in the other eye.
   bool avoid_mixed_colours = true;

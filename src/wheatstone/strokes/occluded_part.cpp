@@ -9,7 +9,7 @@
 
 namespace wheatstone {
 StrokePainting plan_occluded_part(const Image<Rgb8>& photograph, const Image<float>& disparity,
-                                  const Image<std::uint8_t>& occlusion, float view, const Style& style) {
+                                  const Image<std::uint8_t>& occlusion, ViewPosition view, const Style& style) {
   const int width = photograph.width(), height = photograph.height();
   const float largest_radius_px = ScaledStyle(style, width).radii_px.front();
   const Image<std::uint8_t> seeds =

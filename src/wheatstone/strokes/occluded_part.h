@@ -10,6 +10,6 @@ namespace wheatstone {
 /// size: the part is small, and its cost is mostly that of looking at pictures. The layers are in full-size pixels,
 /// each in drawing order, their strokes not yet propagated. Photograph, disparity and mask are of one size.
 StrokePainting plan_occluded_part(const Image<Rgb8>& photograph, const Image<float>& disparity,
-                                  const Image<std::uint8_t>& occlusion, float view, const Style& style);
+                                  const Image<std::uint8_t>& occlusion, ViewPosition view, const Style& style);
 
 }  // namespace wheatstone

@@ -100,8 +100,8 @@ std::vector<CellRun> runs_of_active_cells(const LayerPlan& plan, Place place, co
 enum Purpose : std::uint64_t { jitter_x, jitter_y, stroke_choices };
 
 std::uint64_t cell_hash(const LayerPlan& plan, const Style& style, Place place, int column, int row, Purpose purpose) {
-  return hash({style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(place),
-               static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), purpose});
+  return hash_keys({style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(place),
+                    static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), purpose});
 }
 
 void add_stroke(const LayerPlan& plan, const Style& style, Place place, const Seed& seed, std::uint64_t random,

@@ -13,7 +13,7 @@ struct LayerPlan {
   const Canvas& canvas;                 ///< as the coarser layers left it
   ImageView<const float> disparity;     ///< pixels, no unknowns
   ImageView<const std::uint8_t> seeds;  ///< strokes begin only where it is not 0; empty: everywhere
-  float view = left_eye;
+  ViewPosition view = left_eye;
   float radius_px = 4;
   int layer = 0;  ///< numbers the layer's random choices
 

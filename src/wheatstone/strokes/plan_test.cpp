@@ -262,7 +262,7 @@ TEST(Jitter, StaysWithinHalfOfItsAmountAndIsSpreadOverIt) {
   jitter.red = 0.3f;
   std::set<int> reds;
   for (std::uint64_t i = 0; i < 500; ++i) {
-    const Rgb8 colour = jittered({128, 60, 200}, jitter, hash({i}));
+    const Rgb8 colour = jittered({128, 60, 200}, jitter, hash_keys({i}));
     EXPECT_NEAR(colour.r, 128, 0.15f * 255 + 1);
     EXPECT_NEAR(colour.g, 60, 1);
     reds.insert(colour.r);

@@ -54,7 +54,7 @@ SceneMotion::SceneMotion(const FilmFrame& frame, ImageView<const float> disparit
       reference_(frame.views.front().position),
       depth_threshold_px_(depth_threshold_px) {}
 
-PointStep SceneMotion::of(const ControlPoint& point, float position) const {
+PointStep SceneMotion::of(const ControlPoint& point, ViewPosition position) const {
   float x = point.x + (position - reference_) * point.disparity;
   const float y = point.y;
   if (position != reference_) {

@@ -18,12 +18,12 @@ class SceneMotion {
   /// `disparity_before` is the reference view's at the frame before; all is borrowed, and the frame has a flow.
   SceneMotion(const FilmFrame& frame, ImageView<const float> disparity_before, float depth_threshold_px);
 
-  PointStep of(const ControlPoint& point, float position) const;
+  PointStep of(const ControlPoint& point, ViewPosition position) const;
 
  private:
   const FlowPair& flow_;
   ImageView<const float> disparity_before_;
-  float reference_;
+  ViewPosition reference_;
   float depth_threshold_px_;
 };
 

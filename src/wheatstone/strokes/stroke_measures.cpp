@@ -9,17 +9,18 @@
 namespace wheatstone {
 namespace {
 
-bool shows(const Stroke& stroke, float view) { return stroke.views.contains(view); }
+bool shows(const Stroke& stroke, ViewPosition view) { return stroke.views.contains(view); }
 
 bool is_visible_to_both(const Layer& layer, const Stroke& stroke, const StereoGeometry& geometry) {
-  const Image<std::uint8_t>& occlusion = stroke.reference_view < 0 ? geometry.left_occlusion : geometry.right_occlusion;
+  const Image<std::uint8_t>& occlusion =
+      stroke.reference_view < central_view ? geometry.left_occlusion : geometry.right_occlusion;
   return std::ranges::none_of(layer.points_of(stroke), [&](const ControlPoint& point) {
     const int x = static_cast<int>(point.x), y = static_cast<int>(point.y);
     return occlusion.contains(x, y) && occlusion(x, y) != 0;
   });
 }
 
-float length_in(const Layer& layer, const Stroke& stroke, float view) {
+float length_in(const Layer& layer, const Stroke& stroke, ViewPosition view) {
   const auto points = layer.points_of(stroke);
   float length = 0;
   for (std::size_t i = 1; i < points.size(); ++i)
@@ -64,7 +65,7 @@ bool jumps(const Layer& layer, const Stroke& stroke, const Surfaces& surfaces) {
 bool strays(const Layer& layer, const Stroke& stroke, const Surfaces& surfaces) {
   const ClampedSpline left(layer.points_of(stroke), stroke.reference_view, left_eye);
   const ClampedSpline right(layer.points_of(stroke), stroke.reference_view, right_eye);
-  const ClampedSpline& own = stroke.reference_view < 0 ? left : right;
+  const ClampedSpline& own = stroke.reference_view < central_view ? left : right;
   constexpr int steps = 6;
   for (int span = 0; span < own.span_count(); ++span) {
     for (int step = 0; step < steps; ++step) {
@@ -108,8 +109,8 @@ StrokeMeasures measure_strokes(const StrokePainting& painting, const StereoGeome
 
 double spilling_share(const Layer& layer, const StereoGeometry& geometry, float threshold_px) {
   std::size_t spilling = 0, planned = 0;
-  for (const float view : {left_eye, right_eye}) {
-    const Image<float>& disparity = view < 0 ? geometry.left_disparity : geometry.right_disparity;
+  for (const ViewPosition view : {left_eye, right_eye}) {
+    const Image<float>& disparity = view < central_view ? geometry.left_disparity : geometry.right_disparity;
     const Surfaces surfaces{disparity, distance_to_depth_edge(disparity, threshold_px, 2 * layer.radius_px + 2),
                             threshold_px};
     for (const Stroke& stroke : layer.strokes) {

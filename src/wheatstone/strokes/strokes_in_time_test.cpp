@@ -196,7 +196,7 @@ TEST(StrokesInTime, AFilmOfOneEyeIsPaintedToo) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Image<Rgb8>& picture = film().frames[i].pictures.left;
     const Image<float> flat(picture.width(), picture.height());
-    const std::vector<SceneView> scene{{picture, flat, {}, 0}};
+    const std::vector<SceneView> scene{{picture, flat, {}, central_view}};
     const FlowPair flow = i == 0 ? FlowPair{} : film().left_flow_to(i);
     FlowPair known = flow;
     for (Image<float>* image : {&known.forward.x, &known.forward.y, &known.backward.x, &known.backward.y})
@@ -234,13 +234,13 @@ TEST(VisibleRuns, ShowEachEyeWhatItSees) {
     }
   const Image<Rgb8> picture(width, 4);
   const std::vector<SceneView> views{
-      {picture, centre, {}, 0}, {picture, left, {}, left_eye}, {picture, right, {}, right_eye}};
+      {picture, centre, {}, central_view}, {picture, left, {}, left_eye}, {picture, right, {}, right_eye}};
   std::vector<ControlPoint> points;
   for (int x = 4; x < 36; x += 2) points.push_back({static_cast<float>(x) + 0.5f, 1.5f, 2});
   Layer shown;
-  append_visible_runs({.point_count = static_cast<std::uint32_t>(points.size()), .reference_view = 0}, points, views, 1,
-                      shown);
-  const auto is_shown = [&](float x, float view) {
+  append_visible_runs({.point_count = static_cast<std::uint32_t>(points.size()), .reference_view = central_view},
+                      points, views, 1, shown);
+  const auto is_shown = [&](float x, ViewPosition view) {
     return std::ranges::any_of(shown.strokes, [&](const Stroke& stroke) {
       return stroke.views.contains(view) &&
              std::ranges::any_of(shown.points_of(stroke), [&](const ControlPoint& p) { return p.x == x; });

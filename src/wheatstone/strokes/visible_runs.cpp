@@ -9,7 +9,8 @@ namespace wheatstone {
 namespace {
 
 /// A bit for each of the scene's views that shows the point.
-unsigned views_of(const ControlPoint& point, float reference, std::span<const SceneView> views, float tolerance_px) {
+unsigned views_of(const ControlPoint& point, ViewPosition reference, std::span<const SceneView> views,
+                  float tolerance_px) {
   unsigned seen = 0;
   for (std::size_t i = 0; i < views.size(); ++i)
     if (is_visible(point, reference, views[i], tolerance_px)) seen |= 1u << i;
@@ -44,7 +45,7 @@ float surface_disparity(ImageView<const float> disparity, float x, float y, floa
   return sample(disparity, x, y);
 }
 
-bool is_visible(const ControlPoint& point, float reference, const SceneView& view, float tolerance_px) {
+bool is_visible(const ControlPoint& point, ViewPosition reference, const SceneView& view, float tolerance_px) {
   const float x = x_in_view(point, reference, view.position);
   const int column = std::clamp(static_cast<int>(x), 0, view.disparity.width() - 1);
   const int row = std::clamp(static_cast<int>(point.y), 0, view.disparity.height() - 1);

@@ -12,8 +12,8 @@ namespace wheatstone {
 float surface_disparity(ImageView<const float> disparity, float x, float y, float depth_threshold_px);
 
 /// True where no surface of the view lies before the point by more than `tolerance_px` of disparity. `reference` is the
-/// view position in which the point stands.
-bool is_visible(const ControlPoint& point, float reference, const SceneView& view, float tolerance_px);
+/// view in which the point stands.
+bool is_visible(const ControlPoint& point, ViewPosition reference, const SceneView& view, float tolerance_px);
 
 /// Appends a stroke, cut into runs of points that the same views of the scene show; what none shows is left out.
 /// `points` are the stroke's own.

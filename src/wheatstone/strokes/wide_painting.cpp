@@ -22,10 +22,10 @@ namespace {
 constexpr float tolerance_px = 1;
 
 /// The nearest surface in a view; NaN where neither eye shows what is there.
-Image<float> surface_in(const Image<float>& left, const Image<float>& right, float view) {
+Image<float> surface_in(const Image<float>& left, const Image<float>& right, ViewPosition view) {
   Image<float> surface(left.width(), left.height(), std::numeric_limits<float>::quiet_NaN());
-  warp_disparity_over(left, view - left_eye, surface);
-  warp_disparity_over(right, view - right_eye, surface);
+  warp_disparity_over(left, left_eye, view, surface);
+  warp_disparity_over(right, right_eye, view, surface);
   return surface;
 }
 
@@ -66,14 +66,14 @@ struct OuterView {
   Image<std::uint8_t> unknown;
 };
 
-OuterView outer_view(const StereoPair& photographs, const StereoGeometry& geometry, float view) {
+OuterView outer_view(const StereoPair& photographs, const StereoGeometry& geometry, ViewPosition view) {
   OuterView outer;
   outer.disparity = surface_in(geometry.left_disparity, geometry.right_disparity, view);
   outer.unknown = unknown_of(outer.disparity);
-  const auto from_left = [&] { return warp_picture(photographs.left, geometry.left_disparity, view - left_eye); };
-  const auto from_right = [&] { return warp_picture(photographs.right, geometry.right_disparity, view - right_eye); };
-  WarpedPicture nearer = view < 0 ? from_left() : from_right();
-  outer.picture = view < 0 ? from_right().picture : from_left().picture;
+  const auto from_left = [&] { return warp_picture(photographs.left, geometry.left_disparity, left_eye, view); };
+  const auto from_right = [&] { return warp_picture(photographs.right, geometry.right_disparity, right_eye, view); };
+  WarpedPicture nearer = view < central_view ? from_left() : from_right();
+  outer.picture = view < central_view ? from_right().picture : from_left().picture;
   lay_over(nearer, outer.picture);
   tbb::parallel_for(0, outer.picture.height(),
                     [&](int y) { mirror_row(outer.unknown.row(y), outer.disparity.row(y), outer.picture.row(y)); });
@@ -82,14 +82,14 @@ OuterView outer_view(const StereoPair& photographs, const StereoGeometry& geomet
 }
 
 /// Whether a surface of the view hides a point of a stroke.
-bool is_hidden(const ControlPoint& point, float reference_view, float view, const Image<float>& surface) {
+bool is_hidden(const ControlPoint& point, ViewPosition reference_view, ViewPosition view, const Image<float>& surface) {
   const int x = static_cast<int>(std::floor(x_in_view(point, reference_view, view)));
   const int y = static_cast<int>(point.y);
   return surface.contains(x, y) && surface(x, y) > point.disparity + tolerance_px;
 }
 
 /// The parts of a layer's strokes that a view sees.
-Layer seen_part(const Layer& layer, float view, const Image<float>& surface) {
+Layer seen_part(const Layer& layer, ViewPosition view, const Image<float>& surface) {
   Layer seen{layer.radius_px, layer.points, {}};
   seen.strokes.reserve(layer.strokes.size());
   for (const Stroke& stroke : layer.strokes) {
@@ -129,15 +129,15 @@ void cover_bare(const Image<std::uint8_t>& bare, const Image<float>& surface, Im
 }
 
 /// What the photographs show of a view, their colours drawn out over what they do not.
-Image<Rgb8> photographed(const WidePainting& wide, const Image<float>& surface, float view) {
-  Composition composition{Image<Rgb8>(surface.width(), surface.height()),
+Image<Rgb8> photographed(const WidePainting& wide, const Image<float>& surface, ViewPosition view) {
+  Composition composition{view, Image<Rgb8>(surface.width(), surface.height()),
                           Image<float>(surface.width(), surface.height(), std::numeric_limits<float>::quiet_NaN())};
   const auto lay_left = [&] {
-    warp_picture_over(wide.behind.left, wide.left_disparity, view - left_eye, tolerance_px, composition);
+    warp_picture_over(wide.behind.left, wide.left_disparity, left_eye, tolerance_px, composition);
   };
-  if (view < 0) lay_left();
-  warp_picture_over(wide.behind.right, wide.right_disparity, view - right_eye, tolerance_px, composition);
-  if (view >= 0) lay_left();
+  if (view < central_view) lay_left();
+  warp_picture_over(wide.behind.right, wide.right_disparity, right_eye, tolerance_px, composition);
+  if (view >= central_view) lay_left();
   cover_bare(unknown_of(composition.nearest), composition.nearest, composition.picture);
   return std::move(composition.picture);
 }
@@ -156,12 +156,12 @@ void follow_surface(const Image<float>& surface, Image<float>& disparity) {
 
 /// A view that strokes are drawn for, from which those near it are made.
 struct KeyView {
-  float view;
+  ViewPosition view;
   DrawnView drawn;
 };
 
 /// The view at a position from the keys on both its sides, the nearer one first.
-DrawnView between(std::span<const KeyView> keys, float view) {
+DrawnView between(std::span<const KeyView> keys, ViewPosition view) {
   const auto right = std::ranges::find_if(keys, [view](const KeyView& key) { return key.view >= view; });
   std::vector<const KeyView*> around;
   if (right != keys.end()) around.push_back(&*right);
@@ -170,10 +170,10 @@ DrawnView between(std::span<const KeyView> keys, float view) {
   const Image<Rgb8>& nearest = around.front()->drawn.picture;
   if (around.front()->view == view) return {nearest, around.front()->drawn.bare_share, {}, {}};
 
-  Composition composition{Image<Rgb8>(nearest.width(), nearest.height()),
+  Composition composition{view, Image<Rgb8>(nearest.width(), nearest.height()),
                           Image<float>(nearest.width(), nearest.height(), std::numeric_limits<float>::quiet_NaN())};
   for (const KeyView* key : around)
-    warp_picture_over(key->drawn.picture, key->drawn.disparity, view - key->view, tolerance_px, composition);
+    warp_picture_over(key->drawn.picture, key->drawn.disparity, key->view, tolerance_px, composition);
   const Image<std::uint8_t> bare = unknown_of(composition.nearest);
   const auto count = std::ranges::count(bare.pixels(), 255);
   cover_bare(bare, composition.nearest, composition.picture);
@@ -191,7 +191,7 @@ WidePainting widen(StrokePainting painting, const StereoPair& photographs, const
   for (Layer& layer : painting.layers)
     for (Stroke& stroke : layer.strokes) stroke.views = views;
   std::vector<StrokePainting> outer;
-  for (const float view : {views.first, views.last}) {
+  for (const ViewPosition view : {views.first, views.last}) {
     if (view >= left_eye && view <= right_eye) continue;
     const OuterView seen = outer_view(photographs, geometry, view);
     outer.push_back(plan_occluded_part(seen.picture, seen.disparity, seen.unknown, view, style));
@@ -208,7 +208,7 @@ WidePainting widen(StrokePainting painting, const StereoPair& photographs, const
   return wide;
 }
 
-DrawnView draw(const WidePainting& wide, float view, bool with_disparity) {
+DrawnView draw(const WidePainting& wide, ViewPosition view, bool with_disparity) {
   const Image<float> surface = surface_in(wide.left_disparity, wide.right_disparity, view);
   StrokePainting seen{wide.painting.width, wide.painting.height, wide.painting.canvas_colour,
                       std::vector<Layer>(wide.painting.layers.size())};
@@ -221,9 +221,9 @@ DrawnView draw(const WidePainting& wide, float view, bool with_disparity) {
   return drawn;
 }
 
-std::vector<DrawnView> draw_views(const WidePainting& wide, std::span<const float> positions) {
+std::vector<DrawnView> draw_views(const WidePainting& wide, std::span<const ViewPosition> positions) {
   std::vector<KeyView> keys;
-  for (const float view : {wide.views.first, left_eye, right_eye, wide.views.last})
+  for (const ViewPosition view : {wide.views.first, left_eye, right_eye, wide.views.last})
     if (keys.empty() || view > keys.back().view) keys.push_back({view, {}});
   tbb::parallel_for(std::size_t{0}, keys.size(),
                     [&](std::size_t i) { keys[i].drawn = draw(wide, keys[i].view, true); });

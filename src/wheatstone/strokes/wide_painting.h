@@ -28,11 +28,11 @@ WidePainting widen(StrokePainting painting, const StereoPair& photographs, const
 
 /// Draws a view. A stroke is drawn where none of the scene's surfaces hides its points from there. The few pixels that
 /// no stroke covers, which are counted and told, take the colour of the farther of the painted pixels beside them.
-DrawnView draw(const WidePainting& wide, float view, bool with_disparity = false);
+DrawnView draw(const WidePainting& wide, ViewPosition view, bool with_disparity = false);
 
 /// Draws many views for little more than a few: strokes are drawn for the eyes and the outermost views, and what is
 /// seen of each stroke there is moved to the views between by its disparity (as the fragments of splats are, Hassaine
 /// 2010, sec. 4.5). Positions must lie within the painting's views; one picture for each, in their order.
-std::vector<DrawnView> draw_views(const WidePainting& wide, std::span<const float> positions);
+std::vector<DrawnView> draw_views(const WidePainting& wide, std::span<const ViewPosition> positions);
 
 }  // namespace wheatstone

@@ -14,7 +14,13 @@ namespace wheatstone {
 namespace {
 
 const SyntheticStillOptions still_options{.width = 320, .height = 240, .samples_a_side = 1};
-constexpr ViewRange range{-1.25f, 1.25f};
+std::vector<ViewPosition> positions_at(std::initializer_list<float> eye_separations) {
+  std::vector<ViewPosition> positions;
+  for (const float v : eye_separations) positions.emplace_back(v);
+  return positions;
+}
+
+constexpr ViewRange range{ViewPosition(-1.25f), ViewPosition(1.25f)};
 
 const SyntheticStill& still() {
   static const SyntheticStill made = make_synthetic_still(still_options);
@@ -43,35 +49,39 @@ TEST(WidePainting, ViewsBesideTheEyesAreAsTrueAsTheEyes) {
   StrokePainting naive = planned();
   for (Layer& layer : naive.layers)
     for (Stroke& stroke : layer.strokes) stroke.views = range;
-  for (const float view : {-1.25f, -0.8f, 0.f, 0.3f, 1.25f}) {
+  for (const float position : {-1.25f, -0.8f, 0.f, 0.3f, 1.25f}) {
+    const ViewPosition view(position);
     const Image<Rgb8> truth = make_synthetic_view(still_options, view).picture;
     const double ours = rms(draw(wide(), view).picture, truth);
-    EXPECT_LT(ours, 1.35 * eye) << view;
-    if (std::abs(view) < range.last) continue;
-    EXPECT_GT(rms(draw(naive, view).picture, truth), 1.3 * ours) << view;
+    EXPECT_LT(ours, 1.35 * eye) << position;
+    if (view > range.first && view < range.last) continue;
+    EXPECT_GT(rms(draw(naive, view).picture, truth), 1.3 * ours) << position;
   }
 }
 
 TEST(WidePainting, NoViewIsLeftBare) {
-  for (const float view : {-1.25f, -0.9f, 0.f, 0.7f, 1.25f}) EXPECT_LT(draw(wide(), view).bare_share, 0.002) << view;
-  const std::vector<float> positions{-1.25f, -1.f, -0.2f, 0.2f, 0.6f, 1.1f};
+  for (const float position : {-1.25f, -0.9f, 0.f, 0.7f, 1.25f})
+    EXPECT_LT(draw(wide(), ViewPosition(position)).bare_share, 0.002) << position;
+  const std::vector<ViewPosition> positions = positions_at({-1.25f, -1.f, -0.2f, 0.2f, 0.6f, 1.1f});
   for (const DrawnView& view : draw_views(wide(), positions)) EXPECT_LT(view.bare_share, 0.004);
 }
 
 TEST(WidePainting, ManyViewsAreWhatStrokesDrawnForEachWouldBe) {
-  const std::vector<float> positions{-1.25f, -0.9f, -0.5f, -0.2f, 0.f, 0.4f, 0.8f, 1.25f};
+  const std::vector<ViewPosition> positions = positions_at({-1.25f, -0.9f, -0.5f, -0.2f, 0.f, 0.4f, 0.8f, 1.25f});
   const std::vector<DrawnView> many = draw_views(wide(), positions);
   ASSERT_EQ(many.size(), positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Image<Rgb8> one = draw(wide(), positions[i]).picture;
-    EXPECT_LT(rms(many[i].picture, one), 7) << positions[i];
+    EXPECT_LT(rms(many[i].picture, one), 7) << positions[i].eye_separations();
     // A view that is a quarter of an eye separation off is far worse.
-    EXPECT_GT(rms(many[i].picture, draw(wide(), positions[i] - std::copysign(0.25f, positions[i])).picture), 10);
+    const float position = positions[i].eye_separations();
+    const ViewPosition beside(position - std::copysign(0.25f, position));
+    EXPECT_GT(rms(many[i].picture, draw(wide(), beside).picture), 10);
   }
 }
 
 TEST(WidePainting, TheSameOnAnyNumberOfThreads) {
-  const std::vector<float> positions{-0.7f, 0.1f, 1.f};
+  const std::vector<ViewPosition> positions = positions_at({-0.7f, 0.1f, 1.f});
   const std::vector<DrawnView> many = draw_views(wide(), positions);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const std::vector<DrawnView> alone =

@@ -120,7 +120,7 @@ struct FilmFrame {
   View left;
 
   FilmFrame(const Shot& shot, const SyntheticFilmOptions& options, int frame)
-      : scene(scene_at(shot, frame)), cameras(cameras_at(options, frame)), left(scene, cameras, -0.5f) {}
+      : scene(scene_at(shot, frame)), cameras(cameras_at(options, frame)), left(scene, cameras, left_eye) {}
   FilmFrame(const FilmFrame&) = delete;
   FilmFrame& operator=(const FilmFrame&) = delete;
 };
@@ -147,16 +147,16 @@ void find_flow(const FilmFrame& from, const FilmFrame& to, Flow& flow, Image<std
 /// Normally distributed, two at a time (Box and Muller).
 std::pair<float, float> normal_pair(std::uint64_t hashed) {
   const float radius = std::sqrt(-2 * std::log(1 - unit_float(hashed)));
-  const float angle = 2 * std::numbers::pi_v<float> * unit_float(hash({hashed}));
+  const float angle = 2 * std::numbers::pi_v<float> * unit_float(hash_keys({hashed}));
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
 void add_noise(Image<Rgb8>& picture, float deviation, std::uint64_t key) {
   tbb::parallel_for(0, picture.height(), [&](int y) {
     for (int x = 0; x < picture.width(); ++x) {
-      const std::uint64_t hashed = hash({key, static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(x)});
+      const std::uint64_t hashed = hash_keys({key, static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(x)});
       const auto [r, g] = normal_pair(hashed);
-      const float b = normal_pair(hash({hashed, 1})).first;
+      const float b = normal_pair(hash_keys({hashed, 1})).first;
       const auto noisy = [&](std::uint8_t value, float noise) {
         const float sum = static_cast<float>(value) + deviation * noise;
         return static_cast<std::uint8_t>(std::lround(std::clamp(sum, 0.f, 255.f)));
@@ -197,7 +197,7 @@ SyntheticFilmFrame make_synthetic_film_frame(const SyntheticFilmOptions& options
   const int first_of_shot = second ? cut : 0, end_of_shot = second || cut == 0 ? options.frames : cut;
   const Shot shot = make_shot(options.still.seed + (second ? 1 : 0), options.motion);
   const FilmFrame now(shot, options, frame - first_of_shot);
-  const View right(now.scene, now.cameras, 0.5f);
+  const View right(now.scene, now.cameras, right_eye);
   const int samples = options.still.samples_a_side, width = now.cameras.width, height = now.cameras.height;
 
   SyntheticFilmFrame result;
@@ -220,7 +220,7 @@ SyntheticFilmFrame make_synthetic_film_frame(const SyntheticFilmOptions& options
 
   if (options.noise > 0) {
     const auto key = [&](std::uint64_t eye) {
-      return hash({options.still.seed, static_cast<std::uint64_t>(frame), eye});
+      return hash_keys({options.still.seed, static_cast<std::uint64_t>(frame), eye});
     };
     add_noise(result.pictures.left, options.noise, key(0));
     add_noise(result.pictures.right, options.noise, key(1));

@@ -59,7 +59,7 @@ Cameras make_cameras(const SyntheticStillOptions& options) {
 SyntheticStill make_synthetic_still(const SyntheticStillOptions& options) {
   const still::Cameras cameras = still::make_cameras(options);
   const still::Scene scene = still::compose_still(options.seed);
-  const still::View left(scene, cameras, -0.5f), right(scene, cameras, 0.5f);
+  const still::View left(scene, cameras, left_eye), right(scene, cameras, right_eye);
   SyntheticStill result;
   SyntheticView of_left = still::render(scene, cameras, left, options.samples_a_side);
   SyntheticView of_right = still::render(scene, cameras, right, options.samples_a_side);
@@ -71,7 +71,7 @@ SyntheticStill make_synthetic_still(const SyntheticStillOptions& options) {
   return result;
 }
 
-SyntheticView make_synthetic_view(const SyntheticStillOptions& options, float view) {
+SyntheticView make_synthetic_view(const SyntheticStillOptions& options, ViewPosition view) {
   const still::Cameras cameras = still::make_cameras(options);
   const still::Scene scene = still::compose_still(options.seed);
   return still::render(scene, cameras, still::View(scene, cameras, view), options.samples_a_side);

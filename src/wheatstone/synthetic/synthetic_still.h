@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "wheatstone/depth/view_position.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
@@ -35,7 +36,7 @@ struct SyntheticView {
 /// give the same bytes on any number of threads. Throws Error{wrong_usage} for sizes or ranges that make no sense.
 SyntheticStill make_synthetic_still(const SyntheticStillOptions& options = {});
 
-/// The same still life from any view position: the left eye is −½, the cyclopean view 0, the right eye ½.
-SyntheticView make_synthetic_view(const SyntheticStillOptions& options, float view);
+/// The same still life from any view position.
+SyntheticView make_synthetic_view(const SyntheticStillOptions& options, ViewPosition view);
 
 }  // namespace wheatstone

@@ -93,7 +93,7 @@ TEST(SyntheticStill, OcclusionAgreesWithBruteForce) {
     options.width *= finer;
     options.height *= finer;
     options.samples_a_side = 1;
-    const Image<float> fine = make_synthetic_view(options, 0.5f).disparity;
+    const Image<float> fine = make_synthetic_view(options, right_eye).disparity;
     int undecided = 0, hidden = 0, wrong = 0;
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
@@ -125,7 +125,7 @@ TEST(SyntheticStill, OcclusionAgreesWithBruteForce) {
 TEST(SyntheticStill, CentralViewLiesHalfWay) {
   const SyntheticStillOptions options = small(2);
   const SyntheticStill still = make_synthetic_still(options);
-  const SyntheticView central = make_synthetic_view(options, 0);
+  const SyntheticView central = make_synthetic_view(options, central_view);
   // x(−½) = x(0) + ½ d, and the left view knows the same disparity there.
   const auto seen = [&](int x, int y) {
     const int there = static_cast<int>(std::floor(static_cast<float>(x) + 0.5f + 0.5f * central.disparity(x, y)));
@@ -138,7 +138,7 @@ TEST(SyntheticStill, CentralViewLiesHalfWay) {
 
 TEST(SyntheticStill, EyesAreViewsAtHalfADisparity) {
   const SyntheticStill still = make_synthetic_still(small());
-  const SyntheticView left = make_synthetic_view(small(), -0.5f), right = make_synthetic_view(small(), 0.5f);
+  const SyntheticView left = make_synthetic_view(small(), left_eye), right = make_synthetic_view(small(), right_eye);
   EXPECT_EQ(left.picture, still.pictures.left);
   EXPECT_EQ(left.disparity, still.geometry.left_disparity);
   EXPECT_EQ(right.picture, still.pictures.right);
@@ -147,7 +147,7 @@ TEST(SyntheticStill, EyesAreViewsAtHalfADisparity) {
 TEST(SyntheticStill, DisparitiesHaveTheRangeAskedFor) {
   const auto range = [](SyntheticStillOptions options) {
     options.samples_a_side = 1;
-    const SyntheticView view = make_synthetic_view(options, -0.5f);
+    const SyntheticView view = make_synthetic_view(options, left_eye);
     const auto [least, largest] = std::minmax_element(view.disparity.pixels().begin(), view.disparity.pixels().end());
     return std::pair{*least, *largest};
   };
@@ -171,9 +171,9 @@ TEST(SyntheticStill, ConvergenceOnlyShiftsTheViews) {
   SyntheticStillOptions options = small();
   options.largest_disparity_px = 26;
   options.least_disparity_px = 2;
-  const SyntheticView parallel = make_synthetic_view(options, -0.5f);
+  const SyntheticView parallel = make_synthetic_view(options, left_eye);
   options.converged = true;  // by 14 px in all: 7 an eye
-  const SyntheticView converged = make_synthetic_view(options, -0.5f);
+  const SyntheticView converged = make_synthetic_view(options, left_eye);
   for (int y = 0; y < 240; y += 7)
     for (int x = 0; x < 300; x += 5)
       ASSERT_NEAR(parallel.disparity(x + 7, y) - 14, converged.disparity(x, y), 0.02) << x << ", " << y;
@@ -183,7 +183,8 @@ TEST(SyntheticStill, ATwiceLargerPictureShowsTheSameScene) {
   SyntheticStillOptions large = small();
   large.width = 640;
   large.height = 480;
-  const SyntheticView once = make_synthetic_view(small(), 0), twice = make_synthetic_view(large, 0);
+  const SyntheticView once = make_synthetic_view(small(), central_view),
+                      twice = make_synthetic_view(large, central_view);
   int agree = 0;
   double colour_difference = 0;
   for (int y = 0; y < 240; ++y) {
@@ -199,7 +200,7 @@ TEST(SyntheticStill, ATwiceLargerPictureShowsTheSameScene) {
 }
 
 TEST(SyntheticStill, HasTextureWhereverAMatcherLooks) {
-  const Image<Rgb8> picture = make_synthetic_view(small(), -0.5f).picture;
+  const Image<Rgb8> picture = make_synthetic_view(small(), left_eye).picture;
   int flat = 0, windows = 0;
   for (int y = 0; y + 9 <= 240; y += 9) {
     for (int x = 0; x + 9 <= 320; x += 9) {
@@ -216,8 +217,9 @@ TEST(SyntheticStill, HasTextureWhereverAMatcherLooks) {
 }
 
 TEST(SyntheticStill, TheSeedDecides) {
-  EXPECT_EQ(make_synthetic_view(small(5), 0).picture, make_synthetic_view(small(5), 0).picture);
-  const SyntheticView one = make_synthetic_view(small(5), 0), other = make_synthetic_view(small(6), 0);
+  EXPECT_EQ(make_synthetic_view(small(5), central_view).picture, make_synthetic_view(small(5), central_view).picture);
+  const SyntheticView one = make_synthetic_view(small(5), central_view),
+                      other = make_synthetic_view(small(6), central_view);
   int differ = 0, moved = 0;
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x) {
@@ -244,7 +246,7 @@ TEST(SyntheticStill, EveryPixelHasAFiniteDisparityAtAnyAspect) {
     SyntheticStillOptions options;
     options.width = width;
     options.height = height;
-    const SyntheticView view = make_synthetic_view(options, 0.5f);
+    const SyntheticView view = make_synthetic_view(options, right_eye);
     EXPECT_TRUE(std::ranges::all_of(view.disparity.pixels(), [](float d) { return std::isfinite(d); }));
   }
 }

@@ -70,7 +70,7 @@ Rgb8 render_pixel(const Scene& scene, const Cameras& cameras, const View& view, 
 
 }  // namespace
 
-View::View(const Scene& scene, const Cameras& cameras, float position)
+View::View(const Scene& scene, const Cameras& cameras, ViewPosition position)
     : scene_(&scene),
       cameras_(&cameras),
       position_(position),
@@ -103,7 +103,7 @@ void View::enter(int object) {
   const float depth = dot(to, cameras_->forward), aside = dot(to, cameras_->right), r = o.bound_radius;
   float left = 0, right = static_cast<float>(cameras_->width), top = 0, bottom = static_cast<float>(cameras_->height);
   if (depth > 1.5f * r) {
-    const float x = 0.5f * right + position_ * cameras_->shift_px + cameras_->focal_px * aside / depth;
+    const float x = 0.5f * right + (position_ - central_view) * cameras_->shift_px + cameras_->focal_px * aside / depth;
     const float y = 0.5f * bottom + cameras_->focal_px * dot(to, cameras_->down) / depth;
     const float off_axis = std::max(std::abs(aside), std::abs(dot(to, cameras_->down))) / depth;
     const float reach = cameras_->focal_px * r * (1 + off_axis) / (depth - r) + 1;

@@ -20,11 +20,11 @@ struct Cameras {
   float focal_px, baseline, shift_px;
   Vec3 down, forward;  ///< of the picture
   Vec3 right{1, 0, 0};
-  Vec3 eye = cyclopean_eye;  ///< of view 0
+  Vec3 eye = cyclopean_eye;  ///< of the central view
 
-  Vec3 eye_of(float view) const { return eye + right * (view * baseline); }
-  Ray ray(float x, float y, float view) const {
-    const float u = (x - 0.5f * static_cast<float>(width) - view * shift_px) / focal_px;
+  Vec3 eye_of(ViewPosition view) const { return eye + right * ((view - central_view) * baseline); }
+  Ray ray(float x, float y, ViewPosition view) const {
+    const float u = (x - 0.5f * static_cast<float>(width) - (view - central_view) * shift_px) / focal_px;
     const float w = (y - 0.5f * static_cast<float>(height)) / focal_px;
     return {eye_of(view), right * u + down * w + forward};
   }
@@ -35,10 +35,10 @@ struct Cameras {
   struct Sight {
     float x, y, depth;
   };
-  Sight sight(Vec3 point, float view) const {
+  Sight sight(Vec3 point, ViewPosition view) const {
     const Vec3 to = point - eye_of(view);
     const float depth = dot(to, forward), scale = focal_px / depth;
-    return {0.5f * static_cast<float>(width) + view * shift_px + scale * dot(to, right),
+    return {0.5f * static_cast<float>(width) + (view - central_view) * shift_px + scale * dot(to, right),
             0.5f * static_cast<float>(height) + scale * dot(to, down), depth};
   }
 };
@@ -49,9 +49,9 @@ Cameras make_cameras(const SyntheticStillOptions& options);
 /// One eye's view of the scene: which objects may be met in which tile of its picture. Borrows both.
 class View {
  public:
-  View(const Scene& scene, const Cameras& cameras, float position);
+  View(const Scene& scene, const Cameras& cameras, ViewPosition position);
 
-  float position() const { return position_; }
+  ViewPosition position() const { return position_; }
   /// What the ray through a place of the picture meets first; object −1 where there is nothing.
   Hit look(float x, float y) const;
   /// True where the point seen at (x, y) in that depth is hidden behind something, or (x, y) is outside the picture.
@@ -62,7 +62,7 @@ class View {
 
   const Scene* scene_;
   const Cameras* cameras_;
-  float position_;
+  ViewPosition position_;
   int columns_, rows_;
   std::vector<std::vector<int>> tiles_;
 };

@@ -39,7 +39,9 @@ struct Lattice {
 Waves density_waves(const Lattice& lattice, double redshift, std::uint64_t seed) {
   const int side = lattice.side;
   Grid field(lattice.cells());
-  tbb::parallel_for(std::size_t{0}, field.size(), [&](std::size_t i) { field[i] = normal(hash({seed, noise, i})); });
+  tbb::parallel_for(std::size_t{0}, field.size(), [&](std::size_t i) {
+    field[i] = normal(hash_keys({seed, noise, i}));
+  });
   Waves waves(lattice.waves());
   const fftwf_plan plan = fftwf_plan_dft_r2c_3d(side, side, side, field.data(),
                                                 reinterpret_cast<fftwf_complex*>(waves.data()), FFTW_ESTIMATE);
@@ -149,7 +151,7 @@ std::array<float, 3> SyntheticUniverse::State::place(std::uint64_t particle) con
   std::array<float, 3> at{};
   const std::array<std::uint64_t, 3> index{cell / (side * side), cell / side % side, cell % side};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float shaken = 0.5f + 0.8f * (unit_float(hash({options.seed, jitter, particle, axis})) - 0.5f);
+    const float shaken = 0.5f + 0.8f * (unit_float(hash_keys({options.seed, jitter, particle, axis})) - 0.5f);
     at[axis] = (static_cast<float>(index[axis]) + shaken) * scale;
   }
   const Corners here = corners(at, field.side);
@@ -234,7 +236,7 @@ Cloud SyntheticUniverse::next(std::size_t most) {
       }
       const float density = std::max(sample(state.density, corners(at, state.field.side)), 0.02f);
       cloud.density[i] = density * static_cast<float>(mean_density);
-      cloud.temperature[i] = temperature_of(density, hash({state.options.seed, heat, particle}));
+      cloud.temperature[i] = temperature_of(density, hash_keys({state.options.seed, heat, particle}));
       // A ball that holds 32 neighbours.
       const double volume = 32 * mass / cloud.density[i];
       cloud.smoothing_length[i] = static_cast<float>(std::cbrt(volume * 3 / (4 * std::numbers::pi)));
