@@ -1,4 +1,4 @@
-# The short ways in. Each sees to its packages and its build first; what is already there is left alone.
+# The most common tasks. Each target first installs missing packages and builds what it needs.
 .PHONY: build test demo bench format lint fuzz configured
 
 build: configured
