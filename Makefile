@@ -1,11 +1,14 @@
 # The most common tasks. Each target first installs missing packages and builds what it needs.
-.PHONY: build test demo bench format lint fuzz configured
+.PHONY: build test test-long demo bench format lint fuzz configured
 
 build: configured
 	@cmake --build --preset release
 
 test: build
 	@ctest --preset release
+
+test-long: build
+	@ctest --preset release-long
 
 demo: configured
 	@cmake --build --preset release --target wheatstone_cli

@@ -14,14 +14,18 @@ target_compile_options(wheatstone_warnings INTERFACE
   -Wno-missing-field-initializers)
 
 # A test program is two entries of ctest, each of which runs every second test: its libraries are loaded twice, not once
-# a test, and both processors have work.
+# a test, and both processors have work. What takes long by nature (random runs, real photographs and films of full size)
+# is in suites whose names end in "Long": `make test` leaves them out, `make test-long` runs them and nothing else.
 function(wheatstone_add_gtest name target)
   foreach(shard 1 2)
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND ${target})
     set_tests_properties(${name}.${shard} PROPERTIES
-      TIMEOUT 900 ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
+      TIMEOUT 900 ENVIRONMENT "GTEST_FILTER=-*Long.*;GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
   endforeach()
+  add_test(NAME ${name}.long COMMAND ${target})
+  set_tests_properties(${name}.long PROPERTIES
+    LABELS long TIMEOUT 1800 ENVIRONMENT "GTEST_FILTER=*Long.*;GTEST_BRIEF=1")
 endfunction()
 
 function(wheatstone_room room)

@@ -82,7 +82,7 @@ class Workplace {
   TemporaryFolder folder_;
 };
 
-TEST(RotoscopeResume, KilledAtAnyMomentTheFilmIsTheSame) {
+TEST(RotoscopeResumeLong, KilledAtAnyMomentTheFilmIsTheSame) {
   const Workplace work;
   ASSERT_EQ(work.run("whole.mp4").exit_code, 0);
   const std::vector<Frame> undisturbed = frames_of(work / "whole.mp4");

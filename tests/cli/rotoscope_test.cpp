@@ -277,7 +277,7 @@ TEST(RotoscopeCommand, AFilmOfOneFrameIsPainted) {
 
 // The address sanitizer keeps what was freed, and takes minutes for large pictures.
 #ifndef __SANITIZE_ADDRESS__
-TEST(RotoscopeCommand, MemoryDoesNotGrowWithTheFilm) {
+TEST(RotoscopeCommandLong, MemoryDoesNotGrowWithTheFilm) {
   const TemporaryFolder folder;
   put_bytes(folder / "broad.toml", "radii = [24, 12]\n");
   const auto peak = [&](int frames) {
@@ -299,7 +299,7 @@ TEST(RotoscopeCommand, MemoryDoesNotGrowWithTheFilm) {
   EXPECT_LT(of_long, 1.05 * of_short);
 }
 
-TEST(RotoscopeCommand, PaintsRealFilms) {
+TEST(RotoscopeCommandLong, PaintsRealFilms) {
   const fs::path films = shared_data() / "video";
   if (!fs::exists(films / "mary_sbs.mp4") || !fs::exists(films / "tokyo_walk_mono.mp4"))
     GTEST_SKIP() << "the real films are not there";

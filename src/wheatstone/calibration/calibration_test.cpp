@@ -158,7 +158,7 @@ TEST(FindCheckerboard, RefusesBoardsThatAreNone) {
   expect_error(ErrorKind::wrong_usage, "0 mm", [&] { find_checkerboard(blank, {9, 6, 0}); });
 }
 
-TEST(Calibrate, RectifiesTheRigOfTheSharedPhotographs) {
+TEST(CalibrateLong, RectifiesTheRigOfTheSharedPhotographs) {
   const std::filesystem::path folder = shared_data() / "stereo" / "calibration";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder.string();
   std::vector<PictureFiles> files;

@@ -22,10 +22,16 @@ SyntheticFilmOptions small(float noise = 0) {
   return options;
 }
 
-std::vector<SyntheticFilmFrame> film_of(const SyntheticFilmOptions& options) {
+std::vector<SyntheticFilmFrame> first_frames(const SyntheticFilmOptions& options, int count) {
   std::vector<SyntheticFilmFrame> film;
-  for (int i = 0; i < options.frames; ++i) film.push_back(make_synthetic_film_frame(options, i));
+  for (int i = 0; i < count; ++i) film.push_back(make_synthetic_film_frame(options, i));
   return film;
+}
+
+/// Six frames with a cut before the fourth, without noise.
+const std::vector<SyntheticFilmFrame>& small_film() {
+  static const std::vector<SyntheticFilmFrame> made = first_frames(small(), small().frames);
+  return made;
 }
 
 FramePair true_pair(const SyntheticFilmFrame& first, const SyntheticFilmFrame& second) {
@@ -66,7 +72,7 @@ double noise_gain(const std::vector<SyntheticFilmFrame>& source) {
 }
 
 TEST(FilmMeasures, TheSourceItselfHasAlmostNoErrorAlongItsTrueFlow) {
-  const std::vector<SyntheticFilmFrame> source = film_of(small());
+  const std::vector<SyntheticFilmFrame>& source = small_film();
   const TemporalError error = error_of(source, source);
   EXPECT_EQ(error.pairs(), 4);  // of five, one is the cut
   EXPECT_GT(error.compared_share(), 0.8);
@@ -87,13 +93,14 @@ TEST(FilmMeasures, TheSourceItselfHasAlmostNoErrorAlongItsTrueFlow) {
 }
 
 TEST(FilmMeasures, NoiseAFrameAddsWhatItMust) {
-  const std::vector<SyntheticFilmFrame> source = film_of(small());
+  constexpr int frames = 3;
+  const std::vector<SyntheticFilmFrame> source(small_film().begin(), small_film().begin() + frames);
   const double clean = error_of(source, source).mean(), gain = noise_gain(source);
   EXPECT_GT(gain, 1.25);
   EXPECT_LT(gain, 2);
   for (const float deviation : {4.f, 8.f}) {
     const double sigma = deviation / 255;
-    const double added = error_of(film_of(small(deviation)), source).mean() - clean;
+    const double added = error_of(first_frames(small(deviation), frames), source).mean() - clean;
     EXPECT_NEAR(added / (gain * sigma * sigma), 1, 0.08) << deviation;  // some is cut off at black and white
   }
 }
@@ -132,7 +139,7 @@ TEST(FilmMeasures, CountsOnlyWhatIsMarked) {
 }
 
 TEST(FilmMeasures, TheFlowIsFoundWhereItIsNotGiven) {
-  const std::vector<SyntheticFilmFrame> source = film_of(small());
+  const std::vector<SyntheticFilmFrame>& source = small_film();
   TemporalError estimated;
   for (std::size_t i = 0; i + 1 < source.size(); ++i) {
     const FramePair pair = relate_frames(source[i].pictures.left, source[i + 1].pictures.left);
