@@ -73,19 +73,19 @@ class ReliefBand {
 
   void add(const FlatLayer& layer, const FlatStroke& stroke, std::uint64_t seed) {
     const BrushProfile brush(stroke.radius_px);
-    int left = relief_.width(), right = 0;
+    Columns touched{relief_.width(), 0};
     float along = 0;
     const std::uint32_t segments = std::max(stroke.vertex_count, 2u) - 1;
     for (std::uint32_t s = 0; s < segments; ++s) {
       const std::size_t from = stroke.first_vertex + s,
                         to = std::min(s + 1, stroke.vertex_count - 1) + stroke.first_vertex;
-      measure({layer.x[from], layer.y[from]}, {layer.x[to], layer.y[to]}, brush.reach_px, along, left, right);
+      measure({{layer.x[from], layer.y[from]}, {layer.x[to], layer.y[to]}, along}, brush.reach_px, touched);
       along += std::hypot(layer.x[to] - layer.x[from], layer.y[to] - layer.y[from]);
     }
     const int first = std::max(static_cast<int>(std::floor(stroke.top - brush.reach_px)), top_);
     const int end = std::min(static_cast<int>(std::ceil(stroke.bottom + brush.reach_px)) + 1, bottom_);
     for (int y = first; y < end; ++y) {
-      for (int x = left; x < right; ++x) {
+      for (int x = touched.left; x < touched.right; ++x) {
         OnStroke& place = at(x, y);
         const float cover = stroke.opacity * brush.cover(place.distance);
         if (cover > 0) lay(seed, stroke.radius_px, cover, place, relief_(x, y));
@@ -97,6 +97,14 @@ class ReliefBand {
  private:
   struct Point {
     float x, y;
+  };
+  /// Of a stroke's spine; `along` is the length of the spine before it.
+  struct Segment {
+    Point a, b;
+    float along;
+  };
+  struct Columns {
+    int left, right;
   };
 
   OnStroke& at(int x, int y) {
@@ -111,15 +119,17 @@ class ReliefBand {
     height += cover * (own + shows_through * height - height);
   }
 
-  void measure(Point a, Point b, float reach, float along, int& left, int& right) {
+  /// Notes the pixels to which this is the nearest segment so far, and widens `touched` to their columns.
+  void measure(const Segment& segment, float reach, Columns& touched) {
+    const auto [a, b, along] = segment;
     const float dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
     const int first_x = std::max(static_cast<int>(std::floor(std::min(a.x, b.x) - reach)), 0);
     const int end_x = std::min(static_cast<int>(std::ceil(std::max(a.x, b.x) + reach)) + 1, relief_.width());
     const int first_y = std::max(static_cast<int>(std::floor(std::min(a.y, b.y) - reach)), top_);
     const int end_y = std::min(static_cast<int>(std::ceil(std::max(a.y, b.y) + reach)) + 1, bottom_);
     if (first_x >= end_x || first_y >= end_y) return;
-    left = std::min(left, first_x);
-    right = std::max(right, end_x);
+    touched.left = std::min(touched.left, first_x);
+    touched.right = std::max(touched.right, end_x);
     for (int y = first_y; y < end_y; ++y) {
       for (int x = first_x; x < end_x; ++x) {
         const float px = static_cast<float>(x) + 0.5f - a.x, py = static_cast<float>(y) + 0.5f - a.y;

@@ -214,48 +214,54 @@ ViewGroup group_from(std::size_t first, const Compositing& compositing) {
   return group;
 }
 
+/// Where a band of every view goes: into the rows of its picture from `top` on.
+struct BandOfPictures {
+  const ToneMap& map;
+  int top;
+  std::span<const ImageView<Rgb8>> pictures;
+};
+
 template <int taps>
-void composite_group(const SliceBand& slices, const ViewGroup& group, const ToneMap& map, int top,
-                     std::span<const ImageView<Rgb8>> pictures, UnpackedBlock& block) {
+void composite_group(const SliceBand& slices, const ViewGroup& group, const BandOfPictures& to, UnpackedBlock& block) {
   const int planes = slices.planes();
-  const int width = pictures.front().width();
-  const int rows = std::min(slices.rows(), pictures.front().height() - top);
+  const int width = to.pictures.front().width();
+  const int rows = std::min(slices.rows(), to.pictures.front().height() - to.top);
   HWY_ALIGN std::uint8_t bytes[3][block_width];
   for (int row = 0; row < rows; ++row) {
     for (int x = 0; x < width; x += block_width) {
       unpack(slices, row, x, group.reach, block);
       for (std::size_t view = group.first; view < group.end; ++view) {
         const std::span shifts = std::span(group.shifts).subspan((view - group.first) * planes, planes);
-        composite_block<taps>(block, x, shifts, map, bytes);
+        composite_block<taps>(block, x, shifts, to.map, bytes);
         interleave(bytes[0], bytes[1], bytes[2], std::min(block_width, width - x),
-                   pictures[view].row(top + row).data() + x);
+                   to.pictures[view].row(to.top + row).data() + x);
       }
     }
   }
 }
 
 template <int taps>
-void composite_band(const SliceBand& slices, const Compositing& compositing, const ToneMap& map, int top,
-                    std::span<const ImageView<Rgb8>> pictures) {
+void composite_band(const SliceBand& slices, const Compositing& compositing, const BandOfPictures& to) {
   UnpackedBlock block;
   block.values.resize(static_cast<std::size_t>(slices.planes()) * 3 * UnpackedBlock::widest);
   block.first.resize(slices.planes());
-  for (std::size_t view = 0; view < pictures.size();) {
+  for (std::size_t view = 0; view < to.pictures.size();) {
     const ViewGroup group = group_from(view, compositing);
-    composite_group<taps>(slices, group, map, top, pictures, block);
+    composite_group<taps>(slices, group, to, block);
     view = group.end;
   }
 }
 
 void composite_views(const SliceBand& slices, const Compositing& compositing, const ToneMap& map, int top,
                      std::span<const ImageView<Rgb8>> pictures) {
+  const BandOfPictures to{map, top, pictures};
   switch (taps_of(compositing.resampling)) {
     case 1:
-      return composite_band<1>(slices, compositing, map, top, pictures);
+      return composite_band<1>(slices, compositing, to);
     case 2:
-      return composite_band<2>(slices, compositing, map, top, pictures);
+      return composite_band<2>(slices, compositing, to);
     default:
-      return composite_band<4>(slices, compositing, map, top, pictures);
+      return composite_band<4>(slices, compositing, to);
   }
 }
 

@@ -80,29 +80,29 @@ HWY_INLINE void light_row(const Spread& spread, float distance, Vec (&light)[pix
   }
 }
 
-/// Adds rows × pixels to a band, the upper left one at `to`. `fixed_rows` of 0 stands for `rows`.
-template <int fixed_rows, int pixels>
-HWY_INLINE void add_window(const Spread& spread, float distance, const float* row_weights, int rows,
-                           std::ptrdiff_t stride, float* to) {
-  const Floats d;
-  constexpr int vectors = pixels * LightBand::channels / lanes;
-  Vec light[vectors];
-  light_row<pixels>(spread, distance, light);
-  const int end = fixed_rows > 0 ? fixed_rows : rows;
-  HWY_UNROLL(8)
-  for (int row = 0; row < end; ++row, to += stride) {
-    const Vec share = hn::Set(d, row_weights[row]);
-    for (int i = 0; i < vectors; ++i)
-      hn::Store(hn::MulAdd(share, light[i], hn::Load(d, to + i * lanes)), d, to + i * lanes);
-  }
-}
-
 /// The rows that a splat touches. Small splats have windows of four, six or eight rows, moved into the band where they
 /// would stick out: all counts are known, and nothing is guessed wrong.
 struct RowWindow {
   int first, count;
   HWY_ALIGN float weights[most_rows];
 };
+
+/// Adds rows × pixels to a band, the upper left one at `to`. `fixed_rows` of 0 stands for `rows.count`.
+template <int fixed_rows, int pixels>
+HWY_INLINE void add_window(const Spread& spread, float distance, const RowWindow& rows, std::ptrdiff_t stride,
+                           float* to) {
+  const Floats d;
+  constexpr int vectors = pixels * LightBand::channels / lanes;
+  Vec light[vectors];
+  light_row<pixels>(spread, distance, light);
+  const int end = fixed_rows > 0 ? fixed_rows : rows.count;
+  HWY_UNROLL(8)
+  for (int row = 0; row < end; ++row, to += stride) {
+    const Vec share = hn::Set(d, rows.weights[row]);
+    for (int i = 0; i < vectors; ++i)
+      hn::Store(hn::MulAdd(share, light[i], hn::Load(d, to + i * lanes)), d, to + i * lanes);
+  }
+}
 
 HWY_INLINE void find_rows(const Splat& splat, const Spread& spread, int top, int band_rows, RowWindow& rows) {
   const float y = splat.y - static_cast<float>(top) - 0.5f;
@@ -122,13 +122,12 @@ HWY_INLINE void add(const Spread& spread, const RowWindow& rows, float x, LightB
   float* const to = band.row(rows.first) + first * LightBand::channels;
   const float distance = static_cast<float>(first) + 0.5f - x;
   const std::ptrdiff_t stride = band.stride();
-  if (spread.reach < 2) return add_window<4, 8>(spread, distance, rows.weights, 4, stride, to);
-  if (spread.reach < 3) return add_window<6, 12>(spread, distance, rows.weights, 6, stride, to);
-  if (spread.reach < 4) return add_window<8, 12>(spread, distance, rows.weights, 8, stride, to);
+  if (spread.reach < 2) return add_window<4, 8>(spread, distance, rows, stride, to);
+  if (spread.reach < 3) return add_window<6, 12>(spread, distance, rows, stride, to);
+  if (spread.reach < 4) return add_window<8, 12>(spread, distance, rows, stride, to);
   const int columns = static_cast<int>(x + spread.reach + 0.5f) - first;
   for (int column = 0; column < columns; column += 16)
-    add_window<0, 16>(spread, distance + static_cast<float>(column), rows.weights, rows.count, stride,
-                      to + column * LightBand::channels);
+    add_window<0, 16>(spread, distance + static_cast<float>(column), rows, stride, to + column * LightBand::channels);
 }
 
 void deposit_splats(std::span<const Splat> splats, int top, LightBand& band) {

@@ -15,16 +15,18 @@ constexpr std::size_t block_particles = 32768;
 // The widest vector's worth: blocks are at least as long, so that none is read beyond.
 constexpr std::size_t most_lanes = 16;
 
-void take_own_colours(const Cloud& cloud, std::size_t first, std::size_t count, ProjectedBlock& block) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const Rgb8 colour = cloud.colour[first + i];
+void take_own_colours(const Cloud& cloud, ProjectedBlock& block) {
+  for (std::size_t i = 0; i < block.count; ++i) {
+    const Rgb8 colour = cloud.colour[block.first + i];
     block.red[i] = linear_from_srgb(colour.r);
     block.green[i] = linear_from_srgb(colour.g);
     block.blue[i] = linear_from_srgb(colour.b);
   }
 }
 
-void make_room(ProjectedBlock& block, std::size_t count, bool own_colours) {
+void begin_block(std::size_t first, std::size_t count, bool own_colours, ProjectedBlock& block) {
+  block.first = first;
+  block.count = count;
   block.splats.resize(count);
   block.bin.resize(count);
   block.next_bin.resize(count);
@@ -35,7 +37,8 @@ void make_room(ProjectedBlock& block, std::size_t count, bool own_colours) {
 }
 
 /// Counts, then moves each splat to its bin; one that reaches into a second band goes there too.
-void sort_into_bins(const ProjectedBlock& projected, std::size_t count, std::size_t bins, SplatBlock& block) {
+void sort_into_bins(const ProjectedBlock& projected, std::size_t bins, SplatBlock& block) {
+  const std::size_t count = projected.count;
   block.begin.assign(bins + 2, 0);
   std::uint32_t* const ends = block.begin.data() + 1;
   for (std::size_t i = 0; i < count; ++i) {
@@ -109,10 +112,10 @@ std::vector<SplatBlock> order_splats(const Cloud& cloud, const Projection& proje
     const std::size_t first = cloud.size() * b / blocks;
     const std::size_t count = cloud.size() * (b + 1) / blocks - first;
     ProjectedBlock& projected = scratch.local();
-    make_room(projected, count, own_colours);
-    if (own_colours) take_own_colours(cloud, first, count, projected);
-    project_particles(cloud, first, count, projection, window, order, projected);
-    sort_into_bins(projected, count, order.bins(), ordered[b]);
+    begin_block(first, count, own_colours, projected);
+    if (own_colours) take_own_colours(cloud, projected);
+    project_particles(cloud, projection, window, order, projected);
+    sort_into_bins(projected, order.bins(), ordered[b]);
   });
   return ordered;
 }

@@ -91,9 +91,11 @@ HWY_INLINE Vec size_of(const Cloud& cloud, std::size_t i, Vec rank, Vec inverse_
   return hn::Min(hn::Max(size, smallest), largest);
 }
 
-HWY_INLINE Lit light(const Cloud& cloud, std::size_t i, const Placed& placed, const Projection& projection,
+/// Size and colour of the particles from number `in_block` of the block on.
+HWY_INLINE Lit light(const Cloud& cloud, const Placed& placed, const Projection& projection,
                      const ProjectedBlock& block, std::size_t in_block) {
   const Floats d;
+  const std::size_t i = block.first + in_block;
   const SplatStyle& splat_style = projection.splat_style;
   const bool has_density = !cloud.density.empty();
   const Vec log2_density = has_density ? fast_log2(d, hn::LoadU(d, cloud.density.data() + i)) : hn::Zero(d);
@@ -134,9 +136,13 @@ HWY_INLINE void store_halves(Vec values, std::uint16_t* to) {
   hn::StoreU(hn::BitCast(bits, hn::DemoteTo(Halves(), values)), bits, to);
 }
 
-/// Notes the bins of a vector of splats; what is not seen goes to the bin behind the last.
-HWY_INLINE void note_bins(const Placed& placed, Vec size, const Window& window, const SplatOrder& order,
-                          std::uint32_t* bin, std::uint32_t* next_bin) {
+/// The bins of a vector of splats: in the first and in the last band that each reaches into.
+struct Bins {
+  hn::Vec<hn::RebindToUnsigned<Floats>> first, last;
+};
+
+/// What is not seen goes to the bin behind the last.
+HWY_INLINE Bins bins_of(const Placed& placed, Vec size, const Window& window, const SplatOrder& order) {
   const Floats d;
   const Ints di;
   const Vec reach = hn::MulAdd(size, hn::Set(d, 0.5f), hn::Set(d, 0.5f));
@@ -162,22 +168,24 @@ HWY_INLINE void note_bins(const Placed& placed, Vec size, const Window& window, 
     const Vec index = hn::IfThenElse(seen, hn::MulAdd(of_band, parts, part), unseen);
     return hn::BitCast(du, hn::ConvertTo(di, index));
   };
-  hn::StoreU(as_bin(band), du, bin);
-  hn::StoreU(as_bin(next_band), du, next_bin);
+  return {as_bin(band), as_bin(next_band)};
 }
 
-void project(const Cloud& cloud, std::size_t first, std::size_t count, const Projection& projection,
-             const Window& window, const SplatOrder& order, ProjectedBlock& block) {
+void project(const Cloud& cloud, const Projection& projection, const Window& window, const SplatOrder& order,
+             ProjectedBlock& block) {
   const Floats d;
+  const hn::RebindToUnsigned<Floats> du;
   const std::size_t lanes = hn::Lanes(d);
   HWY_ALIGN float x[most_lanes], y[most_lanes], parallax[most_lanes];
   HWY_ALIGN std::uint16_t size[most_lanes], red[most_lanes], green[most_lanes], blue[most_lanes];
-  for (std::size_t i = 0; i < count; i += lanes) {
+  for (std::size_t i = 0; i < block.count; i += lanes) {
     // The last vector starts earlier where the block does not fill it: the same particles again, the same splats.
-    const std::size_t at = std::min(i, count - lanes);
-    const Placed placed = place(cloud, first + at, projection);
-    const Lit lit = light(cloud, first + at, placed, projection, block, at);
-    note_bins(placed, lit.size, window, order, block.bin.data() + at, block.next_bin.data() + at);
+    const std::size_t at = std::min(i, block.count - lanes);
+    const Placed placed = place(cloud, block.first + at, projection);
+    const Lit lit = light(cloud, placed, projection, block, at);
+    const Bins bins = bins_of(placed, lit.size, window, order);
+    hn::StoreU(bins.first, du, block.bin.data() + at);
+    hn::StoreU(bins.last, du, block.next_bin.data() + at);
     hn::StoreU(placed.x, d, x);
     hn::StoreU(placed.y, d, y);
     hn::StoreU(placed.parallax, d, parallax);
@@ -198,9 +206,9 @@ namespace wheatstone {
 
 HWY_EXPORT(project);
 
-void project_particles(const Cloud& cloud, std::size_t first, std::size_t count, const Projection& projection,
-                       const Window& window, const SplatOrder& order, ProjectedBlock& block) {
-  HWY_DYNAMIC_DISPATCH(project)(cloud, first, count, projection, window, order, block);
+void project_particles(const Cloud& cloud, const Projection& projection, const Window& window, const SplatOrder& order,
+                       ProjectedBlock& block) {
+  HWY_DYNAMIC_DISPATCH(project)(cloud, projection, window, order, block);
 }
 
 }  // namespace wheatstone

@@ -78,15 +78,16 @@ Projection make_projection(const Scene& scene, const CloudStatistics& statistics
 std::vector<SplatBlock> order_splats(const Cloud& cloud, const Projection& projection, const Window& window,
                                      const SplatOrder& order);
 
-/// Arrays that the projection fills for one block; all as long.
+/// Arrays that the projection fills for one block of particles, from number `first` of the cloud on; all `count` long.
 struct ProjectedBlock {
+  std::size_t first = 0, count = 0;
   std::vector<Splat> splats;
   std::vector<std::uint32_t> bin, next_bin;  ///< the bins of the first and the last band; the last of all: not seen
   std::vector<float> red, green, blue;       ///< of particles that have colours of their own
 };
 
-/// Projects and lights particles `first` … `first + count − 1`.
-void project_particles(const Cloud& cloud, std::size_t first, std::size_t count, const Projection& projection,
-                       const Window& window, const SplatOrder& order, ProjectedBlock& block);
+/// Projects and lights the block's particles, of which there are at least as many as a vector holds.
+void project_particles(const Cloud& cloud, const Projection& projection, const Window& window, const SplatOrder& order,
+                       ProjectedBlock& block);
 
 }  // namespace wheatstone

@@ -22,9 +22,10 @@ std::vector<std::size_t> shown_views(const FilmFrame& frame) {
   return shown;
 }
 
-/// Draws the views; what strokes left bare in any of them gets dots, and all are drawn again.
-std::vector<DrawnView> draw_covered(const FilmFrame& frame, const std::vector<std::size_t>& shown, const Style& style,
-                                    const CarryOptions& options, StrokeMemory& memory, StrokePainting& painting) {
+/// Draws the views that are shown; what strokes left bare in any of them gets dots, and all are drawn again.
+std::vector<DrawnView> draw_covered(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                                    StrokeMemory& memory, StrokePainting& painting) {
+  const std::vector<std::size_t> shown = shown_views(frame);
   std::vector<DrawnView> drawn(shown.size());
   const auto draw_all = [&] {
     tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
@@ -36,7 +37,7 @@ std::vector<DrawnView> draw_covered(const FilmFrame& frame, const std::vector<st
   bool covered = true;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     if (drawn[i].bare_share == 0) continue;
-    insert_strokes(cover_bare(frame, shown[i], drawn[i].bare, style, options, memory), style, painting.layers.back());
+    insert_strokes(cover_bare(frame, {shown[i], drawn[i].bare}, style, options, memory), style, painting.layers.back());
     covered = false;
   }
   if (!covered) draw_all();
@@ -62,7 +63,7 @@ PaintedFrame paint_strokes(const FilmFrame& frame, const Style& style, const Car
     result.counts = carried.counts;
   }
   const Stopwatch watch(painted.times.rasterising_s);
-  take_pictures(draw_covered(frame, shown_views(frame), style, options, memory, painted.painting), painted);
+  take_pictures(draw_covered(frame, style, options, memory, painted.painting), painted);
   return result;
 }
 

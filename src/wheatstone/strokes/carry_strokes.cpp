@@ -96,14 +96,14 @@ void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_th
   tbb::parallel_for(std::size_t{0}, tracked.tracks.size(), [&](std::size_t i) {
     Stroke& stroke = layer.strokes[i];
     const std::span points = std::span(layer.points).subspan(stroke.first_point, stroke.point_count);
-    StrokeTrack& life = tracked.tracks[i];
+    StrokeTrack& track = tracked.tracks[i];
     const bool fits = move_stroke(motion, now, depth_threshold_px, stroke, points);
     // The order of strokes goes by their disparities: noise must not make them change places.
     constexpr float share_of_new = 0.3f;
     stroke.disparity += share_of_new * (points.front().disparity - stroke.disparity);
     constexpr float rounding_px = 1;
-    const float most_change_px = std::max(options.length_tolerance * life.first_length_px, rounding_px);
-    if (!fits || std::abs(length_px(points) - life.first_length_px) > most_change_px) life.ends = 1;
+    const float most_change_px = std::max(options.length_tolerance * track.first_length_px, rounding_px);
+    if (!fits || std::abs(length_px(points) - track.first_length_px) > most_change_px) track.ends = 1;
   });
 }
 
@@ -112,10 +112,10 @@ float first_shown(bool scene_begins, const CarryOptions& options) {
 }
 
 void fade(const CarryOptions& options, TrackedLayer& tracked) {
-  for (StrokeTrack& life : tracked.tracks) {
-    const bool ends = life.ends != 0;
+  for (StrokeTrack& track : tracked.tracks) {
+    const bool ends = track.ends != 0;
     const float step = 1.f / static_cast<float>(std::max(ends ? options.fade_out_frames : options.fade_in_frames, 1));
-    life.shown = ends ? life.shown - step : std::min(life.shown + step, 1.f);
+    track.shown = ends ? track.shown - step : std::min(track.shown + step, 1.f);
   }
   constexpr float nothing = 1e-4f;
   keep_if(tracked, [&](std::size_t i) { return tracked.tracks[i].shown > nothing; });

@@ -38,8 +38,9 @@ void strike_out(int x, int y, float radius_px, Image<std::uint8_t>& bare) {
 
 }  // namespace
 
-Layer cover_bare(const FilmFrame& frame, std::size_t view, ImageView<const std::uint8_t> bare, const Style& style,
-                 const CarryOptions& options, StrokeMemory& memory) {
+Layer cover_bare(const FilmFrame& frame, const BareView& left_bare, const Style& style, const CarryOptions& options,
+                 StrokeMemory& memory) {
+  const auto [view, bare] = left_bare;
   const SceneView& scene = frame.views[view];
   const ScaledStyle scaled(style, scene.picture.width());
   TrackedLayer& tracked = memory.views[view].back();

@@ -27,41 +27,41 @@ LayerPlanner::LayerPlanner(ImageView<const Rgb8> photograph_, ImageView<const fl
                  ? make_canvas(photograph)
                  : Canvas(photograph.width(), photograph.height(), style.canvas_colour)) {}
 
-LayerSight look(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer) {
+LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer) {
   const float radius = scaled.radii_px[layer], threshold = scaled.depth_threshold_px;
   const bool finest = layer + 1 == static_cast<int>(scaled.radii_px.size());
-  LayerSight sight;
-  tbb::parallel_invoke([&] { sight.reference = make_reference(planner.photograph, radius, style); },
+  LayerInputs inputs{.layer = layer};
+  tbb::parallel_invoke([&] { inputs.reference = make_reference(planner.photograph, radius, style); },
                        [&] {
                          if (!style.depth_test) return;
-                         sight.depth_edges = near_depth_edge(planner.disparity, radius, threshold);
+                         inputs.depth_edges = near_depth_edge(planner.disparity, radius, threshold);
                          if (!finest) return;
-                         sight.edge_distance = distance_to_depth_edge(planner.disparity, threshold, radius + 1);
+                         inputs.edge_distance = distance_to_depth_edge(planner.disparity, threshold, radius + 1);
                          if (planner.avoid_mixed_colours)
-                           sight.mixed_colours = behind_depth_edge(planner.disparity, radius / 2, threshold);
+                           inputs.mixed_colours = behind_depth_edge(planner.disparity, radius / 2, threshold);
                        });
-  return sight;
+  return inputs;
 }
 
-Layer plan_on(const LayerPlanner& planner, const LayerSight& sight, const Style& style, const ScaledStyle& scaled,
-              int layer, ImageView<const std::uint8_t> seeds) {
-  const LayerPlan plan{.reference = sight.reference,
+Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Style& style, const ScaledStyle& scaled,
+              ImageView<const std::uint8_t> seeds) {
+  const LayerPlan plan{.reference = inputs.reference,
                        .canvas = planner.canvas,
                        .disparity = planner.disparity,
                        .seeds = seeds,
                        .view = planner.view,
-                       .radius_px = scaled.radii_px[layer],
-                       .layer = layer,
+                       .radius_px = scaled.radii_px[inputs.layer],
+                       .layer = inputs.layer,
                        .depth_threshold_px = scaled.depth_threshold_px,
-                       .depth_edges = sight.depth_edges,
-                       .edge_distance = sight.edge_distance,
-                       .mixed_colours = sight.mixed_colours};
+                       .depth_edges = inputs.depth_edges,
+                       .edge_distance = inputs.edge_distance,
+                       .mixed_colours = inputs.mixed_colours};
   return plan_layer(plan, style);
 }
 
 Layer plan_on(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer,
               ImageView<const std::uint8_t> seeds) {
-  return plan_on(planner, look(planner, style, scaled, layer), style, scaled, layer, seeds);
+  return plan_on(planner, make_layer_inputs(planner, style, scaled, layer), style, scaled, seeds);
 }
 
 void order_strokes(Layer& strokes, const Style& style, int layer) {

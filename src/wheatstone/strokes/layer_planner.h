@@ -30,19 +30,22 @@ struct LayerPlanner {
   bool avoid_mixed_colours = true;
 };
 
-/// What one layer of one eye looks at, whatever is on the canvas. Of the depth test, all are empty where the style
-/// wants none.
-struct LayerSight {
+/// What one layer of one eye is planned from, whatever is on the canvas. Of the depth test, all are empty where the
+/// style wants none.
+struct LayerInputs {
+  int layer = 0;  ///< number of the layer, from the coarsest, 0
   ReferencePicture reference;
   Image<std::uint8_t> depth_edges, mixed_colours;
   Image<float> edge_distance;
 };
 
-LayerSight look(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer);
+LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer);
 
-/// Plans layer number `layer` of one eye, with strokes that begin only on the seeds, or anywhere where there are none.
-Layer plan_on(const LayerPlanner& planner, const LayerSight& sight, const Style& style, const ScaledStyle& scaled,
-              int layer, ImageView<const std::uint8_t> seeds);
+/// Plans one layer of one eye, with strokes that begin only on the seeds, pixels that are not 0, or anywhere where
+/// `seeds` is empty.
+Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Style& style, const ScaledStyle& scaled,
+              ImageView<const std::uint8_t> seeds);
+/// The same for layer number `layer`, with inputs made for it.
 Layer plan_on(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer,
               ImageView<const std::uint8_t> seeds = {});
 

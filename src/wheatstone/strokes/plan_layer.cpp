@@ -32,6 +32,17 @@ struct Grid {
   int width, height;
 };
 
+/// One of a layer's two passes: the strokes away from depth edges, or those beside them.
+struct Pass {
+  Pass(const LayerPlan& plan_, const Style& style_, Place place_)
+      : plan(plan_), style(style_), place(place_), grid(plan_, style_, place_) {}
+
+  const LayerPlan& plan;
+  const Style& style;
+  Place place;
+  Grid grid;
+};
+
 /// Where on a bare cell a stroke would begin: the jitter of the grid.
 struct Target {
   float x, y;
@@ -47,21 +58,21 @@ bool may_begin(const LayerPlan& plan, Place place, int x, int y) {
 /// How much a stroke is wanted at a pixel; negative: not at all. Among bare pixels, which are all infinitely wrong, the
 /// one nearest to the cell's target is wanted most. A pixel right on a depth edge mixes two surfaces' colours: it is
 /// taken only where nothing else in the cell is bare.
-float desire(const LayerPlan& plan, Place place, float error, int x, int y, const Target& target) {
-  const bool on_edge = place == Place::beside_edge && !plan.mixed_colours.empty() && plan.edge_distance(x, y) < 1;
+float desire(const Pass& pass, float error, int x, int y, const Target& target) {
+  const LayerPlan& plan = pass.plan;
+  const bool on_edge = pass.place == Place::beside_edge && !plan.mixed_colours.empty() && plan.edge_distance(x, y) < 1;
   if (error < bare_error) return on_edge ? -1 : error;
   if (on_edge) return bare_error / 4;
   const float dx = static_cast<float>(x) - target.x, dy = static_cast<float>(y) - target.y;
   return bare_error - std::min(dx * dx + dy * dy, bare_error / 2);
 }
 
-/// Looks through one row of one cell for a better pixel than the seed's.
-void improve_seed(const LayerPlan& plan, Place place, const float* errors, int begin, int end, int y,
-                  const Target& target, Seed& seed) {
-  for (int x = begin; x < end; ++x) {
-    if (!may_begin(plan, place, x, y)) continue;
-    const float error = desire(plan, place, errors[x], x, y, target);
-    if (error > seed.error) seed = {error, x, y};
+/// Looks through one row of one cell for a better pixel than the seed's. `errors` is by column of the picture.
+void improve_seed(const Pass& pass, const RowPart& part, const float* errors, const Target& target, Seed& seed) {
+  for (int x = part.begin; x < part.end; ++x) {
+    if (!may_begin(pass.plan, pass.place, x, part.row)) continue;
+    const float error = desire(pass, errors[x], x, part.row, target);
+    if (error > seed.error) seed = {error, x, part.row};
   }
 }
 
@@ -80,7 +91,8 @@ struct CellRun {
 };
 
 /// The cells of a row in which strokes may begin at all.
-std::vector<CellRun> runs_of_active_cells(const LayerPlan& plan, Place place, const Grid& grid, int row) {
+std::vector<CellRun> runs_of_active_cells(const Pass& pass, int row) {
+  const auto& [plan, style, place, grid] = pass;
   std::vector<CellRun> runs;
   for (int column = 0; column < grid.columns(); ++column) {
     const auto holds = [&](ImageView<const std::uint8_t> mask) {
@@ -99,17 +111,18 @@ std::vector<CellRun> runs_of_active_cells(const LayerPlan& plan, Place place, co
 /// What a random number decides.
 enum Purpose : std::uint64_t { jitter_x, jitter_y, stroke_choices };
 
-std::uint64_t cell_hash(const LayerPlan& plan, const Style& style, Place place, int column, int row, Purpose purpose) {
-  return hash_keys({style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(place),
-                    static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), purpose});
+std::uint64_t cell_hash(const Pass& pass, int column, int row, Purpose purpose) {
+  return hash_keys({pass.style.seed, static_cast<std::uint64_t>(pass.plan.layer),
+                    static_cast<std::uint64_t>(pass.place), static_cast<std::uint64_t>(column),
+                    static_cast<std::uint64_t>(row), purpose});
 }
 
-void add_stroke(const LayerPlan& plan, const Style& style, Place place, const Seed& seed, std::uint64_t random,
-                Layer& layer) {
+void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer& layer) {
+  const auto& [plan, style, place, grid] = pass;
   Stroke stroke;
   stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
   stroke.radius_px = stroke_radius(plan, place, seed);
-  trace_stroke(plan, style, seed, stroke.radius_px, (random & 1) != 0, layer.points);
+  trace_stroke(plan, style, {seed, stroke.radius_px, (random & 1) != 0}, layer.points);
   stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
   stroke.opacity = style.opacity;
   const ReferencePicture& reference = plan.reference;
@@ -123,44 +136,44 @@ void add_stroke(const LayerPlan& plan, const Style& style, Place place, const Se
   if (style.dual) make_dual(plan, layer);
 }
 
-Target target_of(const LayerPlan& plan, const Style& style, Place place, const Grid& grid, int column, int row) {
-  const float u = unit_float(cell_hash(plan, style, place, column, row, jitter_x));
-  const float v = unit_float(cell_hash(plan, style, place, column, row, jitter_y));
-  return {(static_cast<float>(column) + u) * grid.cell_px, (static_cast<float>(row) + v) * grid.cell_px};
+Target target_of(const Pass& pass, int column, int row) {
+  const float u = unit_float(cell_hash(pass, column, row, jitter_x));
+  const float v = unit_float(cell_hash(pass, column, row, jitter_y));
+  return {(static_cast<float>(column) + u) * pass.grid.cell_px, (static_cast<float>(row) + v) * pass.grid.cell_px};
 }
 
 /// The strokes that begin in one row of cells.
-Layer plan_cells(const LayerPlan& plan, const Style& style, Place place, const Grid& grid, int row) {
-  const std::vector<CellRun> runs = runs_of_active_cells(plan, place, grid, row);
+Layer plan_cells(const Pass& pass, int row) {
+  const auto& [plan, style, place, grid] = pass;
+  const std::vector<CellRun> runs = runs_of_active_cells(pass, row);
   Layer layer;
   if (runs.empty()) return layer;
   std::vector<Seed> seeds(grid.columns());
   std::vector<Target> targets(grid.columns());
   for (const CellRun& run : runs)
-    for (int column = run.first; column < run.end; ++column)
-      targets[column] = target_of(plan, style, place, grid, column, row);
+    for (int column = run.first; column < run.end; ++column) targets[column] = target_of(pass, column, row);
 
   std::vector<float> errors(plan.canvas.width);
   for (int y = grid.top(row); y < grid.top(row + 1); ++y) {
     for (const CellRun& run : runs) {
       squared_errors(plan.reference, plan.canvas, {y, grid.left(run.first), grid.left(run.end)}, errors.data());
       for (int column = run.first; column < run.end; ++column)
-        improve_seed(plan, place, errors.data(), grid.left(column), grid.left(column + 1), y, targets[column],
+        improve_seed(pass, {y, grid.left(column), grid.left(column + 1)}, errors.data(), targets[column],
                      seeds[column]);
     }
   }
   const float squared_threshold = style.threshold * style.threshold;
   for (int column = 0; column < grid.columns(); ++column) {
     if (seeds[column].error > squared_threshold)
-      add_stroke(plan, style, place, seeds[column], cell_hash(plan, style, place, column, row, stroke_choices), layer);
+      add_stroke(pass, seeds[column], cell_hash(pass, column, row, stroke_choices), layer);
   }
   return layer;
 }
 
 void plan_place(const LayerPlan& plan, const Style& style, Place place, Layer& layer) {
-  const Grid grid(plan, style, place);
-  std::vector<Layer> rows(grid.rows());
-  tbb::parallel_for(0, grid.rows(), [&](int row) { rows[row] = plan_cells(plan, style, place, grid, row); });
+  const Pass pass(plan, style, place);
+  std::vector<Layer> rows(pass.grid.rows());
+  tbb::parallel_for(0, pass.grid.rows(), [&](int row) { rows[row] = plan_cells(pass, row); });
   for (const Layer& row : rows) append_strokes(row, layer);
 }
 

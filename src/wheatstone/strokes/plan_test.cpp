@@ -151,7 +151,7 @@ TEST(Plan, AStrokeBeginsAtTheLargestErrorOfItsCell) {
 TEST(Plan, StrokesRunAcrossTheGradientWithPointsOneRadiusApart) {
   const Bench bench(horizontal_stripes(200, 80));
   std::vector<ControlPoint> points;
-  trace_stroke(bench.plan(), bench.style, {.x = 100, .y = 40}, 4, false, points);
+  trace_stroke(bench.plan(), bench.style, {{.x = 100, .y = 40}, 4, false}, points);
   ASSERT_GT(points.size(), 4u);
   for (std::size_t i = 1; i < points.size(); ++i) {
     EXPECT_NEAR(std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y), 4, 1e-3);
@@ -178,7 +178,7 @@ TEST(Plan, StrokesEndWhereTheCanvasIsNearerThanTheirColour) {
   // A steady direction to the right is forced by a strong memory of it.
   bench.style.curvature = 0.01f;
   for (const bool backwards : {false, true})
-    trace_stroke(bench.plan(), bench.style, {.x = 90, .y = 20}, 4, backwards, points);
+    trace_stroke(bench.plan(), bench.style, {{.x = 90, .y = 20}, 4, backwards}, points);
   for (const ControlPoint& point : points) EXPECT_LT(point.x, 100 + 2 * 4);
 }
 

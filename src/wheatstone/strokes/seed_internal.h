@@ -13,6 +13,13 @@ struct Seed {
   int x = 0, y = 0;
 };
 
+/// How a stroke sets out from its seed.
+struct StrokeStart {
+  Seed seed;
+  float radius_px = 1;     ///< of the stroke
+  bool backwards = false;  ///< which of the two senses of the first direction it takes
+};
+
 /// The radius of a stroke that begins at a seed: the layer's, or beside a depth edge what fits.
 float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed);
 

@@ -28,28 +28,28 @@ class ViewAtWork {
         reduction_(part_ ? HalfView::reduction : 1),
         scaled_(style, view.picture.width(), static_cast<float>(reduction_)),
         style_(style),
-        easel_(part_ ? part_->photograph.view() : view.picture, part_ ? part_->disparity.view() : view.disparity,
-               view.position, style) {
-    easel_.avoid_mixed_colours = !part_;  // no other eye sees them
+        planner_(part_ ? part_->photograph.view() : view.picture, part_ ? part_->disparity.view() : view.disparity,
+                 view.position, style) {
+    planner_.avoid_mixed_colours = !part_;  // no other eye sees them
   }
 
   /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.
   void plan(int layer, bool scene_begins, const CarryOptions& options, TrackedLayer& tracked) {
-    if (easel_.photograph.empty()) return;
-    const LayerSight sight = look(easel_, style_, scaled_, layer);
-    Image<std::uint8_t> seeds = where_paint_is_wanted(sight);
+    if (planner_.photograph.empty()) return;
+    const LayerInputs inputs = make_layer_inputs(planner_, style_, scaled_, layer);
+    Image<std::uint8_t> seeds = where_paint_is_wanted(inputs);
     if (!tracked.tracks.empty()) {
-      end_wrong_colours(sight, options, tracked);
-      put_on_easel(carried(tracked));
+      end_wrong_colours(inputs, options, tracked);
+      draw_on_canvas(carried(tracked));
       keep_away_from(tracked, layer, seeds);
     }
-    Layer begun = plan_on(easel_, sight, style_, scaled_, layer, seeds);
+    Layer begun = plan_on(planner_, inputs, style_, scaled_, seeds);
     order_strokes(begun, style_, layer);
     Layer whole_size = begun;
     if (part_) resize_strokes(whole_size, static_cast<float>(reduction_));
-    add(whole_size, sight, scene_begins, options, tracked);
+    add(whole_size, inputs, scene_begins, options, tracked);
     const bool finest = layer + 1 == static_cast<int>(scaled_.radii_px.size());
-    if (!finest) rasterise(begun, easel_.view, easel_.canvas);
+    if (!finest) rasterise(begun, planner_.view, planner_.canvas);
   }
 
  private:
@@ -76,35 +76,35 @@ class ViewAtWork {
 
   float depth_threshold_px() const { return scaled_.depth_threshold_px * static_cast<float>(reduction_); }
 
-  ColourFit fit(const LayerSight& sight, const Layer& layer, const Stroke& stroke) const {
+  ColourFit fit(const LayerInputs& inputs, const Layer& layer, const Stroke& stroke) const {
     return colour_fit(
         layer.points_of(stroke), stroke.colour,
-        {sight.reference, easel_.canvas, easel_.disparity, static_cast<float>(reduction_), depth_threshold_px()});
+        {inputs.reference, planner_.canvas, planner_.disparity, static_cast<float>(reduction_), depth_threshold_px()});
   }
 
   /// True where a depth edge came under more than a quarter of a stroke's points, into the inner half of the brush.
-  bool spills(const LayerSight& sight, const Layer& layer, const Stroke& stroke) const {
-    if (sight.edge_distance.empty()) return false;
+  bool spills(const LayerInputs& inputs, const Layer& layer, const Stroke& stroke) const {
+    if (inputs.edge_distance.empty()) return false;
     const std::span<const ControlPoint> points = layer.points_of(stroke);
     const auto reduction = static_cast<float>(reduction_);
     const float least_px = stroke.radius_px / reduction / 2 - 0.5f;
     const auto over_edge = std::ranges::count_if(points, [&](const ControlPoint& point) {
       const int column = static_cast<int>(point.x / reduction), row = static_cast<int>(point.y / reduction);
-      return sight.edge_distance.contains(column, row) && sight.edge_distance(column, row) < least_px;
+      return inputs.edge_distance.contains(column, row) && inputs.edge_distance(column, row) < least_px;
     });
     return 4 * static_cast<std::size_t>(over_edge) > points.size();
   }
 
   /// A stroke whose colour fits worse than at first, or that now makes the picture worse, has stayed behind.
-  void end_wrong_colours(const LayerSight& sight, const CarryOptions& options, TrackedLayer& tracked) const {
+  void end_wrong_colours(const LayerInputs& inputs, const CarryOptions& options, TrackedLayer& tracked) const {
     tbb::parallel_for(std::size_t{0}, tracked.tracks.size(), [&](std::size_t i) {
-      StrokeTrack& life = tracked.tracks[i];
-      if (life.ends != 0) return;
-      const ColourFit now = fit(sight, tracked.layer, tracked.layer.strokes[i]);
-      if (now.difference > life.first_colour_difference + options.colour_tolerance ||
-          now.gain < std::min(life.first_gain, 0.f) - options.gain_tolerance ||
-          spills(sight, tracked.layer, tracked.layer.strokes[i]))
-        life.ends = 1;
+      StrokeTrack& track = tracked.tracks[i];
+      if (track.ends != 0) return;
+      const ColourFit now = fit(inputs, tracked.layer, tracked.layer.strokes[i]);
+      if (now.difference > track.first_colour_difference + options.colour_tolerance ||
+          now.gain < std::min(track.first_gain, 0.f) - options.gain_tolerance ||
+          spills(inputs, tracked.layer, tracked.layer.strokes[i]))
+        track.ends = 1;
     });
   }
 
@@ -120,20 +120,20 @@ class ViewAtWork {
     return layer;
   }
 
-  void put_on_easel(Layer layer) {
-    for (Stroke& stroke : layer.strokes) stroke.views = {easel_.view, easel_.view};
+  void draw_on_canvas(Layer layer) {
+    for (Stroke& stroke : layer.strokes) stroke.views = {planner_.view, planner_.view};
     if (part_) resize_strokes(layer, 1.f / static_cast<float>(reduction_));
-    rasterise(layer, easel_.view, easel_.canvas);
+    rasterise(layer, planner_.view, planner_.canvas);
   }
 
   /// 255 where the coarser layers leave something to do.
-  Image<std::uint8_t> where_paint_is_wanted(const LayerSight& sight) const {
-    const int width = easel_.photograph.width(), height = easel_.photograph.height();
+  Image<std::uint8_t> where_paint_is_wanted(const LayerInputs& inputs) const {
+    const int width = planner_.photograph.width(), height = planner_.photograph.height();
     Image<std::uint8_t> mask(width, height);
     const float squared_threshold = style_.threshold * style_.threshold;
     tbb::parallel_for(0, height, [&](int y) {
       std::vector<float> errors(width);
-      squared_errors(sight.reference, easel_.canvas, {y, 0, width}, errors.data());
+      squared_errors(inputs.reference, planner_.canvas, {y, 0, width}, errors.data());
       for (int x = 0; x < width; ++x)
         mask(x, y) = errors[x] > squared_threshold && (!part_ || part_->seeds(x, y) != 0) ? 255 : 0;
     });
@@ -160,21 +160,21 @@ class ViewAtWork {
     }
     tbb::parallel_for(0, seeds.height(), [&](int y) {
       for (int x = 0; x < seeds.width(); ++x)
-        if (easel_.canvas.coverage(x, y) < 0.5f) seeds(x, y) = wanted(x, y);
+        if (planner_.canvas.coverage(x, y) < 0.5f) seeds(x, y) = wanted(x, y);
     });
   }
 
-  void add(const Layer& begun, const LayerSight& sight, bool scene_begins, const CarryOptions& options,
+  void add(const Layer& begun, const LayerInputs& inputs, bool scene_begins, const CarryOptions& options,
            TrackedLayer& tracked) const {
     tracked.layer.radius_px = begun.radius_px;
     for (const Stroke& stroke : begun.strokes) {
-      StrokeTrack life;
-      life.shown = first_shown(scene_begins, options);
-      life.first_length_px = length_px(begun.points_of(stroke));
-      const ColourFit first = fit(sight, begun, stroke);
-      life.first_colour_difference = first.difference;
-      life.first_gain = first.gain;
-      tracked.tracks.push_back(life);
+      StrokeTrack track;
+      track.shown = first_shown(scene_begins, options);
+      track.first_length_px = length_px(begun.points_of(stroke));
+      const ColourFit first = fit(inputs, begun, stroke);
+      track.first_colour_difference = first.difference;
+      track.first_gain = first.gain;
+      tracked.tracks.push_back(track);
     }
     append_strokes(begun, tracked.layer);
   }
@@ -183,14 +183,14 @@ class ViewAtWork {
   int reduction_;
   ScaledStyle scaled_;
   const Style& style_;
-  LayerPlanner easel_;
+  LayerPlanner planner_;
 };
 
 std::int64_t living_strokes(const StrokeMemory& memory) {
   std::int64_t count = 0;
   for (const std::vector<TrackedLayer>& layers : memory.views)
     for (const TrackedLayer& tracked : layers)
-      count += std::ranges::count_if(tracked.tracks, [](const StrokeTrack& life) { return life.ends == 0; });
+      count += std::ranges::count_if(tracked.tracks, [](const StrokeTrack& track) { return track.ends == 0; });
   return count;
 }
 

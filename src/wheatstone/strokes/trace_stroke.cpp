@@ -77,8 +77,9 @@ bool would_spill(const LayerPlan& plan, float radius_px, bool edgeways, const Co
 
 }  // namespace
 
-void trace_stroke(const LayerPlan& plan, const Style& style, const Seed& seed, float radius_px, bool backwards,
+void trace_stroke(const LayerPlan& plan, const Style& style, const StrokeStart& start,
                   std::vector<ControlPoint>& points) {
+  const Seed& seed = start.seed;
   const Rgb colour = reference_at(plan.reference, seed.x, seed.y);
   const auto width = static_cast<float>(plan.canvas.width), height = static_cast<float>(plan.canvas.height);
   ControlPoint point{static_cast<float>(seed.x) + 0.5f, static_cast<float>(seed.y) + 0.5f,
@@ -103,7 +104,7 @@ void trace_stroke(const LayerPlan& plan, const Style& style, const Seed& seed, f
     if (!direction) return;
     if (last) {
       direction = filtered(*direction, *last, style.curvature);
-    } else if (backwards) {
+    } else if (start.backwards) {
       direction = Direction{-direction->x, -direction->y};
     }
     last = direction;
@@ -111,7 +112,7 @@ void trace_stroke(const LayerPlan& plan, const Style& style, const Seed& seed, f
     ControlPoint next{point.x + plan.radius_px * direction->x, point.y + plan.radius_px * direction->y, 0};
     if (!(next.x >= 0 && next.y >= 0 && next.x < width && next.y < height)) return;
     next.disparity = plan.disparity(static_cast<int>(next.x), static_cast<int>(next.y));
-    if (would_spill(plan, radius_px, edgeways, point, next)) return;
+    if (would_spill(plan, start.radius_px, edgeways, point, next)) return;
     points.push_back(next);
     point = next;
   }

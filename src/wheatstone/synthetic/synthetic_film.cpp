@@ -201,8 +201,8 @@ SyntheticFilmFrame make_synthetic_film_frame(const SyntheticFilmOptions& options
   const int samples = options.still.samples_a_side, width = now.cameras.width, height = now.cameras.height;
 
   SyntheticFilmFrame result;
-  SyntheticView of_left = still::render(now.scene, now.cameras, now.left, samples);
-  SyntheticView of_right = still::render(now.scene, now.cameras, right, samples);
+  SyntheticView of_left = still::render(now.left, samples);
+  SyntheticView of_right = still::render(right, samples);
   result.geometry.left_occlusion = still::occlusion_of(now.cameras, now.left, right, of_left.disparity);
   result.geometry.right_occlusion = still::occlusion_of(now.cameras, right, now.left, of_right.disparity);
   result.geometry.left_disparity = std::move(of_left.disparity);

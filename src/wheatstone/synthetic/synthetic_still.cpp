@@ -61,8 +61,8 @@ SyntheticStill make_synthetic_still(const SyntheticStillOptions& options) {
   const still::Scene scene = still::compose_still(options.seed);
   const still::View left(scene, cameras, left_eye), right(scene, cameras, right_eye);
   SyntheticStill result;
-  SyntheticView of_left = still::render(scene, cameras, left, options.samples_a_side);
-  SyntheticView of_right = still::render(scene, cameras, right, options.samples_a_side);
+  SyntheticView of_left = still::render(left, options.samples_a_side);
+  SyntheticView of_right = still::render(right, options.samples_a_side);
   result.pictures = {std::move(of_left.picture), std::move(of_right.picture)};
   result.geometry.left_disparity = std::move(of_left.disparity);
   result.geometry.right_disparity = std::move(of_right.disparity);
@@ -74,7 +74,7 @@ SyntheticStill make_synthetic_still(const SyntheticStillOptions& options) {
 SyntheticView make_synthetic_view(const SyntheticStillOptions& options, ViewPosition view) {
   const still::Cameras cameras = still::make_cameras(options);
   const still::Scene scene = still::compose_still(options.seed);
-  return still::render(scene, cameras, still::View(scene, cameras, view), options.samples_a_side);
+  return still::render(still::View(scene, cameras, view), options.samples_a_side);
 }
 
 }  // namespace wheatstone

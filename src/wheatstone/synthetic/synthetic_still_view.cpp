@@ -52,8 +52,8 @@ struct PixelSamples {
 
 /// The mean of a pixel's samples, which stand on a sheared grid: each has its own row and column. Where those on the
 /// diagonal meet the same object they are enough.
-Rgb8 render_pixel(const Scene& scene, const Cameras& cameras, const View& view, int x, int y, int samples) {
-  PixelSamples pixel{scene, cameras, view};
+Rgb8 render_pixel(const View& view, int x, int y, int samples) {
+  PixelSamples pixel{view.scene(), view.cameras(), view};
   const float share = 1 / static_cast<float>(samples);
   const auto add = [&](int column, int row) {
     const auto along = [&](int cell, int other) {
@@ -115,11 +115,12 @@ void View::enter(int object) {
       tiles_[static_cast<std::size_t>(row) * columns_ + column].push_back(object);
 }
 
-SyntheticView render(const Scene& scene, const Cameras& cameras, const View& view, int samples_a_side) {
+SyntheticView render(const View& view, int samples_a_side) {
+  const Cameras& cameras = view.cameras();
   SyntheticView result{Image<Rgb8>(cameras.width, cameras.height), Image<float>(cameras.width, cameras.height)};
   tbb::parallel_for(0, cameras.height, [&](int y) {
     for (int x = 0; x < cameras.width; ++x) {
-      result.picture(x, y) = render_pixel(scene, cameras, view, x, y, samples_a_side);
+      result.picture(x, y) = render_pixel(view, x, y, samples_a_side);
       const Hit hit = view.look(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       result.disparity(x, y) =
           hit.object < 0 ? std::numeric_limits<float>::quiet_NaN() : cameras.disparity(hit.distance);

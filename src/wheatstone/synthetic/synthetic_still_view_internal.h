@@ -51,6 +51,8 @@ class View {
  public:
   View(const Scene& scene, const Cameras& cameras, ViewPosition position);
 
+  const Scene& scene() const { return *scene_; }
+  const Cameras& cameras() const { return *cameras_; }
   ViewPosition position() const { return position_; }
   /// What the ray through a place of the picture meets first; object −1 where there is nothing.
   Hit look(float x, float y) const;
@@ -68,9 +70,9 @@ class View {
 };
 
 /// A view's picture, each pixel the mean of samples_a_side² samples, and its exact disparity; NaN where nothing is.
-SyntheticView render(const Scene& scene, const Cameras& cameras, const View& view, int samples_a_side);
+SyntheticView render(const View& view, int samples_a_side);
 
-/// 255 where the point at a pixel's centre is hidden from another view of the same moment or outside its picture.
+/// 255 where the point at a pixel's centre is hidden from another view of the same frame or outside its picture.
 Image<std::uint8_t> occlusion_of(const Cameras& cameras, const View& from, const View& to,
                                  const Image<float>& disparity);
 
