@@ -14,11 +14,25 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wheatstone DESTINATION ${CMAKE_INSTA
   FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+# What each module needs, as the package's configuration reads it.
+set(needs "")
+set(names)
+foreach(target IN LISTS rooms)
+  string(REPLACE "wheatstone_" "" room ${target})
+  list(APPEND names ${room})
+  get_property(libraries GLOBAL PROPERTY WHEATSTONE_LIBRARIES_OF_${room})
+  string(APPEND needs "set(wheatstone_libraries_of_${room} ${libraries})\n")
+endforeach()
+string(REPLACE ";" " " needs "${needs}")
+string(REPLACE ";" " " names "${names}")
+file(WRITE ${PROJECT_BINARY_DIR}/WheatstoneRooms.cmake "set(wheatstone_all_rooms ${names})\n${needs}")
+
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/WheatstoneConfig.cmake.in
   ${PROJECT_BINARY_DIR}/WheatstoneConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/WheatstoneConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
   ${PROJECT_BINARY_DIR}/WheatstoneConfig.cmake
   ${PROJECT_BINARY_DIR}/WheatstoneConfigVersion.cmake
+  ${PROJECT_BINARY_DIR}/WheatstoneRooms.cmake
   ${PROJECT_SOURCE_DIR}/cmake/WheatstoneLibraries.cmake
   DESTINATION ${package_folder})

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs a build, then configures, builds and runs a small project that knows only the installed package.
+# Installs a build, then configures, builds and runs small projects that know only the installed package.
 #
 #   run.sh BUILD_FOLDER SCRATCH_FOLDER BUILD_TYPE CXX_FLAGS
 set -euo pipefail
@@ -16,8 +16,31 @@ if find "$scratch/installed" -name '*_internal.h' -o -name '*_test*' | grep .; t
   exit 1
 fi
 
-cmake -S "$here" -B "$scratch/build" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/installed" \
-  -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" >"$scratch/configure.log"
-cmake --build "$scratch/build"
+# Every public header is in the one that stands for all.
+(cd "$scratch/installed/include" && find wheatstone -name '*.h' ! -name wheatstone.h | sort) >"$scratch/headers.txt"
+sed -n 's/^#include "\(.*\)"$/\1/p' "$scratch/installed/include/wheatstone/wheatstone.h" | sort |
+  diff "$scratch/headers.txt" - || {
+  echo "wheatstone.h and the installed headers differ" >&2
+  exit 1
+}
+
+# build_project SOURCE BUILD_FOLDER CMAKE_OPTION...
+build_project() {
+  cmake -S "$1" -B "$2" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/installed" \
+    -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" "${@:3}" >"$2.log"
+  cmake --build "$2"
+}
+
+build_project "$here" "$scratch/build"
 cd "$scratch" && build/ten_lines
 "$scratch/installed/bin/wheatstone" info "$scratch/picture.png"
+
+# Who draws paintings needs no library that reads pictures, films or particles, nor one that matches: not to configure,
+# to link or to run.
+build_project "$here/drawing" "$scratch/build-drawing" -DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON \
+  -DCMAKE_DISABLE_FIND_PACKAGE_nanoflann=ON
+build-drawing/draw_painting
+if ldd build-drawing/draw_painting | grep -E 'opencv_(dnn|calib3d|ximgproc|video)|libav|hdf5|OpenImageIO|heif'; then
+  echo "drawing needs these libraries" >&2
+  exit 1
+fi

@@ -1,6 +1,4 @@
-#include <wheatstone/marks/painting_file.h>
-#include <wheatstone/pictures/read_image.h>
-#include <wheatstone/pictures/write_image.h>
+#include <wheatstone/wheatstone.h>
 
 int main() {
   wheatstone::Image<wheatstone::Rgb8> picture(32, 20, {200, 40, 20});

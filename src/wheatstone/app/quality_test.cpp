@@ -31,10 +31,13 @@ std::optional<Subject> shared_subject(const std::string& name, std::optional<flo
   return subject;
 }
 
-Subject synthetic_subject() {
-  SyntheticStill still = make_synthetic_still({.width = 640, .height = 480});
-  return {std::move(still.pictures), std::move(still.geometry.left_disparity),
-          std::move(still.geometry.right_disparity)};
+const Subject& synthetic_subject() {
+  static const Subject made = [] {
+    SyntheticStill still = make_synthetic_still({.width = 640, .height = 480});
+    return Subject{std::move(still.pictures), std::move(still.geometry.left_disparity),
+                   std::move(still.geometry.right_disparity)};
+  }();
+  return made;
 }
 
 PaintedPhotograph painted(const Subject& subject, Propagation propagation) {
@@ -51,7 +54,10 @@ void expect_consistent(const Subject& subject) {
   const PairMeasures naive =
       measure_pair(painted(subject, Propagation::independent).painted.pictures, subject.left_disparity);
 
-  EXPECT_LE(ours.painting.difference.mean_absolute, 0.35 * naive.difference.mean_absolute);
+  const double share = ours.painting.difference.mean_absolute / naive.difference.mean_absolute;
+  testing::Test::RecordProperty("difference_of_naive", std::to_string(share));
+  // Reached: .144 and .149. Strokes that start elsewhere, as with another seed, move it by a few hundredths of itself.
+  EXPECT_LE(share, 0.16);
   EXPECT_LE(ours.painting.survival.bad_2, ours.photographs.survival.bad_2 + 0.03);
   EXPECT_GT(naive.survival.bad_2, ours.photographs.survival.bad_2 + 0.10);
 
@@ -62,7 +68,8 @@ void expect_consistent(const Subject& subject) {
   EXPECT_LT(ours.strokes.shape_differs_share, 0.05);
 }
 
-void expect_no_spilling(const Subject& subject) {
+/// `untested_share` is what strokes reach that do not look at depth.
+void expect_no_spilling(const Subject& subject, double untested_share) {
   PaintedPhotograph result = painted(subject, Propagation::strokes);
   const Style style;
   const float threshold = style.depth_threshold_px * style_scale(style, subject.photographs.left.width());
@@ -73,13 +80,16 @@ void expect_no_spilling(const Subject& subject) {
   options.style.depth_test = false;
   options.left_disparity = subject.left_disparity;
   const PaintedPhotograph untested = paint_photograph(subject.photographs, options);
-  // Without the test many do: one in two hundred of all strokes, most of which are nowhere near an edge.
-  EXPECT_GT(spilling_share(untested.painted.painting.layers.back(), untested.geometry, threshold), 0.005);
+  // Without the test many do, of all strokes, most of which are nowhere near an edge.
+  const double spilling = spilling_share(untested.painted.painting.layers.back(), untested.geometry, threshold);
+  testing::Test::RecordProperty("spilling_untested", std::to_string(spilling));
+  EXPECT_GT(spilling, untested_share);
 }
 
 TEST(PaintingQuality, SyntheticStillIsConsistent) { expect_consistent(synthetic_subject()); }
 
-TEST(PaintingQuality, SyntheticStillDoesNotSpill) { expect_no_spilling(synthetic_subject()); }
+// Reached without the depth test: .0091 of some ten thousand strokes, of which the count's own noise is a tenth.
+TEST(PaintingQuality, SyntheticStillDoesNotSpill) { expect_no_spilling(synthetic_subject(), 0.008); }
 
 TEST(PaintingQuality, TeddyIsConsistent) {
   const auto teddy = shared_subject("teddy", 4.f);
@@ -90,7 +100,7 @@ TEST(PaintingQuality, TeddyIsConsistent) {
 TEST(PaintingQuality, TeddyDoesNotSpill) {
   const auto teddy = shared_subject("teddy", 4.f);
   if (!teddy) GTEST_SKIP() << "no shared data: teddy";
-  expect_no_spilling(*teddy);
+  expect_no_spilling(*teddy, 0.023);  // reached: .0257
 }
 
 TEST(PaintingQuality, MotorcycleKeepsItsDepthWithOurOwnMatching) {

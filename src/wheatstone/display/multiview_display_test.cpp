@@ -1,6 +1,7 @@
 // Quilts and lenticular screens.
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 #include <tbb/global_control.h>
 
 #include <array>
@@ -109,6 +110,24 @@ TEST(Lenticular, WholeRowsStayExactAcrossTheWidestScreen) {
     }
     EXPECT_EQ(off, 0) << views;
   }
+}
+
+TEST(Lenticular, RowsAreTheSameWithEveryInstructionSet) {
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    for (const int width : {1, 2, 3, 7, 33, 301}) {
+      const LenticularScreen screen{.width = width, .height = 9, .pitch = 52.1, .slope = 5.9, .center = -0.4};
+      std::vector<std::uint16_t> row(3 * static_cast<std::size_t>(width)), expected;
+      for (const int views : {1, 2, 9, 100, 65535}) {
+        views_of_row(screen, views, 4, row);
+        expected.clear();
+        for (int i = 0; i < 3 * width; ++i)
+          expected.push_back(static_cast<std::uint16_t>(view_of_subpixel(screen, views, i / 3, 4, i % 3)));
+        EXPECT_EQ(row, expected) << hwy::TargetName(target) << ", " << width << " pixels, " << views << " views";
+      }
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST(Lenticular, NineViewsRepeatAfterThreePixelsAndStepByRow) {

@@ -1,6 +1,7 @@
 // The renderers against each other, and against the naive one.
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -87,6 +88,27 @@ TEST(Exact, IsWhatTheNaiveLoopDraws) {
       EXPECT_LT(measure_view(views[v == 0 ? 8 : 0], truth).psnr_db, 40) << "another view must be told apart";
     }
   }
+}
+
+// Projecting, depositing and compositing are compiled for each instruction set; the naive loop is plain C++.
+TEST(EveryInstructionSet, DrawsWhatTheNaiveLoopDraws) {
+  const Cloud cloud = clumps(3001);
+  const Rig rig{.width = 131, .height = 67, .positions = {ViewPosition(-0.5f), ViewPosition(0.1f), ViewPosition(0.5f)}};
+  const Scene scene = scene_of(cloud, rig);
+  const Image<Rgb8> truth = naive_view(cloud, scene, rig, rig.positions[1], 0.5f);
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
+    EXPECT_GT(measure_view(exact[1], truth).psnr_db, 60);
+    EXPECT_LT(measure_view(exact[0], truth).psnr_db, 40) << "another view must be told apart";
+    EXPECT_EQ(views_of(cloud, scene, rig, Method::incremental), exact);
+    for (const SliceFilter filter : {SliceFilter::nearest, SliceFilter::linear, SliceFilter::centroid}) {
+      const double layered = measure_view(views_of(cloud, scene, rig, Method::layered, filter)[1], truth).psnr_db;
+      EXPECT_GT(layered, filter == SliceFilter::nearest ? 35 : 42) << static_cast<int>(filter);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST(Incremental, EqualsExactToTheBit) {

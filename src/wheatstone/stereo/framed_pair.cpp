@@ -40,7 +40,7 @@ Image<float> fitted_disparity(const Image<float>& disparity, const Fitting& fitt
 
 }  // namespace
 
-FramedPair framed(const StereoPair& photographs, const StereoGeometry& geometry, const Frame& frame) {
+FramedPair framed(const StereoPair& photographs, const StereoGeometry& geometry, const ScreenFrame& frame) {
   const int width = photographs.left.width(), height = photographs.left.height();
   const int shift = static_cast<int>(std::lround(frame.zero_parallax_px));
   const int common = width - std::abs(shift);

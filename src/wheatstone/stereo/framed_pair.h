@@ -5,7 +5,7 @@
 namespace wheatstone {
 
 /// How a pair is brought to a screen.
-struct Frame {
+struct ScreenFrame {
   float zero_parallax_px = 0;  ///< disparity that comes to lie on the screen, in pixels of the pair
   int width = 640;             ///< of a view of the screen
   int height = 360;
@@ -23,6 +23,6 @@ struct FramedPair {
 /// Shifts the pictures against each other by whole pixels, so that the wanted disparity becomes 0 to within half a
 /// pixel; takes the part that both show; scales it so that it fills the frame, and crops what is over at the middle.
 /// Throws Error{wrong_usage} where the frame is empty or nothing is left to show.
-FramedPair framed(const StereoPair& photographs, const StereoGeometry& geometry, const Frame& frame);
+FramedPair framed(const StereoPair& photographs, const StereoGeometry& geometry, const ScreenFrame& frame);
 
 }  // namespace wheatstone

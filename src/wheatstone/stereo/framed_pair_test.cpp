@@ -48,7 +48,7 @@ TEST(FramedPair, DisparityGrowsWithThePicture) {
 }
 
 TEST(FramedPair, MarginIsWhatThereIsRoomFor) {
-  const Frame frame{.zero_parallax_px = 0, .width = 60, .height = 40, .margin_px = 20};
+  const ScreenFrame frame{.zero_parallax_px = 0, .width = 60, .height = 40, .margin_px = 20};
   EXPECT_EQ(framed(columns(120, 40, 0), flat(120, 40, 0), frame).margin_px, 20);
   EXPECT_EQ(framed(columns(80, 40, 0), flat(80, 40, 0), frame).margin_px, 10);
   const FramedPair none = framed(columns(60, 60, 0), flat(60, 60, 0), frame);
