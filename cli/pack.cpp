@@ -45,7 +45,7 @@ void run(const Arguments& arguments, const Session& session) {
   const Packing packing = find_packing(arguments.packing, arguments.output);
   ReadViews read = read_views_argument(arguments.input, views_wanted(packing), session);
   const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), arguments);
-  const std::string written = write_packed(packing, arguments.packing, views, arguments.output, session);
+  const std::string written = write_packed({packing, arguments.packing, views, arguments.output, session});
   if (session.json) {
     const nlohmann::ordered_json facts{{"output", written},
                                        {"packing", packing.name},

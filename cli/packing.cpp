@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <filesystem>
 #include <limits>
 #include <string_view>
 #include <vector>
@@ -13,6 +13,7 @@
 #include "stereo_arguments.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
+#include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/multiview_exr.h"
@@ -23,27 +24,13 @@
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/packed_pair.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Named {
-  std::string_view name;
-  PackingKind kind;
-};
-constexpr std::array<Named, 10> plain{{{"mpo", PackingKind::mpo},
-                                       {"jps", PackingKind::jps},
-                                       {"views", PackingKind::views},
-                                       {"wiggle", PackingKind::wiggle},
-                                       {"quilt", PackingKind::quilt},
-                                       {"lenticular", PackingKind::lenticular},
-                                       {"exr", PackingKind::exr},
-                                       {"rgbd", PackingKind::depth_beside},
-                                       {"disparity", PackingKind::disparity},
-                                       {"depth", PackingKind::depth}}};
 
 std::string ending_of(const fs::path& path) {
   std::string ending = path.extension().string();
@@ -52,10 +39,9 @@ std::string ending_of(const fs::path& path) {
 }
 
 std::string all_names() {
-  std::string names = "anaglyph";
-  for (const AnaglyphKind& kind : anaglyph_kinds()) names += fmt::format(", {}", kind.name);
-  for (const std::string_view name : layout_names()) names += fmt::format(", {}", name);
-  for (const Named& named : plain) names += fmt::format(", {}", named.name);
+  std::string names;
+  for (const PackingFormat& format : packing_formats())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
   return names;
 }
 
@@ -67,75 +53,160 @@ QuiltLayout parse_quilt(const std::string& text) {
   return layout;
 }
 
-/// By the name that was typed; nothing where there is none such.
-std::optional<Packing> packing_named(const std::string& name) {
-  if (name == "anaglyph") return Packing{.kind = PackingKind::anaglyph, .name = name, .anaglyph = &anaglyph_kinds()[0]};
-  for (const AnaglyphKind& kind : anaglyph_kinds())
-    if (name == kind.name || (!kind.ffmpeg.empty() && name == kind.ffmpeg))
-      return Packing{.kind = PackingKind::anaglyph, .name = name, .anaglyph = &kind};
-  for (const Named& named : plain)
-    if (name == named.name) return Packing{.kind = named.kind, .name = name};
-  const std::optional<StereoLayout> layout = find_stereo_layout(name);
-  if (!layout || !is_packed(*layout)) return std::nullopt;
-  return Packing{.kind = PackingKind::layout, .name = name, .layout = *layout};
+const PackingFormat* format_named(std::string_view name) {
+  for (const PackingFormat& format : packing_formats())
+    if (name == format.name || (!format.alias.empty() && name == format.alias)) return &format;
+  const std::optional<StereoLayout> layout = find_stereo_layout(name);  // by one of its other names
+  if (!layout || !is_packed(*layout)) return nullptr;
+  return format_named(layout_name(*layout));
 }
 
-std::string name_by_ending(const std::string& output) {
+/// By the output's ending; empty where no format has it.
+std::string_view name_by_ending(const std::string& output) {
   const std::string ending = ending_of(output);
-  if (ending == ".mpo") return "mpo";
-  if (ending == ".jps") return "jps";
-  if (ending == ".gif") return "wiggle";
-  if (ending == ".exr") return "exr";
   if (ending.empty()) return "views";
+  for (const PackingFormat& format : packing_formats())
+    if (format.ending == ending) return format.name;
   return {};
-}
-
-void expect_two(const Packing& packing, std::span<const Image<Rgb8>> views) {
-  if (views.size() != 2)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--to {}: takes two views, but there are {}", packing.name, views.size()));
 }
 
 StereoPair pair_of(std::span<const Image<Rgb8>> views) { return {views[0], views[1]}; }
 
 /// The left view's disparity by matching.
-Image<float> disparity_between(const Packing& packing, std::span<const Image<Rgb8>> views, const Session& session) {
-  const std::string name = fmt::format("--to {}", packing.name);
-  const PreparedPair pair = prepare_named_pair(pair_of(views), {}, name, session);
-  tell_row_warning(pair, name, session);
-  return match(pair.pictures, {}, session.progress).geometry.left_disparity;
+Image<float> disparity_of(const PackingJob& job) {
+  const std::string name = fmt::format("--to {}", job.packing.name);
+  const PreparedPair pair = prepare_named_pair(pair_of(job.views), {}, name, job.session);
+  tell_row_warning(pair, name, job.session);
+  return match(pair.pictures, {}, job.session.progress).geometry.left_disparity;
 }
 
-/// The left view's disparity by matching, or the depth that it means.
-void write_matched(const Packing& packing, const PackingArguments& arguments, std::span<const Image<Rgb8>> views,
-                   const std::string& output, const Session& session) {
-  expect_two(packing, views);
-  Image<float> disparity = disparity_between(packing, views, session);
-  if (packing.kind == PackingKind::depth)
-    for (float& d : disparity.pixels())
-      d = d > 0 ? depth_from_disparity(d, arguments.depth_scale) : std::numeric_limits<float>::quiet_NaN();
-  write_disparity(output, disparity);
+/// A format that is one picture of the views.
+template <class Make>
+auto one_picture(Make make) {
+  return [make](const PackingJob& job) {
+    write_image(job.output, make(job));
+    return job.output;
+  };
 }
 
-Image<Rgb8> one_picture(const Packing& packing, const PackingArguments& arguments, std::span<const Image<Rgb8>> views,
-                        const Session& session) {
-  if (packing.kind == PackingKind::lenticular) return interleave(views, find_lenticular(arguments.screen));
-  expect_two(packing, views);
-  if (packing.kind == PackingKind::anaglyph) return anaglyph(pair_of(views), *packing.anaglyph);
-  if (packing.kind == PackingKind::layout) return put_together(views[0], views[1], packing.layout);
-  return depth_beside(views[0], disparity_between(packing, views, session));
+/// A format that one call writes.
+template <class Write>
+auto one_file(Write write) {
+  return [write](const PackingJob& job) {
+    write(job);
+    return job.output;
+  };
+}
+
+void add_anaglyphs(std::vector<PackingFormat>& formats) {
+  const auto write = [](const AnaglyphKind& kind) {
+    return one_picture([&kind](const PackingJob& job) { return anaglyph(pair_of(job.views), kind); });
+  };
+  formats.push_back({"anaglyph", "", "", 2, write(anaglyph_kinds().front())});
+  for (const AnaglyphKind& kind : anaglyph_kinds()) formats.push_back({kind.name, kind.ffmpeg, "", 2, write(kind)});
+}
+
+void add_layouts(std::vector<PackingFormat>& formats) {
+  for (const LayoutTraits& traits : stereo_layouts()) {
+    if (!is_packed(traits.layout)) continue;
+    formats.push_back({traits.name, traits.ffmpeg, "", 2, one_picture([layout = traits.layout](const PackingJob& job) {
+                         return put_together(job.views[0], job.views[1], layout);
+                       })});
+  }
+}
+
+void add_stereo_files(std::vector<PackingFormat>& formats) {
+  formats.push_back({"mpo", "", ".mpo", 0, one_file([](const PackingJob& job) {
+                       const std::vector<ImageView<const Rgb8>> views(job.views.begin(), job.views.end());
+                       write_mpo(job.output, views, job.arguments.quality);
+                     })});
+  formats.push_back({"jps", "", ".jps", 2, one_file([](const PackingJob& job) {
+                       write_jps(job.output, job.views[0], job.views[1], StereoLayout::right_left,
+                                 job.arguments.quality);
+                     })});
+  formats.push_back(
+      {"exr", "", ".exr", 0, one_file([](const PackingJob& job) { write_multiview_exr(job.output, job.views); })});
+}
+
+void add_many_views(std::vector<PackingFormat>& formats) {
+  formats.push_back({"views", "", "", 0, one_file([](const PackingJob& job) {
+                       write_view_folder(job.views, job.output, job.session.progress);
+                     })});
+  formats.push_back({"wiggle", "", ".gif", 0, one_file([](const PackingJob& job) {
+                       write_wiggle(job.output, job.views, job.arguments.seconds);
+                     })});
+  formats.push_back({"quilt", "", "", 0, [](const PackingJob& job) {
+                       return write_quilt(job.views, *job.packing.quilt, job.packing.aspect, job.output);
+                     }});
+  formats.push_back({"lenticular", "", "", 0,
+                     one_picture([](const PackingJob& job) { return interleave(job.views, *job.packing.screen); })});
+}
+
+void add_matched(std::vector<PackingFormat>& formats) {
+  formats.push_back({"rgbd", "", "", 2,
+                     one_picture([](const PackingJob& job) { return depth_beside(job.views[0], disparity_of(job)); })});
+  formats.push_back({"disparity", "", "", 2,
+                     one_file([](const PackingJob& job) { write_disparity(job.output, disparity_of(job)); })});
+  formats.push_back({"depth", "", "", 2, one_file([](const PackingJob& job) {
+                       Image<float> depth = disparity_of(job);
+                       for (float& d : depth.pixels())
+                         d = d > 0 ? depth_from_disparity(d, job.arguments.depth_scale)
+                                   : std::numeric_limits<float>::quiet_NaN();
+                       write_disparity(job.output, depth);
+                     })});
+}
+
+/// What a display takes: a quilt, or one picture under its lenses.
+void take_display(const PackingArguments& arguments, Packing& packing) {
+  const DisplayPreset& display = find_display(arguments.display);
+  if (display.quilt_columns > 0) {
+    packing.quilt = QuiltLayout{display.quilt_columns, display.quilt_rows};
+    packing.aspect = display.aspect;
+  }
+  if (display.lenses.screen_width_px > 0) packing.screen = lenticular_screen_of(display);
+  if (!packing.quilt && !packing.screen)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--display: {} takes neither quilts nor lenticular pictures; choose a format with --to",
+                            arguments.display));
+}
+
+/// The format's name, as it is typed or follows from the other options.
+std::string chosen_name(const PackingArguments& arguments, const Packing& packing, const std::string& output) {
+  if (!arguments.to.empty()) return arguments.to;
+  if (packing.quilt) return "quilt";
+  if (packing.screen) return "lenticular";
+  const std::string_view name = name_by_ending(output);
+  if (name.empty())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: the ending names no format; choose one with --to: {}", output, all_names()));
+  return std::string(name);
 }
 
 }  // namespace
+
+std::span<const PackingFormat> packing_formats() {
+  static const std::vector<PackingFormat> formats = [] {
+    std::vector<PackingFormat> all;
+    add_anaglyphs(all);
+    add_layouts(all);
+    add_stereo_files(all);
+    add_many_views(all);
+    add_matched(all);
+    return all;
+  }();
+  return formats;
+}
 
 void add_packing_options(CLI::App& command, PackingArguments& arguments) {
   command.add_option("--to", arguments.to,
                      fmt::format("{}; or ffmpeg's names (arcd, sbsl, irl ...). By the output's ending if not given: "
                                  ".mpo, .jps, .gif, .exr, none for views",
                                  all_names()));
-  command.add_option("--screen", arguments.screen, "Lenticular: a screen's name, or its calibration (.json)");
+  command.add_option("--screen", arguments.screen,
+                     "Lenticular: the name of a display with lenses, or its calibration (.json)");
   auto* quilt = command.add_option("--quilt", arguments.quilt, "Quilt: COLUMNSxROWS");
-  command.add_option("--display", arguments.display, "Quilt: of this display")->excludes(quilt);
+  command.add_option("--display", arguments.display, "Quilt or lenticular picture, as this display takes it")
+      ->excludes(quilt);
   command.add_option("--quality", arguments.quality, "Of JPEGs in MPO and JPS")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
@@ -150,83 +221,32 @@ void add_packing_options(CLI::App& command, PackingArguments& arguments) {
 }
 
 Packing find_packing(const PackingArguments& arguments, const std::string& output) {
-  std::string name = arguments.to;
-  if (name.empty() && !(arguments.quilt.empty() && arguments.display.empty())) name = "quilt";
-  if (name.empty() && !arguments.screen.empty()) name = "lenticular";
-  if (name.empty()) name = name_by_ending(output);
-  if (name.empty())
+  Packing packing{.format = nullptr, .name = {}, .quilt = {}, .aspect = 0, .screen = {}};
+  if (!arguments.display.empty()) take_display(arguments, packing);
+  if (!arguments.quilt.empty()) packing.quilt = parse_quilt(arguments.quilt);
+  if (!arguments.screen.empty()) packing.screen = find_lenticular(arguments.screen);
+  packing.name = chosen_name(arguments, packing, output);
+  packing.format = format_named(packing.name);
+  if (packing.format == nullptr)
+    throw Error(ErrorKind::wrong_usage, fmt::format("--to: is '{}', expected one of: {}", packing.name, all_names()));
+  if (packing.format->name == "lenticular" && !packing.screen)
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: the name does not tell what to pack, give --to: {}", output, all_names()));
-  std::optional<Packing> found = packing_named(name);
-  if (!found) throw Error(ErrorKind::wrong_usage, fmt::format("--to: is '{}', expected one of: {}", name, all_names()));
-  if (found->kind == PackingKind::lenticular) {
-    if (arguments.screen.empty())
-      throw Error(ErrorKind::wrong_usage,
-                  "--to lenticular: needs --screen, a screen's name or its calibration (.json)");
-    find_lenticular(arguments.screen);
-  }
-  if (found->kind == PackingKind::quilt) {
-    if (!arguments.display.empty()) {
-      const DisplayPreset& display = find_display(arguments.display);
-      if (display.quilt_columns == 0)
-        throw Error(ErrorKind::wrong_usage, fmt::format("--display: {} takes no quilts", arguments.display));
-      found->quilt = QuiltLayout{display.quilt_columns, display.quilt_rows};
-      found->aspect = display.aspect;
-    } else if (!arguments.quilt.empty()) {
-      found->quilt = parse_quilt(arguments.quilt);
-    } else {
-      throw Error(ErrorKind::wrong_usage, "--to quilt: needs --quilt COLUMNSxROWS, or --display NAME");
-    }
-  }
-  return *found;
+                "--to lenticular: needs --screen, the name of a display with lenses or its calibration (.json)");
+  if (packing.format->name == "quilt" && !packing.quilt)
+    throw Error(ErrorKind::wrong_usage, "--to quilt: needs --quilt COLUMNSxROWS, or --display NAME");
+  return packing;
 }
 
 int views_wanted(const Packing& packing) {
-  switch (packing.kind) {
-    case PackingKind::quilt:
-      return packing.quilt->columns * packing.quilt->rows;
-    case PackingKind::lenticular:
-    case PackingKind::views:
-    case PackingKind::wiggle:
-    case PackingKind::mpo:
-    case PackingKind::exr:
-      return 0;
-    default:
-      return 2;
-  }
+  return packing.format->name == "quilt" ? packing.quilt->columns * packing.quilt->rows : packing.format->views;
 }
 
-std::string write_packed(const Packing& packing, const PackingArguments& arguments, std::span<const Image<Rgb8>> views,
-                         const std::string& output, const Session& session) {
-  switch (packing.kind) {
-    case PackingKind::quilt:
-      return write_quilt(views, *packing.quilt, packing.aspect, output);
-    case PackingKind::views:
-      write_view_folder(views, output, session.progress);
-      break;
-    case PackingKind::mpo: {
-      const std::vector<ImageView<const Rgb8>> all(views.begin(), views.end());
-      write_mpo(output, all, arguments.quality);
-      break;
-    }
-    case PackingKind::jps:
-      expect_two(packing, views);
-      write_jps(output, views[0], views[1], StereoLayout::right_left, arguments.quality);
-      break;
-    case PackingKind::wiggle:
-      write_wiggle(output, views, arguments.seconds);
-      break;
-    case PackingKind::disparity:
-    case PackingKind::depth:
-      write_matched(packing, arguments, views, output, session);
-      break;
-    case PackingKind::exr:
-      write_multiview_exr(output, views);
-      break;
-    default:
-      write_image(output, one_picture(packing, arguments, views, session));
-  }
-  return output;
+std::string write_packed(const PackingJob& job) {
+  const PackingFormat& format = *job.packing.format;
+  if (format.views != 0 && job.views.size() != static_cast<std::size_t>(format.views))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--to {}: takes two views, but there are {}", job.packing.name, job.views.size()));
+  return format.write(job);
 }
 
 }  // namespace wheatstone::cli

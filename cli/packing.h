@@ -1,53 +1,63 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "command.h"
-#include "wheatstone/display/anaglyph.h"
+#include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/image.h"
-#include "wheatstone/stereo/stereo_layout.h"
 
 namespace wheatstone::cli {
 
 /// A packing as it is typed.
 struct PackingArguments {
   std::string to;         ///< empty: by the output's ending
-  std::string screen;     ///< of lenticular
+  std::string screen;     ///< of lenticular: a display, or a calibration file
   std::string quilt;      ///< COLUMNSxROWS
-  std::string display;    ///< a preset
+  std::string display;    ///< a preset, whose format is taken
   int quality = 95;       ///< of JPEG, MPO, JPS
   double seconds = 0.5;   ///< of a wiggle, there and back
   float depth_scale = 1;  ///< of depth: camera separation times focal length in pixels
 };
 
-enum class PackingKind {
-  anaglyph,
-  layout,
-  mpo,
-  jps,
-  views,
-  wiggle,
-  quilt,
-  lenticular,
-  exr,
-  depth_beside,
-  disparity,
-  depth
+struct PackingFormat;
+
+/// A packing that was chosen, with what its format needs.
+struct Packing {
+  const PackingFormat* format;
+  std::string name;                        ///< as it was typed, or by the output's ending
+  std::optional<QuiltLayout> quilt;        ///< of a quilt
+  double aspect = 0;                       ///< of a quilt's display; 0: a view's own
+  std::optional<LenticularScreen> screen;  ///< of a lenticular picture
 };
 
-struct Packing {
-  PackingKind kind;
-  std::string name;
-  const AnaglyphKind* anaglyph = nullptr;
-  StereoLayout layout = StereoLayout::left_right;
-  std::optional<QuiltLayout> quilt;
-  double aspect = 0;  ///< of a quilt's display; 0: a view's own
+/// What a format writes, and where.
+struct PackingJob {
+  const Packing& packing;
+  const PackingArguments& arguments;
+  std::span<const Image<Rgb8>> views;
+  const std::string& output;
+  const Session& session;
 };
+
+/// One line of the table of formats, from which the parser, the names in --help and the writer are made.
+struct PackingFormat {
+  std::string_view name;
+  std::string_view alias;   ///< ffmpeg's name; empty: it has none
+  std::string_view ending;  ///< of the outputs that are packed so where no format is named; empty: none
+  int views;                ///< that it takes; 0: any number
+  /// Returns the name of what was written.
+  std::function<std::string(const PackingJob&)> write;
+};
+
+/// The table: anaglyphs and layouts of two eyes from their own tables, then the formats that need more than two views'
+/// pictures.
+std::span<const PackingFormat> packing_formats();
 
 void add_packing_options(CLI::App& command, PackingArguments& arguments);
 
@@ -59,7 +69,6 @@ int views_wanted(const Packing& packing);
 
 /// Writes the views and returns the name of what was written. Throws Error: wrong_usage where the packing takes another
 /// number of views or the output another ending, cannot_read_write.
-std::string write_packed(const Packing& packing, const PackingArguments& arguments, std::span<const Image<Rgb8>> views,
-                         const std::string& output, const Session& session);
+std::string write_packed(const PackingJob& job);
 
 }  // namespace wheatstone::cli

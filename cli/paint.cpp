@@ -113,12 +113,14 @@ PaintViewsOptions views_options(const Arguments& arguments, const PaintPhotograp
   return options;
 }
 
-/// Writes a quilt where the display takes one, and else a picture a view.
+/// Writes a quilt or a lenticular picture where the display takes one, and else a picture a view.
 std::string write_views(const Arguments& arguments, const PaintedViews& result) {
   const DisplayPreset& display = find_display(arguments.display);
   const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
   if (layout.columns * layout.rows == static_cast<int>(result.views.size()))
     return write_quilt(result.views, layout, display.aspect, arguments.folder);
+  if (display.lenses.screen_width_px > 0)
+    return write_lenticular(result.views, lenticular_screen_of(display), arguments.folder);
   write_view_folder(result.views, arguments.folder);
   return arguments.folder;
 }
@@ -227,8 +229,9 @@ void add_paint_command(CLI::App& program, const Session& session) {
       ->capture_default_str();
   std::string names;
   for (const DisplayPreset& display : display_presets()) names += fmt::format(" {}", display.name);
-  auto* display = command.add_option("--display", arguments->display,
-                                     "Paint the views of a display, as one quilt where it takes one:" + names);
+  auto* display = command.add_option(
+      "--display", arguments->display,
+      "Paint the views of a display, as one quilt or lenticular picture where it takes one:" + names);
   command.add_option("--views", arguments->views, "How many, instead of the display's")
       ->check(CLI::Range(1, 1000))
       ->needs(display);

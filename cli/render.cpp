@@ -189,6 +189,8 @@ std::string write_output(const Arguments& arguments, const RenderedParticles& re
     const QuiltLayout layout = parse_quilt(arguments.quilt, static_cast<int>(views.size()));
     return write_quilt(views, layout, arguments.aspect, arguments.output);
   }
+  if (!arguments.display.empty() && find_display(arguments.display).lenses.screen_width_px > 0)
+    return write_lenticular(views, find_lenticular(arguments.display), arguments.output);
   write_view_folder(views, arguments.output, session.progress);
   return arguments.output;
 }

@@ -19,6 +19,14 @@ std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& l
   return file.string();
 }
 
+std::string write_lenticular(std::span<const Image<Rgb8>> views, const LenticularScreen& screen,
+                             const std::string& output) {
+  std::filesystem::path file = output;
+  if (!file.has_extension()) file += ".png";
+  write_image(file, interleave(views, screen));
+  return file.string();
+}
+
 void write_view_folder(std::span<const Image<Rgb8>> views, const std::string& folder, const Progress& progress) {
   OutputFolder output(folder);
   for (std::size_t v = 0; v < views.size(); ++v) {

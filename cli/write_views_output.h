@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/progress.h"
@@ -13,6 +14,11 @@ namespace wheatstone::cli {
 /// display's convention. `aspect` is the screen's; 0: a view's own. Throws Error{cannot_read_write}.
 std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& layout, double aspect,
                         const std::string& output);
+
+/// Writes one picture with the views interleaved under the screen's lenses, and returns its name: the output's, with
+/// ".png" where that has no ending. Throws Error{cannot_read_write}.
+std::string write_lenticular(std::span<const Image<Rgb8>> views, const LenticularScreen& screen,
+                             const std::string& output);
 
 /// Writes view_000.png, the leftmost, and so on into a folder that appears when all are there.
 /// Throws Error{cannot_read_write}.

@@ -21,7 +21,6 @@
 #include "wheatstone/curves/diffusion_in_time.h"
 #include "wheatstone/curves/plan_diffusion.h"
 #include "wheatstone/depth/camera.h"
-#include "wheatstone/depth/camera_separation.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/depth_mapping.h"

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/packing.h"
 #include "cli/run_program.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/packed_pair.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
@@ -96,6 +99,55 @@ TEST(PackCommand, MakesWhatScreensShow) {
   EXPECT_NEAR(read_disparity(folder / "depth.exr")(120, 90), 600 / disparity, 0.01 * 600 / disparity);
 }
 
+/// An output of the format, and what it needs besides the views.
+std::vector<std::string> pack_words(const cli::PackingFormat& format, std::string_view name) {
+  std::vector<std::string> words{"pack", "left.png", "right.png", "--to", std::string(name), "-o"};
+  words.push_back("out" + std::string(format.ending.empty() ? ".png" : format.ending));
+  if (format.name == "quilt") words.insert(words.end(), {"--quilt", "2x1"});
+  if (format.name == "lenticular") words.insert(words.end(), {"--screen", "barrier-2"});
+  return words;
+}
+
+TEST(PackCommand, EveryFormatOfTheTableIsListedAndWrittenByEachOfItsNames) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  const std::string help = run_in(folder, {"pack", "--help"}).output;
+  for (const cli::PackingFormat& format : cli::packing_formats()) {
+    EXPECT_THAT(help, HasSubstr(std::string(format.name)));
+    if (format.name == "views") continue;  // a folder, tested below
+    for (const std::string_view name : {format.name, format.alias}) {
+      if (name.empty()) continue;
+      const std::vector<std::string> words = pack_words(format, name);
+      run_in(folder, words);
+      EXPECT_TRUE(std::filesystem::remove(folder / words[6])) << name;
+    }
+  }
+}
+
+TEST(PackCommand, EveryLayoutOfTheTableComesApartAgain) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  for (const LayoutTraits& traits : stereo_layouts()) {
+    if (!is_packed(traits.layout)) continue;
+    run_in(folder, {"pack", "left.png", "right.png", "--to", std::string(traits.name), "-o", "both.png"});
+    const StereoPair back = cut_apart(read_image(folder / "both.png"), traits.layout, "both.png");
+    // Where half of an eye's pixels are kept, the others are interpolated: 24.4 dB in rows.
+    EXPECT_GE(psnr(back.left, still().left), 24) << traits.name;
+    EXPECT_GE(psnr(back.right, still().right), 24) << traits.name;
+    EXPECT_LT(psnr(back.left, still().right), 20) << traits.name;
+  }
+}
+
+TEST(PackCommand, ADisplayWithLensesGetsOnePictureUnderThem) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "--display", "barrier-2", "-o", "display.png"});
+  run_in(folder, {"pack", "left.png", "right.png", "--screen", "barrier-2", "-o", "screen.png"});
+  EXPECT_EQ(read_image(folder / "display.png"), read_image(folder / "screen.png"));
+  expect_refused(folder, {"pack", "left.png", "right.png", "--display", "desk-stereo", "-o", "out.png"}, 2, "--to");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--screen", "desk-stereo", "-o", "out.png"}, 2, "step-9");
+}
+
 TEST(PackCommand, PaintingsAndSlicesMakeTheirViews) {
   const TemporaryFolder folder;
   put_still(folder);
@@ -109,7 +161,7 @@ TEST(PackCommand, RefusesWhatDoesNotFit) {
   const TemporaryFolder folder;
   put_still(folder);
   write_image(folder / "small.png", Image<Rgb8>(20, 20));
-  expect_refused(folder, {"pack", "left.png", "right.png", "-o", "out.png"}, 2, "give --to");
+  expect_refused(folder, {"pack", "left.png", "right.png", "-o", "out.png"}, 2, "choose one with --to");
   expect_refused(folder, {"pack", "left.png", "right.png", "--to", "smellovision", "-o", "out.png"}, 2, "checkerboard");
   expect_refused(folder, {"pack", "left.png", "right.png", "left.png", "--to", "anaglyph", "-o", "out.png"}, 2,
                  "takes two views, but there are 3");
@@ -136,6 +188,9 @@ TEST(PaintCommand, OnePhotographForEveryViewOfADisplay) {
   EXPECT_EQ(quilt.height(), 3360);
   run_in(folder, {"paint", "photo.mpo", "--display", "nine-view", "--views", "3", "--size", "160x90", "-o", "three"});
   EXPECT_TRUE(std::filesystem::exists(folder / "three/view_002.png"));
+  run_in(folder, {"paint", "photo.mpo", "--display", "step-5", "--size", "160x90", "-o", "under_lenses"});
+  EXPECT_EQ(read_image(folder / "under_lenses.png").width(), 1920);
+  EXPECT_FALSE(std::filesystem::exists(folder / "under_lenses"));
   expect_refused(folder, {"paint", "photo.mpo", "--display", "crystal-ball", "-o", "out"}, 2, "looking-glass-go");
 }
 

@@ -15,8 +15,6 @@ float depth_from_disparity(float disparity_px, float scale) {
   return disparity_px > 0 ? scale / disparity_px : std::numeric_limits<float>::quiet_NaN();
 }
 
-float disparity_from_depth(float depth, float scale) { return scale / depth; }
-
 float disparity_percentile(ImageView<const float> disparity, double share) {
   std::vector<float> known;
   known.reserve(static_cast<std::size_t>(disparity.width()) * disparity.height());

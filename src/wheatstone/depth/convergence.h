@@ -7,7 +7,6 @@ namespace wheatstone {
 /// Depth, a length, of a point of the given disparity: s / d (Stavrakis & Gelautz 2005, sec. 3.1). `scale` is s, the
 /// camera separation times the focal length in pixels. Disparity 0 is infinitely far; a negative one has no depth.
 float depth_from_disparity(float disparity_px, float scale);
-float disparity_from_depth(float depth, float scale);
 
 /// The disparity below which the given share, 0..1, of the finite pixels lies: 0.995 is the nearest point, but for
 /// outliers. NaN where no pixel is finite.

@@ -15,8 +15,10 @@ namespace {
 // their software; a display's own calibration knows better. A view is as large as its place in the quilt.
 // The desk and the nine views are those of Hassaine 2010, sec. 5.6, whose 60 and 36 planes come out for 10 cm either
 // way at just these widths and distances; the 36 views are those of sec. 2.3.
+// The other displays with lenses are kinds of which several were sold; a monitor of 24 inches is assumed, seen from
+// 700 mm, where neighbouring views are half an eye separation apart.
 constexpr float wide = 16.f / 9;
-constexpr std::array<DisplayPreset, 10> presets{{
+constexpr std::array<DisplayPreset, 15> presets{{
     {"looking-glass-go", 66, 372, 682, 11, 6, 4092, 4092, 9.f / 16, 74.7f, 350, 40, "Looking Glass Go, 6 inch"},
     {"looking-glass-portrait", 48, 420, 560, 8, 6, 3360, 3360, 0.75f, 120.4f, 450, 40, "Looking Glass Portrait"},
     {"looking-glass-16", 49, 857, 857, 7, 7, 5999, 5999, wide, 344.7f, 700, 40, "Looking Glass 16 inch"},
@@ -26,7 +28,64 @@ constexpr std::array<DisplayPreset, 10> presets{{
     {"looking-glass-65", 72, 1024, 910, 8, 9, 8192, 8192, wide, 1428, 2000, 40, "Looking Glass 65 inch"},
     {"desk-stereo", 2, 1280, 1024, 0, 0, 0, 0, 1.25f, 376, 750, 0, "19 inch, 1280x1024 for either eye"},
     {"nine-view", 9, 640, 360, 0, 0, 0, 0, wide, 376, 630, 26, "nine views on 1920x1080 pixels"},
-    {"philips-36", 36, 533, 400, 0, 0, 0, 0, 4.f / 3, 307, 700, 30, "36 views on 3200x2400 pixels, 15.1 inch"},
+    {"philips-36",
+     36,
+     533,
+     400,
+     0,
+     0,
+     0,
+     0,
+     4.f / 3,
+     307,
+     700,
+     30,
+     "36 views on 3200x2400 pixels, 15.1 inch",
+     {3200, 2400, 18, 2}},
+    {"barrier-2", 2, 960, 540, 0, 0, 0, 0, wide, 531, 700, 0, "two views behind upright slits", {1920, 1080, 2, 0}},
+    {"step-5",
+     5,
+     860,
+     484,
+     0,
+     0,
+     0,
+     0,
+     wide,
+     531,
+     700,
+     10.6f,
+     "five views, slant of one sub-pixel a row",
+     {1920, 1080, 5, 1}},
+    {"step-9",
+     9,
+     640,
+     360,
+     0,
+     0,
+     0,
+     0,
+     wide,
+     531,
+     700,
+     20.8f,
+     "nine views, slant of one sub-pixel a row",
+     {1920, 1080, 9, 1}},
+    {"lenticular-8", 8, 680, 382, 0, 0, 0, 0, wide, 531, 700, 18.5f, "eight views, slant of 1/6", {1920, 1080, 8, 2}},
+    {"philips-9",
+     9,
+     640,
+     360,
+     0,
+     0,
+     0,
+     0,
+     wide,
+     531,
+     700,
+     20.8f,
+     "nine views, 4.5 sub-pixels a lens, slant of 1/6",
+     {1920, 1080, 4.5, 2}},
 }};
 
 }  // namespace
@@ -52,11 +111,6 @@ float span_of(const DisplayPreset& display, float eye_separation_mm) {
   if (display.view_cone_deg == 0) return 1;
   const float half = display.view_cone_deg * std::numbers::pi_v<float> / 360;
   return 2 * display.viewing_distance_mm * std::tan(half) / eye_separation_mm;
-}
-
-Rig rig_of(const DisplayPreset& display, float eye_separation_mm) {
-  return evenly_spaced(display.view_width_px, display.view_height_px, display.views,
-                       span_of(display, eye_separation_mm));
 }
 
 }  // namespace wheatstone

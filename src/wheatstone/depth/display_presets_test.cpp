@@ -31,10 +31,8 @@ TEST(DisplayPresets, AreConsistent) {
       EXPECT_NEAR(static_cast<float>(display.view_width_px) / static_cast<float>(display.view_height_px),
                   display.aspect, 0.01f);
     }
-    const Rig rig = rig_of(display);
-    EXPECT_EQ(rig.positions.size(), static_cast<std::size_t>(display.views));
-    EXPECT_FLOAT_EQ(rig.positions.front() - central_view, central_view - rig.positions.back());
-    EXPECT_GT(rig.positions.back(), central_view);
+    EXPECT_GE(display.views, 2);
+    EXPECT_GT(span_of(display), 0);
   }
 }
 
@@ -45,7 +43,7 @@ TEST(DisplayPresets, GiveTheThesissPlanes) {
 }
 
 TEST(DisplayPresets, TwoViewsAreTheEyesAndConesAreAsWideAsTheyAreWhereTheViewerIs) {
-  EXPECT_EQ(rig_of(find_display("desk-stereo")).positions, (std::vector<ViewPosition>{left_eye, right_eye}));
+  EXPECT_EQ(span_of(find_display("desk-stereo")), right_eye - left_eye);
   // 40 degrees, 450 mm away.
   EXPECT_NEAR(span_of(find_display("looking-glass-portrait")), 2 * 450 * std::tan(20 * M_PI / 180) / 65, 1e-4);
   // Nine windows of about half an eye separation.

@@ -48,11 +48,4 @@ float angular_disparity_deg(const ViewingGeometry& viewing, float behind_mm) {
   return static_cast<float>((vergence(viewing, screen + behind_mm) - vergence(viewing, screen)) / degree);
 }
 
-float depth_of_angular_disparity_mm(const ViewingGeometry& viewing, float degrees) {
-  const double screen = viewing.viewing_distance_mm;
-  const double angle = vergence(viewing, screen) + degrees * degree;
-  if (angle <= 0) return std::numeric_limits<float>::infinity();
-  return static_cast<float>(viewing.eye_separation_mm / (2 * std::tan(angle / 2)) - screen);
-}
-
 }  // namespace wheatstone

@@ -39,7 +39,4 @@ std::vector<DepthPlane> depth_planes(const ViewingGeometry& viewing, float near_
 /// positive in front (eqs. 2.1.1, 2.1.2, 2.1.5).
 float angular_disparity_deg(const ViewingGeometry& viewing, float behind_mm);
 
-/// The inverse, eqs. 2.1.6 and 2.1.7: how far behind the screen; infinite where the lines of sight do not meet.
-float depth_of_angular_disparity_mm(const ViewingGeometry& viewing, float degrees);
-
 }  // namespace wheatstone

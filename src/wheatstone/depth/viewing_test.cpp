@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "wheatstone/depth/camera.h"
-#include "wheatstone/depth/camera_separation.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/depth/viewing_geometry.h"
@@ -83,65 +82,11 @@ TEST(ViewingGeometry, PlanesAreOnePixelOfParallaxApart) {
   EXPECT_EQ(depth_planes(viewing, -planes[10].behind_mm, planes[50].behind_mm).size(), 41u);
 }
 
-/// Pixel of a point in the view of a camera that stands at `camera` and whose frustum is sheared so that all cameras
-/// see the virtual display, `zero_parallax` away, in the same place.
-double seen_at(double camera, double focal, double zero_parallax, double x, double depth) {
-  return focal * (x - camera) / depth + focal * camera / zero_parallax;
-}
-
-TEST(CameraSeparation, PointsSeemWhereTheViewingGeometrySaysTheyShould) {
-  const ViewingGeometry viewing{.viewing_distance_mm = 700, .screen_width_mm = 376, .width_px = 1280};
-  constexpr float nearest = 20;
-  constexpr float farthest = 90;
-  constexpr float focal = 1500;
-  for (const auto& [near_mm, far_mm] : {std::pair{100.f, 100.f}, {50.f, 200.f}, {0.f, 80.f}, {80.f, 0.f}}) {
-    const float display = zero_parallax_depth(viewing, near_mm, far_mm, nearest, farthest);
-    const float apart = camera_separation(viewing, near_mm, far_mm, {nearest, farthest, display}, focal);
-    const auto perceived = [&](double depth) {
-      const double left = seen_at(-apart / 2, focal, display, 3, depth);
-      const double right = seen_at(apart / 2, focal, display, 3, depth);
-      EXPECT_NEAR(right - left, camera_parallax_px(apart, display, focal, static_cast<float>(depth)), 1e-4);
-      return perceived_depth_mm(viewing, static_cast<float>(right - left) * viewing.pixel_pitch_mm());
-    };
-    EXPECT_NEAR(perceived(nearest), -near_mm, 0.01) << near_mm << " " << far_mm;
-    EXPECT_NEAR(perceived(farthest), far_mm, 0.02) << near_mm << " " << far_mm;
-    EXPECT_NEAR(perceived(display), 0, 0.01);
-    EXPECT_GE(display, nearest * 0.999f);
-    EXPECT_LE(display, farthest * 1.001f);
-  }
-}
-
-TEST(CameraSeparation, IsAsTheThesisWritesIt) {
-  // Eq. 5.3.2 with eq. 5.3.3, z_rel on the virtual display as on the screen: D' = A·(z_rel − 1)/(i'·z_rel).
-  const double pixel = 40. / 1500;
-  for (const double depth : {20., 40., 55.}) {
-    const double relative = depth / 40;
-    EXPECT_NEAR(camera_parallax_px(2.5f, 40, 1500, static_cast<float>(depth)),
-                2.5 * (relative - 1) / (pixel * relative), 1e-4);
-  }
-}
-
-TEST(CameraSeparation, NeitherEndPassesItsLimitWhereverTheDisplayStands) {
-  const ViewingGeometry viewing{.width_px = 1280};
-  const float before = screen_parallax_mm(viewing, -100) / viewing.pixel_pitch_mm();
-  const float behind = screen_parallax_mm(viewing, 100) / viewing.pixel_pitch_mm();
-  for (const float display : {20.f, 25.f, 40.f, 70.f, 90.f}) {
-    const float apart = camera_separation(viewing, 100, 100, {20, 90, display}, 1500);
-    const float nearest = camera_parallax_px(apart, display, 1500, 20);
-    const float farthest = camera_parallax_px(apart, display, 1500, 90);
-    EXPECT_GE(nearest, before - 1e-3f);
-    EXPECT_LE(farthest, behind + 1e-3f);
-    // One of the two is used up.
-    EXPECT_LT(std::min(nearest - before, behind - farthest), 1e-3f);
-  }
-  EXPECT_EQ(camera_separation(viewing, 100, 100, {30, 30, 30}, 1500), 0);
-}
-
-TEST(CameraSeparation, ViewingWindowsReplaceTheEyes) {
+TEST(Rig, ViewingWindowsReplaceTheEyes) {
   // Hassaine 2010, sec. 4.3.2: with the window's width for E, parallax between neighbours is that of the window.
   const ViewingGeometry eyes{.eye_separation_mm = 65, .viewing_distance_mm = 700};
   const ViewingGeometry window{.eye_separation_mm = 26, .viewing_distance_mm = 700};
-  const Rig rig = evenly_spaced(640, 360, 9, span_of_windows(26, 65, 9));
+  const Rig rig = evenly_spaced(640, 360, 9, 8 * 26.f / 65);
   EXPECT_FLOAT_EQ((rig.positions[1] - rig.positions[0]) * screen_parallax_mm(eyes, 100),
                   screen_parallax_mm(window, 100));
 }
@@ -185,16 +130,6 @@ TEST(Comfort, AngularDisparityIsTheDifferenceOfVergences) {
   const double degrees = (2 * std::atan(32.5 / 600) - 2 * std::atan(32.5 / 700)) * 180 / M_PI;
   EXPECT_NEAR(angular_disparity_deg(viewing, -100), degrees, 1e-4);
   EXPECT_LT(angular_disparity_deg(viewing, 100), 0);
-}
-
-TEST(Comfort, AngularDisparityAndDepthAreInverse) {
-  const ViewingGeometry viewing{.eye_separation_mm = 65, .viewing_distance_mm = 1050};
-  for (const float behind : {-600.f, -100.f, 0.f, 40.f, 5000.f})
-    EXPECT_NEAR(depth_of_angular_disparity_mm(viewing, angular_disparity_deg(viewing, behind)), behind,
-                1e-2 + 1e-4 * std::abs(behind));
-  // E/(2·tan((3.546° − 0.82°)/2)) − 1050; 4 degrees are more than the 3.5 by which the eyes converge on the screen.
-  EXPECT_NEAR(depth_of_angular_disparity_mm(viewing, -0.82f), 316.05, 0.05);
-  EXPECT_TRUE(std::isinf(depth_of_angular_disparity_mm(viewing, -4)));
 }
 
 TEST(ViewPosition, IsNoNumberButDiffersByOne) {

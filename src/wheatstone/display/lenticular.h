@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "wheatstone/depth/display_presets.h"
 #include "wheatstone/image/image.h"
 
 namespace wheatstone {
@@ -39,9 +40,12 @@ Image<Rgb8> interleave(std::span<const Image<Rgb8>> views, const LenticularScree
 /// The same into a picture that is there already, of the screen's size: films need no new one for every frame.
 void interleave(std::span<const Image<Rgb8>> views, const LenticularScreen& screen, ImageView<Rgb8> picture);
 
-/// A screen by name: "step-9" (nine views, 1920×1080, slant one sub-pixel a row) and others; a file ending in .json
-/// is read as a Looking Glass's calibration. Throws Error{wrong_usage} listing the names, Error{bad_input} for the
-/// file.
+/// The screen of a display that has lenses. Throws Error{wrong_usage} where the display has none.
+LenticularScreen lenticular_screen_of(const DisplayPreset& display);
+
+/// The screen of the display of this name (depth/display_presets.h), as "step-9"; a name that ends in .json is a file,
+/// read as a Looking Glass's calibration. Throws Error: wrong_usage that lists the displays with lenses, bad_input for
+/// the file.
 LenticularScreen find_lenticular(const std::string& name);
 
 /// Throws Error{bad_input} where the file is no JSON or lacks a number. What old files lack (invView, flipImageX,

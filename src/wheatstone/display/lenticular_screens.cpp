@@ -12,33 +12,22 @@
 namespace wheatstone {
 namespace {
 
-struct NamedScreen {
-  const char* name;
-  LenticularScreen screen;
-};
-
-/// A lens every `period` sub-pixels, that leans by one sub-pixel in `rows` rows (0: upright).
-LenticularScreen by_period(int width, int height, double period, double rows) {
+/// The screen under a sheet of lenses, by the terms of a calibration.
+LenticularScreen screen_under(const LensSheet& lenses) {
   constexpr double dpi = 100;
+  const double period = lenses.period_subpixels, rows = lenses.rows_a_subpixel;
   const double slope = rows > 0 ? 3 * rows : 1e9;  // rows a pixel of three sub-pixels
   // As many lenses along a row as periods fit; the formula's cosine is for pitch across the lenses.
   const double pitch = 3 / period * dpi / std::cos(std::atan(1 / slope));
   // The middles of pixels and rows fall on borders between views of slanted lenses; half a sub-pixel puts the middles
   // of sub-pixels into the middles of views.
   const double center = rows > 0 ? 0.5 / period : 0;
-  return {.width = width, .height = height, .pitch = pitch, .slope = slope, .center = center, .dpi = dpi};
-}
-
-/// The number of views is in the name: it is how many different places under a lens there are.
-/// philips-36: Hassaine 2010, sec. 2.3, 3200×2400 pixels under slits that lean by arctan(1/6); 6×6 pixels to each of
-/// the 533×400 of a view, so that a slit stands every 18 sub-pixels.
-const std::vector<NamedScreen>& named_screens() {
-  static const std::vector<NamedScreen> screens{
-      {"barrier-2", by_period(1920, 1080, 2, 0)},   {"step-5", by_period(1920, 1080, 5, 1)},
-      {"step-9", by_period(1920, 1080, 9, 1)},      {"lenticular-8", by_period(1920, 1080, 8, 2)},
-      {"philips-9", by_period(1920, 1080, 4.5, 2)}, {"philips-36", by_period(3200, 2400, 18, 2)},
-  };
-  return screens;
+  return {.width = lenses.screen_width_px,
+          .height = lenses.screen_height_px,
+          .pitch = pitch,
+          .slope = slope,
+          .center = center,
+          .dpi = dpi};
 }
 
 double number_in(const nlohmann::json& json, const char* key, const std::string& file) {
@@ -58,12 +47,19 @@ bool switch_in(const nlohmann::json& json, const char* key, bool otherwise, cons
 
 }  // namespace
 
+LenticularScreen lenticular_screen_of(const DisplayPreset& display) {
+  if (display.lenses.screen_width_px == 0)
+    throw Error(ErrorKind::wrong_usage, fmt::format("display '{}' has no lenses that are known", display.name));
+  return screen_under(display.lenses);
+}
+
 LenticularScreen find_lenticular(const std::string& name) {
   if (name.ends_with(".json")) return read_calibration(name);
   std::string names;
-  for (const NamedScreen& known : named_screens()) {
-    if (name == known.name) return known.screen;
-    names += fmt::format(" {}", known.name);
+  for (const DisplayPreset& display : display_presets()) {
+    if (display.lenses.screen_width_px == 0) continue;
+    if (name == display.name) return lenticular_screen_of(display);
+    names += fmt::format(" {}", display.name);
   }
   throw Error(ErrorKind::wrong_usage,
               fmt::format("no lenticular screen '{}', expected a calibration file (.json) or one of:{}", name, names));

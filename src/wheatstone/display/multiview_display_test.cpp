@@ -144,10 +144,13 @@ TEST(Lenticular, NineViewsRepeatAfterThreePixelsAndStepByRow) {
 }
 
 TEST(Lenticular, NamedScreensGiveEachViewItsShareOfEachColour) {
-  const auto views_of = [](const std::string& name) { return std::stoi(name.substr(name.find('-') + 1)); };
-  for (const std::string name : {"barrier-2", "step-5", "step-9", "lenticular-8", "philips-9", "philips-36"}) {
+  int displays = 0;
+  for (const DisplayPreset& display : display_presets()) {
+    if (display.lenses.screen_width_px == 0) continue;
+    ++displays;
+    const std::string name(display.name);
     const LenticularScreen screen = find_lenticular(name);
-    const int views = views_of(name);
+    const int views = display.views;
     // A part of the screen in which the pattern repeats a whole number of times.
     const int columns = 360;
     const int rows = 360;
@@ -160,6 +163,8 @@ TEST(Lenticular, NamedScreensGiveEachViewItsShareOfEachColour) {
     for (int v = 0; v < views; ++v)
       for (const int c : {0, 1, 2}) EXPECT_EQ(count[v][c], columns * rows / views) << name << " " << v << " " << c;
   }
+  EXPECT_EQ(displays, 6);
+  expect_error(ErrorKind::wrong_usage, "desk-stereo", [] { lenticular_screen_of(find_display("desk-stereo")); });
 }
 
 TEST(Lenticular, Philips36LeansAsItsSlitsDo) {

@@ -22,13 +22,13 @@ struct DrawOptions {
 DrawnView draw(const StrokePainting& painting, ViewPosition view, const DrawOptions& options = {});
 
 /// Draws the marks for one view, antialiased, every point moved by its own disparity. A mark covers the earlier ones
-/// unless it lies behind them by more than a pixel of disparity, so that sloped surfaces hide each other rightly. What
-/// no mark covers counts as bare, and takes the colour of the farther of its two neighbours on the row. The same bytes
-/// on any number of threads.
+/// unless it lies behind them by more than a pixel of disparity, so that sloped surfaces hide each other correctly.
+/// What no mark covers counts as bare, and takes the colour of the farther of its two neighbours on the row. The same
+/// bytes on any number of threads.
 DrawnView draw(const RegionPainting& painting, ViewPosition view);
 
-/// Draws the lines for one view, every point moved by its own disparity, and lets the colours between them settle: the
-/// Laplace equation, begun by pull and push over a pyramid. The same bytes on any number of threads. Only a painting
+/// Draws the lines for one view, every point moved by its own disparity, and fills the space between them by
+/// the Laplace equation, starting from a pull-push pyramid. The same bytes on any number of threads. Only a painting
 /// without lines is bare; it is grey.
 DrawnView draw(const DiffusionPainting& painting, ViewPosition view);
 

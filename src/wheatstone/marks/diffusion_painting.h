@@ -15,7 +15,7 @@ struct ColourPoint {
   friend bool operator==(const ColourPoint&, const ColourPoint&) = default;
 };
 
-/// One side of an edge: a line a pixel wide, a pixel beside it.
+/// One side of an edge: a line one pixel wide, one pixel away from the edge.
 struct ColourLine {
   std::uint32_t first_point = 0;  ///< index into its painting's points
   std::uint32_t point_count = 0;

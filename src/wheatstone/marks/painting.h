@@ -15,8 +15,8 @@ struct Relief {
   friend bool operator==(const Relief&, const Relief&) = default;
 };
 
-/// A painting of one kind of marks: regions or curves where these have a size, else strokes. The others are empty, but
-/// that `painting` has the size of the pictures always.
+/// A painting of one kind of marks: regions or curves where these have a size, else strokes. The other kinds are
+/// empty; `painting` always has the size of the pictures.
 struct Painting {
   StrokePainting painting;
   RegionPainting regions;

@@ -13,7 +13,7 @@ namespace wheatstone {
 void write_painting(const std::filesystem::path& path, const Painting& painting);
 
 /// Reads a painting back, equal to what was written, or of an earlier version. Everything is checked before it is
-/// believed: structure, version, checksum, index ranges, and that all numbers are finite. Throws Error{bad_input}.
+/// used: structure, version, checksum, index ranges, and that all numbers are finite. Throws Error{bad_input}.
 Painting read_painting(const std::filesystem::path& path);
 
 /// The same in memory; `name` stands for the file in messages.

@@ -15,8 +15,8 @@ struct Ring {
   friend bool operator==(const Ring&, const Ring&) = default;
 };
 
-/// An area of one colour on one surface, between its outer ring and those of its holes (even-odd). Each point carries
-/// the disparity of the area's own surface there.
+/// A region of one colour on one surface, between its outer ring and the rings of its holes (even-odd rule). Each point
+/// carries the disparity of the region's own surface at that point.
 struct RegionMark {
   std::uint32_t first_ring = 0;  ///< index into its painting's rings
   std::uint32_t ring_count = 0;

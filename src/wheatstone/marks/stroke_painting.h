@@ -62,7 +62,7 @@ struct StrokePainting {
   friend bool operator==(const StrokePainting&, const StrokePainting&) = default;
 };
 
-/// Where a control point of a stroke stands in another view: x(v) = x(ref) − (v − ref) · disparity.
+/// The column, in pixels, of a control point in another view: x(v) = x(ref) − (v − ref) · disparity.
 inline float x_in_view(const ControlPoint& point, ViewPosition reference_view, ViewPosition view) {
   return point.x - (view - reference_view) * point.disparity;
 }

@@ -84,9 +84,10 @@ std::string reason(std::string_view message) {
   return std::string(message.substr(0, message.find('\n')));
 }
 
-cv::Mat run(const std::string& model, const std::string& bytes, const Layout& layout, const cv::Mat& own,
-            const cv::Mat& other, NetworkValues values) {
-  const cv::Mat first = as_input(own, layout.size, values), second = as_input(other, layout.size, values);
+cv::Mat run(const MatchOptions& options, const std::string& bytes, const Layout& layout, const cv::Mat& own,
+            const cv::Mat& other) {
+  const cv::Mat first = as_input(own, layout.size, options.model_values);
+  const cv::Mat second = as_input(other, layout.size, options.model_values);
   try {
     cv::dnn::Net network = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());
     if (layout.names.size() == 2) {
@@ -101,9 +102,9 @@ cv::Mat run(const std::string& model, const std::string& bytes, const Layout& la
       network.setInput(both, layout.names[0]);
     }
     // Networks that refine step by step answer with the finest map last.
-    return as_map(model, network.forward(network.getUnconnectedOutLayersNames().back())).clone();
+    return as_map(options.model, network.forward(network.getUnconnectedOutLayersNames().back())).clone();
   } catch (const cv::Exception& error) {
-    refuse(model, fmt::format("OpenCV cannot run it ({})", reason(error.err)));
+    refuse(options.model, fmt::format("OpenCV cannot run it ({})", reason(error.err)));
   }
 }
 
@@ -112,7 +113,7 @@ cv::Mat run(const std::string& model, const std::string& bytes, const Layout& la
 Image<float> match_with_network(const cv::Mat& own, const cv::Mat& other, const MatchOptions& options) {
   const std::string bytes = read_whole_file(options.model, most_bytes);
   const Layout layout = layout_of(options.model, bytes, own.size());
-  cv::Mat map = run(options.model, bytes, layout, own, other, options.model_values);
+  cv::Mat map = run(options, bytes, layout, own, other);
   // Some give the flow from left to right, whose sign is the opposite.
   if (cv::countNonZero(map < 0) > static_cast<int>(map.total() / 2)) map = -map;
 

@@ -9,7 +9,7 @@
 namespace wheatstone {
 
 /// Gathers particles into depth planes, chunk by chunk: memory stays at the slices and one chunk, however many
-/// particles there are. The statistics is of all of them.
+/// particles there are. `statistics` are those of all particles.
 class SliceMaker {
  public:
   /// Slices reach as far to the sides as the rig's outermost views look. Throws Error{bad_input} where they

@@ -155,9 +155,17 @@ BinaryPart open_part(const std::filesystem::path& path) {
   return part;
 }
 
-/// Numbers `first` … of a block, each particle with `width` of them, as floats.
-std::vector<float> read_numbers(const BinaryPart& part, std::ifstream& file, const Block& block,
-                                std::uint64_t particles, std::size_t width, std::uint64_t first, std::size_t count) {
+/// A block as what it holds: `width` numbers for each of so many particles.
+struct Column {
+  const Block& block;
+  std::uint64_t particles;
+  std::size_t width;
+};
+
+/// The numbers of `count` particles from number `first` on, as floats.
+std::vector<float> read_numbers(const BinaryPart& part, std::ifstream& file, const Column& column, std::uint64_t first,
+                                std::size_t count) {
+  const auto& [block, particles, width] = column;
   const std::uint64_t numbers = particles * width;
   const std::uint64_t bytes = numbers == 0 ? 0 : block.bytes / numbers;
   if ((bytes != 4 && bytes != 8) || bytes * numbers != block.bytes)
@@ -199,7 +207,7 @@ struct BinaryReading {
     cloud.box_size = here.box_size;
     std::uint64_t before = at;
     for (std::size_t lower = 0; lower < type; ++lower) before += here.count[lower];
-    const std::vector<float> rows = read_numbers(here, file, *here.find("POS"), here.all(), 3, before, count);
+    const std::vector<float> rows = read_numbers(here, file, {*here.find("POS"), here.all(), 3}, before, count);
     for (std::size_t i = 0; i < count; ++i) {
       cloud.x.push_back(rows[3 * i]);
       cloud.y.push_back(rows[3 * i + 1]);
@@ -208,7 +216,7 @@ struct BinaryReading {
     if (type != 0) return cloud;
     const auto gas = [&](const char* name) {
       const Block* block = here.find(name);
-      return block == nullptr ? std::vector<float>{} : read_numbers(here, file, *block, here.count[0], 1, at, count);
+      return block == nullptr ? std::vector<float>{} : read_numbers(here, file, {*block, here.count[0], 1}, at, count);
     };
     cloud.temperature = gas("U");
     for (float& value : cloud.temperature) value = gas_temperature(value);

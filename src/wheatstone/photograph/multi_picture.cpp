@@ -81,8 +81,10 @@ std::optional<std::uint32_t> individual_number(const TiffBytes& tiff, std::size_
   return number;
 }
 
-void read_entry(const TiffBytes& tiff, std::size_t at, const FoundIndex& index, std::string_view file,
-                const fs::path& path, MultiPictureEntry& entry) {
+/// The entry that stands `at` so many bytes into the index of a file.
+MultiPictureEntry read_entry(const TiffBytes& tiff, std::size_t at, const FoundIndex& index, std::string_view file,
+                             const fs::path& path) {
+  MultiPictureEntry entry;
   constexpr std::uint32_t format_bits = 0x07000000, type_bits = 0x00FFFFFF;
   const std::uint32_t attribute = tiff.long_at(at);
   const std::size_t offset = tiff.long_at(at + 8);
@@ -94,6 +96,7 @@ void read_entry(const TiffBytes& tiff, std::size_t at, const FoundIndex& index, 
   if (entry.begin > file.size() || entry.length > file.size() - entry.begin || entry.length < 4)
     refuse(path, "one of its pictures lies beyond the end of the file");
   if (!file.substr(entry.begin, 2).starts_with("\xFF\xD8")) refuse(path, "one of its pictures does not begin there");
+  return entry;
 }
 
 }  // namespace
@@ -113,7 +116,7 @@ std::vector<MultiPictureEntry> read_multi_picture_index(std::string_view bytes, 
   const std::size_t list = tiff.long_at(*entries_field + 8);
   std::vector<MultiPictureEntry> entries(count);
   for (std::size_t i = 0; i < count; ++i) {
-    read_entry(tiff, list + i * entry_size, *index, bytes, path, entries[i]);
+    entries[i] = read_entry(tiff, list + i * entry_size, *index, bytes, path);
     for (std::size_t before = 0; before < i; ++before)
       if (entries[before].begin == entries[i].begin) refuse(path, "it lists one picture twice");
     if (entries[i].begin == 0) {

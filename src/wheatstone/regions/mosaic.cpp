@@ -23,7 +23,7 @@ Rgb8 colour_of(const RegionMeans& means, double light) {
   return {level(means.red), level(means.green), level(means.blue)};
 }
 
-/// Where a corner between two sides of a polygon comes to lie when both move inwards: along the bisector, and no
+/// Where a corner between two sides of a ring comes to lie when both move inwards: along the bisector, and no
 /// farther than twice as far.
 ControlPoint moved_inwards(const ControlPoint& before, const ControlPoint& at, const ControlPoint& after, float inset) {
   const auto normal = [](const ControlPoint& from, const ControlPoint& to) {
@@ -36,7 +36,7 @@ ControlPoint moved_inwards(const ControlPoint& before, const ControlPoint& at, c
   return {at.x + 2 * inset * x / squared, at.y + 2 * inset * y / squared, at.disparity};
 }
 
-/// The glass of a tile: its polygon without the joint. Rings have their region to the left, y down.
+/// The glass of a tile: its ring without the joint. Rings have their region to the left, y down.
 void add_face(const RegionMark& joint, Rgb8 colour, float inset, RegionPainting& painting) {
   RegionMark face = joint;
   face.colour = colour;

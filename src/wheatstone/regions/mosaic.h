@@ -34,10 +34,10 @@ enum class TilePlaces {
   keep     ///< they stay, and the picture moves behind them (Bukenberger et al. 2015, sec. 4.2)
 };
 
-/// The next frame of a film as a mosaic: tiles begin where they lay a frame before, relax hardly, take their colours
-/// anew and turn with the picture, both eased where the picture did not change at once. A tile that nothing is left of
-/// is dropped, a gap gets new ones. What only another view than the reference sees is tiled there, and those tiles keep
-/// their places. Throws Error as above, and bad_input where the flow has not the views' size.
+/// The next frame of a film as a mosaic: tiles begin where they lay a frame before, move only slightly, take their
+/// colours anew and turn with the picture, both eased where the picture did not change at once. A tile that nothing is
+/// left of is dropped, a gap gets new ones. What only another view than the reference sees is tiled there, and those
+/// tiles keep their places. Throws Error as above, and bad_input where the flow has not the views' size.
 RegionPainting plan_mosaic(const FilmFrame& frame, const Style& style, MosaicMemory& memory,
                            TilePlaces places = TilePlaces::follow);
 

@@ -19,7 +19,7 @@ struct Corner {
 struct Arc {
   std::vector<Corner> corners;     ///< a closed one ends where it begins
   std::vector<PlanePoint> points;  ///< the corners, smoothed
-  std::vector<std::size_t> kept;   ///< which of them the polygons keep, in order, both ends among them
+  std::vector<std::size_t> kept;   ///< which of them the rings keep, in order, both ends among them
   std::int32_t left = -1, right = -1;
   bool closed() const { return corners.front() == corners.back(); }
 };

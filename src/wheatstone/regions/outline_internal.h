@@ -14,10 +14,10 @@ struct OutlineOptions {
   float depth_threshold_px = 2;
 };
 
-/// The rings of every region as a mark (its views all; its colour not yet set), in the order of their numbers, added to
-/// a painting. Neighbours share the points between them; where they lie on one surface they share the disparities too,
-/// so that they part in no view. A region so narrow that fewer than three points are left of it gets a mark without
-/// rings.
+/// The rings of every region as a mark (for all views; its colour is not yet set), in the order of their numbers, added
+/// to a painting. Neighbours share the points between them; where they lie on one surface they share the disparities
+/// too, so that they part in no view. A region so narrow that fewer than three points are left of it gets a mark
+/// without rings.
 void add_outlines(const RegionMap& regions, ImageView<const float> disparity, ViewPosition view,
                   const OutlineOptions& options, RegionPainting& painting);
 

@@ -120,7 +120,7 @@ std::vector<std::uint32_t> count_labels(const RegionMap& regions, const Image<st
   return counts;
 }
 
-/// The colour of an area: the nearest to its mean, and one that its pixels have is favoured as theirs were.
+/// The colour of a region: the nearest to its mean, and one that its pixels have is favoured as theirs were.
 std::size_t colour_of_area(const RegionMeans& means, std::span<const std::uint32_t> counts,
                            const std::vector<Rgb8>& palette, const CarriedColours& carried) {
   const Rgb8 mean = mean_colour(means);

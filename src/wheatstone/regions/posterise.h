@@ -9,7 +9,7 @@
 namespace wheatstone {
 
 /// A pair as regions of few colours (Bukenberger et al. 2015, sec. 4.2): the pixels are clustered in RGB by k-means
-/// into `style.colours` colours, connected pixels of one colour and one surface become a polygon. Both eyes show the
+/// into `style.colours` colours, connected pixels of one colour and one surface become a region. Both eyes show the
 /// regions of the left one; what only the right eye sees is cut there, into the same colours. Throws Error: bad_input
 /// where the geometry does not fit, wrong_usage for a style that cannot be painted with.
 RegionPainting plan_posterised(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style);
@@ -23,7 +23,7 @@ struct PaletteColour {
 /// What a posterised film remembers from one frame to the next; empty before the first.
 struct PosterisedMemory {
   std::vector<PaletteColour> palette;
-  Image<std::uint8_t> colour_of;  ///< of each pixel of the reference view: the index of its area's colour
+  Image<std::uint8_t> colour_of;  ///< of each pixel of the reference view: the index of its region's colour
   SteadyPicture picture;          ///< the reference view
 };
 

@@ -31,9 +31,9 @@ double difference_of(const PaintedPair& painted) {
   return measure_left_right_difference(painted.pictures, test_scene::geometry().left_disparity).mean_absolute;
 }
 
-class PolygonStyle : public testing::TestWithParam<std::string_view> {};
+class RegionStyle : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(PolygonStyle, FusesWhereIndependentEyesDoNot) {
+TEST_P(RegionStyle, FusesWhereIndependentEyesDoNot) {
   const double both = difference_of(paint_scene(small_style(GetParam())));
   const double independent = difference_of(paint_scene(small_style(GetParam(), Propagation::independent)));
   RecordProperty("both", std::to_string(both));
@@ -41,20 +41,20 @@ TEST_P(PolygonStyle, FusesWhereIndependentEyesDoNot) {
   EXPECT_LT(both, 0.35 * independent);
 }
 
-TEST_P(PolygonStyle, CoversBothEyes) {
+TEST_P(RegionStyle, CoversBothEyes) {
   const PaintedPair painted = paint_scene(small_style(GetParam()));
   EXPECT_LT(painted.left_bare_share, 0.005);
   EXPECT_LT(painted.right_bare_share, 0.005);
 }
 
-TEST_P(PolygonStyle, LeavesTheRightEyeBareWithoutWhatOnlyItSees) {
+TEST_P(RegionStyle, LeavesTheRightEyeBareWithoutWhatOnlyItSees) {
   RegionPainting regions = paint_scene(small_style(GetParam())).regions;
   std::erase_if(regions.marks, [](const RegionMark& mark) { return mark.reference_view == right_eye; });
   EXPECT_GT(draw(regions, right_eye).bare_share, 0.02);
   EXPECT_LT(draw(regions, left_eye).bare_share, 0.005);
 }
 
-TEST_P(PolygonStyle, GivesTheSameBytesOnAnyNumberOfThreads) {
+TEST_P(RegionStyle, GivesTheSameBytesOnAnyNumberOfThreads) {
   PaintedPair first;
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -80,7 +80,7 @@ std::size_t spanning_marks(const RegionPainting& regions) {
   }));
 }
 
-TEST_P(PolygonStyle, NoPolygonSpansTwoSurfacesUnlessDepthIsIgnored) {
+TEST_P(RegionStyle, NoRegionSpansTwoSurfacesUnlessDepthIsIgnored) {
   Style style = small_style(GetParam());
   const RegionPainting regions = paint_scene(style).regions;
   EXPECT_EQ(spanning_marks(regions), 0u);
@@ -89,7 +89,7 @@ TEST_P(PolygonStyle, NoPolygonSpansTwoSurfacesUnlessDepthIsIgnored) {
   EXPECT_GT(spanning_marks(paint_scene(style).regions), 0u);
 }
 
-TEST_P(PolygonStyle, StaysWhatItIsOnPicturesOfAnySize) {
+TEST_P(RegionStyle, StaysWhatItIsOnPicturesOfAnySize) {
   for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {1, 7}, {9, 5}}) {
     const StereoPair tiny{Image<Rgb8>(width, height, {9, 99, 199}), Image<Rgb8>(width, height, {9, 99, 199})};
     const PaintedPair painted =
@@ -99,7 +99,7 @@ TEST_P(PolygonStyle, StaysWhatItIsOnPicturesOfAnySize) {
   }
 }
 
-TEST_P(PolygonStyle, RefusesWhatDoesNotFit) {
+TEST_P(RegionStyle, RefusesWhatDoesNotFit) {
   StereoGeometry geometry = test_scene::geometry();
   geometry.left_disparity = Image<float>(3, 3);
   expect_error(ErrorKind::bad_input, "3x3",
@@ -109,7 +109,7 @@ TEST_P(PolygonStyle, RefusesWhatDoesNotFit) {
                [&] { plan_painting(test_scene::photographs(), test_scene::geometry(), small_style(GetParam())); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, PolygonStyle, testing::Values("posterise", "mosaic"));
+INSTANTIATE_TEST_SUITE_P(Of, RegionStyle, testing::Values("posterise", "mosaic"));
 
 TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
   Style style = small_style("posterise");
@@ -151,7 +151,7 @@ TEST(Mosaic, TurnsItsTilesAlongTheEdgesOfThePicture) {
   EXPECT_LT(diagonal_order(paint({flat, flat}, geometry, style).regions), -0.1);
 }
 
-TEST(DrawPolygons, LeavesHolesAndHidesByDepth) {
+TEST(DrawRegions, LeavesHolesAndHidesByDepth) {
   // A far square with a hole, and a nearer one that moves over it.
   RegionPainting painting{20, 20, {}, {}, {}};
   const auto add_square = [&](float low, float high, float disparity) {

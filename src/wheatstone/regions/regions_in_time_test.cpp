@@ -131,9 +131,9 @@ TEST(Mosaic, FlickersWithTilesThatKeepTheirPlacesWhereThePictureMoves) {
   EXPECT_GT(flicker(walk(), Painter("mosaic", TilePlaces::keep)), 1.3 * flicker(walk(), Painter("mosaic")));
 }
 
-class PolygonsInTime : public testing::TestWithParam<std::string_view> {};
+class RegionsInTime : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(PolygonsInTime, BeginASceneAsIfNothingHadBeenBefore) {
+TEST_P(RegionsInTime, BeginASceneAsIfNothingHadBeenBefore) {
   Painter used(GetParam()), unused(GetParam());
   used.plan_frame(walk(), 0);
   used.plan_frame(walk(), 1);
@@ -141,7 +141,7 @@ TEST_P(PolygonsInTime, BeginASceneAsIfNothingHadBeenBefore) {
   EXPECT_EQ(used.plan_frame(pan(), 1), unused.plan_frame(pan(), 1));
 }
 
-TEST_P(PolygonsInTime, BeginWithTheStill) {
+TEST_P(RegionsInTime, BeginWithTheStill) {
   const SyntheticFilmFrame& frame = walk().frames[0];
   const std::vector<SceneView> views = scene_from_left(frame.pictures, frame.geometry);
   const RegionPainting film = Painter(GetParam()).plan({views, nullptr});
@@ -149,7 +149,7 @@ TEST_P(PolygonsInTime, BeginWithTheStill) {
   EXPECT_EQ(draw(film, left_eye).picture, draw(still, left_eye).picture);
 }
 
-TEST_P(PolygonsInTime, GiveTheSameBytesOnAnyNumberOfThreads) {
+TEST_P(RegionsInTime, GiveTheSameBytesOnAnyNumberOfThreads) {
   std::optional<RegionPainting> first;
   for (const std::size_t threads : {1u, 2u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -162,7 +162,7 @@ TEST_P(PolygonsInTime, GiveTheSameBytesOnAnyNumberOfThreads) {
   }
 }
 
-TEST_P(PolygonsInTime, FuseAsWellAsTheStill) {
+TEST_P(RegionsInTime, FuseAsWellAsTheStill) {
   Painter painter(GetParam());
   RegionPainting painting;
   for (std::size_t i = 0; i < walk().frames.size(); ++i) painting = painter.plan_frame(walk(), i);
@@ -180,7 +180,7 @@ TEST_P(PolygonsInTime, FuseAsWellAsTheStill) {
   EXPECT_LT(draw(painting, right_eye).bare_share, 0.005);
 }
 
-TEST_P(PolygonsInTime, LeaveTheEyesBareWithoutWhatOnlyOneSees) {
+TEST_P(RegionsInTime, LeaveTheEyesBareWithoutWhatOnlyOneSees) {
   Painter painter(GetParam());
   painter.plan_frame(walk(), 0);
   RegionPainting painting = painter.plan_frame(walk(), 1);
@@ -189,7 +189,7 @@ TEST_P(PolygonsInTime, LeaveTheEyesBareWithoutWhatOnlyOneSees) {
   EXPECT_GT(draw(painting, right_eye).bare_share, 0.01);
 }
 
-TEST_P(PolygonsInTime, PaintAFilmOfOneView) {
+TEST_P(RegionsInTime, PaintAFilmOfOneView) {
   const Image<float> flat(width, height);
   Painter painter(GetParam());
   for (std::size_t i = 0; i < 2; ++i) {
@@ -200,7 +200,7 @@ TEST_P(PolygonsInTime, PaintAFilmOfOneView) {
   }
 }
 
-TEST_P(PolygonsInTime, RefuseWhatDoesNotFit) {
+TEST_P(RegionsInTime, RefuseWhatDoesNotFit) {
   Painter painter(GetParam());
   expect_error(ErrorKind::bad_input, "no picture", [&] { painter.plan({}); });
   std::vector<SceneView> views = walk().scene(1);
@@ -213,7 +213,7 @@ TEST_P(PolygonsInTime, RefuseWhatDoesNotFit) {
   expect_error(ErrorKind::bad_input, "7x5", [&] { painter.plan({views, nullptr}); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, PolygonsInTime, testing::Values("posterise", "mosaic"));
+INSTANTIATE_TEST_SUITE_P(Of, RegionsInTime, testing::Values("posterise", "mosaic"));
 
 TEST(Posterise, KeepsItsPaletteThroughAScene) {
   const Style style = style_of("posterise");

@@ -19,8 +19,8 @@ struct Tiles {
 /// Lays the tiles of one view anew, after its picture without grain.
 Tiles lay_tiles(const ViewToCut& view, ImageView<const Rgb8> picture, float tile_px);
 
-/// Lays them where they lay a frame before: they turn with the picture, take its colours and move hardly. Those that
-/// nothing is left of are gone, and gaps get new ones.
+/// Lays them where they lay a frame before: they turn with the picture, take its colours and move only slightly.
+/// Tiles of which nothing is left are dropped, and gaps get new ones.
 Tiles lay_tiles_again(const ViewToCut& view, ImageView<const Rgb8> picture, float tile_px,
                       std::span<const MosaicTile> before);
 

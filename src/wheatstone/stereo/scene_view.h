@@ -9,7 +9,7 @@
 namespace wheatstone {
 
 /// One view of a scene, whole or the part that the reference view does not show. Borrows its images, which are of one
-/// size.
+/// size; `only_here` may be empty.
 struct SceneView {
   ImageView<const Rgb8> picture;
   ImageView<const float> disparity;         ///< no unknowns

@@ -17,7 +17,7 @@ struct ScaledStyle {
   float depth_threshold_px;
 };
 
-/// One eye at work: what it sees, and the canvas that its next layer is planned against.
+/// A view that is being painted: what it shows, and the canvas that its next layer is planned against.
 struct LayerPlanner {
   LayerPlanner(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
                const Style& style);
@@ -26,7 +26,7 @@ struct LayerPlanner {
   ImageView<const float> disparity;
   ViewPosition view;
   Canvas canvas;
-  /// Begin no stroke where two surfaces' colours mix, if it can be helped: they part in the other eye.
+  /// Strokes begin where two surfaces' colours mix only if there is no other place: the surfaces part in other views.
   bool avoid_mixed_colours = true;
 };
 

@@ -20,7 +20,7 @@
 namespace wheatstone {
 namespace {
 
-/// One view at work: its planner, of half the size where only a part of the view is wanted.
+/// A view that is being painted: its planner, of half the size where only a part of the view is wanted.
 class ViewAtWork {
  public:
   ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, bool scene_begins)

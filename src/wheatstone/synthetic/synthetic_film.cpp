@@ -125,7 +125,7 @@ struct FilmFrame {
   FilmFrame& operator=(const FilmFrame&) = delete;
 };
 
-/// Follows the point at every pixel's centre into another moment.
+/// Follows the point at every pixel's centre into another frame.
 void find_flow(const FilmFrame& from, const FilmFrame& to, Flow& flow, Image<std::uint8_t>& occlusion) {
   tbb::parallel_for(0, from.cameras.height, [&](int y) {
     for (int x = 0; x < from.cameras.width; ++x) {

@@ -21,7 +21,7 @@ struct SyntheticFilmOptions {
   float noise = 0;  ///< standard deviation of each channel's, in 0..255, anew in each frame and eye
 };
 
-/// A moment of a film with its exact geometry. Flow and its occlusion belong to the rays through the left view's pixel
+/// A frame of a film with its exact geometry. Flow and its occlusion belong to the rays through the left view's pixel
 /// centres. A pixel is occluded where its point is hidden in the other frame or outside its picture; before the first
 /// frame, after the last and across a cut flow is NaN and all is occluded.
 struct SyntheticFilmFrame {
