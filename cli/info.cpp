@@ -177,12 +177,11 @@ ordered_json facts_of_slices(const fs::path& path) {
   return facts;
 }
 
-/// Whether a file's ending is one of particles; pictures and text share none of them.
+/// Whether a file holds particles by its content; or should, by its name: then what is wrong with it is told.
 bool is_particles(const fs::path& path) {
-  constexpr const char* endings[] = {".hdf5", ".h5", ".ply", ".las", ".npy", ".csv", ".txt", ".dat"};
-  const std::string ending = path.extension().string();
-  return std::ranges::find(endings, ending) != std::end(endings) ||
-         (ending.size() > 1 && ending.find_first_not_of("0123456789", 1) == std::string::npos);
+  constexpr const char* endings[] = {".hdf5", ".h5", ".ply", ".las", ".npy", ".csv", ".txt", ".dat", ".gadget"};
+  return std::ranges::find(endings, path.extension().string()) != std::end(endings) ||
+         particle_format(path).has_value();
 }
 
 ordered_json facts_of(const fs::path& path, std::optional<float> scale, const std::string& type,

@@ -196,6 +196,11 @@ void run(const Arguments& arguments, const Session& session) {
   if (left.empty())
     throw Error(ErrorKind::wrong_usage, "paint needs two photographs, LEFT and RIGHT, or one file with both views");
   if (!arguments.photographs.right.empty() || !left.ends_with(".wst")) return paint_photographs(arguments, session);
+  if (!arguments.display.empty())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: a painting holds what two eyes show; the views of a display are painted from the "
+                            "photographs, with 'wheatstone paint LEFT RIGHT --display {}'",
+                            left, arguments.display));
   draw_again(read_painting(left), arguments.scale, arguments.folder);
   if (session.json) {
     fmt::print(session.output, "{{\"folder\": \"{}\"}}\n", arguments.folder);

@@ -56,6 +56,12 @@ int count_of(const ViewsArguments& arguments, int wanted) {
 }
 
 ReadViews draw_painting(const std::string& file, int count) {
+  // Views beyond the two eyes, and between them, show places that a painting of two eyes has no marks for.
+  if (count != 2)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: a painting holds what two eyes show, but {} views are wanted; more views are painted "
+                            "from the photographs, with 'wheatstone paint LEFT RIGHT --display NAME'",
+                            file, count));
   const Painting painting = read_painting(file);
   ReadViews read;
   read.how = "drawn from a painting";
@@ -107,8 +113,7 @@ void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
                                  fmt::join(layout_names(), ", ")));
   command.add_option("--from-quilt", arguments.quilt, "The picture is a quilt of COLUMNSxROWS views");
   command.add_flag("--swap", arguments.swap, "The views are from right to left");
-  command.add_option("--views", arguments.views, "How many to make of a painting or slices")
-      ->check(CLI::Range(1, 1000));
+  command.add_option("--views", arguments.views, "How many to make of slices")->check(CLI::Range(1, 1000));
   command.add_option("--span", arguments.span, "Eye separations between the outermost, of slices")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();

@@ -15,7 +15,7 @@ struct ViewsArguments {
   std::string layout;  ///< of one picture that holds two
   std::string quilt;   ///< COLUMNSxROWS of one picture that is a quilt
   bool swap = false;   ///< right to left
-  int views = 0;       ///< of a painting or slices; 0: what the packing wants
+  int views = 0;       ///< of slices; 0: what the packing wants
   float span = 1;      ///< of slices, in eye separations
 };
 

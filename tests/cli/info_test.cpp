@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -70,6 +71,30 @@ TEST(Info, TellsOfAPaintingOfAreas) {
   const nlohmann::json facts = facts_of(folder / "p.wst");
   EXPECT_EQ(facts["regions"], 1);
   EXPECT_EQ(facts["nearest_disparity_px"], 4);
+}
+
+/// A Fortran record.
+std::string record(const std::string& data) {
+  const auto length = static_cast<std::uint32_t>(data.size());
+  const std::string marker(reinterpret_cast<const char*>(&length), sizeof length);
+  return marker + data + marker;
+}
+
+TEST(Info, KnowsParticlesByTheirContent) {
+  const TemporaryFolder folder;
+  std::string header(256, '\0');
+  header[0] = 2;  // gas particles
+  const std::string snapshot = record(header) + record(std::string(24, '\0'));
+  for (const std::string name : {"snap_000", "snap.gadget", "picture.png"}) {
+    put_bytes(folder / name, snapshot);
+    const nlohmann::json facts = facts_of(folder / name);
+    EXPECT_EQ(facts["kind"], "particles") << name;
+    EXPECT_EQ(facts["particles"], 2) << name;
+  }
+  put_bytes(folder / "stars", "x y z\n1 2 3\n");
+  EXPECT_EQ(facts_of(folder / "stars")["format"], "text");
+  put_bytes(folder / "letter", "Dear Sir, this is a letter and no table.\n");
+  expect_refused(folder, {"info", "letter"}, 3, "letter");
 }
 
 TEST(Info, TellsOfAFilm) {

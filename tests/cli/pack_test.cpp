@@ -148,13 +148,19 @@ TEST(PackCommand, ADisplayWithLensesGetsOnePictureUnderThem) {
   expect_refused(folder, {"pack", "left.png", "right.png", "--screen", "desk-stereo", "-o", "out.png"}, 2, "step-9");
 }
 
-TEST(PackCommand, PaintingsAndSlicesMakeTheirViews) {
+TEST(PackCommand, APaintingHasTwoViewsAndNoMore) {
   const TemporaryFolder folder;
   put_still(folder);
   run_in(folder, {"paint", "left.png", "right.png", "-o", "painted"});
-  run_in(folder, {"pack", "painted/painting.wst", "--views", "5", "-o", "five"});
-  EXPECT_TRUE(std::filesystem::exists(folder / "five/view_004.png"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "five/view_005.png"));
+  run_in(folder, {"pack", "painted/painting.wst", "-o", "two"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "two/view_001.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "two/view_002.png"));
+  run_in(folder, {"pack", "painted/painting.wst", "--to", "anaglyph", "-o", "anaglyph.png"});
+  const std::string painting = "painted/painting.wst", instead = "wheatstone paint LEFT RIGHT --display";
+  for (const std::string views : {"1", "5", "9"})
+    expect_refused(folder, {"pack", painting, "--views", views, "-o", "out"}, 2, instead);
+  expect_refused(folder, {"pack", painting, "--quilt", "8x6", "-o", "out"}, 2, instead);
+  expect_refused(folder, {"paint", painting, "--display", "nine-view", "-o", "out"}, 2, instead + " nine-view");
 }
 
 TEST(PackCommand, RefusesWhatDoesNotFit) {

@@ -162,6 +162,19 @@ TEST(RenderCommand, RefusesBadFilesAndLeavesNothing) {
                  3, "GB");
 }
 
+TEST(RenderCommand, RefusesPositionsThatAreTooFarAway) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "far.csv", "x,y,z\n0,0,0\n1e38,1e38,1e38\n-1e38,1,2\n");
+  put_bytes(folder / "endless.csv", "x,y,z\ninf,0,0\n0,nan,0\n");
+  for (const std::string stream : {"", "--stream"}) {
+    std::vector<std::string> line{"render", "far.csv", "--views", "1", "--size", "32x32", "-o", "out"};
+    if (!stream.empty()) line.push_back(stream);
+    expect_refused(folder, line, 3, "far.csv: has a particle at 1e+38, expected positions of at most 1e+18");
+    line[1] = "endless.csv";
+    expect_refused(folder, line, 3, "endless.csv: nothing is left to draw, 2 particles have no finite position");
+  }
+}
+
 TEST(RenderCommand, RefusesWhatMakesNoSense) {
   const TemporaryFolder folder;
   put_bytes(folder / "good.csv", "x,y,z\n1,2,3\n4,5,6\n");

@@ -54,6 +54,16 @@ Staged stage(const RenderParticlesOptions& options, const CloudStatistics& stati
                   : fmt::format("{}: nothing is left to draw, the cut holds no particle", file.string()));
 }
 
+/// Distances are computed in single precision: their squares must not overflow.
+void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
+  constexpr float largest = 1e18f;
+  for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z})
+    for (const float value : *axis)
+      if (!(std::abs(value) <= largest))
+        throw Error(ErrorKind::bad_input, fmt::format("{}: has a particle at {:g}, expected positions of at most {:g}",
+                                                      file.string(), value, largest));
+}
+
 void add(SelectionCounts& sum, const SelectionCounts& more) {
   sum.dropped += more.dropped;
   sum.mended += more.mended;
@@ -74,7 +84,8 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
     const std::size_t read = chunk.size();
     if (read == 0) return counts;
     pending = read_next();
-    add(counts, select(chunk, options.selection, first));
+    add(counts, select_particles(chunk, options.selection, first));
+    check_positions(file, chunk);
     first += read;
     if (chunk.size() > 0) visit(chunk);
     if (source.count) report(progress, step, static_cast<double>(first) / static_cast<double>(*source.count));
@@ -106,8 +117,9 @@ RenderedParticles render_whole(const std::filesystem::path& file, const RenderPa
                                const Progress& progress) {
   RenderedParticles result;
   Cloud cloud = read_cloud(file, options.choice, progress);
-  const SelectionCounts counts = select(cloud, options.selection);
+  const SelectionCounts counts = select_particles(cloud, options.selection);
   if (cloud.size() == 0) refuse_nothing(file, counts);
+  check_positions(file, cloud);
   result.particles = cloud.size();
   result.dropped = counts.dropped;
   result.mended = counts.mended;

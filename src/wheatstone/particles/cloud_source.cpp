@@ -5,21 +5,53 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <system_error>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 
 namespace wheatstone {
 namespace {
 
-std::string first_bytes(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path))
-    throw Error(ErrorKind::bad_input, fmt::format("{}: is a folder, expected a file of particles", path.string()));
+/// As many of a file's first bytes as tell its format.
+std::string some_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorKind::bad_input, fmt::format("{}: cannot be opened", path.string()));
   std::string bytes(512, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+std::optional<ParticleFormat> format_of(std::string_view bytes) {
+  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return ParticleFormat::hdf5;
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return ParticleFormat::ply;
+  if (bytes.starts_with("LASF")) return ParticleFormat::las;
+  if (bytes.starts_with("\x93NUMPY")) return ParticleFormat::npy;
+  if (looks_like_gadget_binary(bytes)) return ParticleFormat::gadget_binary;
+  const bool text = std::ranges::none_of(bytes, [](char c) { return c == '\0' || (c > 0 && c < 9); });
+  return text ? std::optional(ParticleFormat::text) : std::nullopt;
+}
+
+/// Whether the first line that is no comment has the columns of a position.
+bool looks_like_table(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::size_t end = bytes.find('\n');
+    const std::string_view line = bytes.substr(0, end);
+    const std::vector<std::string_view> fields = fields_of(line);
+    if (!fields.empty() && fields[0][0] != '#') return fields.size() >= 3 && line.find_first_of("<{") == line.npos;
+    if (end == std::string_view::npos) break;
+    bytes.remove_prefix(end + 1);
+  }
+  return false;
+}
+
+std::string first_bytes(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path))
+    throw Error(ErrorKind::bad_input, fmt::format("{}: is a folder, expected a file of particles", path.string()));
+  if (!std::ifstream(path, std::ios::binary))
+    throw Error(ErrorKind::bad_input, fmt::format("{}: cannot be opened", path.string()));
+  std::string bytes = some_bytes(path);
   if (bytes.empty()) throw Error(ErrorKind::bad_input, fmt::format("{}: is empty, expected particles", path.string()));
   return bytes;
 }
@@ -40,17 +72,35 @@ void append(Cloud& to, const Cloud& more) {
 
 }  // namespace
 
+std::optional<ParticleFormat> particle_format(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  const std::string bytes = some_bytes(path);
+  const std::optional<ParticleFormat> format = format_of(bytes);
+  if (format == ParticleFormat::text && !looks_like_table(bytes)) return std::nullopt;
+  return format;
+}
+
 CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& choice) {
-  const std::string bytes = first_bytes(path);
-  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return open_hdf5_cloud(path, choice);
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return open_ply(path, choice);
-  if (bytes.starts_with("LASF")) return open_las(path, choice);
-  if (bytes.starts_with("\x93NUMPY")) return open_npy(path, choice);
-  if (looks_like_gadget_binary(bytes)) return open_gadget_binary(path, choice);
-  const bool text = std::ranges::none_of(bytes, [](char c) { return c == '\0' || (c > 0 && c < 9); });
-  if (text) return open_text_table(path, choice);
-  throw Error(ErrorKind::bad_input,
-              fmt::format("{}: is of no known format, expected GADGET, HDF5, PLY, LAS, NumPy or text", path.string()));
+  const std::optional<ParticleFormat> format = format_of(first_bytes(path));
+  if (!format)
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: is of no known format, expected GADGET, HDF5, PLY, LAS, NumPy or text", path.string()));
+  switch (*format) {
+    case ParticleFormat::hdf5:
+      return open_hdf5_cloud(path, choice);
+    case ParticleFormat::ply:
+      return open_ply(path, choice);
+    case ParticleFormat::las:
+      return open_las(path, choice);
+    case ParticleFormat::npy:
+      return open_npy(path, choice);
+    case ParticleFormat::gadget_binary:
+      return open_gadget_binary(path, choice);
+    default:
+      return open_text_table(path, choice);
+  }
 }
 
 Cloud read_cloud(const std::filesystem::path& path, const CloudChoice& choice, const Progress& progress) {

@@ -33,8 +33,15 @@ struct CloudSource {
   std::function<Cloud(std::size_t most)> next;
 };
 
+/// Formats of particles that are told apart by a file's first bytes.
+enum class ParticleFormat { gadget_binary, hdf5, ply, las, npy, text };
+
+/// The format of a file's content, whatever its name; nothing where it is none of them or cannot be read. Text counts
+/// only where its first line has three columns or more, and is no markup.
+std::optional<ParticleFormat> particle_format(const std::filesystem::path& path);
+
 /// Opens a file, the first part of a snapshot in several ("snap_007.0.hdf5"), or a folder of parts. The format is told
-/// by the content, and by the name only for text and NumPy. Throws Error{bad_input}, naming the file, what is wrong and
+/// by the content. Throws Error{bad_input}, naming the file, what is wrong and
 /// what was expected; a field that is missing is named, with those that the file has.
 CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& choice = {});
 

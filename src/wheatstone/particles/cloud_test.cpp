@@ -33,7 +33,7 @@ Cloud points(std::vector<float> x) {
 TEST(Select, DropsAndCountsWhatHasNoPlace) {
   Cloud cloud = points({1, NAN, 3, INFINITY, 5});
   cloud.density = {1, 2, 3, 4, 5};
-  const SelectionCounts counts = select(cloud, {});
+  const SelectionCounts counts = select_particles(cloud, {});
   EXPECT_EQ(counts.dropped, 2u);
   EXPECT_THAT(cloud.x, ElementsAre(1, 3, 5));
   EXPECT_THAT(cloud.density, ElementsAre(1, 3, 5));
@@ -42,16 +42,16 @@ TEST(Select, DropsAndCountsWhatHasNoPlace) {
 TEST(Select, MendsAndCountsDensitiesNotAboveZero) {
   Cloud cloud = points({1, 2, 3, 4});
   cloud.density = {-1, 0, NAN, 4};
-  EXPECT_EQ(select(cloud, {}).mended, 3u);
+  EXPECT_EQ(select_particles(cloud, {}).mended, 3u);
   EXPECT_GT(std::ranges::min(cloud.density), 0);
   EXPECT_EQ(cloud.density[3], 4);
 }
 
 TEST(Select, CutsSpheresAndBoxes) {
   Cloud cloud = points({1, 2, 3, 4, 5});
-  select(cloud, {.cut = parse_cut("sphere:3,0,0,1")});
+  select_particles(cloud, {.cut = parse_cut("sphere:3,0,0,1")});
   EXPECT_THAT(cloud.x, ElementsAre(2, 3, 4));
-  select(cloud, {.cut = parse_cut("box:2.5,-1,-1,9,1,1")});
+  select_particles(cloud, {.cut = parse_cut("box:2.5,-1,-1,9,1,1")});
   EXPECT_THAT(cloud.x, ElementsAre(3, 4));
   for (const char* text :
        {"sphere:1,2,3", "sphere:1,2,3,-4", "box:1,1,1,0,2,2", "ball:1", "", "sphere:a,b,c,d", "sphere:1,2,3,4,5"})
@@ -62,12 +62,12 @@ TEST(Select, EveryNthIsTheSameInChunks) {
   std::vector<float> x(100);
   std::iota(x.begin(), x.end(), 0.f);
   Cloud whole = points(x);
-  select(whole, {.every = 7});
+  select_particles(whole, {.every = 7});
   std::vector<float> joined;
   for (std::size_t first = 0; first < 100; first += 33) {
     Cloud chunk = points({x.begin() + static_cast<std::ptrdiff_t>(first),
                           x.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(first + 33, 100))});
-    select(chunk, {.every = 7}, first);
+    select_particles(chunk, {.every = 7}, first);
     joined.insert(joined.end(), chunk.x.begin(), chunk.x.end());
   }
   EXPECT_EQ(joined, whole.x);
@@ -76,7 +76,7 @@ TEST(Select, EveryNthIsTheSameInChunks) {
 TEST(Select, MovesAPointToTheMiddleOfAPeriodicBox) {
   Cloud cloud = points({9, 1, 5});
   cloud.box_size = 10;
-  select(cloud, {.centre = {{0, 0, 0}}});
+  select_particles(cloud, {.centre = {{0, 0, 0}}});
   EXPECT_THAT(cloud.x, ElementsAre(4, 6, 0));
   EXPECT_THAT(cloud.y, ElementsAre(5, 5, 5));
 }

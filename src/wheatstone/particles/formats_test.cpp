@@ -80,6 +80,18 @@ TEST(TextTable, WithoutNamesTakesTheFirstThreeColumns) {
   expect_three_points(read_cloud(folder / "a.txt"));
 }
 
+TEST(TextTable, WithAByteOrderMarkIsRead) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.csv", "\xEF\xBB\xBFx,y,z\r\n1,2,3\r\n4,5,6\r\n7,8,9.5\r\n");
+  expect_three_points(read_cloud(folder / "a.csv"));
+  write_whole_file(folder / "a.csv", "\xEF\xBB\xBF\"x\";\"y\";\"z\"\n1;2;3\n4;5;6\n7;8;9.5\n");
+  expect_three_points(read_cloud(folder / "a.csv"));
+  write_whole_file(folder / "a.csv",
+                   "\xEF\xBB\xBF"
+                   "1 2 3\n4 5 6\n7 8 9.5\n");
+  expect_three_points(read_cloud(folder / "a.csv"));
+}
+
 TEST(TextTable, APositionNeedsThreeColumns) {
   const TemporaryFolder folder;
   write_whole_file(folder / "a.csv", "x,y,z,mass\n1,2,3,4\n");
@@ -101,6 +113,24 @@ TEST(TextTable, NamesWhatIsWrongAndWhere) {
   refused("# nothing\n", "no particles");
   refused("a,b,c\n1,2,3\n", "no column 'x', but a, b, c");
   refused("x,y,z,rho\n1,2,3,4\n", "no column 'mass', but x, y, z, rho", {.density = "mass"});
+}
+
+TEST(ParticleFormat, IsToldByContentWhateverTheName) {
+  const TemporaryFolder folder;
+  const auto format_of = [&](const std::string& bytes) {
+    write_whole_file(folder / "snap_000", bytes);
+    return particle_format(folder / "snap_000");
+  };
+  EXPECT_EQ(format_of("x,y,z\n1,2,3\n"), ParticleFormat::text);
+  EXPECT_EQ(format_of("# by hand\n\n1 2 3\n"), ParticleFormat::text);
+  EXPECT_EQ(format_of("ply\nformat ascii 1.0\n"), ParticleFormat::ply);
+  EXPECT_EQ(format_of(Bytes().put_record(std::string(256, '\1')).text), ParticleFormat::gadget_binary);
+  EXPECT_EQ(format_of(Bytes(true).put_record(std::string(256, '\1')).text), ParticleFormat::gadget_binary);
+  for (const std::string other : {"", "one line of words", "<svg width=\"1\" height=\"1\" viewBox=\"0 0 1 1\">\n",
+                                  "P3\n2 2\n255\n1 2 3\n", "{\"a\": [1, 2, 3]}\n", "\x89PNG\r\n\x1a\n"})
+    EXPECT_EQ(format_of(other), std::nullopt) << other;
+  EXPECT_EQ(particle_format(folder / "none"), std::nullopt);
+  EXPECT_EQ(particle_format(folder / ""), std::nullopt);
 }
 
 std::string npy(const std::string& header, const std::string& data) {
@@ -143,9 +173,41 @@ TEST(Npy, RefusesWhatIsNoTableOfNumbers) {
   refused("{'descr': '<f4', 'fortran_order': False, 'shape': (99, 3), }", "cut short");
   refused("{'descr': '<f4', 'fortran_order': False, 'shape': (9223372036854775807, 3), }", "cut short");
   refused("{'descr': '<f4', 'fortran_order': True, 'shape': (9223372036854775807, 3), }", "rows");
-  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (12,), }", "three numbers");
-  refused("{'descr': '<c8', 'fortran_order': False, 'shape': (3, 3), }", "type");
-  refused("{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (3,), }", "type");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (12,), }", "shape (12,), expected rows of three numbers");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 3), }", "shape (2, 2, 3), expected rows");
+  refused("{'descr': '<c8', 'fortran_order': False, 'shape': (3, 3), }",
+          "an array of type '<c8' and shape (3, 3), expected");
+  refused("{'descr': '<f16', 'fortran_order': False, 'shape': (3, 3), }", "numbers may be f2, f4, f8");
+  refused("{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (3,), }", "no column 'y', but x");
+  refused("{'descr': [('p', '<f4', (3,))], 'fortran_order': False, 'shape': (3,), }", "[('p', '<f4', (3,))]");
+  refused("{'descr': [('x', '<f4'), ('y', '>f4'), ('z', '<f4')], 'fortran_order': False, 'shape': (3,), }", "expected");
+}
+
+TEST(Npy, ReadsHalfFloatsAndRecords) {
+  const TemporaryFolder folder;
+  Bytes halves;  // binary16 of 1 to 8 and 9.5
+  for (const int bits : {0x3C00, 0x4000, 0x4200, 0x4400, 0x4500, 0x4600, 0x4700, 0x4800, 0x48C0})
+    halves.put(static_cast<std::uint16_t>(bits));
+  write_whole_file(folder / "a.npy", npy("{'descr': '<f2', 'fortran_order': False, 'shape': (3, 3), }", halves.text));
+  expect_three_points(read_cloud(folder / "a.npy"));
+  for (const bool big : {false, true}) {
+    Bytes records(big);
+    for (const float x : {1.f, 4.f, 7.f})
+      records.put(static_cast<std::int16_t>(10 * x))
+          .put_text("..")
+          .put(static_cast<double>(x == 7 ? 9.5f : x + 2))
+          .put(x)
+          .put(x + 1);
+    const std::string order = big ? ">" : "<";
+    write_whole_file(folder / "a.npy",
+                     npy("{'descr': [('rho', '" + order + "i2'), ('', '|V2'), ('z', '" + order + "f8'), ('x', '" +
+                             order + "f4'), ('y', '" + order + "f4')], 'fortran_order': False, 'shape': (3,), }",
+                         records.text));
+    const Cloud cloud = read_cloud(folder / "a.npy");
+    expect_three_points(cloud);
+    EXPECT_THAT(cloud.density, ElementsAre(10, 40, 70));
+    EXPECT_THAT(read_cloud(folder / "a.npy", {.position = "rho,y,z"}).x, ElementsAre(10, 40, 70));
+  }
 }
 
 std::string ply_header(const std::string& format, int vertices) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <memory>
 
 #include "wheatstone/error.h"
@@ -18,6 +20,16 @@ double decode(const char* from, bool swapped) {
   std::memcpy(bytes.data(), from, sizeof(Number));
   if (swapped) std::ranges::reverse(bytes);
   return static_cast<double>(std::bit_cast<Number>(bytes));
+}
+
+/// A number of IEEE 754's binary16.
+double half_value(std::uint16_t bits) {
+  const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
+  const double size = exponent == 0    ? std::ldexp(mantissa, -24)
+                      : exponent == 31 ? (mantissa == 0 ? std::numeric_limits<double>::infinity()
+                                                        : std::numeric_limits<double>::quiet_NaN())
+                                       : std::ldexp(1024 + mantissa, exponent - 25);
+  return bits >> 15 != 0 ? -size : size;
 }
 
 double decode(const char* from, NumberType type, bool swapped) {
@@ -38,6 +50,8 @@ double decode(const char* from, NumberType type, bool swapped) {
       return decode<std::int64_t>(from, swapped);
     case NumberType::u64:
       return decode<std::uint64_t>(from, swapped);
+    case NumberType::f16:
+      return half_value(static_cast<std::uint16_t>(decode<std::uint16_t>(from, swapped)));
     case NumberType::f32:
       return decode<float>(from, swapped);
     default:
@@ -138,6 +152,7 @@ std::size_t bytes_of(NumberType type) {
       return 1;
     case NumberType::i16:
     case NumberType::u16:
+    case NumberType::f16:
       return 2;
     case NumberType::i32:
     case NumberType::u32:

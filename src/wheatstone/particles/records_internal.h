@@ -11,7 +11,7 @@
 
 namespace wheatstone {
 
-enum class NumberType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+enum class NumberType { i8, u8, i16, u16, i32, u32, i64, u64, f16, f32, f64 };
 
 std::size_t bytes_of(NumberType type);
 

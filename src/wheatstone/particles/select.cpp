@@ -96,7 +96,7 @@ Cut parse_cut(const std::string& text) {
   refuse_cut(text);
 }
 
-SelectionCounts select(Cloud& cloud, const Selection& selection, std::uint64_t first) {
+SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::uint64_t first) {
   SelectionCounts counts;
   if (selection.centre && cloud.box_size > 0) wrap(cloud, *selection.centre);
   std::vector<std::uint32_t> kept;

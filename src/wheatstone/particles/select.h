@@ -37,6 +37,6 @@ struct SelectionCounts {
 
 /// Keeps what the selection asks for, in place and in order. `first` is the index of the cloud's first particle in its
 /// file, so that a file in chunks is thinned out as the whole would be.
-SelectionCounts select(Cloud& cloud, const Selection& selection, std::uint64_t first = 0);
+SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::uint64_t first = 0);
 
 }  // namespace wheatstone

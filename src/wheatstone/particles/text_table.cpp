@@ -12,25 +12,14 @@
 #include <memory>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 
 namespace wheatstone {
 namespace {
 
 constexpr std::size_t longest_line = 1 << 16;
-
-/// Fields of a line; blanks, commas, semicolons and tabs all stand between them.
-std::vector<std::string_view> fields_of(std::string_view line) {
-  constexpr std::string_view between = " \t,;\r";
-  std::vector<std::string_view> fields;
-  for (std::size_t at = line.find_first_not_of(between); at != std::string_view::npos;
-       at = line.find_first_not_of(between, at)) {
-    const std::size_t end = std::min(line.find_first_of(between, at), line.size());
-    fields.push_back(line.substr(at, end - at));
-    at = end;
-  }
-  return fields;
-}
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // UTF-8's, which spreadsheets write
 
 bool parse(std::string_view field, float& value) {
   double number = 0;
@@ -46,14 +35,13 @@ struct Table {
   std::uint64_t line = 0;
   std::vector<std::string> names;
   std::vector<std::string> waiting;  // the first line, where it holds numbers
-  std::array<int, 3> position{0, 1, 2};
-  int density = -1, temperature = -1, smoothing_length = -1;
-  std::array<int, 3> colour{-1, -1, -1};
+  ChosenColumns chosen;
 
   /// The next line that is neither empty nor a comment. False at the end.
   bool read_line(std::string& text) {
     while (std::getline(file, text)) {
       ++line;
+      if (line == 1 && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
       if (text.size() > longest_line)
         throw Error(ErrorKind::bad_input, fmt::format("{}: line {} is longer than {} bytes", path, line, longest_line));
       const std::size_t first = text.find_first_not_of(" \t\r");
@@ -63,44 +51,6 @@ struct Table {
   }
 };
 
-std::string lower(std::string name) {
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
-
-/// The column that the user named, or the first of the usual names; −1 where there is none.
-int column_of(const Table& table, const std::string& wanted, std::initializer_list<const char*> usual) {
-  const auto find = [&](const std::string& name) {
-    for (std::size_t i = 0; i < table.names.size(); ++i)
-      if (lower(table.names[i]) == lower(name)) return static_cast<int>(i);
-    return -1;
-  };
-  if (!wanted.empty()) {
-    const int found = find(wanted);
-    if (found < 0)
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: has no column '{}', but {}", table.path, wanted, fmt::join(table.names, ", ")));
-    return found;
-  }
-  for (const char* name : usual)
-    if (const int found = find(name); found >= 0) return found;
-  return -1;
-}
-
-void choose_columns(Table& table, const CloudChoice& choice) {
-  const std::vector<std::string_view> names =
-      choice.position.empty() ? std::vector<std::string_view>{"x", "y", "z"} : fields_of(choice.position);
-  if (names.size() != 3)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: '{}' is no position, expected three columns, as x,y,z", table.path, choice.position));
-  for (std::size_t axis = 0; axis < 3; ++axis) table.position[axis] = column_of(table, std::string(names[axis]), {});
-  table.density = column_of(table, choice.density, {"density", "rho"});
-  table.temperature = column_of(table, choice.temperature, {"temperature", "temp", "t", "scalar", "intensity"});
-  table.smoothing_length = column_of(table, choice.smoothing_length, {"smoothing_length", "hsml", "h"});
-  table.colour = {column_of(table, {}, {"red", "r"}), column_of(table, {}, {"green", "g"}),
-                  column_of(table, {}, {"blue", "b"})};
-}
-
 Rgb8 colour_of(const std::vector<float>& row, const std::array<int, 3>& columns) {
   const auto byte = [](float value) {
     return static_cast<std::uint8_t>(std::clamp(std::isnan(value) ? 0.f : value, 0.f, 255.f));
@@ -109,13 +59,14 @@ Rgb8 colour_of(const std::vector<float>& row, const std::array<int, 3>& columns)
 }
 
 void add_row(const Table& table, const std::vector<float>& row, Cloud& cloud) {
-  cloud.x.push_back(row[table.position[0]]);
-  cloud.y.push_back(row[table.position[1]]);
-  cloud.z.push_back(row[table.position[2]]);
-  if (table.density >= 0) cloud.density.push_back(row[table.density]);
-  if (table.temperature >= 0) cloud.temperature.push_back(row[table.temperature]);
-  if (table.smoothing_length >= 0) cloud.smoothing_length.push_back(row[table.smoothing_length]);
-  if (std::ranges::min(table.colour) >= 0) cloud.colour.push_back(colour_of(row, table.colour));
+  const ChosenColumns& chosen = table.chosen;
+  cloud.x.push_back(row[chosen.position[0]]);
+  cloud.y.push_back(row[chosen.position[1]]);
+  cloud.z.push_back(row[chosen.position[2]]);
+  if (chosen.density >= 0) cloud.density.push_back(row[chosen.density]);
+  if (chosen.temperature >= 0) cloud.temperature.push_back(row[chosen.temperature]);
+  if (chosen.smoothing_length >= 0) cloud.smoothing_length.push_back(row[chosen.smoothing_length]);
+  if (std::ranges::min(chosen.colour) >= 0) cloud.colour.push_back(colour_of(row, chosen.colour));
 }
 
 /// The numbers of a line, one for each name. Throws Error{bad_input}.
@@ -158,7 +109,7 @@ CloudSource open_text_table(const std::filesystem::path& path, const CloudChoice
       table->names.emplace_back(field.substr(quoted, field.size() - 2 * quoted));
     }
   }
-  choose_columns(*table, choice);
+  table->chosen = choose_columns(table->path, table->names, choice);
   CloudSource source{.format = "text", .fields = table->names};
   source.bytes = std::filesystem::file_size(path);
   source.next = [table](std::size_t most) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -57,6 +59,18 @@ void check_size(const fs::path& path, const OIIO::ImageSpec& spec) {
     refuse(path, fmt::format("{}x{} pixels, expected at most 2 GiB", spec.width, spec.height));
 }
 
+/// A BMP is at best run-length encoded: two bytes stand for up to 255 pixels. Its decoder believes any header.
+void check_bmp_length(const fs::path& path, const OIIO::ImageInput& decoder) {
+  if (decoder.format_name() != std::string_view("bmp")) return;
+  const auto pixels =
+      static_cast<std::uint64_t>(decoder.spec().width) * static_cast<std::uint64_t>(decoder.spec().height);
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (!error && pixels / 128 > bytes)
+    refuse(path, fmt::format("damaged or truncated picture: its header says {}x{} pixels, but the file has {} bytes",
+                             decoder.spec().width, decoder.spec().height, bytes));
+}
+
 // We composite over white ourselves, in sRGB, as viewers do.
 OIIO::ImageSpec colour_as_it_stands() {
   OIIO::ImageSpec wish;
@@ -80,6 +94,7 @@ void check_opened(const fs::path& path, OpenPicture& open) {
     refuse(path, "not a picture, or a damaged one; expected PNG, JPEG, TIFF, WebP, HEIC, EXR, PPM or BMP");
   }
   check_size(path, open.decoder->spec());
+  check_bmp_length(path, *open.decoder);
   if (!open.colour_profile.empty()) return;
   const OIIO::ParamValue* profile = open.decoder->spec().find_attribute("ICCProfile");
   if (profile != nullptr) open.colour_profile.assign(static_cast<const char*>(profile->data()), profile->datasize());
@@ -111,7 +126,13 @@ OpenPicture open_picture(const fs::path& path) {
   } else {
     open.bytes = {};
     const OIIO::ImageSpec wish = colour_as_it_stands();
-    open.decoder = OIIO::ImageInput::open(path.string(), &wish);
+    try {
+      open.decoder = OIIO::ImageInput::open(path.string(), &wish);
+    } catch (const std::bad_alloc&) {  // a decoder that believes a damaged header
+      refuse_damaged(path, "its header asks for more memory than there is");
+    } catch (const std::length_error&) {
+      refuse_damaged(path, "its header asks for more memory than can be");
+    }
   }
   check_opened(path, open);
   return open;

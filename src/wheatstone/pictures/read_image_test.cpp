@@ -234,5 +234,16 @@ TEST(ReadImage, RefusesSizesThatNoPictureHas) {
   expect_error(ErrorKind::bad_input, "huge.ppm: 60000x60000 pixels", [&] { read_image(folder / "huge.ppm"); });
 }
 
+TEST(ReadImage, BelievesNoHeaderOfABmpThatItsLengthBelies) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.bmp", ramp(8, 8));
+  std::string bytes = bytes_of(folder / "a.bmp");
+  // Width and height are little-endian numbers at bytes 18 and 22.
+  for (const std::size_t at : {18, 22}) bytes.replace(at, 4, std::string("\x40\x60\x00\x00", 4));
+  put_bytes(folder / "a.bmp", bytes);
+  expect_error(ErrorKind::bad_input, "its header says 24640x24640 pixels, but the file has",
+               [&] { read_image(folder / "a.bmp"); });
+}
+
 }  // namespace
 }  // namespace wheatstone

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <initializer_list>
+
+#include "wheatstone/error.h"
+#include "wheatstone/particles/columns_internal.h"
+
+namespace wheatstone {
+namespace {
+
+std::string lower(std::string name) {
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
+/// A file's columns by name.
+struct NamedColumns {
+  const std::string& path;
+  const std::vector<std::string>& names;
+
+  int find(const std::string& name) const {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (lower(names[i]) == lower(name)) return static_cast<int>(i);
+    return -1;
+  }
+  int required(const std::string& name) const {
+    const int found = find(name);
+    if (found < 0)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: has no column '{}', but {}", path, name, fmt::join(names, ", ")));
+    return found;
+  }
+  /// The column that the user named, or the first of the usual names.
+  int chosen(const std::string& wanted, std::initializer_list<const char*> usual) const {
+    if (!wanted.empty()) return required(wanted);
+    for (const char* name : usual)
+      if (const int found = find(name); found >= 0) return found;
+    return -1;
+  }
+};
+
+}  // namespace
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  constexpr std::string_view between = " \t,;\r";
+  std::vector<std::string_view> fields;
+  for (std::size_t at = line.find_first_not_of(between); at != std::string_view::npos;
+       at = line.find_first_not_of(between, at)) {
+    const std::size_t end = std::min(line.find_first_of(between, at), line.size());
+    fields.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return fields;
+}
+
+ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names,
+                             const CloudChoice& choice) {
+  const std::vector<std::string_view> axes =
+      choice.position.empty() ? std::vector<std::string_view>{"x", "y", "z"} : fields_of(choice.position);
+  if (axes.size() != 3)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: '{}' is no position, expected three columns, as x,y,z", path, choice.position));
+  const NamedColumns columns{path, names};
+  ChosenColumns chosen;
+  for (std::size_t axis = 0; axis < 3; ++axis) chosen.position[axis] = columns.required(std::string(axes[axis]));
+  chosen.density = columns.chosen(choice.density, {"density", "rho"});
+  chosen.temperature = columns.chosen(choice.temperature, {"temperature", "temp", "t", "scalar", "intensity"});
+  chosen.smoothing_length = columns.chosen(choice.smoothing_length, {"smoothing_length", "hsml", "h"});
+  chosen.colour = {columns.chosen({}, {"red", "r"}), columns.chosen({}, {"green", "g"}),
+                   columns.chosen({}, {"blue", "b"})};
+  return chosen;
+}
+
+}  // namespace wheatstone
