@@ -43,6 +43,7 @@ struct Arguments {
   float span = 0;
   bool measure = false;
   bool html = false;
+  bool svg = false;
   MatchArguments matching;
   StyleArguments style;
 };
@@ -179,7 +180,7 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
     measures = measure_painting(photographs, result, truth ? *truth : result.geometry.left_disparity);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
   const PaintingReport report{result, options.style, &prepared, measured};
-  write_results(folder, photographs, report, {.html = arguments.html}, session.progress);
+  write_results(folder, photographs, report, {.html = arguments.html, .svg = arguments.svg}, session.progress);
   if (session.json) {
     fmt::print(session.output, "{}", report_json(report));
   } else {
@@ -201,7 +202,7 @@ void run(const Arguments& arguments, const Session& session) {
                 fmt::format("{}: a painting holds what two eyes show; the views of a display are painted from the "
                             "photographs, with 'wheatstone paint LEFT RIGHT --display {}'",
                             left, arguments.display));
-  draw_again(read_painting(left), arguments.scale, arguments.folder);
+  draw_again(read_painting(left), arguments.folder, {.scale = arguments.scale, .svg = arguments.svg});
   if (session.json) {
     fmt::print(session.output, "{{\"folder\": \"{}\"}}\n", arguments.folder);
   } else {
@@ -245,6 +246,7 @@ void add_paint_command(CLI::App& program, const Session& session) {
       ->check(CLI::Range(0.01, 20.0))
       ->needs(display);
   command.add_flag("--report", arguments->measure, "Measure how well the painting's two eyes fit together");
+  command.add_flag("--svg", arguments->svg, "Also write left.svg and right.svg, the marks as vector graphics");
   command.add_flag("--html", arguments->html, "Also write index.html, which shows the pictures");
   add_stereo_options(command, arguments->photographs);
   add_rectify_option(command, arguments->photographs);
@@ -253,7 +255,7 @@ void add_paint_command(CLI::App& program, const Session& session) {
   command.footer(
       "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, "
       "painting.wst\n"
-      "(the marks), SVG for each eye, disparity, occlusion, and report.json.\n\n"
+      "(the marks), disparity, occlusion, and report.json.\n\n"
       "Examples:\n  wheatstone synth still -o still\n"
       "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
       "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph");

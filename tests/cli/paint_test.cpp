@@ -47,8 +47,8 @@ std::vector<std::string> paint_line(std::vector<std::string> more) {
 TEST(PaintCommand, WritesAPaintingAndItsReport) {
   const TemporaryFolder folder;
   write_pair(folder);
-  const ProgramResult result = run_program(paint_line({"--disparity", "disparity.pfm", "--report", "--html", "--json"}),
-                                           {.folder = folder / ""});
+  const ProgramResult result = run_program(
+      paint_line({"--disparity", "disparity.pfm", "--report", "--html", "--svg", "--json"}), {.folder = folder / ""});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   const auto report = nlohmann::json::parse(result.output);
   EXPECT_EQ(report["width"], width);
@@ -64,8 +64,8 @@ TEST(PaintCommand, PaintsWithOtherMarksThanStrokes) {
   const TemporaryFolder folder;
   write_pair(folder);
   for (const std::string style : {"posterise", "mosaic", "diffusion"}) {
-    const ProgramResult result =
-        run_program(paint_line({"--disparity", "disparity.pfm", "--style", style, "--json"}), {.folder = folder / ""});
+    const ProgramResult result = run_program(
+        paint_line({"--disparity", "disparity.pfm", "--style", style, "--svg", "--json"}), {.folder = folder / ""});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const auto report = nlohmann::json::parse(result.output);
     EXPECT_GT(report[style == "diffusion" ? "curves" : "regions"], 1);

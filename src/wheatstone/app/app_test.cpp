@@ -137,8 +137,8 @@ TEST(Redraw, MakesTheSamePicturesOfAPaintingFileInEveryStyle) {
     options.style.texture = options.style.marks == Marks::strokes;
     const PaintedPhotograph result = paint_photograph(small.pictures, options);
     OutputFolder output(folder / "out");
-    write_results(output, small.pictures, {result, options.style});
-    draw_again(read_painting(folder / "out" / "painting.wst"), 1, folder / "again");
+    write_results(output, small.pictures, {result, options.style}, {.svg = true});
+    draw_again(read_painting(folder / "out" / "painting.wst"), folder / "again", {.svg = true});
     for (const std::string file : {"left.png", "right.png", "left.svg"})
       EXPECT_EQ(read_whole_file(folder / "again" / file, 1 << 26), read_whole_file(folder / "out" / file, 1 << 26))
           << name << " " << file;
@@ -149,9 +149,11 @@ TEST(Redraw, WritesBothEyes) {
   const fs::path folder = fresh_folder();
   PaintPhotographOptions options;
   options.left_disparity = still().geometry.left_disparity;
-  draw_again({.painting = paint_photograph(still().pictures, options).painted.painting}, 0.5, folder / "again");
+  draw_again({.painting = paint_photograph(still().pictures, options).painted.painting}, folder / "again",
+             {.scale = 0.5});
   EXPECT_EQ(read_image(folder / "again" / "left.png").width(), 120);
   EXPECT_TRUE(fs::exists(folder / "again" / "anaglyph.png"));
+  EXPECT_FALSE(fs::exists(folder / "again" / "left.svg")) << "only where it is asked for";
 }
 
 }  // namespace

@@ -19,7 +19,6 @@ constexpr std::array<Shown, 10> pictures{{
     {"anaglyph.png", "Anaglyph, for red–cyan glasses"},
     {"side_by_side.png", "Side by side, for parallel viewing"},
     {"disparity.png", "Disparity: near is red, far is blue"},
-    {"left.svg", "StrokePainting as vectors, left eye"},
     {"left_occlusion.png", "Seen by the left eye only"},
     {"right_occlusion.png", "Seen by the right eye only"},
 }};

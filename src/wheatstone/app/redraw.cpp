@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/app/write_svg.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/drawing/svg.h"
 #include "wheatstone/error.h"
 #include "wheatstone/percentile.h"
 #include "wheatstone/pictures/write_image.h"
@@ -38,8 +38,8 @@ Painting scaled(const Painting& painting, double scale) {
   return resized(painting, scale);
 }
 
-void draw_again(const Painting& painting, double scale, const std::filesystem::path& folder) {
-  const Painting sized = scaled(painting, scale);
+void draw_again(const Painting& painting, const std::filesystem::path& folder, const RedrawOptions& options) {
+  const Painting sized = scaled(painting, options.scale);
   const StereoPair pictures{draw(sized, left_eye).picture, draw(sized, right_eye).picture};
   const StereoPair presented = set_convergence(pictures, nearest_disparity(sized));
   OutputFolder output(folder);
@@ -47,8 +47,10 @@ void draw_again(const Painting& painting, double scale, const std::filesystem::p
   write_image(output.file("right.png"), pictures.right);
   write_image(output.file("side_by_side.png"), side_by_side(presented));
   write_image(output.file("anaglyph.png"), anaglyph(presented));
-  write_svg(output.file("left.svg"), sized, left_eye);
-  write_svg(output.file("right.svg"), sized, right_eye);
+  if (options.svg) {
+    write_svg(output.file("left.svg"), sized, left_eye);
+    write_svg(output.file("right.svg"), sized, right_eye);
+  }
   output.commit();
 }
 

@@ -10,9 +10,14 @@ namespace wheatstone {
 /// Throws Error{wrong_usage} where the result would be over 65535 pixels a side.
 Painting scaled(const Painting& painting, double scale);
 
-/// Draws a painting again, for both eyes, over its canvas colour: left.png, right.png, side_by_side.png, anaglyph.png,
-/// left.svg and right.svg in a folder that appears when all is written. The nearest mark's depth, but for outliers,
-/// lies on the screen plane. Throws Error{cannot_read_write}.
-void draw_again(const Painting& painting, double scale, const std::filesystem::path& folder);
+struct RedrawOptions {
+  double scale = 1;  ///< how many times as large
+  bool svg = false;  ///< also left.svg and right.svg, the marks as vectors
+};
+
+/// Draws a painting again, for both eyes, over its canvas colour: left.png, right.png, side_by_side.png and
+/// anaglyph.png in a folder that appears when all is written. The nearest mark's depth, but for outliers, lies on the
+/// screen plane. Throws Error: cannot_read_write, and as `scaled` does.
+void draw_again(const Painting& painting, const std::filesystem::path& folder, const RedrawOptions& options = {});
 
 }  // namespace wheatstone

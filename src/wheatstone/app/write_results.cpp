@@ -6,10 +6,10 @@
 #include <mutex>
 
 #include "wheatstone/app/gallery.h"
+#include "wheatstone/app/write_svg.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/disparity_picture.h"
-#include "wheatstone/drawing/svg.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/pictures/disparity_file.h"
@@ -40,10 +40,12 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
       {"left_occlusion.png", [&](const Path& path) { write_image(path, geometry.left_occlusion); }},
       {"right_occlusion.png", [&](const Path& path) { write_image(path, geometry.right_occlusion); }},
       {"painting.wst", [&](const Path& path) { write_painting(path, painting); }},
-      {"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }},
-      {"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }},
       {"report.json", [&](const Path& path) { write_whole_file(path, report_json(told)); }},
   };
+  if (options.svg) {
+    outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }});
+    outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }});
+  }
   if (options.html) {
     outputs.push_back({"left_photograph.png", [&](const Path& path) { write_image(path, photographs.left); }});
     outputs.push_back({"right_photograph.png", [&](const Path& path) { write_image(path, photographs.right); }});

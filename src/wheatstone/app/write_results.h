@@ -11,13 +11,14 @@ namespace wheatstone {
 
 struct ResultOptions {
   bool html = false;  ///< also an index.html that shows the pictures
+  bool svg = false;   ///< also left.svg and right.svg, the marks as vectors
 };
 
 /// Writes a painted photograph into a folder and commits it: left.png and right.png in the
 /// photographs' own geometry; side_by_side.png and anaglyph.png shifted to the zero-parallax plane; disparity.png,
 /// left_disparity.pfm, right_disparity.pfm, left_occlusion.png, right_occlusion.png; painting.wst,
-/// left.svg, right.svg, report.json. Returns the names written. Throws Error{cannot_read_write}; then nothing is
-/// committed.
+/// report.json; and what the options ask for. Returns the names written. Throws Error{cannot_read_write}; then nothing
+/// is committed.
 std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs, const PaintingReport& told,
                                        const ResultOptions& options = {}, const Progress& progress = {});
 

@@ -3,140 +3,236 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <iterator>
+#include <string_view>
 #include <vector>
 
+#include "wheatstone/drawing/fit_curve_internal.h"
 #include "wheatstone/drawing/rasterise_internal.h"
-#include "wheatstone/files/whole_file.h"
+#include "wheatstone/drawing/visible_strokes_internal.h"
 #include "wheatstone/marks/spline.h"
 
 namespace wheatstone {
 namespace {
 
-using Text = fmt::memory_buffer;
+constexpr int units_a_pixel = 10;
 
-template <class... Values>
-void add(Text& text, fmt::format_string<Values...> format, Values&&... values) {
-  fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
-}
-
-PlanePoint blend(PlanePoint a, float weight_a, PlanePoint b, float weight_b) {
-  return {weight_a * a.x + weight_b * b.x, weight_a * a.y + weight_b * b.y};
-}
-
-/// A uniform B-spline's span with controls p0 … p3 is the Bézier curve with inner points (2p1 + p2)/3 and
-/// (p1 + 2p2)/3 that ends at (p1 + 4p2 + p3)/6.
-void add_spline(Text& text, const ClampedSpline& spline) {
-  const PlanePoint begin = spline.control(0);
-  add(text, "M{:.2f} {:.2f}", begin.x, begin.y);
-  if (spline.span_count() == 0) add(text, "h0");
-  for (int span = 0; span < spline.span_count(); ++span) {
-    const PlanePoint p1 = spline.control(span + 1), p2 = spline.control(span + 2), p3 = spline.control(span + 3);
-    const PlanePoint first = blend(p1, 2.f / 3, p2, 1.f / 3), second = blend(p1, 1.f / 3, p2, 2.f / 3);
-    const PlanePoint outer = blend(p1, 1.f / 6, p3, 1.f / 6);
-    const PlanePoint end = blend(outer, 1, p2, 4.f / 6);
-    add(text, "C{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", first.x, first.y, second.x, second.y, end.x, end.y);
+/// Writes an SVG document, whose coordinates are whole tenths of a pixel.
+class Document {
+ public:
+  Document(int width, int height, std::string_view attributes) {
+    add(R"(<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" )"
+        R"(width="{}" height="{}" viewBox="0 0 {} {}" {}>)"
+        "\n",
+        width, height, units_a_pixel * width, units_a_pixel * height, attributes);
   }
+
+  template <class... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+  }
+
+  // A path's data: moves and curves from the place that was reached, in the shortest numbers.
+  void move_to(PlanePoint place) {
+    reached_ = rounded(place);
+    add("M{} {}", reached_.x, reached_.y);
+    command_ = 'M';
+  }
+  void line_to(PlanePoint place) {
+    const Place to = rounded(place);
+    if (to == reached_) return;
+    begin_command('l');
+    add_step(to);
+    reached_ = to;
+  }
+  void curve_to(const BezierCurve& curve) {
+    const Place first = rounded(curve.first), second = rounded(curve.second), to = rounded(curve.end);
+    if (is_straight(first, second, to)) return line_to(curve.end);
+    begin_command('c');
+    add_step(first);
+    add_step(second);
+    add_step(to);
+    reached_ = to;
+  }
+  /// A dot is a line that goes nowhere.
+  void end_line() {
+    if (command_ == 'M') add("h0");
+  }
+  void close_ring() {
+    add("z");
+    command_ = 'z';
+  }
+
+  std::string finished() {
+    add("</svg>\n");
+    return fmt::to_string(text_);
+  }
+
+ private:
+  struct Place {
+    int x, y;
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+
+  static Place rounded(PlanePoint place) {
+    return {static_cast<int>(std::lround(units_a_pixel * place.x)),
+            static_cast<int>(std::lround(units_a_pixel * place.y))};
+  }
+
+  /// Whether the inner points lie on the way from the reached place to the end, to within rounding.
+  bool is_straight(Place first, Place second, Place to) const {
+    const double dx = to.x - reached_.x, dy = to.y - reached_.y, length = std::hypot(dx, dy);
+    const auto beside = [&](Place p) { return std::abs(dx * (p.y - reached_.y) - dy * (p.x - reached_.x)); };
+    const auto along = [&](Place p) { return dx * (p.x - reached_.x) + dy * (p.y - reached_.y); };
+    const auto between = [&](Place p) { return along(p) >= 0 && along(p) <= length * length; };
+    constexpr double units = 0.6;
+    return beside(first) <= units * length && beside(second) <= units * length && between(first) && between(second);
+  }
+
+  /// A command that is that of the step before is not repeated.
+  void begin_command(char command) {
+    if (command != command_) {
+      text_.push_back(command);
+      needs_space_ = false;
+    }
+    command_ = command;
+  }
+  void add_number(int number) {
+    if (needs_space_ && number >= 0) text_.push_back(' ');
+    add("{}", number);
+    needs_space_ = true;
+  }
+  void add_step(Place to) {
+    add_number(to.x - reached_.x);
+    add_number(to.y - reached_.y);
+  }
+
+  fmt::memory_buffer text_;
+  Place reached_{0, 0};
+  char command_ = ' ';
+  bool needs_space_ = false;
+};
+
+float svg_units(float px) { return std::round(100 * px) / 10; }
+
+void add_spline(Document& document, const ClampedSpline& spline) {
+  constexpr int samples_a_span = 4;
+  std::vector<PlanePoint> chain{spline.control(0)};
+  for (int span = 0; span < spline.span_count(); ++span)
+    for (int i = 1; i <= samples_a_span; ++i)
+      chain.push_back(point_on(spline, span, static_cast<float>(i) / samples_a_span));
+  document.move_to(chain.front());
+  for (const BezierCurve& curve : fit_curves(chain, svg_tolerance_px)) document.curve_to(curve);
+  document.end_line();
 }
 
-void add_layer(Text& text, const Layer& layer, ViewPosition view) {
-  add(text, "<g stroke-width=\"{:.2f}\">\n", 2 * BrushProfile(layer.radius_px).middle_px);
+void add_layer(Document& document, const Layer& layer, ViewPosition view, const std::vector<std::uint8_t>& visible) {
+  if (layer.strokes.empty()) return;
+  // What most strokes have in common stands once.
+  const float opacity = layer.strokes.front().opacity;
+  document.add("<g stroke-width=\"{}\" stroke-opacity=\"{:.3g}\">\n",
+               svg_units(2 * BrushProfile(layer.radius_px).middle_px), opacity);
+  std::size_t shown = 0;
   for (const Stroke& stroke : layer.strokes) {
     if (!stroke.views.contains(view)) continue;
-    add(text, "<path stroke=\"#{:02x}{:02x}{:02x}\"", stroke.colour.r, stroke.colour.g, stroke.colour.b);
+    if (visible[shown++] == 0) continue;
+    document.add("<path stroke=\"#{:02x}{:02x}{:02x}\"", stroke.colour.r, stroke.colour.g, stroke.colour.b);
     if (stroke.radius_px != layer.radius_px)
-      add(text, " stroke-width=\"{:.2f}\"", 2 * BrushProfile(stroke.radius_px).middle_px);
-    if (stroke.opacity < 1) add(text, " stroke-opacity=\"{:.3g}\"", stroke.opacity);
-    add(text, " d=\"");
-    add_spline(text, ClampedSpline(layer.points_of(stroke), stroke.reference_view, view));
-    add(text, "\"/>\n");
+      document.add(" stroke-width=\"{}\"", svg_units(2 * BrushProfile(stroke.radius_px).middle_px));
+    if (stroke.opacity != opacity) document.add(" stroke-opacity=\"{:.3g}\"", stroke.opacity);
+    document.add(" d=\"");
+    add_spline(document, ClampedSpline(layer.points_of(stroke), stroke.reference_view, view));
+    document.add("\"/>\n");
   }
-  add(text, "</g>\n");
+  document.add("</g>\n");
 }
 
-void add_area(Text& text, const RegionPainting& painting, const RegionMark& mark, ViewPosition view) {
-  add(text, R"(<path fill="#{0:02x}{1:02x}{2:02x}" stroke="#{0:02x}{1:02x}{2:02x}" d=")", mark.colour.r, mark.colour.g,
-      mark.colour.b);
+void add_area(Document& document, const RegionPainting& painting, const RegionMark& mark, ViewPosition view) {
+  document.add(R"(<path fill="#{0:02x}{1:02x}{2:02x}" stroke="#{0:02x}{1:02x}{2:02x}" d=")", mark.colour.r,
+               mark.colour.g, mark.colour.b);
   for (const Ring& ring : painting.rings_of(mark)) {
-    char command = 'M';
-    for (const ControlPoint& point : painting.points_of(ring)) {
-      add(text, "{}{:.2f} {:.2f}", command, x_in_view(point, mark.reference_view, view), point.y);
-      command = 'L';
-    }
-    add(text, "Z");
+    const auto points = painting.points_of(ring);
+    const auto seen = [&](const ControlPoint& p) { return PlanePoint{x_in_view(p, mark.reference_view, view), p.y}; };
+    document.move_to(seen(points.front()));
+    for (const ControlPoint& point : points.subspan(1)) document.line_to(seen(point));
+    document.close_ring();
   }
-  add(text, "\"/>\n");
+  document.add("\"/>\n");
 }
 
-void add_line(Text& text, const DiffusionPainting& painting, const ColourLine& line, ViewPosition view) {
+/// Whether two colours would be told apart at a glance.
+bool differs(Rgb8 a, Rgb8 b) {
+  constexpr int noticeable = 12;
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > noticeable;
+}
+
+void add_line(Document& document, const DiffusionPainting& painting, const ColourLine& line, ViewPosition view) {
   const auto points = painting.points_of(line);
-  std::size_t red = 0, green = 0, blue = 0;
-  for (const ColourPoint& point : points) {
-    red += point.colour.r;
-    green += point.colour.g;
-    blue += point.colour.b;
+  const auto seen = [&](const ColourPoint& p) {
+    return PlanePoint{x_in_view(p.at, line.reference_view, view), p.at.y};
+  };
+  for (std::size_t begin = 0; begin < points.size();) {
+    std::size_t end = begin + 1;
+    while (end < points.size() && !differs(points[begin].colour, points[end].colour)) ++end;
+    const Rgb8 colour = points[(begin + end - 1) / 2].colour;
+    document.add(R"(<path stroke="#{:02x}{:02x}{:02x}" d=")", colour.r, colour.g, colour.b);
+    document.move_to(seen(points[begin]));
+    // A piece ends where the next one begins.
+    for (std::size_t i = begin + 1; i < std::min(end + 1, points.size()); ++i) document.line_to(seen(points[i]));
+    document.end_line();
+    document.add("\"/>\n");
+    begin = end;
   }
-  add(text, R"(<path stroke="#{:02x}{:02x}{:02x}" d=")", red / points.size(), green / points.size(),
-      blue / points.size());
-  char command = 'M';
-  for (const ColourPoint& point : points) {
-    add(text, "{}{:.2f} {:.2f}", command, x_in_view(point.at, line.reference_view, view), point.at.y);
-    command = 'L';
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? static_cast<unsigned>(static_cast<unsigned char>(bytes[i + k])) : 0u;
+    };
+    const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (std::size_t k = 0; k < 4; ++k)
+      text.push_back(i + k <= bytes.size() ? digits[three >> (18 - 6 * k) & 63] : '=');
   }
-  if (points.size() == 1) add(text, "h0");
-  add(text, "\"/>\n");
+  return text;
 }
 
 }  // namespace
 
 std::string svg_of(const StrokePainting& painting, ViewPosition view) {
-  Text text;
-  add(text,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" fill=\"none\" "
-      "stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
-      painting.width, painting.height);
+  Document document(painting.width, painting.height, R"(fill="none" stroke-linecap="round" stroke-linejoin="round")");
   const Rgb8 canvas = painting.canvas_colour;
-  add(text, "<rect width=\"100%\" height=\"100%\" fill=\"#{:02x}{:02x}{:02x}\"/>\n", canvas.r, canvas.g, canvas.b);
-  for (const Layer& layer : painting.layers) add_layer(text, layer, view);
-  add(text, "</svg>\n");
-  return fmt::to_string(text);
+  document.add("<rect width=\"100%\" height=\"100%\" fill=\"#{:02x}{:02x}{:02x}\"/>\n", canvas.r, canvas.g, canvas.b);
+  // Two of an 8-bit value's steps.
+  constexpr float hidden_share = 1.f / 128;
+  const auto visible = visible_strokes(painting, view, hidden_share);
+  for (std::size_t i = 0; i < painting.layers.size(); ++i) add_layer(document, painting.layers[i], view, visible[i]);
+  return document.finished();
 }
 
 std::string svg_of(const RegionPainting& painting, ViewPosition view) {
-  Text text;
-  add(text,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-      "fill-rule=\"evenodd\" stroke-width=\"0.5\" stroke-linejoin=\"round\">\n",
-      painting.width, painting.height);
+  Document document(painting.width, painting.height, R"(fill-rule="evenodd" stroke-width="5" stroke-linejoin="round")");
   std::vector<const RegionMark*> marks;
   for (const RegionMark& mark : painting.marks)
     if (mark.views.contains(view)) marks.push_back(&mark);
   std::ranges::stable_sort(marks, {}, &RegionMark::disparity);
-  for (const RegionMark* mark : marks) add_area(text, painting, *mark, view);
-  add(text, "</svg>\n");
-  return fmt::to_string(text);
+  for (const RegionMark* mark : marks) add_area(document, painting, *mark, view);
+  return document.finished();
 }
 
-std::string svg_of(const DiffusionPainting& painting, ViewPosition view) {
-  Text text;
-  add(text,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" fill=\"none\" "
-      "stroke-width=\"1\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
-      painting.width, painting.height);
+std::string svg_of(const DiffusionPainting& painting, ViewPosition view, const std::string& ground_png) {
+  Document document(painting.width, painting.height,
+                    R"(fill="none" stroke-width="10" stroke-linecap="round" stroke-linejoin="round")");
+  if (!ground_png.empty())
+    document.add("<image width=\"100%\" height=\"100%\" xlink:href=\"data:image/png;base64,{}\"/>\n",
+                 base64(ground_png));
   for (const ColourLine& line : painting.lines)
-    if (line.views.contains(view)) add_line(text, painting, line, view);
-  add(text, "</svg>\n");
-  return fmt::to_string(text);
-}
-
-std::string svg_of(const Painting& painting, ViewPosition view) {
-  if (painting.regions.width > 0) return svg_of(painting.regions, view);
-  if (painting.curves.width > 0) return svg_of(painting.curves, view);
-  return svg_of(painting.painting, view);
-}
-
-void write_svg(const std::filesystem::path& path, const Painting& painting, ViewPosition view) {
-  write_whole_file(path, svg_of(painting, view));
+    if (line.views.contains(view)) add_line(document, painting, line, view);
+  return document.finished();
 }
 
 }  // namespace wheatstone

@@ -207,8 +207,8 @@ TEST(Svg, HasOnePathForEveryStrokeOfTheView) {
   };
   EXPECT_EQ(paths(svg_of(small_painting(), left_eye)), 1u);
   EXPECT_EQ(paths(svg_of(small_painting(), right_eye)), 2u);
-  EXPECT_THAT(svg_of(small_painting(), left_eye), testing::HasSubstr("M1.00 2.00C"));
-  EXPECT_THAT(svg_of(small_painting(), right_eye), testing::HasSubstr("M-2.00 2.00C"));
+  EXPECT_THAT(svg_of(small_painting(), left_eye), testing::HasSubstr("M10 20"));
+  EXPECT_THAT(svg_of(small_painting(), right_eye), testing::HasSubstr("M-20 20"));
 }
 
 }  // namespace

@@ -33,15 +33,19 @@ std::optional<ParticleFormat> format_of(std::string_view bytes) {
   return text ? std::optional(ParticleFormat::text) : std::nullopt;
 }
 
-/// Whether the first line that is no comment has the columns of a position.
+/// Whether a text's first lines are those of a table with the columns of a position: numbers, or names above numbers.
 bool looks_like_table(std::string_view bytes) {
+  bool names_above = false;
   while (!bytes.empty()) {
     const std::size_t end = bytes.find('\n');
-    const std::string_view line = bytes.substr(0, end);
-    const std::vector<std::string_view> fields = fields_of(line);
-    if (!fields.empty() && fields[0][0] != '#') return fields.size() >= 3 && line.find_first_of("<{") == line.npos;
-    if (end == std::string_view::npos) break;
-    bytes.remove_prefix(end + 1);
+    const std::vector<std::string_view> fields = fields_of(bytes.substr(0, end));
+    bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+    if (fields.empty() || fields[0].starts_with('#')) continue;
+    if (fields.size() < 3) return false;
+    float number = 0;
+    if (std::ranges::all_of(fields, [&](std::string_view field) { return parse_number(field, number); })) return true;
+    if (names_above) return false;
+    names_above = true;
   }
   return false;
 }

@@ -37,7 +37,7 @@ struct CloudSource {
 enum class ParticleFormat { gadget_binary, hdf5, ply, las, npy, text };
 
 /// The format of a file's content, whatever its name; nothing where it is none of them or cannot be read. Text counts
-/// only where its first line has three columns or more, and is no markup.
+/// only where it begins with a row of three numbers or more, or with names above one.
 std::optional<ParticleFormat> particle_format(const std::filesystem::path& path);
 
 /// Opens a file, the first part of a snapshot in several ("snap_007.0.hdf5"), or a folder of parts. The format is told

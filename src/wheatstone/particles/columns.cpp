@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <initializer_list>
 
 #include "wheatstone/error.h"
@@ -54,6 +55,14 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     at = end;
   }
   return fields;
+}
+
+bool parse_number(std::string_view field, float& value) {
+  double number = 0;
+  const auto [stop, error] =
+      std::from_chars(field.data() + (field.starts_with('+') ? 1 : 0), field.data() + field.size(), number);
+  value = static_cast<float>(number);
+  return error == std::errc{} && stop == field.data() + field.size();
 }
 
 ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names,

@@ -20,6 +20,9 @@ struct ChosenColumns {
 /// letters or capitals. Throws Error{bad_input} with the file's name where a named one or the position is missing.
 ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names, const CloudChoice& choice);
 
+/// A field as a number; false where it is none, or not only one.
+bool parse_number(std::string_view field, float& value);
+
 /// Fields of a line; blanks, commas, semicolons and tabs all stand between them.
 std::vector<std::string_view> fields_of(std::string_view line);
 

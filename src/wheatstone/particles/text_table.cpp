@@ -21,14 +21,6 @@ namespace {
 constexpr std::size_t longest_line = 1 << 16;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // UTF-8's, which spreadsheets write
 
-bool parse(std::string_view field, float& value) {
-  double number = 0;
-  const auto [stop, error] =
-      std::from_chars(field.data() + (field.starts_with('+') ? 1 : 0), field.data() + field.size(), number);
-  value = static_cast<float>(number);
-  return error == std::errc{} && stop == field.data() + field.size();
-}
-
 struct Table {
   std::string path;
   std::ifstream file;
@@ -77,7 +69,7 @@ void parse_row(const Table& table, std::string_view text, std::vector<float>& ro
                                                   fields.size(), table.names.size()));
   row.resize(table.names.size());
   for (std::size_t i = 0; i < row.size(); ++i)
-    if (!parse(fields[i], row[i]))
+    if (!parse_number(fields[i], row[i]))
       throw Error(ErrorKind::bad_input, fmt::format("{}: line {}, column {}: '{}' is no number", table.path, table.line,
                                                     i + 1, fields[i].substr(0, 40)));
 }
@@ -93,7 +85,7 @@ CloudSource open_text_table(const std::filesystem::path& path, const CloudChoice
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no particles, expected a line each", path.string()));
   const std::vector<std::string_view> fields = fields_of(first);
   float number = 0;
-  const bool numbers = std::ranges::all_of(fields, [&](std::string_view field) { return parse(field, number); });
+  const bool numbers = std::ranges::all_of(fields, [&](std::string_view field) { return parse_number(field, number); });
   if (fields.size() < 3)
     throw Error(ErrorKind::bad_input, fmt::format("{}: line {} has {} columns, expected at least x, y and z",
                                                   path.string(), table->line, fields.size()));

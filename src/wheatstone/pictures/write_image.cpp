@@ -101,6 +101,13 @@ std::string encode_jpeg(ImageView<const Rgb8> image, int quality) {
   return encoded(path, pixels, *encoder_for(path), spec);
 }
 
+std::string encode_png(ImageView<const Rgb8> image) {
+  const fs::path path = "picture.png";
+  const Pixels pixels = pixels_of(image);
+  if (image.empty()) fail_to_encode(path, "it has no pixels");
+  return encoded(path, pixels, *encoder_for(path), spec_of("png", pixels.width, pixels.height, pixels.channels));
+}
+
 void write_image(const fs::path& path, ImageView<const Rgb8> image) { write_encoded(path, pixels_of(image)); }
 
 void write_image(const fs::path& path, ImageView<const std::uint8_t> image) {

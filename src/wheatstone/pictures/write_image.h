@@ -12,6 +12,9 @@ namespace wheatstone {
 void write_image(const std::filesystem::path& path, ImageView<const Rgb8> image);
 void write_image(const std::filesystem::path& path, ImageView<const std::uint8_t> image);
 
+/// The picture as a PNG. Throws Error{cannot_read_write}.
+std::string encode_png(ImageView<const Rgb8> image);
+
 /// The picture as a baseline JPEG of this quality, 1 to 100, with its chroma at full size (4:4:4).
 /// Throws Error{cannot_read_write}.
 std::string encode_jpeg(ImageView<const Rgb8> image, int quality);
