@@ -13,15 +13,13 @@
 #include "wheatstone/matching/not_a_pair.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/fitting_pair.h"
 
 namespace wheatstone::cli {
 namespace {
 
 void check_sizes(const StereoPair& pair, const std::string& left, const std::string& right) {
-  if (!same_size(pair.left, pair.right))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", right, pair.right.width(), pair.right.height(),
-                            pair.left.width(), pair.left.height(), left));
+  check_same_size(right + ":", pair.right, left + "'s", pair.left);
   constexpr int least_side_px = 16;
   if (pair.left.width() < least_side_px || pair.left.height() < least_side_px)
     throw Error(ErrorKind::bad_input, fmt::format("{}: is {}x{} pixels, expected at least {}x{}", left,

@@ -13,6 +13,7 @@
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/app/write_results.h"
+#include "wheatstone/app/write_svg.h"
 #include "wheatstone/calibration/calibration.h"
 #include "wheatstone/calibration/checkerboard.h"
 #include "wheatstone/calibration/colour_transfer.h"

@@ -7,22 +7,16 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/error.h"
+#include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {
 namespace {
 
-void check_size(const Image<float>& disparity, const StereoPair& photographs, std::string_view name) {
-  if (!same_size(disparity, photographs.left))
-    throw Error(ErrorKind::bad_input, fmt::format("the {} disparity is {}x{} pixels, expected the photographs' {}x{}",
-                                                  name, disparity.width(), disparity.height(), photographs.left.width(),
-                                                  photographs.left.height()));
-}
-
 StereoGeometry given_geometry(const StereoPair& photographs, const PaintPhotographOptions& options) {
-  check_size(*options.left_disparity, photographs, "left");
+  check_same_size("the left disparity", *options.left_disparity, "the photographs'", photographs.left);
   if (!options.right_disparity) return geometry_from_left(*options.left_disparity);
-  check_size(*options.right_disparity, photographs, "right");
+  check_same_size("the right disparity", *options.right_disparity, "the photographs'", photographs.left);
   return geometry_from_both(*options.left_disparity, *options.right_disparity);
 }
 
@@ -44,10 +38,7 @@ float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometr
 
 FoundGeometry find_geometry(const StereoPair& photographs, const PaintPhotographOptions& options,
                             const Progress& progress) {
-  if (!same_size(photographs.left, photographs.right))
-    throw Error(ErrorKind::bad_input, fmt::format("the right photograph is {}x{} pixels, expected the left one's {}x{}",
-                                                  photographs.right.width(), photographs.right.height(),
-                                                  photographs.left.width(), photographs.left.height()));
+  check_fits(photographs);
   if (options.left_disparity) return {given_geometry(photographs, options), std::nullopt};
   MatchedPair matched = match(photographs, options.matching, progress);
   StereoGeometry geometry = std::exchange(matched.geometry, {});

@@ -15,6 +15,7 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match_features.h"
 #include "wheatstone/matching/not_a_pair.h"
+#include "wheatstone/stereo/fitting_pair.h"
 
 namespace wheatstone {
 namespace {
@@ -73,10 +74,8 @@ double turn_between(std::span<const FeatureMatch> matches) {
 }
 
 void check_pictures(const StereoPair& pair) {
-  if (!same_size(pair.left, pair.right) || pair.left.empty())
-    throw Error(ErrorKind::bad_input,
-                fmt::format("the right picture is {}x{} pixels, expected the left one's {}x{}", pair.right.width(),
-                            pair.right.height(), pair.left.width(), pair.left.height()));
+  if (pair.left.empty()) throw Error(ErrorKind::bad_input, "the left picture has no pixels");
+  check_fits(pair);
   const bool left_is_blank = is_blank(pair.left), right_is_blank = is_blank(pair.right);
   if (left_is_blank || right_is_blank)
     throw Error(ErrorKind::bad_input, fmt::format("the {} blank: expected two views of one scene",

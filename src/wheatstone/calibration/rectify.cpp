@@ -16,6 +16,7 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match_features.h"
 #include "wheatstone/percentile.h"
+#include "wheatstone/stereo/fitting_pair.h"
 
 namespace wheatstone {
 namespace {
@@ -30,10 +31,7 @@ struct TurnedPicture {
 };
 
 void check(const StereoPair& pair) {
-  if (!same_size(pair.left, pair.right))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("the right picture is {}x{} pixels, expected the left one's {}x{}", pair.right.width(),
-                            pair.right.height(), pair.left.width(), pair.left.height()));
+  check_fits(pair);
   if (pair.left.width() < least_side_px || pair.left.height() < least_side_px)
     throw Error(ErrorKind::bad_input, fmt::format("the pictures are {}x{} pixels, expected at least {}x{}",
                                                   pair.left.width(), pair.left.height(), least_side_px, least_side_px));

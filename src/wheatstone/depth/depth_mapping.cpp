@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "wheatstone/error.h"
@@ -12,29 +11,6 @@ namespace wheatstone {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::wrong_usage, message); }
-
-/// Text that is read from left to right, and refused as a whole.
-struct Reader {
-  const char* at;
-  const char* end;
-  const std::string& text;
-  const std::string& name;
-
-  [[noreturn]] void refuse_text() const {
-    refuse(fmt::format("{}: is '{}', expected DEPTH:PARALLAX,DEPTH:PARALLAX,...", name, text));
-  }
-  float number() {
-    float value = 0;
-    const auto [stop, error] = std::from_chars(at, end, value);
-    if (error != std::errc{}) refuse_text();
-    at = stop;
-    return value;
-  }
-  void skip(char expected) {
-    if (at == end || *at != expected) refuse_text();
-    ++at;
-  }
-};
 
 /// A point of a curve: parallax over w = 1/depth.
 struct Knot {
@@ -82,15 +58,6 @@ float parallax_px(const DepthMapping& mapping, float depth) {
   return static_cast<float>(before.parallax_px + share * (static_cast<double>(next->parallax_px) - before.parallax_px));
 }
 
-std::vector<float> tabulate(const DepthMapping& mapping, float w_near, float w_far, int n) {
-  std::vector<float> table;
-  for (int i = 0; i < n; ++i) {
-    const double share = n > 1 ? static_cast<double>(i) / (n - 1) : 0;
-    table.push_back(parallax_px(mapping, static_cast<float>(1 / (w_near + share * (w_far - w_near)))));
-  }
-  return table;
-}
-
 void check_depth_mapping(const DepthMapping& mapping, const std::string& name) {
   if (mapping.points.empty()) refuse(name + ": has no points, expected at least one");
   const DepthMapping::Point* before = nullptr;
@@ -122,25 +89,6 @@ DepthMapping many_regions(std::span<const PlacedDepth> placed, const ViewingGeom
   return mapping;
 }
 
-DepthMapping regions_by_share(float nearest, std::span<const DepthRegion> regions, float nearest_px,
-                              float farthest_px) {
-  double total = 0;
-  for (const DepthRegion& region : regions) {
-    if (!(region.share >= 0)) refuse(fmt::format("a region has a share of {}, expected 0 or more", region.share));
-    total += region.share;
-  }
-  if (!(total > 0) || std::isinf(total)) refuse("regions of depth have no shares, expected at least one above 0");
-  DepthMapping mapping{{{nearest, nearest_px}}};
-  double passed = 0;
-  for (const DepthRegion& region : regions) {
-    passed += region.share;
-    const double parallax = nearest_px + passed / total * (static_cast<double>(farthest_px) - nearest_px);
-    mapping.points.push_back({region.to_depth, static_cast<float>(parallax)});
-  }
-  check_depth_mapping(mapping);
-  return mapping;
-}
-
 DepthMapping monotone_curve(const DepthMapping& through, int samples) {
   check_depth_mapping(through);
   if (through.points.size() < 3) return through;
@@ -163,20 +111,6 @@ DepthMapping monotone_curve(const DepthMapping& through, int samples) {
   }
   curve.points.push_back(through.points.back());
   return curve;
-}
-
-DepthMapping parse_depth_mapping(const std::string& text, const std::string& name) {
-  DepthMapping mapping;
-  Reader reader{text.data(), text.data() + text.size(), text, name};
-  while (true) {
-    const float depth = reader.number();
-    reader.skip(':');
-    mapping.points.push_back({depth, reader.number()});
-    if (reader.at == reader.end) break;
-    reader.skip(',');
-  }
-  check_depth_mapping(mapping, name);
-  return mapping;
 }
 
 }  // namespace wheatstone

@@ -26,10 +26,6 @@ struct DepthMapping {
 /// Parallax of a depth > 0. The mapping has at least one point.
 float parallax_px(const DepthMapping& mapping, float depth);
 
-/// Parallaxes at n ≥ 1 values of w = 1/depth, evenly spaced from `w_near` to `w_far`: one look-up a particle. Exact
-/// between the entries too where the mapping is one region.
-std::vector<float> tabulate(const DepthMapping& mapping, float w_near, float w_far, int n);
-
 /// Throws Error{wrong_usage}, beginning with `name`, where the mapping has no points, a depth is not above 0 or not
 /// above the one before, a parallax is below the one before, or any is NaN.
 void check_depth_mapping(const DepthMapping& mapping, const std::string& name = "depth mapping");
@@ -48,22 +44,9 @@ struct PlacedDepth {
 /// where one is behind the viewer.
 DepthMapping many_regions(std::span<const PlacedDepth> placed, const ViewingGeometry& viewing);
 
-/// A region ends at a scene depth and gets a share of the depth planes; shares need not sum up to 1.
-struct DepthRegion {
-  float to_depth;
-  float share;
-};
-
-/// Many regions from `nearest` on, that divide the planes between two parallaxes among them (sec. 6.1, fig. 6.1a).
-/// Throws Error{wrong_usage} where depths do not ascend, or shares are negative or all 0.
-DepthMapping regions_by_share(float nearest, std::span<const DepthRegion> regions, float nearest_px, float farthest_px);
-
 /// A smooth curve through the points of a mapping (fig. 6.1b), without turns between them: cubic in 1/depth, with the
 /// slopes of Fritsch & Carlson 1980, sampled so many times between neighbours. Points that one region would join stay
 /// one region.
 DepthMapping monotone_curve(const DepthMapping& through, int samples = 32);
-
-/// "10:-8,20:0,60:8": scene depths and their parallaxes in pixels. Throws Error{wrong_usage}, beginning with `name`.
-DepthMapping parse_depth_mapping(const std::string& text, const std::string& name = "depth mapping");
 
 }  // namespace wheatstone

@@ -1,4 +1,4 @@
-// From scene depth to parallax: regions, curves, tables, text.
+// From scene depth to parallax: regions and curves.
 
 #include "wheatstone/depth/depth_mapping.h"
 
@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "throws_error.h"
 
@@ -50,19 +51,6 @@ TEST(DepthMapping, ManyRegionsMeetAndStayFlatBeyondTheirEnds) {
   EXPECT_LT(parallax_px(mapping, 1.5f), 0);
 }
 
-TEST(DepthMapping, RegionsGetTheirSharesOfThePlanes) {
-  const std::vector<DepthRegion> regions{{20, 1}, {25, 4}, {60, 1}};
-  const DepthMapping mapping = regions_by_share(10, regions, -12, 18);
-  EXPECT_EQ(mapping.points, (std::vector<DepthMapping::Point>{{10, -12}, {20, -7}, {25, 13}, {60, 18}}));
-  expect_error(ErrorKind::wrong_usage, "share of -1", [] {
-    regions_by_share(1, std::vector<DepthRegion>{{2, -1}}, 0, 1);
-  });
-  expect_error(ErrorKind::wrong_usage, "no shares", [] { regions_by_share(1, {}, 0, 1); });
-  expect_error(ErrorKind::wrong_usage, "ascending", [] {
-    regions_by_share(5, std::vector<DepthRegion>{{2, 1}}, 0, 1);
-  });
-}
-
 TEST(DepthMapping, CurveGoesThroughItsPointsAndNeverTurns) {
   // A step between two flats: an ordinary cubic spline swings over at both of its ends.
   const DepthMapping through{{{1, -10}, {1.5f, -10}, {2, 10}, {3, 10}, {9, 11}}};
@@ -97,36 +85,13 @@ TEST(DepthMapping, CurveThroughOneRegionIsThatRegion) {
     EXPECT_NEAR(parallax_px(curve, depth), parallax_px(ends, depth), 1e-4);
 }
 
-TEST(DepthMapping, TableOfOneRegionIsExactBetweenItsEntries) {
-  const DepthMapping region = single_region(2, 50, desk, 100, 100);
-  const std::vector<float> table = tabulate(region, 0.5f, 0.02f, 9);
-  ASSERT_EQ(table.size(), 9u);
-  EXPECT_FLOAT_EQ(table.front(), region.points[0].parallax_px);
-  EXPECT_FLOAT_EQ(table.back(), region.points[1].parallax_px);
-  const auto looked_up = [&](float depth) {
-    const float at = (0.5f - 1 / depth) / 0.48f * 8;
-    const auto entry = static_cast<std::size_t>(at);
-    const float share = at - static_cast<float>(entry);
-    return table[entry] * (1 - share) + table[entry + 1] * share;
-  };
-  for (const float depth : {2.1f, 3.3f, 7.7f, 20.f, 49.f})
-    EXPECT_NEAR(looked_up(depth), parallax_px(region, depth), 2e-4) << depth;
-  EXPECT_EQ(tabulate(region, 0.5f, 0.02f, 1), std::vector<float>{table.front()});
-}
-
-TEST(DepthMapping, IsReadFromText) {
-  EXPECT_EQ(parse_depth_mapping("10:-8,20:0,60:8").points,
-            (std::vector<DepthMapping::Point>{{10, -8}, {20, 0}, {60, 8}}));
-  EXPECT_EQ(parse_depth_mapping("1.5:-2.25").points, (std::vector<DepthMapping::Point>{{1.5f, -2.25f}}));
-  for (const std::string text : {"", "10", "10:", "10:-8,", "10:-8,20", ",10:1", "10:-8;20:1", "10:a", "10:-8,20:0x"})
-    expect_error(ErrorKind::wrong_usage, "--depth-map: is '" + text + "'",
-                 [&] { parse_depth_mapping(text, "--depth-map"); });
-}
-
 TEST(DepthMapping, RefusesWhatDescendsOrIsNoDepth) {
-  for (const std::string text :
-       {"20:0,10:5", "10:0,10:5", "10:5,20:4", "0:1,2:3", "-1:1,2:3", "1:nan", "1:inf", "nan:1,2:3"})
-    expect_error(ErrorKind::wrong_usage, "expected", [&] { parse_depth_mapping(text); });
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<DepthMapping> wrong{{{{20, 0}, {10, 5}}}, {{{10, 0}, {10, 5}}}, {{{10, 5}, {20, 4}}},
+                                        {{{0, 1}, {2, 3}}},   {{{-1, 1}, {2, 3}}},  {{{1, nan}}},
+                                        {{{1, infinity}}},    {{{nan, 1}, {2, 3}}}};
+  for (const DepthMapping& mapping : wrong)
+    expect_error(ErrorKind::wrong_usage, "expected", [&] { check_depth_mapping(mapping); });
   expect_error(ErrorKind::wrong_usage, "no points", [] { check_depth_mapping({}); });
   expect_error(ErrorKind::wrong_usage, "behind the viewer", [] { single_region(1, 2, desk, 700, 10); });
   expect_error(ErrorKind::wrong_usage, "ascending", [] { single_region(2, 2, desk, 10, 10); });

@@ -15,6 +15,7 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/match_reliability_internal.h"
+#include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {
@@ -36,10 +37,7 @@ std::optional<Value> by_name(std::span<const std::string_view> all, std::string_
 }
 
 void check(const StereoPair& pair, const MatchOptions& options) {
-  if (!same_size(pair.left, pair.right))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("the right picture is {}x{} pixels, expected the left one's {}x{}", pair.right.width(),
-                            pair.right.height(), pair.left.width(), pair.left.height()));
+  check_fits(pair);
   if (pair.left.width() < least_side_px || pair.left.height() < least_side_px)
     throw Error(ErrorKind::bad_input, fmt::format("the pictures are {}x{} pixels, expected at least {}x{}",
                                                   pair.left.width(), pair.left.height(), least_side_px, least_side_px));

@@ -1,12 +1,11 @@
 #include "wheatstone/motion/fitting_scene.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "wheatstone/error.h"
+#include "wheatstone/stereo/fitting_pair.h"
 
 namespace wheatstone {
 
@@ -15,10 +14,7 @@ void check_fits(std::span<const SceneView> views) {
     throw Error(ErrorKind::bad_input, "the scene has no picture, or one with no pixels");
   const ImageView<const Rgb8> reference = views[0].picture;
   const auto check = [&](const auto& image, std::string_view name) {
-    if (!same_size(image, reference))
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{} is {}x{} pixels, expected the reference view's {}x{}", name, image.width(),
-                              image.height(), reference.width(), reference.height()));
+    check_same_size(name, image, "the reference view's", reference);
   };
   for (const SceneView& view : views) {
     check(view.picture, "a view's picture");

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <span>
 
-#include "wheatstone/error.h"
+#include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/warp.h"
 
@@ -169,16 +169,12 @@ Image<std::uint8_t> hidden_from_centre(const Image<float>& disparity, ViewPositi
   return hidden;
 }
 
-void check_fits(const StereoPair& pair, const StereoGeometry& geometry) {
-  if (!same_size(pair.left, pair.right) || !same_size(pair.left, geometry.left_disparity) ||
-      !same_size(pair.left, geometry.right_disparity))
-    throw Error(ErrorKind::bad_input, "pictures and disparities of different sizes, expected one size");
-}
-
 }  // namespace
 
 CentralView make_central_view(const StereoPair& pair, const StereoGeometry& geometry, CentralMerge merge) {
-  check_fits(pair, geometry);
+  check_fits(pair);
+  check_same_size("the left disparity", geometry.left_disparity, "the pictures'", pair.left);
+  check_same_size("the right disparity", geometry.right_disparity, "the pictures'", pair.left);
   MappedEye left, right;
   tbb::parallel_invoke([&] { left = map_forward(pair.left, geometry.left_disparity, left_eye); },
                        [&] { right = map_forward(pair.right, geometry.right_disparity, right_eye); });

@@ -108,7 +108,8 @@ TEST(CentralView, OfTwoEqualPicturesIsThatPicture) {
 TEST(CentralView, RefusesAGeometryOfAnotherSize) {
   StereoGeometry geometry = still().geometry;
   geometry.right_disparity = Image<float>(8, 8);
-  expect_error(ErrorKind::bad_input, "different sizes", [&] { make_central_view(still().pictures, geometry); });
+  expect_error(ErrorKind::bad_input, "pixels, expected the pictures",
+               [&] { make_central_view(still().pictures, geometry); });
 }
 
 }  // namespace

@@ -7,15 +7,22 @@
 
 namespace wheatstone {
 
+void check_sizes(std::string_view name, ImageSize found, std::string_view owner, ImageSize expected) {
+  if (found != expected)
+    throw Error(ErrorKind::bad_input, fmt::format("{} is {}x{} pixels, expected {} {}x{}", name, found.width,
+                                                  found.height, owner, expected.width, expected.height));
+}
+
+void check_fits(const StereoPair& pair) {
+  check_same_size("the right picture", pair.right, "the left one's", pair.left);
+}
+
 void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {
-  const auto check = [&](const auto& image, std::string_view name) {
-    if (!same_size(image, photographs.left))
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{} is {}x{} pixels, expected the photographs' {}x{}", name, image.width(),
-                              image.height(), photographs.left.width(), photographs.left.height()));
-  };
   if (photographs.left.empty()) throw Error(ErrorKind::bad_input, "the left picture has no pixels");
-  check(photographs.right, "the right picture");
+  check_fits(photographs);
+  const auto check = [&](const auto& image, std::string_view name) {
+    check_same_size(name, image, "the photographs'", photographs.left);
+  };
   check(geometry.left_disparity, "the left disparity");
   check(geometry.right_disparity, "the right disparity");
   check(geometry.left_occlusion, "the left occlusion mask");

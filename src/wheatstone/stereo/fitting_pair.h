@@ -1,8 +1,27 @@
 #pragma once
 
+#include <string_view>
+
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
+
+struct ImageSize {
+  int width = 0, height = 0;
+  friend bool operator==(const ImageSize&, const ImageSize&) = default;
+};
+
+/// Throws Error{bad_input}, "NAME is WxH pixels, expected OWNER WxH", where the two sizes differ.
+void check_sizes(std::string_view name, ImageSize found, std::string_view owner, ImageSize expected);
+
+/// The same of images and masks of any kind.
+template <class A, class B>
+void check_same_size(std::string_view name, const A& image, std::string_view owner, const B& expected) {
+  check_sizes(name, {image.width(), image.height()}, owner, {expected.width(), expected.height()});
+}
+
+/// Throws Error{bad_input} unless two pictures are of one size.
+void check_fits(const StereoPair& pair);
 
 /// Throws Error{bad_input} unless photographs and geometry are of one size, not empty, and every disparity is known.
 void check_fits(const StereoPair& photographs, const StereoGeometry& geometry);
