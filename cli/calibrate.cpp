@@ -11,8 +11,10 @@
 
 #include "command.h"
 #include "numbers_argument.h"
+#include "output_option.h"
 #include "wheatstone/calibration/calibration.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/input_guard.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -134,6 +136,8 @@ void print_summary(const CalibrationResult& result, const Arguments& arguments, 
 void run(const Arguments& arguments, const Session& session) {
   const Checkerboard board = board_from(arguments);
   const std::vector<PictureFiles> files = files_from(arguments);
+  for (const PictureFiles& pair : files)
+    check_not_an_input(arguments.output, std::array<fs::path, 2>{pair.left, pair.right});
   const std::vector<BoardSighting> sightings = find_checkerboards(files, board, session.progress);
   const CalibrationResult result = calibrate(sightings, board, {}, session.progress);
   write_stereo_calibration(arguments.output, result.calibration);
@@ -155,8 +159,7 @@ void add_calibrate_command(CLI::App& program, const Session& session) {
   command.add_option("--board", arguments->board, "Inner corners of the board, where four squares meet: COLUMNSxROWS")
       ->capture_default_str();
   command.add_option("--square", arguments->square, "Side of a square: 30mm, 3cm, 1.2in")->capture_default_str();
-  command.add_option("-o,--output", arguments->output, "StereoCalibration file, as OpenCV's FileStorage reads it")
-      ->capture_default_str();
+  add_output_option(command, arguments->output, "StereoCalibration file, as OpenCV's FileStorage reads it");
   command.footer(
       "Needs the board in at least 3 pairs, better a dozen, tilted in several directions. Pairs without it and those\n"
       "that fit far worse than the rest are left out and named.\n\n"

@@ -1,34 +1,109 @@
 #include "interrupt.h"
 
+#include <fmt/format.h>
+#include <semaphore.h>
+#include <unistd.h>
+
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <string_view>
+#include <thread>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/unfinished_outputs.h"
 
 namespace wheatstone::cli {
 namespace {
 
+using namespace std::chrono_literals;
+
+constexpr std::string_view message = "interrupted; nothing half-written is left";
+constexpr auto patience = 400ms;  ///< for a run to end itself
+constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
+
+/// Who ends the run; the first to say so does.
+enum class Ending { none, by_itself, from_outside };
+std::atomic<Ending> ending = Ending::none;
 std::atomic<bool> interrupted = false;
+std::atomic<bool> only_by_itself = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
+bool json_wanted = false;
+sem_t noted;
+
+/// Without the streams, which may be held by the run that does not react.
+void put(int descriptor, std::string_view text) {
+  [[maybe_unused]] const auto written = ::write(descriptor, text.data(), text.size());
+}
+
+/// Ends the program unless the run has ended itself, or has finished its outputs and only says so.
+void end_from_outside() {
+  const auto hold = hold_outputs();
+  Ending none = Ending::none;
+  if (outputs_are_finished() || !ending.compare_exchange_strong(none, Ending::from_outside)) return;
+  remove_unfinished_outputs();
+  // A file may have been opened by its name in the moment of its removal.
+  std::this_thread::sleep_for(5ms);
+  remove_unfinished_outputs();
+  constexpr int code = static_cast<int>(ErrorKind::interrupted);
+  if (::isatty(STDERR_FILENO) != 0) put(STDERR_FILENO, "\r\033[K");  // the progress bar
+  put(STDERR_FILENO, fmt::format("wheatstone: {}\n", message));
+  if (json_wanted)
+    put(STDOUT_FILENO, fmt::format("{{\n  \"error\": \"{}\",\n  \"exit_code\": {}\n}}\n", message, code));
+  ::_exit(code);
+}
+
+void wait_for_signal() {
+  while (::sem_wait(&noted) != 0 && errno == EINTR) continue;
+  std::this_thread::sleep_for(patience);
+  while (ending == Ending::none && !only_by_itself) {
+    end_from_outside();
+    std::this_thread::sleep_for(50ms);
+  }
+}
+
+void note(int) {
+  const int error = errno;
+  interrupted = true;
+  ::sem_post(&noted);
+  errno = error;
+}
 
 }  // namespace
 
-void watch_signals() {
-  struct sigaction once = {};
-  once.sa_handler = [](int) { interrupted = true; };
-  once.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+void watch_signals(bool json) {
+  json_wanted = json;
+  ::sem_init(&noted, 0, 0);
+  struct sigaction noting = {};
+  noting.sa_handler = note;
+  noting.sa_flags = SA_RESTART;
+  for (const int signal : ending_signals) {
     // What was ignored stays so: a run under nohup outlives its terminal.
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &once, nullptr);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &noting, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  std::thread(wait_for_signal).detach();
 }
 
 void throw_if_interrupted() {
-  if (interrupted) throw Error(ErrorKind::interrupted, "interrupted; nothing half-written is left");
+  if (interrupted) throw Error(ErrorKind::interrupted, std::string(message));
+}
+
+void end_only_by_itself() { only_by_itself = true; }
+
+void run_is_over() {
+  Ending before = Ending::none;
+  if (!ending.compare_exchange_strong(before, Ending::by_itself) && before == Ending::from_outside)
+    while (true) ::pause();
+  for (const int signal : ending_signals) {
+    struct sigaction now = {};
+    sigaction(signal, nullptr, &now);
+    if (now.sa_handler == note) std::signal(signal, SIG_DFL);
+  }
 }
 
 }  // namespace wheatstone::cli

@@ -2,11 +2,21 @@
 
 namespace wheatstone::cli {
 
-/// From here on Ctrl-C, TERM and HUP are noted instead of ending the program at once; a second one ends it. A closed
-/// pipe and a file beyond the user's limit become errors of the write instead of signals.
-void watch_signals();
+/// From here on Ctrl-C, TERM and HUP are noted instead of ending the program at once. A run that reports progress ends
+/// itself soon after; one that is in a long call is ended 0.4 s later by another thread, which removes what is
+/// unfinished, says so and leaves with the exit code of an interrupted run. A closed pipe and a file beyond the user's
+/// limit become errors of the write instead of signals. `json`: an error is told on standard output too.
+void watch_signals(bool json);
 
 /// Throws Error{interrupted} where a signal was noted.
 void throw_if_interrupted();
+
+/// This run is not ended from outside, because it has more to do then than to remove its unfinished outputs: it must
+/// report progress often enough.
+void end_only_by_itself();
+
+/// The run is over, one way or the other, and only says so now: from here on a signal ends the program at once. Does
+/// not return where another thread already ends the run.
+void run_is_over();
 
 }  // namespace wheatstone::cli

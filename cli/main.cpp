@@ -1,5 +1,6 @@
 // The process around the command line: its signals, its standard output, and OpenCV, which must not speak up.
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <opencv2/core.hpp>
@@ -24,9 +25,9 @@ int main(int argc, char** argv) {
   // Results wait until the progress bar is gone, which would share their line.
   std::setvbuf(stdout, nullptr, _IOFBF, 1 << 16);
   std::cerr.tie(nullptr);
-  wheatstone::cli::watch_signals();
-  silence_opencv();
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  wheatstone::cli::watch_signals(std::ranges::find(arguments, "--json") != arguments.end());
+  silence_opencv();
   return wheatstone::cli::run_command_line(arguments, std::cout, std::cerr,
                                            wheatstone::cli::style_for_standard_error());
 }

@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "match_options.h"
+#include "output_option.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/report.h"
@@ -22,6 +23,14 @@ struct Arguments {
   MatchArguments matching;
 };
 
+/// The names of all files that `write` writes.
+std::vector<std::string> result_names(bool rectified) {
+  std::vector<std::string> names{"left_disparity.pfm",  "right_disparity.pfm", "left_disparity.png",
+                                 "right_disparity.png", "left_occlusion.png",  "right_occlusion.png"};
+  if (rectified) names.insert(names.end(), {"left.png", "right.png"});
+  return names;
+}
+
 void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry& geometry) {
   if (pair.rectified) {
     write_image(output.file("left.png"), pair.pictures.left);
@@ -37,8 +46,11 @@ void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry&
 }
 
 void run(const Arguments& arguments, const Session& session) {
-  const PreparedPair pair = read_photographs(arguments.photographs, false, session);
-  OutputFolder folder(arguments.folder);
+  // What cannot be written is said before the work.
+  const StereoArguments& photographs = arguments.photographs;
+  OutputFolder folder(arguments.folder, {photographs.left, photographs.right, arguments.matching.model});
+  for (const std::string& name : result_names(photographs.rectify != "never")) folder.file(name);
+  const PreparedPair pair = read_photographs(photographs, false, session);
   const MatchedPair matched = match(pair.pictures, match_options_from(arguments.matching), session.progress);
   write(folder, pair, matched.geometry);
   if (session.json) {
@@ -67,7 +79,7 @@ void add_match_command(CLI::App& program, const Session& session) {
                   "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other")
       ->required();
   command.add_option("RIGHT", arguments->photographs.right, "Right photograph, of the same size");
-  command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
+  add_output_option(command, arguments->folder, "Folder for the results");
   add_stereo_options(command, arguments->photographs);
   add_rectify_option(command, arguments->photographs);
   add_match_options(command, arguments->matching);

@@ -8,10 +8,12 @@
 
 #include "command.h"
 #include "numbers_argument.h"
+#include "output_option.h"
 #include "packing.h"
 #include "views_argument.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/error.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -43,9 +45,12 @@ std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const Argument
 void run(const Arguments& arguments, const Session& session) {
   // What cannot be packed is said before anything is read.
   const Packing packing = find_packing(arguments.packing, arguments.output);
+  ViewsOutput output{arguments.output, files_read(arguments.input)};
+  output.inputs.emplace_back(arguments.packing.screen);
+  check_views_output(output);
   ReadViews read = read_views_argument(arguments.input, views_wanted(packing), session);
   const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), arguments);
-  const std::string written = write_packed({packing, arguments.packing, views, arguments.output, session});
+  const std::string written = write_packed({packing, arguments.packing, views, output, session});
   if (session.json) {
     const nlohmann::ordered_json facts{{"output", written},
                                        {"packing", packing.name},
@@ -68,7 +73,7 @@ void add_pack_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand("pack", "Put views into the format of a display");
   add_views_arguments(*command, arguments->input);
-  command->add_option("-o,--output", arguments->output, "File; or for quilts its stem, for views a folder")->required();
+  add_output_option(*command, arguments->output, "File; or for quilts its stem, for views a folder")->required();
   add_packing_options(*command, arguments->packing);
   command->add_option("--shift", arguments->shift_px,
                       "Move the views apart by so many pixels from each to the next: what has this disparity comes to "

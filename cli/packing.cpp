@@ -84,8 +84,8 @@ Image<float> disparity_of(const PackingJob& job) {
 template <class Make>
 auto one_picture(Make make) {
   return [make](const PackingJob& job) {
-    write_image(job.output, make(job));
-    return job.output;
+    write_image(job.output.name, make(job));
+    return job.output.name;
   };
 }
 
@@ -94,7 +94,7 @@ template <class Write>
 auto one_file(Write write) {
   return [write](const PackingJob& job) {
     write(job);
-    return job.output;
+    return job.output.name;
   };
 }
 
@@ -118,14 +118,14 @@ void add_layouts(std::vector<PackingFormat>& formats) {
 void add_stereo_files(std::vector<PackingFormat>& formats) {
   formats.push_back({"mpo", "", ".mpo", 0, one_file([](const PackingJob& job) {
                        const std::vector<ImageView<const Rgb8>> views(job.views.begin(), job.views.end());
-                       write_mpo(job.output, views, job.arguments.quality);
+                       write_mpo(job.output.name, views, job.arguments.quality);
                      })});
   formats.push_back({"jps", "", ".jps", 2, one_file([](const PackingJob& job) {
-                       write_jps(job.output, job.views[0], job.views[1], StereoLayout::right_left,
+                       write_jps(job.output.name, job.views[0], job.views[1], StereoLayout::right_left,
                                  job.arguments.quality);
                      })});
   formats.push_back(
-      {"exr", "", ".exr", 0, one_file([](const PackingJob& job) { write_multiview_exr(job.output, job.views); })});
+      {"exr", "", ".exr", 0, one_file([](const PackingJob& job) { write_multiview_exr(job.output.name, job.views); })});
 }
 
 void add_many_views(std::vector<PackingFormat>& formats) {
@@ -133,7 +133,7 @@ void add_many_views(std::vector<PackingFormat>& formats) {
                        write_view_folder(job.views, job.output, job.session.progress);
                      })});
   formats.push_back({"wiggle", "", ".gif", 0, one_file([](const PackingJob& job) {
-                       write_wiggle(job.output, job.views, job.arguments.seconds);
+                       write_wiggle(job.output.name, job.views, job.arguments.seconds);
                      })});
   formats.push_back({"quilt", "", "", 0, [](const PackingJob& job) {
                        return write_quilt(job.views, *job.packing.quilt, job.packing.aspect, job.output);
@@ -146,13 +146,13 @@ void add_matched(std::vector<PackingFormat>& formats) {
   formats.push_back({"rgbd", "", "", 2,
                      one_picture([](const PackingJob& job) { return depth_beside(job.views[0], disparity_of(job)); })});
   formats.push_back({"disparity", "", "", 2,
-                     one_file([](const PackingJob& job) { write_disparity(job.output, disparity_of(job)); })});
+                     one_file([](const PackingJob& job) { write_disparity(job.output.name, disparity_of(job)); })});
   formats.push_back({"depth", "", "", 2, one_file([](const PackingJob& job) {
                        Image<float> depth = disparity_of(job);
                        for (float& d : depth.pixels())
                          d = d > 0 ? depth_from_disparity(d, job.arguments.depth_scale)
                                    : std::numeric_limits<float>::quiet_NaN();
-                       write_disparity(job.output, depth);
+                       write_disparity(job.output.name, depth);
                      })});
 }
 

@@ -11,6 +11,7 @@
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/image.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 
@@ -41,7 +42,7 @@ struct PackingJob {
   const Packing& packing;
   const PackingArguments& arguments;
   std::span<const Image<Rgb8>> views;
-  const std::string& output;
+  const ViewsOutput& output;
   const Session& session;
 };
 

@@ -13,6 +13,7 @@
 #include "disparity_argument.h"
 #include "match_options.h"
 #include "numbers_argument.h"
+#include "output_option.h"
 #include "size_argument.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
@@ -99,6 +100,18 @@ void print_summary(const PaintedPhotograph& result, const PaintingMeasures* meas
   fmt::print(session.output, "written to       {}\n", arguments.folder);
 }
 
+/// Where the results go, and all that is read for them.
+ViewsOutput output_of(const Arguments& arguments) {
+  ViewsOutput output{
+      arguments.folder,
+      {arguments.photographs.left, arguments.photographs.right, arguments.style.style, arguments.matching.model}};
+  for (const std::string& disparity : {arguments.disparity, arguments.right_disparity}) {
+    output.inputs.emplace_back(disparity);
+    output.inputs.emplace_back(disparity.substr(0, disparity.rfind(':')));  // FILE:SCALE
+  }
+  return output;
+}
+
 /// What a display wants, where the user does not say otherwise.
 PaintViewsOptions views_options(const Arguments& arguments, const PaintPhotographOptions& painting) {
   const DisplayPreset& display = find_display(arguments.display);
@@ -119,10 +132,10 @@ std::string write_views(const Arguments& arguments, const PaintedViews& result) 
   const DisplayPreset& display = find_display(arguments.display);
   const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
   if (layout.columns * layout.rows == static_cast<int>(result.views.size()))
-    return write_quilt(result.views, layout, display.aspect, arguments.folder);
+    return write_quilt(result.views, layout, display.aspect, output_of(arguments));
   if (display.lenses.screen_width_px > 0)
-    return write_lenticular(result.views, lenticular_screen_of(display), arguments.folder);
-  write_view_folder(result.views, arguments.folder);
+    return write_lenticular(result.views, lenticular_screen_of(display), output_of(arguments));
+  write_view_folder(result.views, output_of(arguments));
   return arguments.folder;
 }
 
@@ -160,7 +173,16 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
     throw Error(ErrorKind::wrong_usage, "--right-disparity needs --disparity, the left eye's");
   if (!arguments.disparity.empty() && !arguments.matching.range.empty())
     throw Error(ErrorKind::wrong_usage, "--range says how to match, but --disparity gives the disparity: choose one");
-  if (!arguments.display.empty()) views_options(arguments, options);  // what makes no sense is said at once
+  // What makes no sense, or cannot be written, is said before the work.
+  const ResultOptions results{.html = arguments.html, .svg = arguments.svg};
+  std::optional<OutputFolder> folder;
+  if (!arguments.display.empty()) {
+    views_options(arguments, options);
+    check_views_output(output_of(arguments));
+  } else {
+    folder.emplace(arguments.folder, output_of(arguments).inputs);
+    for (const std::string& name : result_names(results)) folder->file(name);
+  }
   const PreparedPair prepared = read_photographs(arguments.photographs, !arguments.disparity.empty(), session);
   const StereoPair& photographs = prepared.pictures;
   std::optional<Image<float>> truth;
@@ -172,15 +194,13 @@ void paint_photographs(const Arguments& arguments, const Session& session) {
 
   if (!arguments.display.empty()) return paint_for_display(arguments, prepared, options, session);
 
-  // Before the work, so that a folder that cannot be written to is known at once.
-  OutputFolder folder(arguments.folder);
   const PaintedPhotograph result = paint_photograph(photographs, options, session.progress);
   std::optional<PaintingMeasures> measures;
   if (arguments.measure)
     measures = measure_painting(photographs, result, truth ? *truth : result.geometry.left_disparity);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
   const PaintingReport report{result, options.style, &prepared, measured};
-  write_results(folder, photographs, report, {.html = arguments.html, .svg = arguments.svg}, session.progress);
+  write_results(*folder, photographs, report, results, session.progress);
   if (session.json) {
     fmt::print(session.output, "{}", report_json(report));
   } else {
@@ -202,7 +222,8 @@ void run(const Arguments& arguments, const Session& session) {
                 fmt::format("{}: a painting holds what two eyes show; the views of a display are painted from the "
                             "photographs, with 'wheatstone paint LEFT RIGHT --display {}'",
                             left, arguments.display));
-  draw_again(read_painting(left), arguments.folder, {.scale = arguments.scale, .svg = arguments.svg});
+  OutputFolder folder(arguments.folder, output_of(arguments).inputs);
+  draw_again(read_painting(left), folder, {.scale = arguments.scale, .svg = arguments.svg});
   if (session.json) {
     fmt::print(session.output, "{{\"folder\": \"{}\"}}\n", arguments.folder);
   } else {
@@ -219,7 +240,7 @@ void add_paint_command(CLI::App& program, const Session& session) {
                      "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other; or a "
                      "painting.wst, to draw it again");
   command.add_option("RIGHT", arguments->photographs.right, "Right photograph, of the same size");
-  command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
+  add_output_option(command, arguments->folder, "Folder for the results");
   command.add_option("--print-style", arguments->print_style, "Print a style as a file to change, and do nothing else");
   command.add_option(
       "--disparity", arguments->disparity,

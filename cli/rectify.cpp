@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "output_option.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/calibration/rectify.h"
@@ -92,10 +93,12 @@ void print_summary(const RectifiedPair& pair, const Arguments& arguments, const 
 }
 
 void run(const Arguments& arguments, const Session& session) {
+  // Before the work, so that what cannot be written is known at once.
+  OutputFolder folder(arguments.folder, {arguments.left, arguments.right, arguments.calibration});
+  const std::filesystem::path left = folder.file("left.png"), right = folder.file("right.png");
   const RectifiedPair pair = rectified(arguments, session);
-  OutputFolder folder(arguments.folder);
-  write_image(folder.file("left.png"), pair.pictures.left);
-  write_image(folder.file("right.png"), pair.pictures.right);
+  write_image(left, pair.pictures.left);
+  write_image(right, pair.pictures.right);
   folder.commit();
   if (session.json) {
     print_json(pair, arguments, session);
@@ -112,7 +115,7 @@ void add_rectify_command(CLI::App& program, const Session& session) {
       *program.add_subcommand("rectify", "Turns two photographs so that matching points lie on the same rows");
   command.add_option("LEFT", arguments->left, "Left photograph")->required();
   command.add_option("RIGHT", arguments->right, "Right photograph, of the same size")->required();
-  command.add_option("-o,--output", arguments->folder, "Folder for left.png and right.png")->capture_default_str();
+  add_output_option(command, arguments->folder, "Folder for left.png and right.png");
   command.add_option(
       "--calibration", arguments->calibration,
       "StereoCalibration file of the rig (wheatstone calibrate, or OpenCV's); without one, matched features "

@@ -10,12 +10,15 @@
 
 #include "command.h"
 #include "numbers_argument.h"
+#include "output_option.h"
 #include "size_argument.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/temporary_file.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/pictures/write_image.h"
@@ -177,9 +180,10 @@ void write_interleaved(const Arguments& arguments, const RenderedParticles& resu
   write_image(arguments.output, interleaved.picture);
 }
 
-/// Writes what was asked for and says where.
-std::string write_output(const Arguments& arguments, const RenderedParticles& result, const Session& session) {
-  if (!arguments.save_slices.empty()) write_slices(arguments.save_slices, result.stack);
+ViewsOutput output_of(const Arguments& arguments) { return {arguments.output, {arguments.file, arguments.interleave}}; }
+
+/// Writes the views and says where.
+std::string write_views(const Arguments& arguments, const RenderedParticles& result, const Session& session) {
   if (!arguments.interleave.empty()) {
     write_interleaved(arguments, result, session.progress);
     return arguments.output;
@@ -187,12 +191,22 @@ std::string write_output(const Arguments& arguments, const RenderedParticles& re
   const std::vector<Image<Rgb8>>& views = result.rendered.views;
   if (!arguments.quilt.empty()) {
     const QuiltLayout layout = parse_quilt(arguments.quilt, static_cast<int>(views.size()));
-    return write_quilt(views, layout, arguments.aspect, arguments.output);
+    return write_quilt(views, layout, arguments.aspect, output_of(arguments));
   }
   if (!arguments.display.empty() && find_display(arguments.display).lenses.screen_width_px > 0)
-    return write_lenticular(views, find_lenticular(arguments.display), arguments.output);
-  write_view_folder(views, arguments.output, session.progress);
+    return write_lenticular(views, find_lenticular(arguments.display), output_of(arguments));
+  write_view_folder(views, output_of(arguments), session.progress);
   return arguments.output;
+}
+
+/// Writes what was asked for: the slices get their name when the views have theirs. Says where the views are.
+std::string write_output(const Arguments& arguments, const RenderedParticles& result, const Session& session) {
+  if (arguments.save_slices.empty()) return write_views(arguments, result, session);
+  TemporaryFile slices(arguments.save_slices);
+  write_slices(slices, result.stack);
+  std::string written = write_views(arguments, result, session);
+  slices.commit();
+  return written;
 }
 
 void tell(const RenderedParticles& result, const std::string& written, const Session& session) {
@@ -230,6 +244,9 @@ void run(const Arguments& given, const CLI::App& command, const Session& session
   const RenderParticlesOptions options = options_of(arguments);
   // What cannot be written or makes no sense is said before the long work.
   if (!arguments.quilt.empty()) parse_quilt(arguments.quilt, options.views);
+  const ViewsOutput output = output_of(arguments);
+  check_views_output(output);
+  check_not_an_input(arguments.save_slices, output.inputs);
   const bool slices = std::filesystem::path(arguments.file).extension() == ".exr";
   if (!arguments.interleave.empty()) {
     const LenticularScreen screen = find_lenticular(arguments.interleave);
@@ -368,7 +385,9 @@ void add_method_options(CLI::App& command, Arguments& arguments) {
       .add_option("--interleave", arguments.interleave, "Write one picture for a lenticular screen: its name or .json")
       ->excludes(quilt)
       ->group(group);
-  command.add_option("--save-slices", arguments.save_slices, "Also write the depth planes: FILE.exr")->group(group);
+  command.add_option("--save-slices", arguments.save_slices, "Also write the depth planes: FILE.exr")
+      ->check(not_empty())
+      ->group(group);
 }
 
 }  // namespace
@@ -380,8 +399,7 @@ void add_render_command(CLI::App& program, const Session& session) {
       ->add_option("FILE", arguments->file,
                    "GADGET snapshot (HDF5 or binary), any HDF5, PLY, LAS, .npy or text; or slices (.exr)")
       ->required();
-  command->add_option("-o,--output", arguments->output, "Folder for the views; or the quilt's or picture's name")
-      ->capture_default_str();
+  add_output_option(*command, arguments->output, "Folder for the views; or the quilt's or picture's name");
   add_particle_options(*command, *arguments);
   add_look_options(*command, *arguments);
   add_view_options(*command, *arguments);

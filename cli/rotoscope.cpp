@@ -2,6 +2,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -12,15 +13,17 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "command.h"
 #include "film_argument.h"
+#include "interrupt.h"
 #include "match_options.h"
+#include "output_option.h"
 #include "style_options.h"
 #include "time_argument.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/input_guard.h"
 #include "wheatstone/motion/flow_file.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
@@ -97,15 +100,6 @@ std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& re
   return static_cast<std::int64_t>(std::ceil(frames / reading.every));
 }
 
-/// A result must not take the place of what it is made from.
-void check_output_is_new(const std::string& output, const FilmArgument& film) {
-  for (const fs::path& source : {film.film, film.right}) {
-    std::error_code ignored;
-    if (fs::equivalent(source, output, ignored))
-      throw Error(ErrorKind::wrong_usage, fmt::format("--output: {} is the source, expected another name", output));
-  }
-}
-
 /// Frames a second: "24", "23.976" or "24000/1001".
 Rational rate_option(const std::string& text) {
   const auto number_of = [](std::string_view part) {
@@ -171,6 +165,7 @@ void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const
 }
 
 void run(const Arguments& arguments, const Session& session) {
+  end_only_by_itself();  // what is painted is kept for --resume
   RotoscopeFilmOptions options = arguments.options;
   options.frames.style = style_from(arguments.style, session.seed);
   options.frames.matching = match_options_from(arguments.matching);
@@ -183,7 +178,7 @@ void run(const Arguments& arguments, const Session& session) {
   }
   FilmArgument film = find_film(arguments.film, film_layout_option("--layout", arguments.layout));
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
-  check_output_is_new(arguments.output, film);
+  check_not_an_input(arguments.output, std::array{film.film, film.right});
   FilmReaderOptions reading{.from_s = time_option("--from", arguments.from),
                             .to_s = time_option("--to", arguments.to),
                             .every = arguments.every,
@@ -293,10 +288,8 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
                   "Film of two eyes or one; numbered pictures (frame_%04d.png); a folder; or an eye each: LEFT,RIGHT")
       ->required();
   command.add_option("RIGHT", arguments->right, "The right eye's film, where FILM is the left eye's");
-  command
-      .add_option("-o,--output", arguments->output,
-                  "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks (frame_%04d.wst)")
-      ->capture_default_str();
+  add_output_option(command, arguments->output,
+                    "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks (frame_%04d.wst)");
   add_film_options(command, *arguments);
   add_time_options(command, *arguments);
   add_style_options(command, arguments->style);

@@ -27,6 +27,7 @@ int code_of(ErrorKind kind) { return static_cast<int>(kind); }
 
 /// Says on one line what went wrong and hands the exit code on.
 int fail(std::ostream& errors, int code, std::string message) {
+  run_is_over();
   std::replace(message.begin(), message.end(), '\n', ' ');
   fmt::print(errors, "wheatstone: {}\n", message);
   errors.flush();
@@ -84,7 +85,8 @@ int run_program(std::span<const std::string> arguments, Session& session, Progre
   try {
     // CLI11 takes the last word first.
     program->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-    throw_if_interrupted();
+    // A signal that comes after the last report of progress comes too late: the results have their names.
+    run_is_over();
     return 0;
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = error.get_exit_code() == 0;

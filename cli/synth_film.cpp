@@ -8,6 +8,7 @@
 #include <string>
 
 #include "command.h"
+#include "output_option.h"
 #include "size_argument.h"
 #include "synth_kinds.h"
 #include "wheatstone/app/output_folder.h"
@@ -70,7 +71,7 @@ void add_synth_film(CLI::App& synth, const Session& session) {
   SyntheticFilmOptions& film = arguments->film;
   CLI::App& command = *synth.add_subcommand("film", "A stereo film of such still lifes, with its exact flow");
   command.fallthrough();
-  command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
+  add_output_option(command, arguments->folder, "Folder for the results");
   command.add_option("--size", arguments->size, "Of each view: WIDTHxHEIGHT")->capture_default_str();
   command.add_option("--frames", film.frames, "How many")->check(CLI::Range(1, 100'000))->capture_default_str();
   command.add_option("--cut", film.cut, "The frame with which another scene begins, 0 for none; half-way if not given");

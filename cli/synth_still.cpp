@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "command.h"
+#include "output_option.h"
 #include "size_argument.h"
 #include "synth_kinds.h"
 #include "wheatstone/app/output_folder.h"
@@ -73,7 +74,7 @@ void add_synth_still(CLI::App& synth, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *synth.add_subcommand("still", "A still life on a table by a window, ray-cast");
   command.fallthrough();
-  command.add_option("-o,--output", arguments->folder, "Folder for the results")->capture_default_str();
+  add_output_option(command, arguments->folder, "Folder for the results");
   command.add_option("--size", arguments->size, "Of each view: WIDTHxHEIGHT")->capture_default_str();
   command.add_option("--samples", arguments->still.samples_a_side, "Samples along each side of a pixel")
       ->check(CLI::Range(1, 8))

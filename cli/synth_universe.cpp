@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "output_option.h"
 #include "synth_kinds.h"
 #include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
@@ -49,7 +50,7 @@ void add_synth_universe(CLI::App& synth, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *synth.add_subcommand("universe", "Gas along the cosmic web, as a GADGET-4 HDF5 snapshot");
   command.fallthrough();
-  command.add_option("-o,--output", arguments->file, "The snapshot")->capture_default_str();
+  add_output_option(command, arguments->file, "The snapshot");
   command.add_option("--particles", arguments->universe.particles, "How many")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000'000}))
       ->capture_default_str();

@@ -119,6 +119,12 @@ void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
       ->capture_default_str();
 }
 
+std::vector<fs::path> files_read(const ViewsArguments& arguments) {
+  const bool is_folder = arguments.files.size() == 1 && fs::is_directory(arguments.files.front());
+  if (is_folder) return pictures_in_folder(arguments.files.front());
+  return {arguments.files.begin(), arguments.files.end()};
+}
+
 ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const Session& session) {
   const bool one_file = arguments.files.size() == 1;
   if (!one_file && !(arguments.layout.empty() && arguments.quilt.empty()))

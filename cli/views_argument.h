@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct ReadViews {
   std::vector<Image<Rgb8>> views;  ///< left to right, of one size
   std::string how;                 ///< in words, where they come from
 };
+
+/// The files that reading the views reads: those of a folder instead of the folder.
+std::vector<std::filesystem::path> files_read(const ViewsArguments& arguments);
 
 /// Reads or makes the views. `wanted` is how many the packing needs where they are made; 0: no matter.
 /// Throws Error: bad_input, wrong_usage.

@@ -2,38 +2,46 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
+#include "pictures_in_folder.h"
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/files/input_guard.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::cli {
 
+void check_views_output(const ViewsOutput& output) {
+  if (!std::filesystem::is_directory(output.name)) return check_not_an_input(output.name, output.inputs);
+  for (const std::filesystem::path& file : pictures_in_folder(output.name))
+    if (file.filename().string().starts_with("view_")) check_not_an_input(file, output.inputs);
+}
+
 std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& layout, double aspect,
-                        const std::string& output) {
-  const std::filesystem::path path = output;
+                        const ViewsOutput& output) {
+  const std::filesystem::path path = output.name;
   if (!(aspect > 0)) aspect = static_cast<double>(views.front().width()) / views.front().height();
   const std::filesystem::path file =
       path.has_extension() ? path : path.parent_path() / quilt_name(path.filename().string(), layout, aspect);
+  check_not_an_input(file, output.inputs);
   write_image(file, make_quilt(views, layout));
   return file.string();
 }
 
 std::string write_lenticular(std::span<const Image<Rgb8>> views, const LenticularScreen& screen,
-                             const std::string& output) {
-  std::filesystem::path file = output;
+                             const ViewsOutput& output) {
+  std::filesystem::path file = output.name;
   if (!file.has_extension()) file += ".png";
+  check_not_an_input(file, output.inputs);
   write_image(file, interleave(views, screen));
   return file.string();
 }
 
-void write_view_folder(std::span<const Image<Rgb8>> views, const std::string& folder, const Progress& progress) {
-  OutputFolder output(folder);
+void write_view_folder(std::span<const Image<Rgb8>> views, const ViewsOutput& output, const Progress& progress) {
+  OutputFolder folder(output.name, output.inputs);
   for (std::size_t v = 0; v < views.size(); ++v) {
     report(progress, "writing", static_cast<double>(v) / static_cast<double>(views.size()));
-    write_image(output.file(fmt::format("view_{:03}.png", v)), views[v]);
+    write_image(folder.file(fmt::format("view_{:03}.png", v)), views[v]);
   }
-  output.commit();
+  folder.commit();
 }
 
 }  // namespace wheatstone::cli

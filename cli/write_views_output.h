@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
@@ -10,18 +12,29 @@
 
 namespace wheatstone::cli {
 
+/// Where views go, and what must not be written over.
+struct ViewsOutput {
+  std::string name;                           ///< of a file or a folder
+  std::vector<std::filesystem::path> inputs;  ///< the files that the run reads
+};
+
+/// Says before the work what writing would refuse: an output that is an input, or a folder whose views are inputs.
+/// Throws Error{wrong_usage} that names the file.
+void check_views_output(const ViewsOutput& output);
+
 /// Writes one quilt and returns its name: the output's where that has an ending, and else the output's with the
-/// display's convention. `aspect` is the screen's; 0: a view's own. Throws Error{cannot_read_write}.
+/// display's convention. `aspect` is the screen's; 0: a view's own. Throws Error: cannot_read_write, or wrong_usage
+/// where that is an input.
 std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& layout, double aspect,
-                        const std::string& output);
+                        const ViewsOutput& output);
 
 /// Writes one picture with the views interleaved under the screen's lenses, and returns its name: the output's, with
-/// ".png" where that has no ending. Throws Error{cannot_read_write}.
+/// ".png" where that has no ending. Throws Error: cannot_read_write, or wrong_usage where that is an input.
 std::string write_lenticular(std::span<const Image<Rgb8>> views, const LenticularScreen& screen,
-                             const std::string& output);
+                             const ViewsOutput& output);
 
-/// Writes view_000.png, the leftmost, and so on into a folder that appears when all are there.
-/// Throws Error{cannot_read_write}.
-void write_view_folder(std::span<const Image<Rgb8>> views, const std::string& folder, const Progress& progress = {});
+/// Writes view_000.png, the leftmost, and so on into a folder that appears when all are there. In a folder that exists
+/// they replace all views that are there. Throws Error: cannot_read_write, or wrong_usage where an input is in the way.
+void write_view_folder(std::span<const Image<Rgb8>> views, const ViewsOutput& output, const Progress& progress = {});
 
 }  // namespace wheatstone::cli

@@ -6,9 +6,12 @@
 #include <time.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "cli/run_program.h"
 #include "wheatstone/pictures/write_image.h"
@@ -30,17 +33,69 @@ void wait_until_caught(int process, int signal) {
   }
 }
 
+/// So many random places, as numpy keeps them.
+void write_particles(const std::filesystem::path& path, std::size_t count) {
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(count) + ", 3), }";
+  constexpr std::size_t preamble = 10, aligned = 128;
+  header.append(aligned - preamble - header.size() - 1, ' ').push_back('\n');
+  std::mt19937 random(1);
+  std::vector<float> places(3 * count);
+  for (float& place : places) place = static_cast<float>(random() >> 8);
+  std::ofstream file(path, std::ios::binary);
+  file.write("\x93NUMPY\x01\x00", 8).put(static_cast<char>(header.size())).put(0);
+  file << header;
+  file.write(reinterpret_cast<const char*>(places.data()), static_cast<std::streamsize>(places.size() * sizeof(float)));
+}
+
 TEST(Ending, OfAnInterruptedRunIsExitCodeFive) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     const ProgramResult result = run_program(long_run, {.folder = folder / "", .while_running = [signal](int process) {
                                                           wait_until_caught(process, signal);
-                                                          std::this_thread::sleep_for(std::chrono::seconds(1));
+                                                          std::this_thread::sleep_for(std::chrono::milliseconds(300));
                                                           ::kill(process, signal);
                                                         }});
     EXPECT_EQ(result.exit_code, 5);
     EXPECT_EQ(result.errors, "wheatstone: interrupted; nothing half-written is left\n");
     EXPECT_TRUE(folder.is_empty());
+  }
+}
+
+/// Runs that take many seconds, each in another of the long stages that no progress is told of.
+std::vector<std::vector<std::string>> long_stages() {
+  const std::string left = "left.bmp", right = "right.bmp";
+  return {{"synth", "still", "-o", "results", "--size", "4000x3000", "--samples", "8"},
+          {"synth", "universe", "-o", "results.hdf5", "--particles", "100000000"},
+          {"match", left, right, "-o", "results", "--range", "0,600"},
+          {"paint", left, right, "-o", "results"},
+          {"rectify", left, right, "-o", "results"},
+          {"pack", left, right, "--to", "wiggle", "-o", "results.webp"},
+          {"calibrate", "--left", left, left, left, "--right", right, right, right, "-o", "results.yml"},
+          {"render", "cloud.npy", "--views", "500", "--size", "1920x1080", "--save-slices", "s.exr", "-o", "results"},
+          {"measure", "stereo", left, right, "--photographs", left, right}};
+}
+
+TEST(Ending, OfALongStageTakesLessThanASecondAndLeavesNothing) {
+  const TemporaryFolder folder;
+  std::mt19937 random(1);
+  Image<Rgb8> noise(3000, 2000);
+  for (Rgb8& pixel : noise.pixels()) pixel = {static_cast<std::uint8_t>(random()), 0, 0};
+  for (const char* name : {"left.bmp", "right.bmp"}) write_image(folder / name, noise);
+  write_particles(folder / "cloud.npy", 3'000'000);
+  const std::set<std::string> before = files_in(folder / "");
+  for (const std::vector<std::string>& line : long_stages()) {
+    std::chrono::steady_clock::time_point sent;
+    const ProgramResult result = run_program(line, {.folder = folder / "", .while_running = [&sent](int process) {
+                                                      wait_until_caught(process, SIGINT);
+                                                      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+                                                      sent = std::chrono::steady_clock::now();
+                                                      ::kill(process, SIGINT);
+                                                    }});
+    const std::chrono::duration<double> reaction = std::chrono::steady_clock::now() - sent;
+    EXPECT_EQ(result.exit_code, 5) << line[0] << result.errors;
+    EXPECT_THAT(result.errors, testing::EndsWith("wheatstone: interrupted; nothing half-written is left\n")) << line[0];
+    EXPECT_LT(reaction.count(), 1) << line[0];
+    EXPECT_EQ(files_in(folder / ""), before) << line[0];
   }
 }
 

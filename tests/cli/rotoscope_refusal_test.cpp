@@ -141,7 +141,7 @@ TEST(RotoscopeRefusal, OfAnOutputThatWouldDestroySomething) {
   const std::string before = bytes_of(folder / "a.mp4");
   fs::create_symlink("a.mp4", folder / "link.mp4");
   for (const char* output : {"a.mp4", "./a.mp4", "link.mp4"})
-    refused(folder, {"a.mp4", "--layout", "mono", "-o", output}, 2, "is the source, expected another name");
+    refused(folder, {"a.mp4", "--layout", "mono", "-o", output}, 2, "is the same file as the input");
   EXPECT_TRUE(bytes_of(folder / "a.mp4") == before);
   // Known before an hour of painting, not after it.
   write_image(folder / "o_0001.png", Image<Rgb8>(64, 48));

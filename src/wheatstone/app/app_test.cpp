@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "temporary_folder.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/redraw.h"
 #include "wheatstone/app/write_results.h"
@@ -20,62 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An empty folder of the test's own.
-fs::path fresh_folder() {
-  const fs::path folder =
-      fs::path(testing::TempDir()) /
-      ("wheatstone_app_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
-
-std::size_t entries_in(const fs::path& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
 const SyntheticStill& still() {
   static const SyntheticStill made = make_synthetic_still({.width = 240, .height = 180});
   return made;
 }
 
-TEST(OutputFolder, AppearsOnlyWhenItIsWhole) {
-  const fs::path folder = fresh_folder();
-  {
-    OutputFolder output(folder / "results");
-    write_whole_file(output.file("a.txt"), "a");
-    EXPECT_FALSE(fs::exists(folder / "results"));
-  }
-  EXPECT_EQ(entries_in(folder), 0u) << "nothing is left without a commit";
-  {
-    OutputFolder output(folder / "results");
-    write_whole_file(output.file("a.txt"), "a");
-    output.commit();
-  }
-  EXPECT_EQ(read_whole_file(folder / "results" / "a.txt", 10), "a");
-  EXPECT_EQ(entries_in(folder), 1u);
-}
-
-TEST(OutputFolder, ReplacesOnlyFilesOfTheSameNames) {
-  const fs::path folder = fresh_folder();
-  write_whole_file(folder / "mine.txt", "mine");
-  write_whole_file(folder / "a.txt", "old");
-  OutputFolder output(folder);
-  write_whole_file(output.file("a.txt"), "new");
-  output.commit();
-  EXPECT_EQ(read_whole_file(folder / "a.txt", 10), "new");
-  EXPECT_EQ(read_whole_file(folder / "mine.txt", 10), "mine");
-}
-
-TEST(OutputFolder, RefusesWhatCannotBeAFolder) {
-  const fs::path folder = fresh_folder();
-  write_whole_file(folder / "file", "x");
-  EXPECT_THROW(OutputFolder(folder / "file"), Error);
-  EXPECT_THROW(OutputFolder(folder / "no" / "such"), Error);
-}
-
 TEST(PaintPhotograph, WritesEverythingThatItPromises) {
-  const fs::path folder = fresh_folder();
+  const TemporaryFolder folder;
   PaintPhotographOptions options;
   options.left_disparity = still().geometry.left_disparity;
   const PaintedPhotograph result = paint_photograph(still().pictures, options);
@@ -83,13 +35,14 @@ TEST(PaintPhotograph, WritesEverythingThatItPromises) {
   OutputFolder output(folder / "out");
   const auto names =
       write_results(output, still().pictures, {result, options.style, nullptr, &measures}, {.html = true});
-  for (const std::string& name : names) EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
-  EXPECT_EQ(read_image(folder / "out" / "left.png"), result.painted.pictures.left);
-  EXPECT_EQ(read_painting(folder / "out" / "painting.wst").painting, result.painted.painting);
-  const auto report = nlohmann::json::parse(read_whole_file(folder / "out" / "report.json", 1 << 20));
+  EXPECT_EQ(names, result_names({.html = true}));
+  for (const std::string& name : names) EXPECT_TRUE(fs::exists(folder / ("out/" + name))) << name;
+  EXPECT_EQ(read_image(folder / "out/left.png"), result.painted.pictures.left);
+  EXPECT_EQ(read_painting(folder / "out/painting.wst").painting, result.painted.painting);
+  const auto report = nlohmann::json::parse(read_whole_file(folder / "out/report.json", 1 << 20));
   EXPECT_EQ(report["width"], 240);
   EXPECT_LT(report["measures"]["painting"]["left_right_rmse"], 0.1);
-  EXPECT_THAT(read_whole_file(folder / "out" / "index.html", 1 << 20), testing::HasSubstr("anaglyph.png"));
+  EXPECT_THAT(read_whole_file(folder / "out/index.html", 1 << 20), testing::HasSubstr("anaglyph.png"));
 }
 
 TEST(PaintPhotograph, PutsTheChosenPointOnTheScreen) {
@@ -127,7 +80,7 @@ TEST(Redraw, KeepsThePaintingWhenItIsMadeLarger) {
 }
 
 TEST(Redraw, MakesTheSamePicturesOfAPaintingFileInEveryStyle) {
-  const fs::path folder = fresh_folder();
+  const TemporaryFolder folder;
   const SyntheticStill small = make_synthetic_still({.width = 120, .height = 90, .samples_a_side = 1});
   PaintPhotographOptions options;
   options.left_disparity = small.geometry.left_disparity;
@@ -138,22 +91,22 @@ TEST(Redraw, MakesTheSamePicturesOfAPaintingFileInEveryStyle) {
     const PaintedPhotograph result = paint_photograph(small.pictures, options);
     OutputFolder output(folder / "out");
     write_results(output, small.pictures, {result, options.style}, {.svg = true});
-    draw_again(read_painting(folder / "out" / "painting.wst"), folder / "again", {.svg = true});
+    OutputFolder again(folder / "again");
+    draw_again(read_painting(folder / "out/painting.wst"), again, {.svg = true});
     for (const std::string file : {"left.png", "right.png", "left.svg"})
-      EXPECT_EQ(read_whole_file(folder / "again" / file, 1 << 26), read_whole_file(folder / "out" / file, 1 << 26))
-          << name << " " << file;
+      EXPECT_EQ(bytes_of(folder / ("again/" + file)), bytes_of(folder / ("out/" + file))) << name << " " << file;
   }
 }
 
 TEST(Redraw, WritesBothEyes) {
-  const fs::path folder = fresh_folder();
+  const TemporaryFolder folder;
   PaintPhotographOptions options;
   options.left_disparity = still().geometry.left_disparity;
-  draw_again({.painting = paint_photograph(still().pictures, options).painted.painting}, folder / "again",
-             {.scale = 0.5});
-  EXPECT_EQ(read_image(folder / "again" / "left.png").width(), 120);
-  EXPECT_TRUE(fs::exists(folder / "again" / "anaglyph.png"));
-  EXPECT_FALSE(fs::exists(folder / "again" / "left.svg")) << "only where it is asked for";
+  OutputFolder again(folder / "again");
+  draw_again({.painting = paint_photograph(still().pictures, options).painted.painting}, again, {.scale = 0.5});
+  EXPECT_EQ(read_image(folder / "again/left.png").width(), 120);
+  EXPECT_TRUE(fs::exists(folder / "again/anaglyph.png"));
+  EXPECT_FALSE(fs::exists(folder / "again/left.svg")) << "only where it is asked for";
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/write_svg.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
@@ -38,20 +37,19 @@ Painting scaled(const Painting& painting, double scale) {
   return resized(painting, scale);
 }
 
-void draw_again(const Painting& painting, const std::filesystem::path& folder, const RedrawOptions& options) {
+void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options) {
   const Painting sized = scaled(painting, options.scale);
   const StereoPair pictures{draw(sized, left_eye).picture, draw(sized, right_eye).picture};
   const StereoPair presented = set_convergence(pictures, nearest_disparity(sized));
-  OutputFolder output(folder);
-  write_image(output.file("left.png"), pictures.left);
-  write_image(output.file("right.png"), pictures.right);
-  write_image(output.file("side_by_side.png"), side_by_side(presented));
-  write_image(output.file("anaglyph.png"), anaglyph(presented));
+  write_image(folder.file("left.png"), pictures.left);
+  write_image(folder.file("right.png"), pictures.right);
+  write_image(folder.file("side_by_side.png"), side_by_side(presented));
+  write_image(folder.file("anaglyph.png"), anaglyph(presented));
   if (options.svg) {
-    write_svg(output.file("left.svg"), sized, left_eye);
-    write_svg(output.file("right.svg"), sized, right_eye);
+    write_svg(folder.file("left.svg"), sized, left_eye);
+    write_svg(folder.file("right.svg"), sized, right_eye);
   }
-  output.commit();
+  folder.commit();
 }
 
 }  // namespace wheatstone

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <filesystem>
-
+#include "wheatstone/app/output_folder.h"
 #include "wheatstone/marks/painting.h"
 
 namespace wheatstone {
@@ -16,8 +15,8 @@ struct RedrawOptions {
 };
 
 /// Draws a painting again, for both eyes, over its canvas colour: left.png, right.png, side_by_side.png and
-/// anaglyph.png in a folder that appears when all is written. The nearest mark's depth, but for outliers, lies on the
-/// screen plane. Throws Error: cannot_read_write, and as `scaled` does.
-void draw_again(const Painting& painting, const std::filesystem::path& folder, const RedrawOptions& options = {});
+/// anaglyph.png in a folder, which is committed. The nearest mark's depth, but for outliers, lies on the
+/// screen plane. Throws Error as the folder and `scaled` do.
+void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options = {});
 
 }  // namespace wheatstone

@@ -17,6 +17,16 @@
 
 namespace wheatstone {
 
+std::vector<std::string> result_names(const ResultOptions& options) {
+  std::vector<std::string> names{
+      "left.png",           "right.png",           "side_by_side.png",   "anaglyph.png",        "disparity.png",
+      "left_disparity.pfm", "right_disparity.pfm", "left_occlusion.png", "right_occlusion.png", "painting.wst",
+      "report.json"};
+  if (options.svg) names.insert(names.end(), {"left.svg", "right.svg"});
+  if (options.html) names.insert(names.end(), {"left_photograph.png", "right_photograph.png", "index.html"});
+  return names;
+}
+
 std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs, const PaintingReport& told,
                                        const ResultOptions& options, const Progress& progress) {
   using Path = std::filesystem::path;

@@ -1,5 +1,6 @@
 #include "wheatstone/display/multiview_exr.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@
 #include <memory>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/temporary_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/srgb.h"
 
 namespace wheatstone {
@@ -58,13 +59,19 @@ void write_multiview_exr(const std::filesystem::path& path, std::span<const Imag
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("compression", "zip");
 
-  TemporaryFile file(path);
+  // Otherwise the time of writing: the same views are to be the same bytes.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
+
+  // Encoded in memory and written by us: OpenEXR does not notice when a full disk swallows its last bytes.
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("exr");
   const auto refuse = [&](const std::string& why) {
     throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write: {}", path.string(), why));
   };
   if (!output) refuse("this OpenImageIO has no OpenEXR");
-  if (!output->open(file.path().string(), spec)) refuse(output->geterror());
+  output->set_ioproxy(&memory);
+  if (!output->open("views.exr", spec)) refuse(output->geterror());
   std::vector<float> line(static_cast<std::size_t>(width) * channels);
   for (int y = 0; y < height; ++y) {
     for (std::size_t v = 0; v < views.size(); ++v) {
@@ -79,7 +86,7 @@ void write_multiview_exr(const std::filesystem::path& path, std::span<const Imag
     if (!output->write_scanline(y, 0, OIIO::TypeDesc::FLOAT, line.data())) refuse(output->geterror());
   }
   if (!output->close()) refuse(output->geterror());
-  file.commit();
+  write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 bool is_multiview_exr(const std::filesystem::path& path) {

@@ -2,20 +2,27 @@
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <webp/encode.h>
 #include <webp/mux.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/temporary_file.h"
 #include "wheatstone/files/whole_file.h"
 
 namespace wheatstone {
 namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 34;
+constexpr char end_of_gif = ';';
 
 [[noreturn]] void refuse_writing(const std::filesystem::path& path, const std::string& why) {
   throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write: {}", path.string(), why));
@@ -29,9 +36,28 @@ std::vector<const Image<Rgb8>*> there_and_back(std::span<const Image<Rgb8>> view
   return frames;
 }
 
+/// A file without a place on a disk, for an encoder that knows only names. OpenImageIO's GIF does not notice that a
+/// disk is full: its files are written by us.
+class MemoryFile {
+ public:
+  MemoryFile() : file_(::memfd_create("wiggle", MFD_CLOEXEC)) {
+    if (file_ < 0)
+      throw Error(ErrorKind::cannot_read_write,
+                  fmt::format("no memory for a file: {}", std::generic_category().message(errno)));
+  }
+  ~MemoryFile() { ::close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string name() const { return fmt::format("/proc/self/fd/{}", file_); }
+
+ private:
+  int file_;
+};
+
 void write_gif(const std::filesystem::path& path, std::span<const Image<Rgb8>* const> frames, double seconds) {
-  TemporaryFile file(path);
-  const std::string name = file.path().string();
+  const MemoryFile memory;
+  const std::string name = memory.name();
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("gif");
   if (!output) refuse_writing(path, "this OpenImageIO has no GIF");
   const Image<Rgb8>& first = *frames.front();
@@ -46,7 +72,9 @@ void write_gif(const std::filesystem::path& path, std::span<const Image<Rgb8>* c
       refuse_writing(path, output->geterror());
   }
   if (!output->close()) refuse_writing(path, output->geterror());
-  file.commit();
+  const std::string bytes = read_whole_file(name, most_bytes);
+  if (!bytes.ends_with(end_of_gif)) refuse_writing(path, "not enough memory");
+  write_whole_file(path, bytes);
 }
 
 void write_webp(const std::filesystem::path& path, std::span<const Image<Rgb8>* const> frames, double seconds) {

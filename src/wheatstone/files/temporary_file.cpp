@@ -31,7 +31,7 @@ fs::path temporary_name(const fs::path& final_path) {
 
 }  // namespace
 
-TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_path)) {
+TemporaryFile::TemporaryFile(fs::path final_path) : name_(std::move(final_path)), final_path_(name_) {
   std::error_code error;
   const fs::file_status status = fs::status(final_path_, error);
   if (fs::is_directory(status)) fail_to_write(final_path_, EISDIR);
@@ -43,23 +43,19 @@ TemporaryFile::TemporaryFile(fs::path final_path) : final_path_(std::move(final_
   // A link keeps pointing at its target: the target is what is replaced.
   if (fs::exists(status)) final_path_ = fs::canonical(final_path_);
   temporary_path_ = temporary_name(final_path_);
-  const int file = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) fail_to_write(final_path_, errno);
-  ::close(file);
-  pending_ = true;
-}
-
-TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;
-  if (pending_) fs::remove(temporary_path_, ignored);
+  unfinished_.begin(temporary_path_, [this] {
+    const int file = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) fail_to_write(final_path_, errno);
+    ::close(file);
+  });
 }
 
 void TemporaryFile::commit() {
-  if (!pending_) return;
-  std::error_code error;
-  fs::rename(temporary_path_, final_path_, error);
-  if (error) fail_to_write(final_path_, error.value());
-  pending_ = false;
+  unfinished_.finish([this] {
+    std::error_code error;
+    fs::rename(temporary_path_, final_path_, error);
+    if (error) fail_to_write(final_path_, error.value());
+  });
 }
 
 }  // namespace wheatstone

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "wheatstone/files/unfinished_outputs.h"
+
 namespace wheatstone {
 
 /// A file that appears only when it is whole: write to `path()`, then `commit()` renames it to its real name.
@@ -12,19 +14,19 @@ class TemporaryFile {
   /// Creates the temporary file, empty. Throws Error{cannot_read_write} where the folder of `final_path` does not exist
   /// or cannot be written, or where `final_path` is itself a folder.
   explicit TemporaryFile(std::filesystem::path final_path);
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::filesystem::path& path() const { return temporary_path_; }
+  /// As it was given: the name for messages.
+  const std::filesystem::path& name() const { return name_; }
 
   /// Gives the file its real name, in place of what had it. Throws Error{cannot_read_write}.
   void commit();
 
  private:
+  std::filesystem::path name_;
   std::filesystem::path final_path_;
   std::filesystem::path temporary_path_;
-  bool pending_ = false;  ///< a temporary file exists that is to be renamed or removed
+  UnfinishedOutput unfinished_;
 };
 
 }  // namespace wheatstone

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "painting_generated.h"
+#include "temporary_folder.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/svg.h"
 #include "wheatstone/error.h"
@@ -66,7 +67,8 @@ std::string message_of(const std::string& bytes) {
 }
 
 TEST(PaintingFile, ComesBackEqual) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "comes_back.wst";
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "comes_back.wst";
   for (int kind = 0; kind < kinds; ++kind) {
     write_painting(path, small(kind));
     EXPECT_EQ(read_painting(path), small(kind)) << kind;

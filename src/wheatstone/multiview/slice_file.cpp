@@ -69,6 +69,8 @@ OIIO::ImageSpec spec_of(const Slice& slice, std::size_t index, std::size_t count
   spec.full_height = stack.height;
   // The lightest effort: a quarter faster than the usual one, for 2 % more bytes.
   spec.attribute("compression", "zip:1");
+  // Otherwise the time of writing: the same slices are to be the same bytes.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   spec.attribute("oiio:subimagename", fmt::format("slice_{:03}", index));
   spec.attribute("wheatstone:version", version);
   spec.attribute("wheatstone:slices", static_cast<int>(count));
@@ -261,18 +263,22 @@ SliceStack read_stack(const fs::path& path) {
 }  // namespace
 
 void write_slices(const fs::path& path, const SliceStack& stack) {
-  TemporaryFile temporary(path);
+  TemporaryFile file(path);
+  write_slices(file, stack);
+  file.commit();
+}
+
+void write_slices(const TemporaryFile& file, const SliceStack& stack) {
   // A file must have a part: a stack without slices is one dark pixel.
   const Slice dark{.parallax_px = 0, .left = 0, .top = 0, .pixels = Image<LinearRgba>(1, 1)};
   const std::span<const Slice> slices = stack.slices.empty() ? std::span(&dark, 1) : std::span(stack.slices);
   try {
-    write_parts(path, temporary.path().string(), stack, slices);
+    write_parts(file.name(), file.path().string(), stack, slices);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
-    refuse_to_write(path, error.what());
+    refuse_to_write(file.name(), error.what());
   }
-  temporary.commit();
 }
 
 SliceStack read_slices(const fs::path& path) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "wheatstone/files/temporary_file.h"
 #include "wheatstone/multiview/slice_stack.h"
 
 namespace wheatstone {
@@ -12,6 +13,9 @@ namespace wheatstone {
 /// (`wheatstone:parallax_px` …, docs/slices.md). Light beyond what a half float holds is limited to it. Appears only
 /// when it is whole. Throws Error{cannot_read_write}.
 void write_slices(const std::filesystem::path& path, const SliceStack& stack);
+
+/// The same into a file that the caller commits, together with other results. Throws Error{cannot_read_write}.
+void write_slices(const TemporaryFile& file, const SliceStack& stack);
 
 /// Throws Error{bad_input} where the file is no OpenEXR, is cut short, lacks our attributes, or would not fit in
 /// memory.

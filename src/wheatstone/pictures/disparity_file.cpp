@@ -1,5 +1,6 @@
 #include "wheatstone/pictures/disparity_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/temporary_file.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/portable_float_map.h"
 
@@ -74,6 +74,21 @@ void check_scale(const std::filesystem::path& path, std::optional<float> scale) 
                 fmt::format("{}: the scale is {}, expected a number above 0", path.string(), *scale));
 }
 
+/// Encoded in memory and written by us: the encoders do not all notice that a disk is full.
+void write_encoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec, const void* pixels,
+                   OIIO::stride_t row_bytes) {
+  const std::string name = "disparity" + ending(path);
+  const auto encoder = OIIO::ImageOutput::create(name);
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const bool encoded = encoder && encoder->set_ioproxy(&memory) && encoder->open(name, spec) &&
+                       encoder->write_image(spec.format, pixels, OIIO::AutoStride, row_bytes) && encoder->close();
+  if (!encoded)
+    throw Error(ErrorKind::cannot_read_write,
+                fmt::format("{}: cannot write: {}", path.string(), encoder ? encoder->geterror() : OIIO::geterror()));
+  write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
 void write_png(const std::filesystem::path& path, ImageView<const float> disparity) {
   std::vector<std::uint16_t> values;
   for (int y = 0; y < disparity.height(); ++y) {
@@ -84,28 +99,17 @@ void write_png(const std::filesystem::path& path, ImageView<const float> dispari
       values.push_back(std::isfinite(d) ? static_cast<std::uint16_t>(std::max(std::lround(d * kitti_scale), 1L)) : 0);
     }
   }
-  TemporaryFile temporary(path);
-  const auto output = OIIO::ImageOutput::create(path.string());
   const OIIO::ImageSpec spec(disparity.width(), disparity.height(), 1, OIIO::TypeDesc::UINT16);
-  const bool written = output && output->open(temporary.path().string(), spec) &&
-                       output->write_image(OIIO::TypeDesc::UINT16, values.data());
-  if (!output || !output->close() || !written)
-    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot be written", path.string()));
-  temporary.commit();
+  write_encoded(path, spec, values.data(), OIIO::AutoStride);
 }
 
 void write_exr(const std::filesystem::path& path, ImageView<const float> disparity) {
-  TemporaryFile temporary(path);
-  const auto output = OIIO::ImageOutput::create(path.string());
   OIIO::ImageSpec spec(disparity.width(), disparity.height(), 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"disparity"};
-  const bool written =
-      output && output->open(temporary.path().string(), spec) &&
-      output->write_image(OIIO::TypeDesc::FLOAT, disparity.data(), sizeof(float),
-                          static_cast<OIIO::stride_t>(disparity.stride() * static_cast<std::ptrdiff_t>(sizeof(float))));
-  if (!output || !output->close() || !written)
-    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot be written", path.string()));
-  temporary.commit();
+  // Otherwise the time of writing: the same disparity is to be the same bytes.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
+  write_encoded(path, spec, disparity.data(),
+                static_cast<OIIO::stride_t>(disparity.stride() * static_cast<std::ptrdiff_t>(sizeof(float))));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 
+#include "temporary_folder.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/portable_float_map.h"
@@ -17,11 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path in_folder(const std::string& name) {
-  const fs::path folder = fs::path(testing::TempDir()) / "wheatstone_disparity_file";
-  fs::create_directories(folder);
-  return folder / name;
-}
+class DisparityFile : public testing::Test {
+ protected:
+  fs::path in_folder(const std::string& name) const { return folder_ / name; }
+
+ private:
+  TemporaryFolder folder_;
+};
 
 Image<float> ramp(float offset) {
   Image<float> disparity(7, 5);
@@ -42,24 +45,24 @@ void expect_equal(const Image<float>& a, const Image<float>& b, float tolerance)
   }
 }
 
-TEST(DisparityFile, ComesBackFromPfmAndExrAsItWas) {
+TEST_F(DisparityFile, ComesBackFromPfmAndExrAsItWas) {
   for (const char* name : {"ramp.pfm", "ramp.exr"}) {
     write_disparity(in_folder(name), ramp(-3));
     expect_equal(read_disparity(in_folder(name)), ramp(-3), 0);
   }
 }
 
-TEST(DisparityFile, ComesBackFromPngWithinItsStep) {
+TEST_F(DisparityFile, ComesBackFromPngWithinItsStep) {
   write_disparity(in_folder("ramp.png"), ramp(1));
   expect_equal(read_disparity(in_folder("ramp.png")), ramp(1), 0.5f / 256);
 }
 
-TEST(DisparityFile, RefusesNegativeDisparityInPng) {
+TEST_F(DisparityFile, RefusesNegativeDisparityInPng) {
   EXPECT_THROW(write_disparity(in_folder("negative.png"), ramp(-3)), Error);
   EXPECT_FALSE(fs::exists(in_folder("negative.png")));
 }
 
-TEST(DisparityFile, ScalesEightBitPngAndTakesZeroForUnknown) {
+TEST_F(DisparityFile, ScalesEightBitPngAndTakesZeroForUnknown) {
   const std::uint8_t values[] = {0, 4, 200, 255};
   const fs::path path = in_folder("eight.png");
   const auto output = OIIO::ImageOutput::create(path.string());
@@ -72,7 +75,7 @@ TEST(DisparityFile, ScalesEightBitPngAndTakesZeroForUnknown) {
   EXPECT_FLOAT_EQ(disparity(3, 0), 63.75f);
 }
 
-TEST(DisparityFile, ReadsBigEndianPfm) {
+TEST_F(DisparityFile, ReadsBigEndianPfm) {
   std::string bytes = "Pf\n2 1\n1.0\n";
   bytes += std::string("\x3F\x80\x00\x00\xC0\x00\x00\x00", 8);  // 1 and −2
   const Image<float> disparity = decode_pfm(bytes, "big.pfm");
@@ -80,15 +83,15 @@ TEST(DisparityFile, ReadsBigEndianPfm) {
   EXPECT_FLOAT_EQ(disparity(1, 0), -2);
 }
 
-TEST(DisparityFile, TakesInfinityForUnknown) {
+TEST_F(DisparityFile, TakesInfinityForUnknown) {
   Image<float> disparity(2, 1, 5);
   disparity(1, 0) = std::numeric_limits<float>::infinity();
   write_whole_file(in_folder("infinite.pfm"), encode_pfm(disparity));
   EXPECT_TRUE(std::isnan(read_disparity(in_folder("infinite.pfm"))(1, 0)));
 }
 
-TEST(DisparityFile, NamesTheFileAndTheTroubleInOneLine) {
-  const auto message_of = [](const std::string& bytes) -> std::string {
+TEST_F(DisparityFile, NamesTheFileAndTheTroubleInOneLine) {
+  const auto message_of = [this](const std::string& bytes) -> std::string {
     write_whole_file(in_folder("bad.pfm"), bytes);
     try {
       read_disparity(in_folder("bad.pfm"));

@@ -1,0 +1,39 @@
+#include "wheatstone/files/input_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "temporary_folder.h"
+#include "throws_error.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(InputGuard, RefusesAnInputUnderAnyOfItsNames) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "left.png", "left");
+  put_bytes(folder / "right.png", "right");
+  fs::create_symlink("right.png", folder / "link.png");
+  fs::create_hard_link(folder / "right.png", folder / "second.png");
+  const std::array<fs::path, 3> inputs{"", folder / "left.png", folder / "right.png"};
+  fs::create_directory_symlink(".", folder / "here");
+  for (const char* name : {"right.png", "link.png", "second.png", "./left.png", "here/left.png"})
+    expect_error(ErrorKind::wrong_usage, std::string(name) + ": is the same file as the input",
+                 [&] { check_not_an_input(folder / name, inputs); });
+}
+
+TEST(InputGuard, AllowsWhatIsNoInput) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "left.png", "same bytes");
+  put_bytes(folder / "other.png", "same bytes");
+  const std::array<fs::path, 3> inputs{"", folder / "left.png", folder / "missing.png"};
+  for (const char* name : {"other.png", "missing.png", "new.png"})
+    EXPECT_NO_THROW(check_not_an_input(folder / name, inputs));
+  EXPECT_NO_THROW(check_not_an_input("", inputs));
+}
+
+}  // namespace
+}  // namespace wheatstone

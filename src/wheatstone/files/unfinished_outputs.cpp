@@ -1,0 +1,71 @@
+#include "wheatstone/files/unfinished_outputs.h"
+
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outputs {
+  std::recursive_mutex mutex;
+  std::set<fs::path> unfinished;
+  bool some_finished = false;
+};
+
+// Never destroyed: a thread that ends the program may come after the end of main.
+Outputs& outputs() {
+  static auto* const all = new Outputs;
+  return *all;
+}
+
+}  // namespace
+
+UnfinishedOutput::~UnfinishedOutput() {
+  if (temporary_.empty()) return;
+  // Not under the lock: a large folder takes its time, and may be removed by two threads at once.
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+  const auto hold = hold_outputs();
+  outputs().unfinished.erase(temporary_);
+}
+
+void UnfinishedOutput::begin(fs::path temporary, const std::function<void()>& make) {
+  const auto hold = hold_outputs();
+  make();
+  temporary_ = std::move(temporary);
+  outputs().unfinished.insert(temporary_);
+}
+
+void UnfinishedOutput::finish(const std::function<void()>& rename) {
+  if (temporary_.empty()) return;
+  const auto hold = hold_outputs();
+  rename();
+  outputs().unfinished.erase(temporary_);
+  temporary_.clear();
+  // What is written inside an unfinished folder is no result yet.
+  if (outputs().unfinished.empty()) outputs().some_finished = true;
+}
+
+std::unique_lock<std::recursive_mutex> hold_outputs() { return std::unique_lock(outputs().mutex); }
+
+bool outputs_are_finished() {
+  const auto hold = hold_outputs();
+  return outputs().some_finished && outputs().unfinished.empty();
+}
+
+void remove_unfinished_outputs() {
+  const auto hold = hold_outputs();
+  // Another thread may still be writing into a folder while it is removed.
+  constexpr int most_tries = 100;
+  for (const fs::path& path : outputs().unfinished) {
+    std::error_code error;
+    for (int tries = 0; tries < most_tries && fs::symlink_status(path, error).type() != fs::file_type::not_found;
+         ++tries)
+      fs::remove_all(path, error);
+  }
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <mutex>
+
+namespace wheatstone {
+
+/// A file or folder under a temporary name, removed with all that is in it unless it gets its real name. Those of the
+/// whole process are known, so that a program that must end at once can leave none behind.
+class UnfinishedOutput {
+ public:
+  /// Nothing yet.
+  UnfinishedOutput() = default;
+  ~UnfinishedOutput();
+  UnfinishedOutput(const UnfinishedOutput&) = delete;
+  UnfinishedOutput& operator=(const UnfinishedOutput&) = delete;
+
+  /// Calls `make`, which creates what has this temporary name. What `make` throws is passed on; then nothing is begun.
+  void begin(std::filesystem::path temporary, const std::function<void()>& make);
+
+  /// Calls `rename`, which gives the output its real name, and is done with it. What `rename` throws is passed on; then
+  /// the output remains unfinished. Nothing to do where nothing was begun.
+  void finish(const std::function<void()>& rename);
+
+ private:
+  std::filesystem::path temporary_;  ///< empty where nothing is unfinished
+};
+
+/// While this is held, other threads neither begin nor finish an output: several outputs can be finished as one.
+[[nodiscard]] std::unique_lock<std::recursive_mutex> hold_outputs();
+
+/// Whether outputs were finished and none is unfinished: what remains of a run is to say so.
+bool outputs_are_finished();
+
+/// Removes all unfinished outputs of this process.
+void remove_unfinished_outputs();
+
+}  // namespace wheatstone
