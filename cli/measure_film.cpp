@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,7 @@ struct Arguments {
   std::string marks;
   int fade_frames = 2;
   int frames = 0;  ///< 0: all
-  int stereo_every = 1;
+  int stereo_step = 1;
 };
 
 /// A film that is being measured, frame by frame.
@@ -47,6 +48,7 @@ struct MeasuredFilm {
   std::string name;
   StereoFilmReader reader;
   StereoFrame now{}, before{};
+  bool ended = false;
   TemporalError temporal{};
   Json pairs = Json::array();
   std::vector<Json> stereo{};  ///< a frame each
@@ -68,23 +70,30 @@ Json mean_of(const std::vector<Json>& objects) {
   return mean;
 }
 
-/// Reads the next frame of the source and of every film. False where the source ends.
-bool read_frames(std::vector<MeasuredFilm>& films, int frame) {
+/// Reads the next frame of the source and of every film. False where one of them ends.
+bool read_frames(std::vector<MeasuredFilm>& films) {
   const MeasuredFilm& source = films.front();
-  bool more = false;
   for (MeasuredFilm& film : films) {
     std::swap(film.before, film.now);
-    const bool is_source = &film == &source, read = film.reader.read(film.now);
-    if (is_source) more = read;
-    if (read != more)
-      throw Error(ErrorKind::bad_input, fmt::format("{}: {} after {} frames, expected as many as {}", film.name,
-                                                    read ? "goes on" : "ends", frame, source.name));
-    if (read && !same_size(film.now.left, source.now.left))
+    film.ended = !film.reader.read(film.now);
+  }
+  if (std::ranges::any_of(films, &MeasuredFilm::ended)) return false;
+  for (const MeasuredFilm& film : films) {
+    if (!same_size(film.now.left, source.now.left))
       throw Error(ErrorKind::bad_input,
                   fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", film.name, film.now.left.width(),
                               film.now.left.height(), source.now.left.width(), source.now.left.height(), source.name));
   }
-  return more;
+  return true;
+}
+
+/// Which films end before the others; empty where all have as many frames as were compared.
+std::vector<std::string> names_of_shorter(const std::vector<MeasuredFilm>& films) {
+  std::vector<std::string> names;
+  for (const MeasuredFilm& film : films)
+    if (film.ended) names.push_back(film.name);
+  if (names.size() == films.size()) names.clear();
+  return names;
 }
 
 fs::path truth_file(const Arguments& arguments, const char* name, int frame, const char* ending) {
@@ -247,23 +256,32 @@ void run(const Arguments& arguments, const Session& session) {
   const double expected = static_cast<double>(arguments.frames > 0 ? arguments.frames : known);
   std::vector<int> cuts;
   int frame = 0;
-  for (; (arguments.frames == 0 || frame < arguments.frames) && read_frames(films, frame); ++frame) {
+  bool two_eyes = false;
+  for (; (arguments.frames == 0 || frame < arguments.frames) && read_frames(films); ++frame) {
+    two_eyes = !films[1].now.right.empty();
     report(session.progress, "frames", expected > 0 ? std::min(frame / expected, 1.0) : 0);
-    if (frame % arguments.stereo_every == 0) measure_stereo(arguments, films, frame);
+    if (frame % arguments.stereo_step == 0) measure_stereo(arguments, films, frame);
     if (frame == 0) continue;
     const FramePair pair = pair_of(arguments, films.front(), frame);
     if (pair.cut) cuts.push_back(frame);
     measure_temporal(films, pair, frame);
   }
+  const std::vector<std::string> shorter = names_of_shorter(films);
+  if (frame == 0 && !shorter.empty())
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no frame to compare", shorter.front()));
   std::optional<MarksOfFilm> marks;
-  if (!arguments.marks.empty()) marks = measure_marks(arguments, !films[1].before.right.empty(), frame, cuts, session);
+  if (!arguments.marks.empty()) marks = measure_marks(arguments, two_eyes, frame, cuts, session);
   if (session.json) {
     Json facts = to_json(arguments, films, frame, cuts);
+    if (!shorter.empty()) facts["shorter"] = shorter;
     if (marks) facts["marks"] = to_json(*marks);
     fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
   print_table(films, cuts, session);
+  if (!shorter.empty())
+    fmt::print(session.output, "only the first {} frames are compared: {} {} there\n", frame, fmt::join(shorter, ", "),
+               shorter.size() == 1 ? "ends" : "end");
   if (marks)
     fmt::print(session.output,
                "strokes: {:.1f} % carried from frame to frame, {} popped; bare at most {:.3f} % of an eye\n",
@@ -296,7 +314,7 @@ void add_measure_film(CLI::App& measure, const Session& session) {
   command.add_option("--frames", arguments->frames, "Only so many, from the first; 0 for all")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  command.add_option("--stereo-every", arguments->stereo_every, "The eyes of each so many-th frame are compared")
+  command.add_option("--stereo-frame-step", arguments->stereo_step, "Compare the eyes of every Nth frame")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command.footer(

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <ostream>
 
@@ -13,7 +14,15 @@ namespace {
 
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
 constexpr auto line_interval = std::chrono::seconds(10);
+constexpr auto time_is_shown_after = std::chrono::seconds(2);
 constexpr int bar_width = 30;
+
+/// "1:05" or "2:00:00".
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::llround(seconds));
+  return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+                       : fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
 
 std::string_view first_word(std::string_view text) { return text.substr(0, text.find(' ')); }
 
@@ -22,28 +31,38 @@ std::string_view first_word(std::string_view text) { return text.substr(0, text.
 // Progress is a courtesy: where standard error is closed the run goes on.
 void ProgressDisplay::put(std::string_view text) { errors_ << text << std::flush; }
 
-void ProgressDisplay::show(std::string_view step, double done) {
+void ProgressDisplay::begin(double done, Clock::time_point now) {
+  begun_ = now;
+  done_at_begin_ = done;
+}
+
+/// ", 0:12 gone, 0:24 left"; empty at first.
+std::string ProgressDisplay::times(double done, Clock::time_point now) const {
+  if (now - begun_ < time_is_shown_after) return {};
+  const double seconds = std::chrono::duration<double>(now - begun_).count(), advance = done - done_at_begin_;
+  std::string text = fmt::format(", {} gone", clock_text(seconds));
+  if (advance > 0 && done < 1) text += fmt::format(", {} left", clock_text(seconds / advance * (1 - done)));
+  return text;
+}
+
+void ProgressDisplay::show(std::string_view step, double done, Clock::time_point now) {
   if (style_ == Style::none) return;
-  const auto now = std::chrono::steady_clock::now();
-  const bool new_step = step_ != step;
   // "painting frame 3 of 9" and "painting frame 4 of 9" are news of one kind.
   const bool new_kind = !step_ || first_word(*step_) != first_word(step);
+  const double share = std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0.0;
+  if (new_kind) begin(share, now);
   step_ = std::string(step);
   if (style_ == Style::lines) {
-    if (!new_kind && (!new_step || now - drawn_ < line_interval)) return;
+    if (!new_kind && now - drawn_ < line_interval) return;
     drawn_ = now;
-    put(fmt::format("{}\n", step));
+    put(new_kind ? fmt::format("{}\n", step) : fmt::format("{}: {:.0f} %{}\n", step, 100 * share, times(share, now)));
     return;
   }
   if (!new_kind && done < 1 && now - drawn_ < redraw_interval) return;
   drawn_ = now;
-  draw_bar(step, done);
-}
-
-void ProgressDisplay::draw_bar(std::string_view step, double done) {
-  const double share = std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0.0;
   const int filled = static_cast<int>(share * bar_width);
-  put(fmt::format("\r[{:#<{}}{:.<{}}] {:3.0f} % {}\033[K", "", filled, "", bar_width - filled, 100 * share, step));
+  put(fmt::format("\r[{:#<{}}{:.<{}}] {:3.0f} % {}{}\033[K", "", filled, "", bar_width - filled, 100 * share, step,
+                  times(share, now)));
   bar_visible_ = true;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "command.h"
 #include "film_argument.h"
@@ -39,7 +41,8 @@ struct Arguments {
   std::string output = "painted.mp4";
   std::string layout, output_layout;
   std::string from, to;
-  int every = 1;
+  int frame_step = 1;
+  bool no_audio = false, no_subtitles = false;
   std::string rate;
   std::string truth;
   RotoscopeFilmOptions options;
@@ -82,7 +85,9 @@ FilmWriterOptions writing_options(const Arguments& arguments, const FilmArgument
   writing.frame_rate = facts.frame_rate;
   writing.pixel_aspect = facts.pixel_aspect;
   writing.colour = facts.colour;
-  if (!frame_pattern(film.film)) writing.side_streams_from = film.film;
+  if (!facts.side_streams.empty()) writing.side_streams_from = film.film;
+  writing.copy_audio = !arguments.no_audio;
+  writing.copy_subtitles = !arguments.no_subtitles;
   writing.start_s = reading.from_s.value_or(0);
   writing.end_s = reading.to_s;
   return writing;
@@ -169,33 +174,39 @@ void run(const Arguments& arguments, const Session& session) {
   RotoscopeFilmOptions options = arguments.options;
   options.frames.style = style_from(arguments.style, session.seed);
   options.frames.matching = match_options_from(arguments.matching);
-  options.made_by = fmt::format("wheatstone {} every {}", WHEATSTONE_VERSION, arguments.every);
   if (!arguments.truth.empty()) {
-    if (!arguments.from.empty() || arguments.every != 1)
-      throw Error(ErrorKind::wrong_usage, "--truth counts all frames from the first: leave out --from and --every");
+    if (!arguments.from.empty() || arguments.frame_step != 1)
+      throw Error(ErrorKind::wrong_usage,
+                  "--truth counts all frames from the first: leave out --from and --frame-step");
     options.known = [folder = arguments.truth](std::int64_t frame) { return read_known_frame(folder, frame); };
-    options.made_by += " truth " + arguments.truth;
+    for (const char* file :
+         {"left_disparity_%04d.pfm", "right_disparity_%04d.pfm", "flow_forward_%04d.flo", "flow_backward_%04d.flo"})
+      options.made_from.push_back(fs::path(arguments.truth) / file);
   }
   FilmArgument film = find_film(arguments.film, film_layout_option("--layout", arguments.layout));
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   check_not_an_input(arguments.output, std::array{film.film, film.right});
   FilmReaderOptions reading{.from_s = time_option("--from", arguments.from),
                             .to_s = time_option("--to", arguments.to),
-                            .every = arguments.every,
-                            .threads = session.threads};
+                            .every = arguments.frame_step};
   if (!arguments.rate.empty()) {
     if (!frame_pattern(film.film))
       throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures");
     reading.sequence_rate = rate_option(arguments.rate);
   }
+  options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
+  reading.threads = session.threads;
+  options.reading = reading;
   StereoFilmReader source = open_film(film, reading);
   if (session.verbose && film.right.empty())
     fmt::print(session.errors, "layout: {} ({})\n", layout_name(source.layout()), source.layout_how());
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));
   options.writing = writing_options(arguments, film, source, reading);
   options.expected_frames = expected_frames(source.facts(), reading);
-  options.made_from = {film.film};
+  options.made_from.push_back(film.film);
   if (!film.right.empty()) options.made_from.push_back(film.right);
+  const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
+  if (!left_out.empty() && !session.quiet) fmt::print(session.errors, "wheatstone: {}\n", fmt::join(left_out, "; "));
   const RotoscopedFilm result = rotoscope_film(source, arguments.output, options, session.progress);
   if (session.json) {
     fmt::print(session.output, "{}\n", to_json(arguments, result).dump(2));
@@ -222,7 +233,7 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
       .add_option("--rate", arguments.rate,
                   "Frames a second of numbered pictures, as 25 or 24000/1001; 24 if not given")
       ->group(group);
-  command.add_option("--every", arguments.every, "Paint each so many-th frame only")
+  command.add_option("--frame-step", arguments.frame_step, "Paint every Nth frame only")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str()
       ->group(group);
@@ -234,6 +245,8 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
       ->capture_default_str()
       ->group(group);
   command.add_option("--pixel-format", writing.pixel_format, "yuv420p, yuv422p, yuv444p; bgr0 for ffv1")->group(group);
+  command.add_flag("--no-audio", arguments.no_audio, "Do not copy the film's sound")->group(group);
+  command.add_flag("--no-subtitles", arguments.no_subtitles, "Do not copy the film's subtitles")->group(group);
   command.add_option("--save-marks", arguments.options.marks, "Also keep each frame's marks: marks_%04d.wst")
       ->group(group);
   command.add_flag("--resume", arguments.options.resume, "Go on with what a run that was stopped has left")

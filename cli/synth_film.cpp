@@ -22,7 +22,7 @@ namespace {
 
 struct Arguments {
   std::string folder = "film";
-  std::string size = "960x540";
+  std::string size = "640x360";
   SyntheticFilmOptions film;
 };
 

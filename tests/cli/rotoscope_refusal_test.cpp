@@ -108,7 +108,7 @@ TEST(RotoscopeRefusal, OfATruthThatIsNotThere) {
   fs::create_directory(folder / "empty");
   for (int i = 1; i <= 2; ++i) write_image(folder / ("f_" + std::to_string(i) + ".png"), Image<Rgb8>(64, 48));
   refused(folder, {"f_%d.png,f_%d.png", "--truth", "empty"}, 3, "disparity_0000.pfm: cannot be opened");
-  refused(folder, {"f_%d.png", "--truth", "empty", "--every", "2"}, 2, "leave out --from and --every");
+  refused(folder, {"f_%d.png", "--truth", "empty", "--frame-step", "2"}, 2, "leave out --from and --frame-step");
 }
 
 TEST(RotoscopeRefusal, OfOptionsThatMakeNoSense) {
@@ -129,7 +129,8 @@ TEST(RotoscopeRefusal, OfOptionsThatMakeNoSense) {
   mono({"--from", "soon"}, 2, "--from: is 'soon'");
   mono({"--from", "1", "--to", "0.5"}, 2, "to: 0.5 s, expected more than from");
   mono({"--from", "60"}, 2, "the film has no frame in the time asked for");
-  mono({"--every", "0"}, 2, "--every");
+  mono({"--frame-step", "0"}, 2, "--frame-step");
+  mono({"--every", "2"}, 2, "--every");
   mono({"--save-marks", "marks.wst"}, 2, "marks.wst: needs a place for the frame's number");
   mono({"-o", "o.avi"}, 2, "o.avi: films are written to");
   mono({"-o", "o_%04d.wst", "--resume"}, 2, "cannot be resumed");

@@ -122,8 +122,8 @@ TEST(RotoscopeCommand, ARotatedSourceIsPaintedUpright) {
 TEST(RotoscopeCommand, PaintsThePartThatIsAskedFor) {
   const TemporaryFolder folder;
   make_film(folder / "a.mp4", 20, {.preset = "ultrafast"});
-  const auto facts =
-      rotoscope(folder, {"a.mp4", "--layout", "mono", "--from", "0.2", "--to", "0:0.6", "--every", "2", "-o", "o.mp4"});
+  const auto facts = rotoscope(
+      folder, {"a.mp4", "--layout", "mono", "--from", "0.2", "--to", "0:0.6", "--frame-step", "2", "-o", "o.mp4"});
   EXPECT_EQ(facts["frames"], 5);
   const std::vector<Frame> frames = frames_of(folder / "o.mp4");
   ASSERT_EQ(frames.size(), 5u);
@@ -317,6 +317,22 @@ TEST(RotoscopeCommandLong, PaintsRealFilms) {
   }
 }
 #endif
+
+TEST(Rotoscope, SoundThatCannotBeCopiedIsNamedBeforeAndLeftOut) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  make_film_with_undescribed_sound(folder / "a.ts");
+  const std::vector<std::string> line{"rotoscope", "a.ts", "--layout", "mono",     "--frame-step",
+                                      "9",         "-o",   "o.mp4",    "--preset", "ultrafast"};
+  const ProgramResult result = run_program(line, {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.errors, testing::StartsWith("wheatstone: audio stream 1 (aac) of a.ts is left out: "));
+  EXPECT_TRUE(open_film(folder / "o.mp4").facts().side_streams.empty());
+  std::vector<std::string> silent = line;
+  silent.insert(silent.end(), {"--no-audio", "-o", "p.mp4"});
+  silent.erase(silent.begin() + 6, silent.begin() + 8);
+  EXPECT_THAT(run_program(silent, {.folder = folder / ""}).errors, testing::Not(testing::HasSubstr("audio")));
+}
 
 }  // namespace
 }  // namespace wheatstone

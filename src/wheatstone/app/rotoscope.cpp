@@ -15,6 +15,14 @@
 namespace wheatstone {
 namespace {
 
+/// A frame as it comes, and how it is to be painted.
+struct FrameTask {
+  const StereoPair& eyes;
+  const RotoscopeOptions& options;
+  const KnownFrame* known;
+  const Progress& progress;
+};
+
 /// A frame as it is painted from.
 struct FrameAtWork {
   StereoGeometry geometry;
@@ -53,11 +61,11 @@ double share_of_width(const Image<Rgb8>& picture, int widest_px) {
   return std::min(static_cast<double>(widest_px) / picture.width(), 1.0);
 }
 
-StereoGeometry find_geometry(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state) {
-  MatchOptions matching = options.matching;
-  if (!matching.range) matching.range = scene_range(eyes, state);
-  matching.size = std::min(matching.size, share_of_width(eyes.left, options.widest_matched_px));
-  return match(eyes, matching).geometry;
+StereoGeometry find_geometry(const FrameTask& task, RotoscopeState& state) {
+  MatchOptions matching = task.options.matching;
+  if (!matching.range) matching.range = scene_range(task.eyes, state);
+  matching.size = std::min(matching.size, share_of_width(task.eyes.left, task.options.widest_matched_px));
+  return match(task.eyes, matching, task.progress).geometry;
 }
 
 /// A film of one eye: all on the screen.
@@ -75,26 +83,27 @@ bool scene_begins(const StereoPair& eyes, const RotoscopeState& state, const Kno
   return find_cut(state.left_before, eyes.left).cut;
 }
 
-FlowPair find_flow(const FrameAtWork& frame, const RotoscopeOptions& options, const RotoscopeState& state,
-                   const KnownFrame* known) {
+FlowPair find_flow(const FrameAtWork& frame, const FrameTask& task, const RotoscopeState& state) {
+  const KnownFrame* known = task.known;
   if (known != nullptr && known->flow)
     return central_flow(*known->flow, {state.left_disparity_before, state.central_disparity_before},
                         {frame.geometry.left_disparity, frame.centre.disparity});
   const FlowPair* start = state.flow_before.forward.x.empty() ? nullptr : &state.flow_before;
-  const double size = share_of_width(state.central_before, options.widest_flow_px);
-  return estimate_flow(state.central_before, frame.centre.picture, {options.flow, start, size});
+  const double size = share_of_width(state.central_before, task.options.widest_flow_px);
+  return estimate_flow(state.central_before, frame.centre.picture, {task.options.flow, start, size});
 }
 
-FrameAtWork look_at(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
-                    const KnownFrame* known, RotoscopeTimes& times) {
+FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes& times) {
+  const StereoPair& eyes = task.eyes;
   if (eyes.right.empty()) return single_view(eyes);
   FrameAtWork frame;
   {
     const Stopwatch watch(times.matching_s);
-    frame.geometry = known != nullptr ? known->geometry : find_geometry(eyes, options, state);
+    frame.geometry = task.known != nullptr ? task.known->geometry : find_geometry(task, state);
   }
+  report(task.progress, "central view", 0);
   const Stopwatch watch(times.central_s);
-  frame.centre = make_central_view(eyes, frame.geometry, options.central);
+  frame.centre = make_central_view(eyes, frame.geometry, task.options.central);
   return frame;
 }
 
@@ -118,7 +127,7 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
 }  // namespace
 
 RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
-                                const KnownFrame* known) {
+                                const KnownFrame* known, const Progress& progress) {
   check_sizes(eyes, state);
   RotoscopedFrame result;
   result.scene_begins = scene_begins(eyes, state, known);
@@ -126,15 +135,18 @@ RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& 
     state.frames_of_scene = 0;
     state.flow_before = {};
   }
-  FrameAtWork frame = look_at(eyes, options, state, known, result.times);
+  const FrameTask task{eyes, options, known, progress};
+  FrameAtWork frame = look_at(task, state, result.times);
   frame.views = eyes.right.empty()
                     ? std::vector<SceneView>{{frame.centre.picture, frame.centre.disparity, {}, central_view}}
                     : scene_from_centre(frame.centre, eyes, frame.geometry);
   const bool carries = !result.scene_begins && !options.anew;
   if (carries) {
+    report(progress, "flow", 0);
     const Stopwatch watch(result.times.flow_s);
-    state.flow_before = find_flow(frame, options, state, known);
+    state.flow_before = find_flow(frame, task, state);
   }
+  report(progress, "painting", 0);
   PaintedFrame painted =
       paint_frame({frame.views, carries ? &state.flow_before : nullptr}, options.style, options.carrying, state.memory);
   result.painted = std::move(painted.painted);

@@ -7,6 +7,7 @@
 #include "wheatstone/matching/match.h"
 #include "wheatstone/motion/flow.h"
 #include "wheatstone/painting/paint_frame.h"
+#include "wheatstone/progress.h"
 #include "wheatstone/stereo/central_view.h"
 #include "wheatstone/strokes/strokes_between_frames.h"
 
@@ -72,8 +73,9 @@ struct RotoscopedFrame {
 /// Paints the next frame of a film (Bukenberger et al. 2015): finds its disparity, merges the eyes into the central
 /// view, finds the flow there from the frame before, and paints what that flow carries on. `eyes.right` is empty for a
 /// film of one eye. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size, wrong_usage for
-/// options that make no sense.
+/// options that make no sense. What `progress` throws, between its steps and while it matches, ends it: then `state` is
+/// of no further use.
 RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
-                                const KnownFrame* known = nullptr);
+                                const KnownFrame* known = nullptr, const Progress& progress = {});
 
 }  // namespace wheatstone

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <system_error>
 
+#include "wheatstone/app/marks_sequence_internal.h"
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/painting_file.h"
-#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/stereo/packed_pair.h"
+#include "wheatstone/struct_fields_internal.h"
 #include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/segmented_film.h"
+#include "wheatstone/video/work_folder.h"
 
 namespace wheatstone {
 namespace {
@@ -28,21 +28,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Of all threads of this process.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Everything that decides the frames, as text.
-std::string recipe_of(const RotoscopeFilmOptions& options) {
-  const RotoscopeOptions& frames = options.frames;
-  const MatchOptions& matching = frames.matching;
-  const CarryOptions& carrying = frames.carrying;
-  const DisparityRange range = matching.range.value_or(DisparityRange{0, 0});
-  return fmt::format(
-      "{}\n{}\nseed {}\nmatching {} {} {} {} {} {} {} {} {} {} {} {} {} {}\nflow {} central {} anew {}\n"
-      "carrying {} {} {} {} {}",
-      options.made_by, style_to_toml(frames.style), frames.style.seed, static_cast<int>(matching.matcher),
-      matching.model.string(), matching.range.has_value(), range.least, range.largest, matching.block_px,
-      matching.left_right_check, matching.check_tolerance_px, matching.least_surface_px, matching.size,
-      matching.distrust, matching.wls, matching.wls_keeps_confirmed, options.known != nullptr,
-      static_cast<int>(frames.flow), static_cast<int>(frames.central), frames.anew, carrying.fade_in_frames,
-      carrying.fade_out_frames, carrying.colour_tolerance, carrying.gain_tolerance, carrying.length_tolerance);
+/// The sources of the film's bytes, the network that matches among them.
+std::vector<fs::path> sources_of(const RotoscopeFilmOptions& options) {
+  std::vector<fs::path> sources = options.made_from;
+  if (!options.frames.matching.model.empty()) sources.push_back(options.frames.matching.model);
+  return sources;
 }
 
 /// Where frames go: a film that is being made, or only files of marks.
@@ -54,19 +44,15 @@ class Output {
         frames_between_checkpoints_(options.frames_between_checkpoints),
         style_(options.frames.style) {
     const bool only_marks = path.extension() == ".wst";
-    const fs::path marks = only_marks ? path : options.marks;
-    if (!marks.empty()) {
-      marks_ = frame_pattern(marks);
-      if (!marks_)
-        throw Error(ErrorKind::wrong_usage,
-                    fmt::format("{}: needs a place for the frame's number, as marks_%04d.wst", marks.string()));
-    }
     if (only_marks && options.resume)
       throw Error(ErrorKind::wrong_usage, "marks alone cannot be resumed: write a film beside them");
-    if (only_marks) return;
-    check_rest(options.resume);
-    film_.emplace(path, options.writing,
-                  SegmentOptions{options.frames_between_checkpoints, recipe_of(options), options.made_from});
+    const fs::path marks = only_marks ? path : options.marks;
+    if (!marks.empty()) check_marks(marks);
+    if (!only_marks)
+      film_.emplace(
+          path, options.writing,
+          SegmentOptions{options.frames_between_checkpoints, recipe_of(options), sources_of(options), options.resume});
+    if (!marks.empty()) marks_.emplace(marks, frames_done());
   }
 
   /// Frames that are safe: an earlier run has left them, or this one has closed them.
@@ -79,68 +65,72 @@ class Output {
 
   void write(const RotoscopedFrame& frame, const StereoFrame& source, const RotoscopeState& state) {
     const PaintedPair& painted = frame.painted;
-    if (marks_) write_painting(marks_->file(state.frames), marks_of(painted, style_));
+    if (marks_) marks_->write(state.frames, marks_of(painted, style_));
     if (!film_) return;
     const bool at_checkpoint = state.frames % frames_between_checkpoints_ == 0;
     // Before the segment of these frames is closed: each closed segment has its state.
     if (at_checkpoint) write_rotoscope_state(state_file(state.frames), state);
-    Image<Rgb8> picture = painted.pictures.right.empty()
-                              ? painted.pictures.left
-                              : put_together(painted.pictures.left, painted.pictures.right, layout_);
-    film_->write({std::move(picture), source.pts, source.time_base, source.duration});
+    const Image<Rgb8>&left = painted.pictures.left, &right = painted.pictures.right;
+    film_->write(
+        {right.empty() ? left : put_together(left, right, layout_), source.pts, source.time_base, source.duration});
     if (!at_checkpoint) return;
     std::error_code ignored;
     fs::remove(state_file(state.frames - frames_between_checkpoints_), ignored);
   }
 
   std::vector<std::string> finish(const RotoscopeState& state, const Progress& progress) {
-    if (!film_) return {};
-    // Joining closes the last segment, and may be stopped, too.
-    if (state.frames > frames_done()) write_rotoscope_state(state_file(state.frames), state);
-    film_->finish(progress);
-    return film_->notes();
+    if (film_) {
+      // Joining closes the last segment, and may be stopped, too.
+      if (state.frames > frames_done()) write_rotoscope_state(state_file(state.frames), state);
+      if (marks_) marks_->check(state.frames);
+      film_->finish(progress);
+    }
+    if (marks_) marks_->give_names(state.frames);
+    return film_ ? film_->notes() : std::vector<std::string>();
   }
 
   /// What cannot be gone on with is not kept.
-  void abandon() {
-    if (!film_) return;
-    film_.reset();
-    std::error_code ignored;
-    fs::remove_all(segment_folder(path_), ignored);
+  void discard() {
+    if (marks_) marks_->discard();
+    if (film_) film_->discard();
+  }
+
+  /// The folders that hold what is done, for the user.
+  std::string folders() const {
+    std::string names = work_folder_of(path_).string();
+    if (marks_) names += " and " + marks_->folder().string();
+    return names;
   }
 
  private:
-  void check_rest(bool resume) const {
-    std::error_code ignored;
-    if (!resume && fs::exists(segment_folder(path_) / "manifest.json", ignored))
+  static void check_marks(const fs::path& path) {
+    const std::optional<FramePattern> pattern = frame_pattern(path);
+    if (!pattern)
       throw Error(ErrorKind::wrong_usage,
-                  fmt::format("{}: left by a run that did not finish; --resume goes on with it, or remove it",
-                              segment_folder(path_).string()));
+                  fmt::format("{}: needs a place for the frame's number, as marks_%04d.wst", path.string()));
+    const std::vector<std::int64_t> existing = numbers_of(*pattern);
+    if (!existing.empty())
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("{}: {} exists already, and frames of two runs would mix; expected no such file",
+                              path.string(), pattern->file(existing.front()).filename().string()));
   }
 
-  fs::path state_file(std::int64_t frames) const { return segment_folder(path_) / fmt::format("state_{:09}", frames); }
+  fs::path state_file(std::int64_t frames) const { return work_folder_of(path_) / fmt::format("state_{:09}", frames); }
 
   fs::path path_;
   StereoLayout layout_;
   int frames_between_checkpoints_;
   Style style_;
-  std::optional<FramePattern> marks_;
   std::optional<SegmentedFilm> film_;
+  std::optional<MarksSequence> marks_;
 };
 
-/// "frame 12 of 240, 2.1 a second, 1:48 left".
+/// "painting frame 12 of 240, 2.10 a second".
 std::string step_text(std::int64_t frame, std::int64_t expected, std::int64_t done_before, double seconds) {
   const auto painted = static_cast<double>(frame - done_before);
   std::string text =
       expected > 0 ? fmt::format("painting frame {} of {}", frame, expected) : fmt::format("painting frame {}", frame);
-  if (painted < 1 || seconds <= 0) return text;
-  const double rate = painted / seconds;
-  text += fmt::format(", {:.2f} a second", rate);
-  if (expected > frame) {
-    const auto left = static_cast<std::int64_t>(std::llround(static_cast<double>(expected - frame) / rate));
-    text += left >= 3600 ? fmt::format(", {}:{:02}:{:02} left", left / 3600, left / 60 % 60, left % 60)
-                         : fmt::format(", {}:{:02} left", left / 60, left % 60);
-  }
+  if (painted >= 1 && seconds > 0) text += fmt::format(", {:.2f} a second", painted / seconds);
   return text;
 }
 
@@ -161,12 +151,16 @@ void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmO
   const double processor_start = processor_seconds();
   film.frames = film.resumed_frames;
   for (StereoFrame frame; source.read(frame); ++film.frames) {
-    report(progress, step_text(film.frames, expected, film.resumed_frames, seconds_since(start)),
-           expected > 0 ? std::min(static_cast<double>(film.frames) / static_cast<double>(expected), 1.0) : 0);
+    const std::string text = step_text(film.frames, expected, film.resumed_frames, seconds_since(start));
+    const double share =
+        expected > 0 ? std::min(static_cast<double>(film.frames) / static_cast<double>(expected), 1.0) : 0;
+    // The steps within a frame are asked only whether to go on.
+    const Progress within = [&](std::string_view, double) { report(progress, text, share); };
+    within("", 0);
     StereoPair eyes{std::move(frame.left), std::move(frame.right)};
     std::optional<KnownFrame> known;
     if (options.known) known = options.known(film.frames);
-    const RotoscopedFrame painted = rotoscope_frame(eyes, options.frames, state, known ? &*known : nullptr);
+    const RotoscopedFrame painted = rotoscope_frame(eyes, options.frames, state, known ? &*known : nullptr, within);
     output.write(painted, frame, state);
     add(painted, film);
     frame.left = std::move(eyes.left);
@@ -179,6 +173,19 @@ void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmO
 }
 
 }  // namespace
+
+std::string recipe_of(const RotoscopeFilmOptions& options) {
+  // Whoever adds a member says here whether it decides a byte. Not in the text: `writing` and the interval, which the
+  // film's segments compare themselves, the sources, which are compared by what is in them, and what only says how
+  // the run goes: resume, keep_going, expected_frames.
+  static_assert(field_count<RotoscopeFilmOptions>() == 11);
+  RotoscopeOptions frames = options.frames;
+  frames.matching.model.clear();  // its content is compared
+  FilmReaderOptions reading = options.reading;
+  reading.threads = 0;  // the same frames on any number
+  return fmt::format("{}\n{}\n{}\nmarks {}\nknown {}", options.made_by, text_of_fields(frames), text_of_fields(reading),
+                     options.marks.string(), static_cast<bool>(options.known));
+}
 
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
                               const Progress& progress) {
@@ -196,9 +203,11 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     const bool can_go_on =
         painted || error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
     const std::int64_t kept = out.frames_done();
-    if (!can_go_on || kept == 0) out.abandon();
+    if (!can_go_on || kept == 0) out.discard();
     if (error.kind() == ErrorKind::interrupted && kept > 0)
-      throw Error(ErrorKind::interrupted, fmt::format("interrupted; --resume goes on after the first {} frames", kept));
+      throw Error(
+          ErrorKind::interrupted,
+          fmt::format("interrupted; --resume goes on after the first {} frames, which are in {}", kept, out.folders()));
     throw;
   }
   film.loss = source.loss();

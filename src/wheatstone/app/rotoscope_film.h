@@ -15,6 +15,7 @@ namespace wheatstone {
 
 struct RotoscopeFilmOptions {
   RotoscopeOptions frames;
+  FilmReaderOptions reading;    ///< that the source was opened with: they decide which frames there are
   FilmWriterOptions writing;    ///< `layout` says how the eyes lie in a painted frame
   std::filesystem::path marks;  ///< "marks_%04d.wst" also keeps each frame's marks, from 1 on; empty: no
   int frames_between_checkpoints = 48;
@@ -39,11 +40,17 @@ struct RotoscopedFilm {
   std::optional<std::string> loss;  ///< what of the source is damaged; kept going
 };
 
+/// Everything in the options that decides a byte of the painted frames and marks, as text. `writing` is not in it.
+std::string recipe_of(const RotoscopeFilmOptions& options);
+
 /// Paints a film (Bukenberger et al. 2015) into another, frame by frame, in memory that does not grow with its length.
 /// Every `frames_between_checkpoints` frames all that the rest depends on is saved beside the output, in
-/// "OUTPUT.part"; a run that is killed and resumed gives the same film. An output of the form "marks_%04d.wst" keeps
-/// marks and no pictures, and cannot be resumed. Throws as the reader, the writer and rotoscope_frame do, and
-/// Error{bad_input} after the film is written where the source is damaged, unless `keep_going`.
+/// "OUTPUT.part"; a run that is killed and resumed gives the same film. Marks get their names when the film is whole;
+/// until then they lie in "MARKS.part". A run that is stopped before the first of these intervals is painted leaves
+/// nothing behind; later it leaves these two folders and nothing else. An output of the form "marks_%04d.wst" keeps
+/// marks and no pictures, and cannot be resumed: stopped, it leaves nothing. Throws as the reader, the writer and
+/// rotoscope_frame do, Error{wrong_usage} where marks of such names exist, and Error{bad_input} after the film is
+/// written where the source is damaged, unless `keep_going`.
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const std::filesystem::path& output,
                               const RotoscopeFilmOptions& options, const Progress& progress = {});
 

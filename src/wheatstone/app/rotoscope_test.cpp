@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <random>
+#include <set>
 
 #include "throws_error.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/app/rotoscope_state_file.h"
+#include "wheatstone/struct_fields_internal.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/moving_picture_internal.h"
 
@@ -58,6 +60,39 @@ TEST(RotoscopeStateFile, WrittenAgainItHasTheSameBytes) {
   write_rotoscope_state(folder / "a", state_after(2));
   write_rotoscope_state(folder / "b", read_rotoscope_state(folder / "a"));
   EXPECT_TRUE(bytes_of(folder / "a") == bytes_of(folder / "b"));
+}
+
+// Each kind of marks remembers other things.
+TEST(RotoscopeStateFile, KeepsWhatEveryKindOfMarksRemembers) {
+  for (const char* style : {"impressionist", "posterise", "mosaic", "diffusion"}) {
+    RotoscopeOptions options;
+    options.style = style_by_name(style);
+    RotoscopeState state;
+    for (int frame = 0; frame < 2; ++frame) rotoscope_frame(eyes_of_frame(frame), options, state);
+    const std::string bytes = encode_rotoscope_state(state);
+    RotoscopeState read = decode_rotoscope_state(bytes, "state");
+    EXPECT_TRUE(encode_rotoscope_state(read) == bytes) << style;
+    const RotoscopedFrame a = rotoscope_frame(eyes_of_frame(2), options, state);
+    EXPECT_EQ(a.painted.pictures.left, rotoscope_frame(eyes_of_frame(2), options, read).painted.pictures.left) << style;
+  }
+}
+
+TEST(RotoscopeStateFile, NumbersThatDoNotFitTogetherAreRefused) {
+  const auto refused = [](const auto& change) {
+    RotoscopeState state;
+    state.left_before = Image<Rgb8>(8, 4);
+    state.layers_before = {{2, {{}, {}}, {{.first_point = 1, .point_count = 1}}}};
+    EXPECT_EQ(decode_rotoscope_state(encode_rotoscope_state(state), "s").layers_before, state.layers_before);
+    change(state);
+    const std::string bytes = encode_rotoscope_state(state);
+    expect_error(ErrorKind::bad_input, "s: damaged", [&] { decode_rotoscope_state(bytes, "s"); });
+  };
+  refused([](RotoscopeState& state) { state.layers_before[0].strokes[0].point_count = 2; });
+  refused([](RotoscopeState& state) { state.layers_before[0].strokes[0].first_point = 0xffffffff; });
+  refused([](RotoscopeState& state) { state.central_before = Image<Rgb8>(4, 8); });
+  refused([](RotoscopeState& state) { state.memory.posterised.colour_of = Image<std::uint8_t>(8, 4); });
+  refused([](RotoscopeState& state) { state.memory.strokes.views = {{{state.layers_before[0], {}}}}; });
+  refused([](RotoscopeState& state) { state.frames_of_scene = 1; });
 }
 
 TEST(RotoscopeStateFile, TheEmptyStateIsReadBack) {
@@ -124,6 +159,66 @@ TEST(Rotoscope, SizesThatChangeAreRefused) {
   });
 }
 
+/// Changes the `place`-th value in a record of options, through all structs in it; false where there are fewer.
+template <class Value>
+bool change_value(Value& value, int& place) {
+  if constexpr (std::is_same_v<Value, std::string>) {
+    if (place-- == 0) value += "x";
+  } else if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+    if (place-- == 0) value += "x";
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    if (place-- == 0) value = !value;
+  } else if constexpr (std::is_enum_v<Value>) {
+    if (place-- == 0) value = static_cast<Value>(static_cast<int>(value) + 1);
+  } else if constexpr (std::is_arithmetic_v<Value>) {
+    if (place-- == 0) value = static_cast<Value>(value + 1);
+  } else if constexpr (requires { value.emplace(); }) {
+    if (place-- == 0) value.emplace();
+  } else if constexpr (requires { value.emplace_back(); }) {
+    if (place-- == 0) value.emplace_back();
+  } else {
+    for_each_field(value, [&](auto& field) {
+      if (place >= 0) change_value(field, place);
+    });
+  }
+  return place < 0;
+}
+
+// Whatever changes a byte keeps a run from going on with another's rest.
+TEST(RotoscopeRecipe, TellsEveryOptionOfAFrameFromItsDefault) {
+  const std::string usual = recipe_of({});
+  int same = 0, changed = 0;
+  for (int place = 0;; ++place) {
+    RotoscopeFilmOptions options;
+    int left = place;
+    if (!change_value(options.frames, left)) break;
+    ++changed;
+    same += recipe_of(options) == usual ? 1 : 0;
+  }
+  EXPECT_GE(changed, 50);
+  EXPECT_EQ(same, 1) << "only the network's name, whose content is compared, may be missing";
+  RotoscopeFilmOptions options;
+  options.frames.matching.model_values = NetworkValues::imagenet;
+  EXPECT_NE(recipe_of(options), usual);
+  options = {};
+  options.frames.widest_matched_px = 640;
+  EXPECT_NE(recipe_of(options), usual);
+  options = {};
+  options.frames.matching.wls_lambda = 8000;
+  EXPECT_NE(recipe_of(options), usual);
+  options = {};
+  options.reading.every = 2;
+  EXPECT_NE(recipe_of(options), usual);
+  options = {};
+  options.marks = "m_%d.wst";
+  EXPECT_NE(recipe_of(options), usual);
+  options = {};
+  options.resume = options.keep_going = true;
+  options.reading.threads = 2;
+  options.expected_frames = 9;
+  EXPECT_EQ(recipe_of(options), usual);
+}
+
 /// A film of one eye, painted into "o.mp4".
 RotoscopedFilm paint_film(const TemporaryFolder& folder, const RotoscopeFilmOptions& options,
                           const std::string& name = "o.mp4", const Progress& progress = {}) {
@@ -154,6 +249,81 @@ TEST(RotoscopeFilm, StoppedWhileItJoinsItJoinsAgain) {
     EXPECT_FALSE(fs::exists(folder / "o.mp4.part"));
     fs::remove(folder / "o.mp4");
   }
+}
+
+TEST(RotoscopeFilm, OtherMatchingOrAnotherNetworkIsNotGoneOnWith) {
+  const TemporaryFolder folder;
+  make_film(folder / "a.mp4", 6, {.preset = "ultrafast"});
+  put_bytes(folder / "network.onnx", "one");
+  RotoscopeFilmOptions options;
+  options.frames_between_checkpoints = 2;
+  options.frames.matching.model = folder / "network.onnx";  // of one eye nothing is matched
+  const Progress stop = [](std::string_view step, double) {
+    if (step.starts_with("painting frame 5")) throw Error(ErrorKind::interrupted, "interrupted");
+  };
+  expect_error(ErrorKind::interrupted, "after the first 4 frames", [&] { paint_film(folder, options, "o.mp4", stop); });
+  options.resume = true;
+  const auto refused = [&](const RotoscopeFilmOptions& other) {
+    expect_error(ErrorKind::wrong_usage, "left by a run with other options", [&] { paint_film(folder, other); });
+  };
+  RotoscopeFilmOptions other = options;
+  other.frames.matching.wls_sigma = 2;
+  refused(other);
+  other = options;
+  other.frames.widest_flow_px = 480;
+  refused(other);
+  other = options;
+  other.writing.copy_audio = false;
+  refused(other);
+  put_bytes(folder / "network.onnx", "two");
+  refused(options);
+  put_bytes(folder / "network.onnx", "one");
+  EXPECT_EQ(paint_film(folder, options).resumed_frames, 4);
+}
+
+TEST(RotoscopeFilm, ASecondRunIsToldOfTheFirst) {
+  const TemporaryFolder folder;
+  make_film(folder / "a.mp4", 4, {.preset = "ultrafast"});
+  RotoscopeFilmOptions options;
+  options.frames_between_checkpoints = 1;
+  bool tried = false;
+  const Progress second = [&](std::string_view step, double) {
+    if (tried || !step.starts_with("painting frame 2")) return;
+    tried = true;
+    expect_error(ErrorKind::wrong_usage, "o.mp4: another run is painting it", [&] { paint_film(folder, options); });
+  };
+  EXPECT_EQ(paint_film(folder, options, "o.mp4", second).frames, 4);
+  EXPECT_TRUE(tried);
+}
+
+TEST(RotoscopeFilm, MarksGetTheirNamesWhenTheFilmIsWhole) {
+  const TemporaryFolder folder;
+  make_film(folder / "a.mp4", 4, {.preset = "ultrafast"});
+  const auto found = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder / "")) names.insert(entry.path().filename());
+    return names;
+  };
+  const Progress stop = [](std::string_view step, double) {
+    if (step.starts_with("painting frame 3")) throw Error(ErrorKind::interrupted, "interrupted");
+  };
+  // Marks alone cannot be gone on with, and a film not before its first checkpoint.
+  expect_error(ErrorKind::interrupted, "interrupted", [&] { paint_film(folder, {}, "m_%04d.wst", stop); });
+  EXPECT_EQ(found(), std::set<std::string>{"a.mp4"});
+  RotoscopeFilmOptions options;
+  options.marks = folder / "m_%04d.wst";
+  expect_error(ErrorKind::interrupted, "interrupted", [&] { paint_film(folder, options, "o.mp4", stop); });
+  EXPECT_EQ(found(), std::set<std::string>{"a.mp4"});
+
+  options.frames_between_checkpoints = 2;
+  expect_error(ErrorKind::interrupted, "m_%04d.wst.part", [&] { paint_film(folder, options, "o.mp4", stop); });
+  EXPECT_EQ(found(), (std::set<std::string>{"a.mp4", "m_%04d.wst.part", "o.mp4.part"}));
+  options.resume = true;
+  EXPECT_EQ(paint_film(folder, options).resumed_frames, 2);
+  EXPECT_EQ(found(), (std::set<std::string>{"a.mp4", "m_0001.wst", "m_0002.wst", "m_0003.wst", "m_0004.wst", "o.mp4"}));
+  fs::remove(folder / "o.mp4");
+  options.resume = false;
+  expect_error(ErrorKind::wrong_usage, "m_0001.wst exists already", [&] { paint_film(folder, options); });
 }
 
 TEST(RotoscopeFilm, ADamagedRestIsNamedAndNotRemoved) {

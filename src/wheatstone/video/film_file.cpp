@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -43,6 +44,18 @@ void check_container(const std::filesystem::path& path, const FilmWriterOptions&
   if (options.codec == "ffv1" && container != Container::matroska) {
     throw Error(ErrorKind::wrong_usage, fmt::format("{}: ffv1 is held only by Matroska, expected .mkv", path.string()));
   }
+}
+
+std::vector<std::string> side_streams_left_out(const std::filesystem::path& path, const FilmWriterOptions& options) {
+  std::vector<std::string> notes;
+  const Container container = container_of(path);
+  if (options.side_streams_from.empty() || container == Container::other) return notes;
+  silence_libav();
+  AVFormatContext* output = nullptr;
+  if (avformat_alloc_output_context2(&output, nullptr, format_of(container), nullptr) < 0) throw std::bad_alloc();
+  const std::unique_ptr<AVFormatContext, decltype(&avformat_free_context)> owned(output, &avformat_free_context);
+  const SideStreams streams(options, *output, notes);
+  return notes;
 }
 
 FilmFile::FilmFile(std::filesystem::path path, const FilmWriterOptions& options, std::vector<std::string>& notes)

@@ -7,16 +7,18 @@
 #include <variant>
 
 #include "wheatstone/error.h"
+#include "wheatstone/video/animated_webp_internal.h"
 #include "wheatstone/video/decoded_film_internal.h"
 #include "wheatstone/video/read_sequence_internal.h"
 
 namespace wheatstone {
 namespace {
 
-using Source = std::variant<DecodedFilm, PictureSequence>;
+using Source = std::variant<DecodedFilm, PictureSequence, AnimatedWebp>;
 
 Source source_of(const std::filesystem::path& path, const FilmReaderOptions& options) {
   if (auto pattern = frame_pattern(path)) return PictureSequence(path, std::move(*pattern), options.sequence_rate);
+  if (is_webp(path)) return AnimatedWebp(path);
   return DecodedFilm(path, options.threads);
 }
 

@@ -362,5 +362,31 @@ TEST(FilmReader, RealFilms) {
   EXPECT_EQ(reader.loss(), std::nullopt);
 }
 
+TEST(FilmReader, AnimatedPicturesAreFilms) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  make_film(folder / "a.mkv", 6, {.codec = "ffv1"});
+  const std::string source = " -i " + (folder / "a.mkv").string() + " ";
+  ffmpeg(source + "-lavfi 'split[a][b];[a]palettegen[p];[b][p]paletteuse' " + (folder / "a.gif").string());
+  ffmpeg(source + "-c:v libwebp_anim -lossless 1 " + (folder / "a.webp").string());
+  for (const std::string name : {"a.gif", "a.webp"}) {
+    SCOPED_TRACE(name);
+    const std::vector<Frame> frames = frames_of(folder / name);
+    ASSERT_EQ(frames.size(), 6u);
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_NEAR(frames[i].seconds(), i * 0.04, 1e-9);
+      // A GIF has 256 colours.
+      EXPECT_GT(psnr(frames[i].picture, moving_picture(64, 48, i)), name == "a.gif" ? 25 : 60);
+    }
+    const FilmFacts facts = open_film(folder / name).facts();
+    EXPECT_EQ(facts.width, 64);
+    EXPECT_NEAR(facts.frame_rate.value(), 25, 0.01);
+    EXPECT_EQ(frames_of(folder / name, {.from_s = 0.08, .to_s = 0.16}).size(), 2u);
+  }
+  const std::string whole = bytes_of(folder / "a.webp");
+  put_bytes(folder / "cut.webp", whole.substr(0, 20));
+  expect_error(ErrorKind::bad_input, "cut.webp: a damaged WebP", [&] { open_film(folder / "cut.webp"); });
+}
+
 }  // namespace
 }  // namespace wheatstone

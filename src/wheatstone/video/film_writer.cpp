@@ -1,6 +1,7 @@
 #include "wheatstone/video/film_writer.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <new>
 #include <optional>
@@ -18,7 +19,9 @@ struct FilmWriter::Implementation {
   Implementation(const std::filesystem::path& name, const FilmWriterOptions& wanted)
       : path(name), options(wanted), steps(name) {
     if (auto pattern = frame_pattern(path)) {
-      sequence.emplace(path, std::move(*pattern));
+      check_no_pictures(path, *pattern);
+      const std::string hidden = fmt::format(".{}frames.{}.partial", pattern->before, ::getpid());
+      sequence.emplace(*pattern, pattern->folder / hidden);
       if (!options.side_streams_from.empty()) notes.emplace_back("numbered pictures hold no audio and no subtitles");
       return;
     }

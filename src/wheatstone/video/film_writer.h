@@ -24,9 +24,15 @@ struct FilmWriterOptions {
   ColourTags colour;            ///< RGB is converted with this matrix and range, and tagged so
 
   std::filesystem::path side_streams_from;  ///< film whose audio and subtitles are copied, bit for bit; empty: none
-  double start_s = 0;                       ///< this moment of the source becomes the film's beginning
-  std::optional<double> end_s;              ///< of the source: side streams end here
+  bool copy_audio = true;
+  bool copy_subtitles = true;
+  double start_s = 0;           ///< this moment of the source becomes the film's beginning
+  std::optional<double> end_s;  ///< of the source: side streams end here
 };
+
+/// What of the audio and subtitles of `options.side_streams_from` a film at `path` would leave out because its
+/// container cannot take it: a sentence a stream. Found out by writing the beginning of each stream to memory.
+std::vector<std::string> side_streams_left_out(const std::filesystem::path& path, const FilmWriterOptions& options);
 
 /// Writes a film (.mp4, .m4v, .mov, .mkv), or numbered pictures where the name holds one %d, %04d or the like (from 1
 /// on). The film appears under its name when it is whole; destroyed before `finish`, the writer leaves nothing. The

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "wheatstone/struct_fields_internal.h"
 #include "wheatstone/video/fingerprint_internal.h"
 #include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/libav_internal.h"
@@ -50,13 +51,10 @@ std::string Fingerprint::text() const { return fmt::format("{:016x}", hash_); }
 
 std::string fingerprint_of(const FilmWriterOptions& options, const SegmentOptions& segments) {
   Fingerprint print;
-  const ColourTags& colour = options.colour;
-  print.add(fmt::format("{} {} {} {}", options.codec, options.crf.value_or(-1), options.preset, options.pixel_format));
-  print.add(layout_name(options.layout));
-  print.add(fmt::format("{}/{} {}/{}", options.frame_rate.numerator, options.frame_rate.denominator,
-                        options.pixel_aspect.numerator, options.pixel_aspect.denominator));
-  print.add(fmt::format("{} {} {} {}", colour.matrix, colour.range, colour.primaries, colour.transfer));
-  print.add(fmt::format("{} {} {}", options.start_s, options.end_s.value_or(-1), segments.frames_per_segment));
+  FilmWriterOptions values = options;
+  values.side_streams_from.clear();  // its content counts, not its name
+  print.add(text_of_fields(values));
+  print.add(fmt::format("{}", segments.frames_per_segment));
   print.add(segments.made_by);
   print.add(fmt::format("{}", avcodec_version()));
   if (!options.side_streams_from.empty()) print.add_file(options.side_streams_from);

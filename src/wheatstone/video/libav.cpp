@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* containers =
-    "mov,mp4,matroska,webm,avi,mpegts,mpeg,mpegvideo,m4v,h264,hevc,asf,flv,ogg,nut,mxf,ivf,obu,dv,wtv,rm,yuv4mpegpipe";
+    "mov,mp4,matroska,webm,avi,gif,mpegts,mpeg,mpegvideo,m4v,h264,hevc,asf,flv,ogg,nut,mxf,ivf,obu,dv,wtv,rm,"
+    "yuv4mpegpipe";
 
 void check_readable(const fs::path& path) {
   std::error_code error;
@@ -84,7 +85,7 @@ OwnedInput open_input(const fs::path& path) {
   const int error = avformat_open_input(&opened, ("file:" + path.string()).c_str(), nullptr, &options);
   av_dict_free(&options);
   if (error < 0) {
-    refuse_film(path, fmt::format("no film, or a damaged one ({}); expected MP4, Matroska, AVI, MPEG or the like",
+    refuse_film(path, fmt::format("no film, or a damaged one ({}); expected MP4, Matroska, AVI, MPEG, GIF or the like",
                                   libav_reason(error)));
   }
   OwnedInput input(opened);

@@ -81,6 +81,23 @@ inline void ffmpeg(const std::string& arguments) {
   ASSERT_EQ(std::system(command.c_str()), 0) << command;  // NOLINT(bugprone-command-processor)
 }
 
+/// Makes a second of MPEG-TS whose tables declare AAC but whose sound is empty: no one can say its rate and channels.
+inline void make_film_with_undescribed_sound(const std::filesystem::path& path) {
+  ffmpeg("-f lavfi -i testsrc=d=1:s=64x48 -f lavfi -i sine=d=1 -c:v libx264 -preset ultrafast -c:a aac -f mpegts " +
+         path.string());
+  std::string bytes = bytes_of(path);
+  constexpr std::size_t packet_bytes = 188, sound_id = 257;
+  const auto at = [&](std::size_t place) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[place])); };
+  for (std::size_t packet = 0; packet + packet_bytes <= bytes.size(); packet += packet_bytes) {
+    if (((at(packet + 1) & 31) << 8 | at(packet + 2)) != sound_id) continue;
+    std::size_t begin = packet + 4;
+    if ((at(packet + 3) & 0x20) != 0) begin += 1 + at(begin);
+    if ((at(packet + 1) & 0x40) != 0) begin += 9 + at(begin + 8);
+    for (std::size_t i = begin; i < packet + packet_bytes; ++i) bytes[i] = 0;
+  }
+  put_bytes(path, bytes);
+}
+
 /// What ffprobe prints.
 inline std::string ffprobe(const std::string& arguments, const TemporaryFolder& folder) {
   const std::string command = "ffprobe -v error " + arguments + " >" + (folder / "probe.txt").string();

@@ -1,12 +1,7 @@
 #include "wheatstone/video/segmented_film.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
@@ -20,6 +15,7 @@
 #include "wheatstone/video/join_segments_internal.h"
 #include "wheatstone/video/segment_internal.h"
 #include "wheatstone/video/sequence_file_internal.h"
+#include "wheatstone/video/work_folder.h"
 
 namespace wheatstone {
 namespace {
@@ -29,34 +25,13 @@ using nlohmann::json;
 
 constexpr std::size_t most_bytes_of_manifest = 1 << 16;
 
-/// Holds a folder for one process; the system lets go when that ends, however it ends.
-class FolderLock {
- public:
-  FolderLock(const fs::path& folder, const fs::path& film)
-      : file_(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (file_ < 0) fail_to_write_film(film, AVERROR(errno));
-    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-    ::close(file_);
-    throw Error(ErrorKind::wrong_usage, fmt::format("{}: another run is writing it", film.string()));
-  }
-  ~FolderLock() { ::close(file_); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_;
-};
-
-fs::path made_folder(const fs::path& film) {
-  std::error_code error;
-  fs::path folder = segment_folder(film);
-  fs::create_directory(folder, error);
-  if (error) fail_to_write_film(film, AVERROR(error.value()));
-  return folder;
-}
+/// Stands in the folder while numbered pictures get their names: those that are there belong to this film.
+constexpr const char* naming_file = "naming";
+/// Of numbered pictures that are being decoded.
+constexpr const char* pictures_folder = ".pictures";
 
 /// Takes over the folder of an earlier run with the same fingerprint, or begins a new one.
-void claim(const fs::path& folder, const std::string& fingerprint) {
+void claim(const fs::path& folder, const std::string& fingerprint, bool resume) {
   const fs::path manifest = folder / "manifest.json";
   std::error_code ignored;
   if (!fs::exists(manifest, ignored)) {
@@ -64,6 +39,10 @@ void claim(const fs::path& folder, const std::string& fingerprint) {
                      json{{"format", "wheatstone segments"}, {"version", 1}, {"made_of", fingerprint}}.dump(2));
     return;
   }
+  if (!resume)
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("{}: left by a run that did not finish; --resume goes on with it, or remove it", folder.string()));
   const json found = json::parse(read_whole_file(manifest, most_bytes_of_manifest), nullptr, false);
   if (!found.is_discarded() && found.value("made_of", std::string()) == fingerprint) return;
   throw Error(ErrorKind::wrong_usage,
@@ -77,7 +56,7 @@ void sweep(const fs::path& folder) {
   for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
        entry.increment(error)) {
     std::error_code ignored;
-    if (entry->path().filename().string().starts_with(".")) fs::remove(entry->path(), ignored);
+    if (entry->path().filename().string().starts_with(".")) fs::remove_all(entry->path(), ignored);
   }
 }
 
@@ -92,8 +71,6 @@ FilmWriterOptions options_of_segments(const FilmWriterOptions& options, bool is_
 
 }  // namespace
 
-fs::path segment_folder(const fs::path& film) { return film.string() + ".part"; }
-
 struct SegmentedFilm::Implementation {
   Implementation(const fs::path& name, const FilmWriterOptions& wanted, const SegmentOptions& segments)
       : path(name),
@@ -106,14 +83,15 @@ struct SegmentedFilm::Implementation {
                   fmt::format("frames per segment: {}, expected 1 or more", frames_per_segment));
     }
     check_encoding(options);
-    if (pattern) {
-      check_no_pictures(path, *pattern);
-    } else {
+    std::error_code ignored;
+    if (!pattern) {
       check_container(path, options);
+    } else if (!fs::exists(work_folder_of(path) / naming_file, ignored)) {
+      check_no_pictures(path, *pattern);
     }
-    folder = made_folder(path);
-    lock.emplace(folder, path);
-    claim(folder, fingerprint_of(options, segments));
+    held.emplace(path);
+    folder = work_folder_of(path);
+    claim(folder, fingerprint_of(options, segments), segments.resume);
     sweep(folder);
     while (auto times = segment_times(folder, whole_segments)) {
       frames_done += static_cast<std::int64_t>(times->size());
@@ -130,19 +108,14 @@ struct SegmentedFilm::Implementation {
   }
 
   void join_as_pictures(const Progress& progress) {
-    SequenceFile sequence(path, *pattern);
+    SequenceFile sequence(*pattern, folder / pictures_folder);
     for (std::int64_t number = 0; number < whole_segments; ++number) {
       FilmReader reader = open_film(segment_film(folder, number));
       for (Frame frame; reader.read(frame);) sequence.add(frame.picture);
       report(progress, "join", static_cast<double>(number + 1) / static_cast<double>(whole_segments));
     }
+    write_whole_file(folder / naming_file, "");
     sequence.finish();
-  }
-
-  void remove_folder() {
-    lock.reset();
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
   }
 
   fs::path path;
@@ -151,7 +124,7 @@ struct SegmentedFilm::Implementation {
   int frames_per_segment;
   FrameSteps steps;
   fs::path folder;
-  std::optional<FolderLock> lock;
+  std::optional<WorkFolder> held;
   std::unique_ptr<SegmentFile> segment;
   std::int64_t whole_segments = 0;
   std::int64_t frames_done = 0;
@@ -186,7 +159,13 @@ void SegmentedFilm::finish(const Progress& progress) {
   } else {
     join_segments(own.folder, own.whole_segments, own.path, own.options, own.notes, progress);
   }
-  own.remove_folder();
+  own.held->remove();
+}
+
+void SegmentedFilm::discard() {
+  Implementation& own = *implementation_;
+  own.segment.reset();
+  own.held->remove();
 }
 
 const std::vector<std::string>& SegmentedFilm::notes() const { return implementation_->notes; }

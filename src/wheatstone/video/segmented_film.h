@@ -15,6 +15,7 @@ struct SegmentOptions {
   int frames_per_segment = 48;  ///< what a killed run loses at most
   std::string made_by;          ///< any text that says what else decides the frames: style, seed, version
   std::vector<std::filesystem::path> made_from;  ///< sources: files or patterns. Their sizes and samples are compared
+  bool resume = true;                            ///< false: what an earlier run has left is refused
 };
 
 /// A film that takes long to make and may be killed at any moment. Beside `out.mp4` lies a folder `out.mp4.part` with a
@@ -25,7 +26,7 @@ struct SegmentOptions {
 class SegmentedFilm {
  public:
   /// Throws as FilmWriter, and Error{wrong_usage} where the folder belongs to a run with other options or sources, or
-  /// to one that is still going on.
+  /// to one that is still going on, or where there is one and `resume` is false.
   SegmentedFilm(const std::filesystem::path& path, const FilmWriterOptions& options, const SegmentOptions& segments);
   SegmentedFilm(SegmentedFilm&&) noexcept;
   SegmentedFilm& operator=(SegmentedFilm&&) noexcept;
@@ -41,14 +42,14 @@ class SegmentedFilm {
   /// As FilmWriter::finish. A failure leaves the folder: what is done is not lost.
   void finish(const Progress& progress = {});
 
+  /// Removes the folder: nothing remains, and nothing can be added.
+  void discard();
+
   const std::vector<std::string>& notes() const;
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
-
-/// The folder beside a film: "out.mp4.part".
-std::filesystem::path segment_folder(const std::filesystem::path& film);
 
 }  // namespace wheatstone

@@ -12,6 +12,7 @@
 #include "throws_error.h"
 #include "wheatstone/video/fingerprint_internal.h"
 #include "wheatstone/video/moving_picture_internal.h"
+#include "wheatstone/video/work_folder.h"
 
 namespace wheatstone {
 namespace {
@@ -61,12 +62,12 @@ TEST(SegmentedFilm, InterruptedAndResumedIsTheSameFilm) {
       EXPECT_EQ(run(folder / whole, options), frame_count);
       int made = 0;
       for (const int killed_after : {1, 7, 13, 20, 3}) made += run(folder / name, options, killed_after);
-      EXPECT_TRUE(fs::exists(segment_folder(folder / name)));
+      EXPECT_TRUE(fs::exists(work_folder_of(folder / name)));
       EXPECT_FALSE(fs::exists(folder / name));
       made += run(folder / name, options);
       EXPECT_LE(made, frame_count + 5 * 7) << "more than one interval was repeated";
       EXPECT_TRUE(bytes_of(folder / whole) == bytes_of(folder / name)) << name << " " << codec;
-      EXPECT_FALSE(fs::exists(segment_folder(folder / name)));
+      EXPECT_FALSE(fs::exists(work_folder_of(folder / name)));
 
       const std::vector<Frame> undisturbed = frames_of(folder / whole), resumed = frames_of(folder / name);
       ASSERT_EQ(resumed.size(), static_cast<std::size_t>(frame_count));
@@ -153,6 +154,72 @@ TEST(SegmentedFilm, BringsTheSoundWhenItJoins) {
   EXPECT_TRUE(film.notes().empty());
 }
 
+TEST(SegmentedFilm, SoundThatTheContainerCannotTakeIsLeftOutAndNamed) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  make_film_with_undescribed_sound(folder / "source.ts");
+  for (const std::string name : {"a.mp4", "a.mkv"}) {
+    const FilmWriterOptions options{.side_streams_from = folder / "source.ts"};
+    const std::vector<std::string> known_before = side_streams_left_out(folder / name, options);
+    ASSERT_EQ(known_before.size(), 1u) << name;
+    EXPECT_THAT(known_before[0], testing::HasSubstr("audio stream 1 (aac) of"));
+    SegmentedFilm film(folder / name, options, by_eight);
+    for (int i = 0; i < 10; ++i) film.write(moving_frame(64, 48, i));
+    film.finish();
+    EXPECT_THAT(film.notes(), testing::Contains(known_before[0]));
+    EXPECT_EQ(open_film(folder / name).facts().frame_count.value_or(10), 10);
+    EXPECT_TRUE(open_film(folder / name).facts().side_streams.empty());
+  }
+}
+
+TEST(SegmentedFilm, SoundThatIsNotWantedIsNotCopied) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  put_bytes(folder / "words.srt", "1\n00:00:00,000 --> 00:00:01,000\nWords.\n");
+  ffmpeg("-f lavfi -i testsrc=d=1:s=64x48 -f lavfi -i sine=d=1 -i " + (folder / "words.srt").string() +
+         " -c:a aac -c:s srt " + (folder / "source.mkv").string());
+  const auto kinds = [&](bool audio, bool subtitles) {
+    FilmWriter writer(folder / "a.mkv",
+                      {.side_streams_from = folder / "source.mkv", .copy_audio = audio, .copy_subtitles = subtitles});
+    for (int i = 0; i < 5; ++i) writer.write(moving_frame(64, 48, i));
+    writer.finish();
+    EXPECT_TRUE(writer.notes().empty());
+    std::string found;
+    for (const SideStream& stream : open_film(folder / "a.mkv").facts().side_streams) found += stream.kind + " ";
+    return found;
+  };
+  EXPECT_EQ(kinds(true, true), "audio subtitle ");
+  EXPECT_EQ(kinds(false, true), "subtitle ");
+  EXPECT_EQ(kinds(true, false), "audio ");
+}
+
+TEST(SegmentedFilm, WhileNumberedPicturesAreJoinedAllLiesInItsFolder) {
+  const TemporaryFolder folder;
+  run(folder / "f_%03d.png", {}, 20);
+  int steps = 0;
+  SegmentedFilm film(folder / "f_%03d.png", {}, by_eight);
+  film.write(moving_frame(64, 48, 16));
+  const auto stop = [&](std::string_view, double) {
+    for (const auto& entry : fs::directory_iterator(folder / "")) EXPECT_EQ(entry.path().filename(), "f_%03d.png.part");
+    if (++steps == 2) throw Error(ErrorKind::interrupted, "interrupted");
+  };
+  expect_error(ErrorKind::interrupted, "interrupted", [&] { film.finish(stop); });
+  EXPECT_EQ(steps, 2);
+}
+
+TEST(SegmentedFilm, KilledWhileNumberedPicturesGetTheirNamesItGoesOn) {
+  const TemporaryFolder folder;
+  run(folder / "f_%03d.png", {}, 20);
+  put_bytes(folder / "f_001.png", "named already");
+  expect_error(ErrorKind::wrong_usage, "f_001.png exists already", [&] { run(folder / "f_%03d.png", {}); });
+  put_bytes(work_folder_of(folder / "f_%03d.png") / "naming", "");
+  run(folder / "f_%03d.png", {});
+  const std::vector<Frame> frames = frames_of(folder / "f_%03d.png");
+  ASSERT_EQ(frames.size(), static_cast<std::size_t>(frame_count));
+  EXPECT_EQ(frames[0].picture, moving_picture(64, 48, 0));
+  EXPECT_FALSE(fs::exists(work_folder_of(folder / "f_%03d.png")));
+}
+
 TEST(SegmentedFilm, AnotherRunsFolderIsRefused) {
   const TemporaryFolder folder;
   run(folder / "a.mp4", {}, 10);
@@ -171,21 +238,31 @@ TEST(SegmentedFilm, AnotherRunsFolderIsRefused) {
 TEST(SegmentedFilm, TwoRunsDoNotWriteOneFilm) {
   const TemporaryFolder folder;
   const SegmentedFilm first(folder / "a.mp4", {}, by_eight);
-  expect_error(ErrorKind::wrong_usage, "another run is writing it",
+  expect_error(ErrorKind::wrong_usage, "another run is painting it",
                [&] { SegmentedFilm(folder / "a.mp4", {}, by_eight); });
+  // Not told to remove the folder of a run that is alive.
+  expect_error(ErrorKind::wrong_usage, "another run is painting it",
+               [&] { SegmentedFilm(folder / "a.mp4", {}, {.frames_per_segment = 8, .resume = false}); });
+}
+
+TEST(SegmentedFilm, ARestIsRefusedWhereItIsNotToBeGoneOnWith) {
+  const TemporaryFolder folder;
+  run(folder / "a.mp4", {}, 10);
+  expect_error(ErrorKind::wrong_usage, "left by a run that did not finish",
+               [&] { SegmentedFilm(folder / "a.mp4", {}, {.frames_per_segment = 8, .resume = false}); });
 }
 
 TEST(SegmentedFilm, ADamagedSegmentIsNamed) {
   const TemporaryFolder folder;
   run(folder / "a.mp4", {}, 20);
-  const fs::path times = segment_folder(folder / "a.mp4") / "seg_000001.json";
+  const fs::path times = work_folder_of(folder / "a.mp4") / "seg_000001.json";
   const std::string whole = bytes_of(times);
   for (const std::string& bytes : {std::string("{"), std::string("{\"pts\": [3, 2]}"), std::string("[]")}) {
     put_bytes(times, bytes);
     expect_error(ErrorKind::bad_input, "seg_000001.json", [&] { run(folder / "a.mp4", {}); });
   }
   put_bytes(times, whole);
-  put_bytes(segment_folder(folder / "a.mp4") / "seg_000001.mkv", "no film");
+  put_bytes(work_folder_of(folder / "a.mp4") / "seg_000001.mkv", "no film");
   expect_error(ErrorKind::bad_input, "seg_000001.mkv", [&] { run(folder / "a.mp4", {}); });
 }
 

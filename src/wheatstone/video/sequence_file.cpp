@@ -1,7 +1,6 @@
 #include "wheatstone/video/sequence_file_internal.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <system_error>
 #include <utility>
@@ -21,14 +20,13 @@ void check_no_pictures(const fs::path& path, const FramePattern& pattern) {
                           path.string(), pattern.file(existing.front()).filename().string()));
 }
 
-SequenceFile::SequenceFile(const fs::path& path, FramePattern pattern)
-    : pattern_(std::move(pattern)), hidden_(pattern_) {
-  check_no_pictures(path, pattern_);
-  hidden_.folder = pattern_.folder / fmt::format(".{}{}.{}.partial", pattern_.before, "frames", ::getpid());
+SequenceFile::SequenceFile(FramePattern pattern, fs::path hidden) : pattern_(std::move(pattern)), hidden_(pattern_) {
+  hidden_.folder = std::move(hidden);
   std::error_code error;
   fs::create_directory(hidden_.folder, error);
   if (error) {
-    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write: {}", path.string(), error.message()));
+    throw Error(ErrorKind::cannot_read_write,
+                fmt::format("{}: cannot write: {}", hidden_.folder.string(), error.message()));
   }
 }
 

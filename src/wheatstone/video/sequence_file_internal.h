@@ -14,8 +14,9 @@ void check_no_pictures(const std::filesystem::path& path, const FramePattern& pa
 
 class SequenceFile {
  public:
-  /// Throws as check_no_pictures.
-  SequenceFile(const std::filesystem::path& path, FramePattern pattern);
+  /// Until all are there they lie in the folder `hidden`, which is on the same file system and goes with this. Throws
+  /// Error{cannot_read_write} where it cannot be made.
+  SequenceFile(FramePattern pattern, std::filesystem::path hidden);
   ~SequenceFile();
   SequenceFile(const SequenceFile&) = delete;
   SequenceFile& operator=(const SequenceFile&) = delete;

@@ -3,39 +3,80 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <new>
 
 namespace wheatstone {
 
+namespace {
+
+bool is_wanted(AVMediaType type, const FilmWriterOptions& options) {
+  return (type == AVMEDIA_TYPE_AUDIO && options.copy_audio) ||
+         (type == AVMEDIA_TYPE_SUBTITLE && options.copy_subtitles);
+}
+
+/// Why the container does not take a stream; empty where it does.
+std::string refusal_of(const AVStream& stream, const AVOutputFormat& format, SideStreamTrial& trial) {
+  if (avformat_query_codec(&format, stream.codecpar->codec_id, FF_COMPLIANCE_EXPERIMENTAL) != 1)
+    return fmt::format("{} cannot hold it", format.name);
+  const int error = trial.error_of(stream);
+  return error < 0 ? fmt::format("{} does not take it as it is ({})", format.name, libav_reason(error)) : "";
+}
+
+}  // namespace
+
+CopiedStream::CopiedStream(AVFormatContext& output, const AVStream& from)
+    : stream_(avformat_new_stream(&output, nullptr)) {
+  if (stream_ == nullptr || avcodec_parameters_copy(stream_->codecpar, from.codecpar) < 0) throw std::bad_alloc();
+  stream_->codecpar->codec_tag = 0;  // a number of the source's container
+  stream_->time_base = from.time_base;
+  stream_->disposition = from.disposition;
+  for (const char* key : {"language", "title"}) {
+    if (const AVDictionaryEntry* tag = av_dict_get(from.metadata, key, nullptr, 0)) {
+      av_dict_set(&stream_->metadata, key, tag->value, 0);
+    }
+  }
+}
+
+void CopiedStream::fit(AVPacket& packet, AVRational time_base, double start_s) {
+  const auto shift = static_cast<std::int64_t>(std::llround(start_s / av_q2d(time_base)));
+  if (packet.pts != AV_NOPTS_VALUE) packet.pts -= shift;
+  if (packet.dts != AV_NOPTS_VALUE) packet.dts -= shift;
+  av_packet_rescale_ts(&packet, time_base, stream_->time_base);
+  // A source whose clock stumbles would end the writing.
+  if (packet.dts != AV_NOPTS_VALUE && stream_->codecpar->codec_type == AVMEDIA_TYPE_AUDIO) {
+    if (last_dts_ != AV_NOPTS_VALUE) packet.dts = std::max(packet.dts, last_dts_ + 1);
+    if (packet.pts != AV_NOPTS_VALUE) packet.pts = std::max(packet.pts, packet.dts);
+    last_dts_ = packet.dts;
+  }
+  packet.stream_index = stream_->index;
+  packet.pos = -1;
+}
+
 SideStreams::SideStreams(const FilmWriterOptions& options, AVFormatContext& output, std::vector<std::string>& notes)
     : start_s_(options.start_s),
       end_s_(options.end_s),
+      source_name_(options.side_streams_from.string()),
       source_(open_input(options.side_streams_from)),
-      output_(output) {
+      output_(output),
+      notes_(notes) {
+  std::optional<SideStreamTrial> trial;
   for (unsigned i = 0; i < source_->nb_streams; ++i) {
     AVStream& from = *source_->streams[i];
     from.discard = AVDISCARD_ALL;
     const AVMediaType type = from.codecpar->codec_type;
-    if (type != AVMEDIA_TYPE_AUDIO && type != AVMEDIA_TYPE_SUBTITLE) continue;
-    if (avformat_query_codec(output.oformat, from.codecpar->codec_id, FF_COMPLIANCE_EXPERIMENTAL) != 1) {
-      notes.push_back(fmt::format(
-          "{} stream {} ({}) of {} is left out: {} cannot hold it", type == AVMEDIA_TYPE_AUDIO ? "audio" : "subtitle",
-          i, avcodec_get_name(from.codecpar->codec_id), options.side_streams_from.string(), output.oformat->name));
+    if (!is_wanted(type, options)) continue;
+    if (!trial) trial.emplace(options.side_streams_from, *output.oformat);
+    const std::string refusal = refusal_of(from, *output.oformat, *trial);
+    if (!refusal.empty()) {
+      notes.push_back(fmt::format("{} stream {} ({}) of {} is left out: {}",
+                                  type == AVMEDIA_TYPE_AUDIO ? "audio" : "subtitle", i,
+                                  avcodec_get_name(from.codecpar->codec_id), source_name_, refusal));
       continue;
     }
-    AVStream* to = avformat_new_stream(&output, nullptr);
-    if (to == nullptr || avcodec_parameters_copy(to->codecpar, from.codecpar) < 0) throw std::bad_alloc();
-    to->codecpar->codec_tag = 0;  // a number of the source's container
-    to->time_base = from.time_base;
-    to->disposition = from.disposition;
-    for (const char* key : {"language", "title"}) {
-      if (const AVDictionaryEntry* tag = av_dict_get(from.metadata, key, nullptr, 0)) {
-        av_dict_set(&to->metadata, key, tag->value, 0);
-      }
-    }
     from.discard = AVDISCARD_DEFAULT;
-    targets_[static_cast<int>(i)] = {.stream = to};
+    targets_.emplace(static_cast<int>(i), CopiedStream(output, from));
   }
 }
 
@@ -60,22 +101,20 @@ bool SideStreams::fetch() {
 }
 
 int SideStreams::write_fetched() {
-  Target& target = targets_.at(packet_->stream_index);
-  const AVRational base = source_->streams[packet_->stream_index]->time_base;
-  const auto shift = static_cast<std::int64_t>(std::llround(start_s_ / av_q2d(base)));
-  if (packet_->pts != AV_NOPTS_VALUE) packet_->pts -= shift;
-  if (packet_->dts != AV_NOPTS_VALUE) packet_->dts -= shift;
-  av_packet_rescale_ts(packet_.get(), base, target.stream->time_base);
-  // A source whose clock stumbles would end the writing.
-  if (packet_->dts != AV_NOPTS_VALUE && target.stream->codecpar->codec_type == AVMEDIA_TYPE_AUDIO) {
-    if (target.last_dts != AV_NOPTS_VALUE) packet_->dts = std::max(packet_->dts, target.last_dts + 1);
-    if (packet_->pts != AV_NOPTS_VALUE) packet_->pts = std::max(packet_->pts, packet_->dts);
-    target.last_dts = packet_->dts;
-  }
-  packet_->stream_index = target.stream->index;
-  packet_->pos = -1;
+  targets_.at(packet_->stream_index).fit(*packet_, source_->streams[packet_->stream_index]->time_base, start_s_);
   fetched_ = false;
-  return av_interleaved_write_frame(&output_, packet_.get());
+  const int error = av_interleaved_write_frame(&output_, packet_.get());
+  // Of a damaged packet, not of the disk.
+  if (error != AVERROR(EINVAL) && error != AVERROR_INVALIDDATA) return error;
+  ++dropped_;
+  return 0;
+}
+
+void SideStreams::note_dropped() {
+  if (dropped_ > 0)
+    notes_.push_back(
+        fmt::format("{} damaged packets of the audio and subtitles of {} are left out", dropped_, source_name_));
+  dropped_ = 0;
 }
 
 int SideStreams::copy_until(std::optional<double> seconds) {
@@ -88,6 +127,7 @@ int SideStreams::copy_until(std::optional<double> seconds) {
     const int error = write_fetched();
     if (error < 0) return error;
   }
+  if (!seconds) note_dropped();
   return 0;
 }
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "wheatstone/marks/painting.h"
+#include "wheatstone/video/frame_sequence.h"
+#include "wheatstone/video/work_folder.h"
+
+namespace wheatstone {
+
+/// The marks of a film's frames, in numbered files from 1 on, which get their names together when all are there. Until
+/// then they lie in a work folder beside them, "marks_%04d.wst.part", where they stay when a run ends before.
+class MarksSequence {
+ public:
+  /// `path` is a pattern. Marks of an earlier run after the first `kept` are removed. Throws as WorkFolder.
+  MarksSequence(const std::filesystem::path& path, std::int64_t kept);
+
+  void write(std::int64_t frame, const Painting& marks);
+
+  /// Throws Error{bad_input} where the marks of one of the first `frames` frames are missing.
+  void check(std::int64_t frames) const;
+
+  /// Gives them their names and removes the folder. Throws Error{cannot_read_write}.
+  void give_names(std::int64_t frames);
+
+  /// Nothing remains.
+  void discard() { held_.remove(); }
+
+  std::filesystem::path folder() const { return hidden_.folder; }
+
+ private:
+  FramePattern pattern_;
+  FramePattern hidden_;  ///< the same in the work folder
+  WorkFolder held_;
+};
+
+}  // namespace wheatstone

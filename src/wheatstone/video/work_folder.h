@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+
+namespace wheatstone {
+
+/// The folder beside an output that takes long to make: "out.mp4.part" of "out.mp4".
+std::filesystem::path work_folder_of(const std::filesystem::path& output);
+
+/// Such a folder, held by one run at a time (flock on a file in it; the system lets go when the run ends, however it
+/// ends). What is in it stays until `remove`.
+class WorkFolder {
+ public:
+  /// Makes the folder where there is none. Throws Error{wrong_usage} where another run holds it, cannot_read_write
+  /// where it cannot be made.
+  explicit WorkFolder(std::filesystem::path output);
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+  std::filesystem::path file(const std::filesystem::path& name) const { return folder_ / name; }
+
+  /// Removes the folder with all that is in it.
+  void remove();
+
+ private:
+  std::filesystem::path folder_;
+  int lock_ = -1;
+};
+
+}  // namespace wheatstone
