@@ -323,7 +323,8 @@ void add_measure_film(CLI::App& measure, const Session& session) {
       "where that flow is confirmed; cuts are left out. Of the left eye. Blurring wins on it: look at the gradient\n"
       "energy in --json, too. With --marks also the share of strokes that stay, and those that pop.\n\n"
       "Example:\n  wheatstone synth film -o film\n"
-      "  wheatstone measure film painted --against film --truth film");
+      "  wheatstone rotoscope film --truth film -o painted.mkv\n"
+      "  wheatstone measure film painted.mkv --against film --truth film");
   command.callback([arguments, &session] { run(*arguments, session); });
 }
 

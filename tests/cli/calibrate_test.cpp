@@ -3,11 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "scenes/checkerboard_picture.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
@@ -15,47 +14,14 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A board of 7×5 inner corners, 20 mm apart, tilted about both axes before a camera that stands `camera_mm` to the
-/// right and sees through a lens without distortion; three rays a side of every pixel.
-Image<Rgb8> board_picture(double tilt_x, double tilt_y, double camera_mm) {
-  constexpr int width = 400, height = 300, finer = 3;
-  constexpr double focal = 420, distance_mm = 330;
-  const std::array<double, 3> across{std::cos(tilt_y), 0, -std::sin(tilt_y)};
-  const std::array<double, 3> down{std::sin(tilt_x) * std::sin(tilt_y), std::cos(tilt_x),
-                                   std::sin(tilt_x) * std::cos(tilt_y)};
-  const std::array<double, 3> normal{across[1] * down[2] - across[2] * down[1],
-                                     across[2] * down[0] - across[0] * down[2],
-                                     across[0] * down[1] - across[1] * down[0]};
-  Image<Rgb8> picture(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      double sum = 0;
-      for (int ray = 0; ray < finer * finer; ++ray) {
-        const double rx = (x + (ray % finer + 0.5) / finer - width / 2.0) / focal;
-        const double ry = (y + (ray / finer + 0.5) / finer - height / 2.0) / focal;
-        const double along =
-            (-camera_mm * normal[0] + distance_mm * normal[2]) / (rx * normal[0] + ry * normal[1] + normal[2]);
-        const double px = camera_mm + along * rx, py = along * ry, pz = along - distance_mm;
-        const double u = (px * across[0] + py * across[1] + pz * across[2]) / 20 + 4;
-        const double v = (px * down[0] + py * down[1] + pz * down[2]) / 20 + 3;
-        const bool board = u > 0 && v > 0 && u < 8 && v < 6;
-        sum += !board ? 230 : (static_cast<int>(u) + static_cast<int>(v)) % 2 == 0 ? 25 : 230;
-      }
-      const auto grey = static_cast<std::uint8_t>(std::lround(sum / (finer * finer)));
-      picture(x, y) = {grey, grey, grey};
-    }
-  }
-  return picture;
-}
-
-constexpr std::array<std::array<double, 2>, 6> tilts{
-    {{0.5, 0}, {-0.5, 0.1}, {0.1, 0.5}, {0, -0.5}, {0.35, 0.35}, {-0.3, -0.4}}};
-
+/// Pairs of a board of 7×5 inner corners, 20 mm apart, by cameras 60 mm apart.
 void write_pairs(const TemporaryFolder& folder) {
-  for (std::size_t i = 0; i < tilts.size(); ++i) {
+  for (std::size_t i = 0; i < checkerboard_tilts.size(); ++i) {
     const std::string rest = std::to_string(i) + ".png";
-    write_image(folder / ("left_" + rest), board_picture(tilts[i][0], tilts[i][1], -30));
-    write_image(folder / ("right_" + rest), board_picture(tilts[i][0], tilts[i][1], 30));
+    CheckerboardView view{.tilt_x = checkerboard_tilts[i][0], .tilt_y = checkerboard_tilts[i][1], .camera_mm = -30};
+    write_image(folder / ("left_" + rest), checkerboard_picture(view));
+    view.camera_mm = 30;
+    write_image(folder / ("right_" + rest), checkerboard_picture(view));
   }
 }
 
@@ -71,7 +37,7 @@ TEST(CalibrateCommand, MeasuresTheRigAndRectifiesWithIt) {
   EXPECT_LT(facts["row_difference_px"], 0.1);
   EXPECT_NEAR(facts["baseline_mm"], 60, 1);
   EXPECT_FALSE(facts["eyes_swapped"]);
-  EXPECT_EQ(facts["pairs"].size(), tilts.size());
+  EXPECT_EQ(facts["pairs"].size(), checkerboard_tilts.size());
 
   const ProgramResult turned = run_program(
       {"rectify", "left_0.png", "right_0.png", "--calibration", "rig.yml", "-o", "rectified", "--quiet"}, here);

@@ -1,0 +1,138 @@
+#include "cli/example_inputs.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <stdexcept>
+
+#include "cli/run_program.h"
+#include "scenes/checkerboard_picture.h"
+#include "scenes/test_photographs.h"
+#include "wheatstone/photograph/write_views.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/synthetic_film.h"
+#include "wheatstone/video/film_writer.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+// Large enough for features and checkerboards to be found.
+constexpr int photograph_width = 240, photograph_height = 180;
+
+const StereoPair& photographs() {
+  static const StereoPair pair = still_for_test(photograph_width, photograph_height);
+  return pair;
+}
+
+void make_with_program(const Words& words) {
+  const ProgramResult result = run_program(words);
+  if (result.exit_code != 0) throw std::runtime_error(fmt::format("{} {}: {}", words[0], words[1], result.errors));
+}
+
+/// Pairs of a board of 11×7 inner corners, 30 mm apart, by a rig that could have taken `photographs`.
+void make_rig(const fs::path& folder) {
+  fs::create_directory(folder);
+  CheckerboardView view{.columns = 11,
+                        .rows = 7,
+                        .square_mm = 30,
+                        .width = photograph_width,
+                        .height = photograph_height,
+                        .focal_px = 252,
+                        .distance_mm = 760};
+  for (std::size_t i = 0; i < checkerboard_tilts.size(); ++i) {
+    view.tilt_x = checkerboard_tilts[i][0];
+    view.tilt_y = checkerboard_tilts[i][1];
+    for (const bool left : {true, false}) {
+      view.camera_mm = left ? -30 : 30;
+      write_image(folder / fmt::format("{}_{:02}.png", left ? "left" : "right", i + 1), checkerboard_picture(view));
+    }
+  }
+}
+
+/// Four frames for two eyes: at its beginning, and ten seconds later.
+void make_film(const fs::path& path) {
+  const SyntheticFilmOptions options{.still = {.width = 96, .height = 64, .samples_a_side = 1}, .frames = 4, .cut = 0};
+  constexpr std::array<int, 4> seconds{0, 1, 10, 11};
+  FilmWriter writer(path, {.preset = "ultrafast", .layout = StereoLayout::left_right, .frame_rate = {1, 1}});
+  for (int i = 0; i < options.frames; ++i) {
+    const StereoPair eyes = make_synthetic_film_frame(options, i).pictures;
+    writer.write({.picture = joined(eyes.left, eyes.right, true),
+                  .pts = seconds[static_cast<std::size_t>(i)],
+                  .time_base = {1, 1},
+                  .duration = 1});
+  }
+  writer.finish();
+}
+
+void make_universe(const fs::path& path) {
+  make_with_program({"synth", "universe", "--particles", "2000", "-o", path.string()});
+}
+
+void make_multi_picture(const fs::path& path) {
+  const std::array<ImageView<const Rgb8>, 2> views{photographs().left, photographs().right};
+  write_mpo(path, views);
+}
+
+/// The scene of `photographs`, with its exact disparity.
+void make_still(const fs::path& folder) {
+  make_with_program({"synth", "still", "--size", fmt::format("{}x{}", photograph_width, photograph_height), "--samples",
+                     "1", "-o", folder});
+}
+
+void make_painting(const fs::path& path) {
+  const fs::path folder = path.parent_path() / "made for its painting";
+  make_with_program({"paint", example_input("left.png"), example_input("right.png"), "-o", folder});
+  fs::rename(folder / "painting.wst", path);
+}
+
+using Maker = std::function<void(const fs::path&)>;
+const std::map<std::string, Maker>& makers() {
+  const static Maker left = [](const fs::path& path) { write_image(path, photographs().left); };
+  const static Maker right = [](const fs::path& path) { write_image(path, photographs().right); };
+  const static std::map<std::string, Maker> all{
+      {"left.png", left},
+      {"left.jpg", left},
+      {"right.png", right},
+      {"right.jpg", right},
+      {"photograph.mpo", make_multi_picture},
+      {"one.mpo", make_multi_picture},
+      {"two.mpo", make_multi_picture},
+      {"three.mpo", make_multi_picture},
+      {"photograph.jpg",
+       [](const fs::path& path) { write_image(path, joined(photographs().left, photographs().right, true)); }},
+      {"still", make_still},
+      {"painted",
+       [](const fs::path& path) {
+         make_with_program({"paint", example_input("left.png"), example_input("right.png"), "-o", path});
+       }},
+      {"painting.wst", make_painting},
+      {"rig", make_rig},
+      {"film.mp4", make_film},
+      {"universe.hdf5", make_universe},
+      {"gas.hdf5", make_universe},
+      {"snapshot.hdf5", make_universe},
+      {"views",
+       [](const fs::path& path) {
+         make_with_program({"render", example_input("gas.hdf5"), "--views", "48", "--size", "32x24", "-o", path});
+       }},
+  };
+  return all;
+}
+
+}  // namespace
+
+fs::path example_input(const std::string& name) {
+  static const TemporaryFolder folder;
+  const auto maker = makers().find(name);
+  if (maker == makers().end()) return {};
+  const fs::path path = folder / name;
+  if (!fs::exists(path)) maker->second(path);
+  return path;
+}
+
+}  // namespace wheatstone
