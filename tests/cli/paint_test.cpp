@@ -149,7 +149,7 @@ TEST(PaintCommand, RefusesDisparityThatCannotBePaintedFrom) {
   write_disparity(folder / "small.pfm", Image<float>(10, 10, 3));
   write_disparity(folder / "nothing.pfm", Image<float>(width, height, unknown));
   expect_refused(folder, paint_line({"--disparity", "small.pfm"}), 3, "10x10");
-  expect_refused(folder, paint_line({"--disparity", "nothing.pfm"}), 3, "knows no pixel");
+  expect_refused(folder, paint_line({"--disparity", "nothing.pfm"}), 3, "unknown everywhere");
   expect_refused(folder, paint_line({"--disparity", "disparity.pfm", "--right-disparity", "small.pfm"}), 3, "10x10");
 }
 

@@ -107,7 +107,7 @@ TEST(Photograph, ThatIsNoPairIsRefused) {
     expect_refused(folder, {command, "mixed_sbs.png", "-o", "results"}, 3,
                    "mixed_sbs.png (side by side, left eye left (from its name)): the pictures show different scenes");
     expect_refused(folder, {command, "left.png", "-o", "results"}, 3, "left.png: is one picture");
-    expect_refused(folder, {command, "left.png", "--layout", "anaglyph", "-o", "results"}, 2, "cannot be taken apart");
+    expect_refused(folder, {command, "left.png", "--layout", "anaglyph", "-o", "results"}, 2, "cannot be separated");
     expect_refused(folder, {command, "left.png", "--layout", "woven", "-o", "results"}, 2, "left-right-half");
     expect_refused(folder, {command, "left.png", "left.png", "--layout", "tb", "-o", "results"}, 2, "--layout");
   }

@@ -69,7 +69,7 @@ TEST(RectifyCommand, RefusesWhatIsNoPair) {
   write_image(folder / "blank.png", Image<Rgb8>(480, 360, {120, 130, 140}));
   expect_refused(folder, {"rectify", "left.png", "blank.png", "--quiet"}, 3,
                  "left.png, blank.png: the right picture has only 0 distinct points");
-  expect_refused(folder, {"rectify", "left.png", "left.png", "--quiet"}, 3, "taken from one place");
+  expect_refused(folder, {"rectify", "left.png", "left.png", "--quiet"}, 3, "taken from the same position");
   put_bytes(folder / "letter.yml", "Dear Sir, this is a letter.\n");
   for (const std::string name : {"letter.yml", "missing.yml"})
     expect_refused(folder, {"rectify", "left.png", "right.png", "--calibration", name, "--quiet"}, 3, name + ": ");

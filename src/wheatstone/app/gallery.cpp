@@ -14,8 +14,8 @@ struct Shown {
 constexpr std::array<Shown, 10> pictures{{
     {"left_photograph.png", "Photograph, left eye"},
     {"right_photograph.png", "Photograph, right eye"},
-    {"left.png", "StrokePainting, left eye"},
-    {"right.png", "StrokePainting, right eye"},
+    {"left.png", "Painting, left eye"},
+    {"right.png", "Painting, right eye"},
     {"anaglyph.png", "Anaglyph, for red–cyan glasses"},
     {"side_by_side.png", "Side by side, for parallel viewing"},
     {"disparity.png", "Disparity: near is red, far is blue"},

@@ -141,8 +141,8 @@ void drop_strangers(const Observations& seen, cv::Size size, std::vector<Calibra
     pair.used = false;
     pair.right_error_px = best[i];
     pair.why_not = fmt::format(
-        "its corners are off by {:.0f} px, the median of all pairs is {:.2f}: the two pictures "
-        "are not of one moment, or the rig was moved",
+        "its corner error is {:.0f} px (median of all pairs: {:.2f}): the two pictures were not taken at the same "
+        "time, or the rig was moved",
         best[i], percentile(best, 0.5));
   }
 }
@@ -165,7 +165,7 @@ bool drop_outliers(const Observations& seen, const CalibrationOptions& options, 
     if (worst[i] <= limit) continue;
     pairs[seen.pairs[i]].used = false;
     pairs[seen.pairs[i]].why_not =
-        fmt::format("its corners are off by {:.2f} px, the median of all pairs is {:.2f}", worst[i], usual);
+        fmt::format("its corner error is {:.2f} px (median of all pairs: {:.2f})", worst[i], usual);
   }
   return true;
 }
@@ -194,8 +194,8 @@ void check(std::span<const BoardSighting> sightings, const std::vector<Calibrati
                             board.columns, board.rows, pairs.size()));
   if (good < least_pairs)
     throw Error(ErrorKind::bad_input,
-                fmt::format("only {} of {} pairs show the checkerboard as one rig sees it, expected at least {}", good,
-                            pairs.size(), least_pairs));
+                fmt::format("only {} of {} pairs are consistent with one rig, expected at least {}", good, pairs.size(),
+                            least_pairs));
   for (const BoardSighting& sighting : sightings)
     if (sighting.width != sightings[0].width || sighting.height != sightings[0].height)
       throw Error(ErrorKind::bad_input,
@@ -207,8 +207,8 @@ void check_arrangement(const StereoCalibration& calibration) {
   const auto [x, y, z] = calibration.translation;
   if (std::abs(x) < std::max(std::abs(y), std::abs(z)))
     throw Error(ErrorKind::bad_input,
-                fmt::format("the right camera stands ({:.1f}, {:.1f}, {:.1f}) mm from the left one, expected mostly "
-                            "sideways: the cameras of a rig stand side by side",
+                fmt::format("the right camera is at ({:.1f}, {:.1f}, {:.1f}) mm relative to the left one, expected a "
+                            "mainly horizontal offset: the cameras of a rig stand side by side",
                             -x, -y, -z));
 }
 
@@ -279,10 +279,9 @@ CalibrationResult calibrate(std::span<const BoardSighting> sightings, const Chec
       if (!drop_outliers(seen, options, result.pairs)) break;
     }
   } catch (const cv::Exception&) {
-    throw Error(ErrorKind::bad_input,
-                fmt::format("the board's positions in {} pairs do not decide the cameras, expected it tilted in "
-                            "several directions",
-                            seen.pairs.size()));
+    throw Error(ErrorKind::bad_input, fmt::format("the board's positions in {} pairs do not determine the cameras, "
+                                                  "expected a board tilted in several directions",
+                                                  seen.pairs.size()));
   }
   check_arrangement(result.calibration);
   add_rectification(result.calibration);

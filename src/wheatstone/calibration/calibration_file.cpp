@@ -24,14 +24,15 @@ class CalibrationReader {
   /// The numbers of a matrix, whatever its type. The rows and columns that the file claims are not trusted with memory.
   std::vector<double> numbers(const char* name) const {
     const cv::FileNode node = storage_[name];
-    if (node.empty()) refuse(fmt::format("lacks '{}'", name));
+    if (node.empty()) refuse(fmt::format("'{}' is missing", name));
     const cv::FileNode data = node.isMap() ? node["data"] : node;
-    if (!data.isSeq()) refuse(fmt::format("'{}' is no matrix", name));
+    if (!data.isSeq()) refuse(fmt::format("'{}' is not a matrix", name));
     std::vector<double> values;
     for (const cv::FileNode element : data) {
-      if (!element.isReal() && !element.isInt()) refuse(fmt::format("'{}' holds what is no number", name));
+      if (!element.isReal() && !element.isInt())
+        refuse(fmt::format("'{}' contains a value that is not a number", name));
       values.push_back(static_cast<double>(element));
-      if (!std::isfinite(values.back())) refuse(fmt::format("'{}' holds a number that is not finite", name));
+      if (!std::isfinite(values.back())) refuse(fmt::format("'{}' contains a number that is not finite", name));
     }
     return values;
   }
@@ -45,9 +46,9 @@ class CalibrationReader {
 
   int side(const char* name) const {
     const cv::FileNode node = storage_[name];
-    if (node.empty()) refuse(fmt::format("lacks '{}'", name));
+    if (node.empty()) refuse(fmt::format("'{}' is missing", name));
     const bool sane = node.isInt() && static_cast<int>(node) > 0 && static_cast<int>(node) <= most_side_px;
-    if (!sane) refuse(fmt::format("'{}' is no size of a picture", name));
+    if (!sane) refuse(fmt::format("'{}' is not a valid picture size", name));
     return static_cast<int>(node);
   }
 
@@ -77,7 +78,7 @@ void read_size(const CalibrationReader& reader, StereoCalibration& calibration) 
     std::array<double, 2> size{};
     reader.read("imageSize", size);
     if (!(size[0] >= 1 && size[0] <= most_side_px && size[1] >= 1 && size[1] <= most_side_px))
-      reader.refuse("'imageSize' is no size of a picture");
+      reader.refuse("'imageSize' is not a valid picture size");
     calibration.width = static_cast<int>(size[0]);
     calibration.height = static_cast<int>(size[1]);
     return;
@@ -94,9 +95,9 @@ StereoCalibration read_from(const CalibrationReader& reader) {
   reader.read("R", calibration.rotation);
   reader.read("T", calibration.translation);
   const cv::Mat turned_back = as_matrix(calibration.rotation, 3) * as_matrix(calibration.rotation, 3).t();
-  if (cv::norm(turned_back - cv::Mat::eye(3, 3, CV_64F)) > 1e-3) reader.refuse("'R' is no rotation");
+  if (cv::norm(turned_back - cv::Mat::eye(3, 3, CV_64F)) > 1e-3) reader.refuse("'R' is not a rotation matrix");
   const auto& [x, y, z] = calibration.translation;
-  if (!(std::abs(x) > std::max(std::abs(y), std::abs(z)))) reader.refuse("'T' does not lead mostly sideways");
+  if (!(std::abs(x) > std::max(std::abs(y), std::abs(z)))) reader.refuse("'T' is not mainly horizontal");
   if (reader.has("E") && reader.has("F")) {
     reader.read("E", calibration.essential);
     reader.read("F", calibration.fundamental);

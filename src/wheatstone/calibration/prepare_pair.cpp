@@ -87,9 +87,10 @@ void check_pictures(const StereoPair& pair) {
 void check_upright(std::span<const FeatureMatch> matches) {
   constexpr double on_its_side = 45, upside_down = 135;
   const double turn = std::abs(turn_between(matches));
-  if (turn > upside_down) throw Error(ErrorKind::bad_input, "the right picture is upside down against the left one");
+  if (turn > upside_down)
+    throw Error(ErrorKind::bad_input, "the right picture is upside down relative to the left one");
   if (turn > on_its_side)
-    throw Error(ErrorKind::bad_input, "the right picture is turned by 90 degrees against the left one");
+    throw Error(ErrorKind::bad_input, "the right picture is turned by 90 degrees relative to the left one");
 }
 
 /// Why pictures with hardly any features in common are none of a pair, where that can be told.
@@ -100,8 +101,9 @@ void check_dissimilar(const StereoPair& pair) {
   const CommonFeatures common = common_features(pair.left, mirrored);
   if (common.convincing) {
     const bool upside_down = std::abs(turn_between(common.inliers)) > 90;
-    throw Error(ErrorKind::bad_input, upside_down ? "the right picture is upside down and mirrored against the left one"
-                                                  : "the right picture is mirrored against the left one");
+    throw Error(ErrorKind::bad_input, upside_down
+                                          ? "the right picture is upside down and mirrored relative to the left one"
+                                          : "the right picture is mirrored relative to the left one");
   }
   if (not_a_pair(pair))
     throw Error(ErrorKind::bad_input, "the pictures show different scenes, expected two views of one scene");

@@ -89,9 +89,9 @@ TEST(PreparePair, RefusesAPictureThatIsTurnedOrMirrored) {
   const auto flipped = [](int code) {
     return with_right([code](const cv::Mat& from, cv::Mat& to) { cv::flip(from, to, code); });
   };
-  refuses(flipped(-1), "the right picture is upside down against the left one");
+  refuses(flipped(-1), "the right picture is upside down relative to the left one");
   refuses(flipped(0), "upside down and mirrored");
-  refuses(flipped(1), "the right picture is mirrored against the left one");
+  refuses(flipped(1), "the right picture is mirrored relative to the left one");
   refuses(turned(90), "turned by 90 degrees");
 }
 

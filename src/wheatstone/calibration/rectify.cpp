@@ -63,14 +63,13 @@ void check_features(const FeatureMatches& features) {
   const auto& [matches, left, right] = features;
   if (std::min(left, right) < least_features)
     throw Error(ErrorKind::bad_input,
-                fmt::format("the {} picture has only {} distinct points, expected at least {}: it is too blank or "
-                            "too blurred to be rectified from its content",
+                fmt::format("the {} picture has only {} distinct points, expected at least {}: it has too little "
+                            "texture or is too blurred",
                             left < right ? "left" : "right", std::min(left, right), least_features));
   if (matches.size() < least_inliers)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("of {} and {} distinct points only {} match, expected at least {}: the two pictures do "
-                            "not show one scene",
-                            left, right, matches.size(), least_inliers));
+    throw Error(ErrorKind::bad_input, fmt::format("of {} and {} distinct points only {} match, expected at least {}: "
+                                                  "the two pictures do not show the same scene",
+                                                  left, right, matches.size(), least_inliers));
 }
 
 /// Pictures of different scenes have matches too, and the geometry that most of these happen to agree with has inliers;
@@ -86,16 +85,14 @@ bool shows_one_scene(const EpipolarGeometry& geometry, std::size_t matches, cons
 void check_geometry(const EpipolarGeometry& geometry, std::size_t matches, const FeatureMatches& features) {
   const std::size_t inliers = geometry.inliers.size();
   if (!shows_one_scene(geometry, matches, features))
-    throw Error(
-        ErrorKind::bad_input,
-        fmt::format("only {} of {} matched points, of {} and {} distinct ones, fit one pair of cameras: the two "
-                    "pictures do not show one scene",
-                    inliers, matches, features.left_features, features.right_features));
+    throw Error(ErrorKind::bad_input, fmt::format("only {} of {} matched points (of {} and {} distinct points) fit one "
+                                                  "epipolar geometry: the two pictures do not show the same scene",
+                                                  inliers, matches, features.left_features, features.right_features));
   const int least_off_plane = std::max(12, static_cast<int>(0.02 * static_cast<double>(inliers)));
   if (geometry.off_plane < least_off_plane)
     throw Error(ErrorKind::bad_input,
-                "the scene is flat, too far away, or both pictures were taken from one place: where the cameras stood "
-                "cannot be decided, expected a pair with depth, or a calibration");
+                "the camera positions cannot be determined, because the scene is flat or too far away, or both "
+                "pictures were taken from the same position: expected a pair with depth, or a calibration");
 }
 
 /// The corners of the picture where they are taken to; refuses what turns a picture beyond recognition.
@@ -112,7 +109,7 @@ std::vector<cv::Point2d> carried_corners(const cv::Matx33d& homography, cv::Size
   if (!sane || !(growth > 0.4 && growth < 2.5))
     throw Error(ErrorKind::bad_input,
                 "the cameras' directions differ too much, or the camera moved forwards: expected two cameras side by "
-                "side, looking the same way");
+                "side that look in the same direction");
   return corners;
 }
 
@@ -127,7 +124,7 @@ Estimate estimate(const StereoPair& pair, const Progress& progress) {
   report(progress, "matching features", 0);
   const FeatureMatches features = match_features(pair.left, pair.right);
   check_features(features);
-  report(progress, "finding the cameras", 0.5);
+  report(progress, "estimating the cameras", 0.5);
   const SplitMatches matches = split(features.matches);
   const EpipolarGeometry geometry = find_epipolar_geometry(matches.deciding, tolerance);
   check_geometry(geometry, matches.deciding.size(), features);
@@ -137,8 +134,8 @@ Estimate estimate(const StereoPair& pair, const Progress& progress) {
   found.deciding = fitting(matches.deciding, found.turn.fundamental, 1.5 * tolerance);
   if (found.deciding.size() < std::max<std::size_t>(least_inliers, geometry.inliers.size() / 2))
     throw Error(ErrorKind::bad_input,
-                "no turn of the cameras brings matching points to the same rows: expected two cameras side by side, "
-                "looking the same way");
+                "no camera rotation brings matching points to the same rows: expected two cameras side by side that "
+                "look in the same direction");
   found.turn = find_rectifying_turn(found.deciding, size);
   settle_rows(found.turn, found.deciding, size);
   // Wider than what decided, so that what fits badly is seen; without a limit wrong matches would be all that is seen.
@@ -205,7 +202,7 @@ Image<Rgb8> cut(const cv::Mat& picture, const cv::Rect& window) {
 cv::Rect common_window(const TurnedPicture& left, const TurnedPicture& right) {
   const cv::Rect window = largest_rectangle_within(left.covered & right.covered);
   if (std::min(window.width, window.height) < least_side_px)
-    throw Error(ErrorKind::bad_input, "the two cameras share no part of the scene that could be kept");
+    throw Error(ErrorKind::bad_input, "the two rectified pictures have no common area");
   return window;
 }
 
@@ -254,10 +251,9 @@ std::vector<FeatureMatch> measure(const StereoPair& photographs, const StereoCal
   result.after = vertical_disparity(after);
   const double most_px = 4 * tolerance;
   if (result.after.median_px > most_px)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("rows still differ by {:.1f} px after rectification: the calibration is of another rig, or "
-                            "of this one before it was moved",
-                            result.after.median_px));
+    throw Error(ErrorKind::bad_input, fmt::format("rows still differ by {:.1f} px after rectification: the calibration "
+                                                  "belongs to another rig, or the rig was moved after calibration",
+                                                  result.after.median_px));
   return after;
 }
 
@@ -267,13 +263,13 @@ RectifiedPair rectify(const StereoPair& photographs, const RectifyOptions& optio
   check(photographs);
   const cv::Size size = size_of(photographs);
   Estimate found = estimate(photographs, progress);
-  report(progress, "turning", 0.8);
+  report(progress, "rectifying", 0.8);
   RectifiedPair result;
   result.shift_px = shift_for(carried_matches(found.turn, found.deciding), size);
   found.turn.right = cv::Matx33d(1, 0, -result.shift_px, 0, 1, 0, 0, 0, 1) * found.turn.right;
 
   const cv::Size canvas = fit_canvas(found.turn, size);
-  if (canvas.empty()) throw Error(ErrorKind::bad_input, "the two cameras share no part of the scene");
+  if (canvas.empty()) throw Error(ErrorKind::bad_input, "the two rectified pictures have no common area");
   const TurnedPicture left = turned(photographs.left, found.turn.left, canvas);
   const TurnedPicture right = turned(photographs.right, found.turn.right, canvas);
   const cv::Rect window = common_window(left, right);
@@ -289,7 +285,7 @@ RectifiedPair rectify(const StereoPair& photographs, const RectifyOptions& optio
   result.before = vertical_disparity(found.measuring);
   result.after = vertical_disparity(carried_matches(found.turn, found.measuring));
   if (options.match_colour) match_colours(result, carried_matches(found.turn, found.deciding));
-  report(progress, "turning", 1);
+  report(progress, "rectifying", 1);
   return result;
 }
 
@@ -300,7 +296,7 @@ RectifiedPair rectify(const StereoPair& photographs, const StereoCalibration& ca
     throw Error(ErrorKind::bad_input,
                 fmt::format("the pictures are {}x{} pixels, expected the calibration's {}x{}", photographs.left.width(),
                             photographs.left.height(), calibration.width, calibration.height));
-  report(progress, "turning", 0);
+  report(progress, "rectifying", 0);
   const TurnedPicture left =
       undistorted(photographs.left, calibration.left, calibration.left_rotation, calibration.left_projection);
   const TurnedPicture right =

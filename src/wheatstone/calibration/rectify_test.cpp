@@ -200,19 +200,19 @@ TEST(Rectify, RefusesWhatIsNoPairOfOneScene) {
   StereoPair other = still().pictures;
   cv::Mat mirrored = as_mat(other.right);
   cv::flip(mirrored, mirrored, 1);
-  expect_error(ErrorKind::bad_input, "do not show one scene", [&] { rectify(other); });
+  expect_error(ErrorKind::bad_input, "do not show the same scene", [&] { rectify(other); });
   const StereoPair blank{Image<Rgb8>(320, 240, {99, 99, 99}), Image<Rgb8>(320, 240, {99, 99, 99})};
   expect_error(ErrorKind::bad_input, "distinct points", [&] { rectify(blank); });
   expect_error(ErrorKind::bad_input, "320x240", [&] { rectify({still().pictures.left, blank.right}); });
   if (!std::filesystem::exists(shared("teddy"))) GTEST_SKIP() << "no " << shared("teddy").string();
   const StereoPair teddy{read_image(shared("teddy") / "left.png"), read_image(shared("teddy") / "right.png")};
   const StereoPair small = make_synthetic_still({.width = 450, .height = 375}).pictures;
-  expect_error(ErrorKind::bad_input, "do not show one scene", [&] { rectify({teddy.left, small.right}); });
+  expect_error(ErrorKind::bad_input, "do not show the same scene", [&] { rectify({teddy.left, small.right}); });
 }
 
 TEST(Rectify, RefusesWhatDoesNotDecideTheCameras) {
   const auto refuses = [](const StereoPair& pair) {
-    expect_error(ErrorKind::bad_input, "taken from one place", [&] { rectify(pair); });
+    expect_error(ErrorKind::bad_input, "taken from the same position", [&] { rectify(pair); });
   };
   refuses({still().pictures.left, still().pictures.left});
   refuses({still().pictures.left, misaligned(still().pictures.left, {2, 1.01, 20, 8})});

@@ -81,7 +81,7 @@ DepthMapping many_regions(std::span<const PlacedDepth> placed, const ViewingGeom
   DepthMapping mapping;
   for (const PlacedDepth& point : placed) {
     if (!(point.behind_mm > -viewing.viewing_distance_mm))
-      refuse(fmt::format("a point {:.0f} mm before the screen is behind the viewer, who is {:.0f} mm away",
+      refuse(fmt::format("a point {:.0f} mm in front of the screen is behind the viewer, who is {:.0f} mm away",
                          -point.behind_mm, viewing.viewing_distance_mm));
     mapping.points.push_back({point.depth, screen_parallax_mm(viewing, point.behind_mm) / viewing.pixel_pitch_mm()});
   }

@@ -26,7 +26,7 @@ constexpr std::array<DisplayPreset, 15> presets{{
     {"looking-glass-32", 49, 1170, 1170, 7, 7, 8190, 8190, wide, 696.7f, 1200, 40, "Looking Glass 32 inch"},
     {"looking-glass-32-old", 45, 1638, 910, 5, 9, 8192, 8192, wide, 696.7f, 1200, 40, "the same, older quilts"},
     {"looking-glass-65", 72, 1024, 910, 8, 9, 8192, 8192, wide, 1428, 2000, 40, "Looking Glass 65 inch"},
-    {"desk-stereo", 2, 1280, 1024, 0, 0, 0, 0, 1.25f, 376, 750, 0, "19 inch, 1280x1024 for either eye"},
+    {"desk-stereo", 2, 1280, 1024, 0, 0, 0, 0, 1.25f, 376, 750, 0, "19 inch, 1280x1024 for each eye"},
     {"nine-view", 9, 640, 360, 0, 0, 0, 0, wide, 376, 630, 26, "nine views on 1920x1080 pixels"},
     {"philips-36",
      36,

@@ -103,7 +103,7 @@ TEST(Comfort, WarnsOfMoreThanADeskOrADegree) {
       discomforts({.eye_separation_mm = 90, .viewing_distance_mm = 2000, .screen_width_mm = 1e4f}, 0, 1e6f);
   ASSERT_EQ(wide.size(), 2u);
   EXPECT_THAT(wide[0], testing::HasSubstr("2.5"));  // degrees: all of the vergence on the screen
-  EXPECT_THAT(wide[1], testing::HasSubstr("90 mm behind the screen is wider"));
+  EXPECT_THAT(wide[1], testing::HasSubstr("90 mm behind the screen is larger"));
 }
 
 TEST(Comfort, AwayFromTheDeskBroadcastersRulesHold) {
@@ -115,7 +115,8 @@ TEST(Comfort, AwayFromTheDeskBroadcastersRulesHold) {
   EXPECT_FLOAT_EQ(total_parallax_percent(television, near_mm, far_mm), 3);
   const auto before = discomforts(television, near_mm * 1.1f, far_mm);
   ASSERT_EQ(before.size(), 1u);
-  EXPECT_THAT(before[0], testing::HasSubstr("1.1 % of the width before and 2.0 % behind the screen, 3.1 % in all"));
+  EXPECT_THAT(before[0],
+              testing::HasSubstr("1.1 % of the width in front of and 2.0 % behind the screen, 3.1 % in all"));
   EXPECT_EQ(discomforts(television, near_mm, far_mm * 1.1f).size(), 1u);
 }
 

@@ -37,7 +37,7 @@ double number_in(const nlohmann::json& json, const char* key, const std::string&
   const nlohmann::json& value = found->is_object() && found->contains("value") ? (*found)["value"] : *found;
   if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
   if (!value.is_number() || !std::isfinite(value.get<double>()))
-    throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' is no number", file, key));
+    throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' is not a number", file, key));
   return value.get<double>();
 }
 
@@ -70,7 +70,7 @@ LenticularScreen read_calibration(const std::filesystem::path& path) {
   const std::string file = path.string();
   const nlohmann::json json = nlohmann::json::parse(read_whole_file(path, most_bytes), nullptr, false);
   if (!json.is_object())
-    throw Error(ErrorKind::bad_input, fmt::format("{}: is no JSON object, expected a display's calibration", file));
+    throw Error(ErrorKind::bad_input, fmt::format("{}: is not a JSON object, expected a display's calibration", file));
   LenticularScreen screen;
   screen.width = static_cast<int>(std::clamp(number_in(json, "screenW", file), 0., 1e6));
   screen.height = static_cast<int>(std::clamp(number_in(json, "screenH", file), 0., 1e6));
@@ -90,8 +90,8 @@ LenticularScreen read_calibration(const std::filesystem::path& path) {
                      std::abs(screen.height / screen.slope) < most_lenses && std::abs(screen.center) < most_lenses;
   if (!known)
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: describes no screen: {}x{} pixels, slope {}, {} DPI, pitch {}, center {}", file,
-                            screen.width, screen.height, screen.slope, screen.dpi, screen.pitch, screen.center));
+                fmt::format("{}: does not describe a valid screen: {}x{} pixels, slope {}, {} DPI, pitch {}, center {}",
+                            file, screen.width, screen.height, screen.slope, screen.dpi, screen.pitch, screen.center));
   return screen;
 }
 

@@ -235,11 +235,15 @@ TEST(Lenticular, RefusesBadCalibrationsAndUnknownNames) {
   refused("[1,2]", "JSON");
   refused(R"({"screenW":100,"screenH":100,"pitch":1})", "slope");
   refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":"steep"})", "slope");
-  refused(R"({"screenW":1e9,"screenH":100,"pitch":1,"slope":1,"center":0,"DPI":100})", "no screen");
-  refused(R"({"screenW":100,"screenH":100,"pitch":1e300,"slope":1,"center":0,"DPI":1e-9})", "no screen");
-  refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":1e-9,"center":0,"DPI":100})", "no screen");
-  refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":0,"center":0,"DPI":100})", "no screen");
-  expect_error(ErrorKind::wrong_usage, "no views", [] { interleave({}, {}); });
+  refused(R"({"screenW":1e9,"screenH":100,"pitch":1,"slope":1,"center":0,"DPI":100})",
+          "does not describe a valid screen");
+  refused(R"({"screenW":100,"screenH":100,"pitch":1e300,"slope":1,"center":0,"DPI":1e-9})",
+          "does not describe a valid screen");
+  refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":1e-9,"center":0,"DPI":100})",
+          "does not describe a valid screen");
+  refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":0,"center":0,"DPI":100})",
+          "does not describe a valid screen");
+  expect_error(ErrorKind::wrong_usage, "no multiView attribute", [] { interleave({}, {}); });
   expect_error(ErrorKind::wrong_usage, "one size", [] {
     std::vector<Image<Rgb8>> views = numbered(2, 4, 4);
     views[1] = Image<Rgb8>(3, 4);

@@ -69,7 +69,7 @@ void write_multiview_exr(const std::filesystem::path& path, std::span<const Imag
   const auto refuse = [&](const std::string& why) {
     throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write: {}", path.string(), why));
   };
-  if (!output) refuse("this OpenImageIO has no OpenEXR");
+  if (!output) refuse("the installed OpenImageIO cannot write OpenEXR");
   output->set_ioproxy(&memory);
   if (!output->open("views.exr", spec)) refuse(output->geterror());
   std::vector<float> line(static_cast<std::size_t>(width) * channels);
@@ -107,7 +107,7 @@ std::vector<Image<Rgb8>> read_multiview_exr(const std::filesystem::path& path) {
   if (!input) refuse(fmt::format("cannot be read, expected an OpenEXR: {}", OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
   const std::vector<std::string> names = views_named_in(spec);
-  if (names.size() < 2) refuse("names no views (multiView), expected two or more");
+  if (names.size() < 2) refuse("has no multiView attribute, expected two or more views");
   constexpr int most_pixels = 1 << 28;
   if (spec.width < 1 || spec.height < 1 || spec.width > most_pixels / spec.height || spec.nchannels < 1)
     refuse(fmt::format("has {}x{} pixels", spec.width, spec.height));

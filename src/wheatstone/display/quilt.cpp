@@ -20,7 +20,7 @@ std::pair<int, int> place_of(int view, const QuiltLayout& layout, int width, int
 Image<Rgb8> make_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& layout) {
   if (layout.columns < 1 || layout.rows < 1 ||
       views.size() != static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows))
-    throw Error(ErrorKind::wrong_usage, fmt::format("a quilt of {}x{} takes {} views, not {}", layout.columns,
+    throw Error(ErrorKind::wrong_usage, fmt::format("a quilt of {}x{} holds {} views, but there are {}", layout.columns,
                                                     layout.rows, layout.columns * layout.rows, views.size()));
   const int width = views.front().width();
   const int height = views.front().height();
@@ -37,8 +37,8 @@ Image<Rgb8> make_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& la
 
 std::vector<Image<Rgb8>> views_of_quilt(ImageView<const Rgb8> quilt, const QuiltLayout& layout) {
   if (layout.columns < 1 || layout.rows < 1 || quilt.width() % layout.columns != 0 || quilt.height() % layout.rows != 0)
-    throw Error(ErrorKind::wrong_usage, fmt::format("{}x{} pixels are no quilt of {}x{} views", quilt.width(),
-                                                    quilt.height(), layout.columns, layout.rows));
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}x{} pixels cannot be divided into a quilt of {}x{} views",
+                                                    quilt.width(), quilt.height(), layout.columns, layout.rows));
   const int width = quilt.width() / layout.columns;
   const int height = quilt.height() / layout.rows;
   std::vector<Image<Rgb8>> views;

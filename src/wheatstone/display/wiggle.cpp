@@ -59,7 +59,7 @@ void write_gif(const std::filesystem::path& path, std::span<const Image<Rgb8>* c
   const MemoryFile memory;
   const std::string name = memory.name();
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("gif");
-  if (!output) refuse_writing(path, "this OpenImageIO has no GIF");
+  if (!output) refuse_writing(path, "the installed OpenImageIO cannot write GIF");
   const Image<Rgb8>& first = *frames.front();
   OIIO::ImageSpec spec(first.width(), first.height(), 3, OIIO::TypeDesc::UINT8);
   const int frames_a_second = std::max(1, static_cast<int>(std::lround(static_cast<double>(frames.size()) / seconds)));
@@ -82,7 +82,7 @@ void write_webp(const std::filesystem::path& path, std::span<const Image<Rgb8>* 
   WebPAnimEncoderOptions options;
   WebPConfig config;
   if (WebPAnimEncoderOptionsInit(&options) == 0 || WebPConfigInit(&config) == 0)
-    refuse_writing(path, "this libwebp is another version");
+    refuse_writing(path, "the installed libwebp does not fit this program");
   config.lossless = 1;
   config.method = 2;  // of 0, fast, to 6, small
   const std::unique_ptr<WebPAnimEncoder, decltype(&WebPAnimEncoderDelete)> encoder(
@@ -91,7 +91,7 @@ void write_webp(const std::filesystem::path& path, std::span<const Image<Rgb8>* 
   double time_ms = 0;
   for (const Image<Rgb8>* frame : frames) {
     WebPPicture picture;
-    if (WebPPictureInit(&picture) == 0) refuse_writing(path, "this libwebp is another version");
+    if (WebPPictureInit(&picture) == 0) refuse_writing(path, "the installed libwebp does not fit this program");
     const std::unique_ptr<WebPPicture, decltype(&WebPPictureFree)> held(&picture, WebPPictureFree);
     picture.use_argb = 1;
     picture.width = frame->width();
@@ -121,7 +121,8 @@ void write_wiggle(const std::filesystem::path& path, std::span<const Image<Rgb8>
   const std::vector<const Image<Rgb8>*> frames = there_and_back(views);
   if (path.extension() == ".gif") return write_gif(path, frames, seconds);
   if (path.extension() == ".webp") return write_webp(path, frames, seconds);
-  throw Error(ErrorKind::wrong_usage, fmt::format("{}: expected an animation's ending, .gif or .webp", path.string()));
+  throw Error(ErrorKind::wrong_usage,
+              fmt::format("{}: unknown animation format, expected a name that ends in .gif or .webp", path.string()));
 }
 
 }  // namespace wheatstone

@@ -257,7 +257,7 @@ Painting decode_painting(std::string_view bytes, std::string_view name) {
       file.version() >= first_version && file.version() <= current_version,
       fmt::format("the painting has version {}, expected {} to {}", file.version(), first_version, current_version));
   checker.expect(checksum(file.payload()->data(), file.payload()->size()) == file.checksum(),
-                 "the painting is damaged: its checksum does not fit");
+                 "the painting is damaged: its checksum does not match");
 
   // FlatBuffers reads numbers where they lie; a copy puts them on even addresses whatever the file says.
   const std::vector<std::uint8_t> payload(file.payload()->begin(), file.payload()->end());

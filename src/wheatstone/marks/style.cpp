@@ -137,7 +137,8 @@ void check_style(const Style& style) {
         ErrorKind::wrong_usage,
         fmt::format("style: propagation is raster, expected strokes or independent for {}", name_of(style.marks)));
   if (style.marks != Marks::strokes && style.texture)
-    throw Error(ErrorKind::wrong_usage, fmt::format("style: texture is for strokes, not for {}", name_of(style.marks)));
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("style: texture can be used with strokes only, not with {}", name_of(style.marks)));
   check_range("depth-threshold", style.depth_threshold_px, 0.01f, 1000);
   check_range("occlusion-dilation", style.occlusion_dilation, 0, 10);
 }

@@ -46,9 +46,9 @@ void check(const StereoPair& pair, const MatchOptions& options) {
                 fmt::format("the matching block is {} pixels wide, expected an odd number, 1 to 51", options.block_px));
   if (!(options.size > 0 && options.size <= 1))
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("the size to match at is {} of the pictures', expected above 0 and up to 1", options.size));
+                fmt::format("the matching scale is {}, expected above 0 and at most 1", options.size));
   if (options.matcher == Matcher::onnx && options.model.empty())
-    throw Error(ErrorKind::wrong_usage, "matching by a network needs its file: an .onnx model");
+    throw Error(ErrorKind::wrong_usage, "matching by a neural network needs a model file (.onnx)");
   if (options.range &&
       (options.range->least >= options.range->largest ||
        std::max(std::abs(options.range->least), std::abs(options.range->largest)) >= pair.left.width()))

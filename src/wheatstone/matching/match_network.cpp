@@ -40,7 +40,7 @@ int side_for(const std::string& model, std::int64_t wanted, int picture_px) {
 
 Layout layout_of(const std::string& model, std::string_view bytes, cv::Size picture) {
   const std::vector<NetworkInput> inputs = network_inputs(bytes);
-  if (inputs.empty()) refuse(model, "is no ONNX network");
+  if (inputs.empty()) refuse(model, "is not an ONNX network");
   if (inputs.size() > 2) refuse(model, fmt::format("has {} inputs", inputs.size()));
   Layout layout;
   const std::int64_t channels = inputs.size() == 2 ? 3 : 6;
@@ -72,7 +72,7 @@ cv::Mat as_map(const std::string& model, const cv::Mat& answer) {
   std::vector<int> sides;
   for (int i = 0; i < answer.dims; ++i)
     if (answer.size[i] != 1) sides.push_back(answer.size[i]);
-  if (sides.size() != 2 || answer.type() != CV_32F) refuse(model, "does not answer with one number a pixel");
+  if (sides.size() != 2 || answer.type() != CV_32F) refuse(model, "does not return one number per pixel");
   return answer.reshape(1, sides[0]);
 }
 

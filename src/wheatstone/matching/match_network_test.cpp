@@ -128,9 +128,9 @@ TEST(MatchByNetwork, RefusesWhatIsNoStereoNetwork) {
                  [&] { match(coded_pair(), with_model(folder / "model.onnx")); });
   };
   const std::string whole = two_inputs(96, 64);
-  refused("Dear Sir, this is a letter.\n", "is no ONNX network");
-  refused("", "is no ONNX network");
-  refused(whole.substr(0, whole.size() / 2), "is no ONNX network");
+  refused("Dear Sir, this is a letter.\n", "is not an ONNX network");
+  refused("", "is not an ONNX network");
+  refused(whole.substr(0, whole.size() / 2), "is not an ONNX network");
   refused(model(message(1, node("Conv", {"a", "w"}, "b")) + message(5, weights("w", {1, 0, 0})) +
                 message(11, value("a", {1, 3, 64, 96}))),
           "input 'a' is not 1x6xHEIGHTxWIDTH");
@@ -139,9 +139,9 @@ TEST(MatchByNetwork, RefusesWhatIsNoStereoNetwork) {
           "OpenCV cannot run it");
   refused(model(message(1, node("Add", {"left", "right"}, "sum")) + message(11, value("left", {1, 3, 64, 96})) +
                 message(11, value("right", {1, 3, 64, 96})) + message(12, value("sum", {1, 3, 64, 96}))),
-          "does not answer with one number a pixel");
+          "does not return one number per pixel");
   expect_error(ErrorKind::bad_input, "missing.onnx", [&] { match(coded_pair(), with_model(folder / "missing.onnx")); });
-  expect_error(ErrorKind::wrong_usage, "needs its file", [&] { match(coded_pair(), with_model({})); });
+  expect_error(ErrorKind::wrong_usage, "needs a model file", [&] { match(coded_pair(), with_model({})); });
 }
 
 TEST(NetworkInputs, SurviveEveryCutAndChange) {

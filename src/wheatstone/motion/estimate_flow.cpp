@@ -109,16 +109,16 @@ void expect_size(const Picture& picture, ImageView<const Rgb8> first, const char
 
 FlowPair estimate_flow(ImageView<const Rgb8> first, ImageView<const Rgb8> second, const FlowOptions& options) {
   if (first.width() < least_side_px || first.height() < least_side_px)
-    throw Error(ErrorKind::bad_input, fmt::format("frame of {}x{} pixels, expected at least {} a side for its flow",
-                                                  first.width(), first.height(), least_side_px));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the frame is {}x{} pixels, expected at least {} on each side for optical flow",
+                            first.width(), first.height(), least_side_px));
   expect_size(second, first, "second frame");
   if (options.start != nullptr)
     for (const Flow* flow : {&options.start->forward, &options.start->backward})
       for (const Image<float>* image : {&flow->x, &flow->y}) expect_size(*image, first, "flow to start from");
   if (!(options.size > 0 && options.size <= 1))
-    throw Error(
-        ErrorKind::wrong_usage,
-        fmt::format("the size to find flow at is {} of the frames', expected above 0 and up to 1", options.size));
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("the optical flow scale is {}, expected above 0 and at most 1", options.size));
   const cv::Mat a = luminance_at(first, options.size), b = luminance_at(second, options.size);
   const cv::Size full_size(first.width(), first.height());
   const FlowPair* start = options.start;

@@ -46,7 +46,8 @@ double histogram_distance(const Image<Rgb8>& first, const Image<Rgb8>& second) {
 
 FrameChange find_cut(ImageView<const Rgb8> first, ImageView<const Rgb8> second) {
   if (!same_size(first, second) || first.empty())
-    throw Error(ErrorKind::bad_input, "frames of different sizes, or empty, where a cut is looked for");
+    throw Error(ErrorKind::bad_input,
+                "the frames are empty or differ in size, expected two frames of one size for cut detection");
   const Image<Rgb8> a = shrunk(first), b = shrunk(second);
   FrameChange change;
   change.histogram_distance = histogram_distance(a, b);

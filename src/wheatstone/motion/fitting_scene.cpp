@@ -30,7 +30,7 @@ void check_fits(const FlowPair& flow, std::span<const SceneView> views) {
   for (const Flow* direction : {&flow.forward, &flow.backward})
     for (const Image<float>* component : {&direction->x, &direction->y})
       if (views.empty() || !same_size(*component, views[0].picture))
-        throw Error(ErrorKind::bad_input, "the flow has not the size of the reference view");
+        throw Error(ErrorKind::bad_input, "the flow does not have the size of the reference view");
 }
 
 }  // namespace wheatstone

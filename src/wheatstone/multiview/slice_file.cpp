@@ -184,7 +184,7 @@ SliceStack stack_of(const fs::path& path, const OIIO::ImageSpec& spec) {
 
 void check_part(const fs::path& path, const OIIO::ImageSpec& spec, const SliceStack& stack) {
   if (spec.deep || spec.channelnames != std::vector<std::string>{"R", "G", "B", "A"})
-    refuse(path, "a slice has other channels than R, G, B and A");
+    refuse(path, "a slice has channels other than R, G, B and A");
   if (spec.full_width != stack.width || spec.full_height != stack.height)
     refuse(path, fmt::format("a slice is of views of {}x{} pixels, expected {}x{} as the first", spec.full_width,
                              spec.full_height, stack.width, stack.height));
@@ -192,7 +192,7 @@ void check_part(const fs::path& path, const OIIO::ImageSpec& spec, const SliceSt
     return from < -farthest_px || from > farthest_px || size < 1 || size > farthest_px;
   };
   if (beyond(spec.x, spec.width) || beyond(spec.y, spec.height))
-    refuse(path, fmt::format("a slice of {}x{} pixels at {}, {} is none of a view of {}x{}", spec.width, spec.height,
+    refuse(path, fmt::format("a slice of {}x{} pixels at {}, {} does not fit a view of {}x{}", spec.width, spec.height,
                              spec.x, spec.y, stack.width, stack.height));
 }
 
@@ -232,7 +232,7 @@ Slice read_slice(const fs::path& path, OIIO::ImageInput& input, int part, const 
     refuse(path, fmt::format("slice {} is damaged or cut short", part));
   for (LinearRgba& pixel : slice.pixels.pixels()) {
     if (!std::isfinite(pixel.r + pixel.g + pixel.b + pixel.a))
-      refuse(path, fmt::format("slice {} has light that is no number", part));
+      refuse(path, fmt::format("slice {} contains a value that is not a number", part));
     // Other programs leave light below 0 where they resample.
     pixel = {std::max(pixel.r, 0.f), std::max(pixel.g, 0.f), std::max(pixel.b, 0.f), std::clamp(pixel.a, 0.f, 1.f)};
   }

@@ -189,7 +189,7 @@ TEST(SliceFile, OtherChannelsAreRefused) {
   const std::size_t at = bytes.find(head);
   ASSERT_NE(at, std::string::npos);
   bytes[at + head.size() + 4 + 3 * 18] = 'Z';
-  expect_refused(folder, bytes, "a slice has other channels than R, G, B and A");
+  expect_refused(folder, bytes, "a slice has channels other than R, G, B and A");
 }
 
 TEST(SliceFile, CutShortAtAnyByteIsRefused) {

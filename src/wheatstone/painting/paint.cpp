@@ -134,8 +134,7 @@ PaintedPair paint_other_marks(const StereoPair& photographs, const StereoGeometr
 void check_is_of_strokes(const Style& style) {
   if (style.marks != Marks::strokes)
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("style: {} are not brush strokes, and only those can be painted for other views than the "
-                            "two eyes",
+                fmt::format("style: {} cannot be painted for views other than the two eyes, expected brush strokes",
                             name_of(style.marks)));
 }
 

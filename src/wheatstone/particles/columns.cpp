@@ -71,7 +71,8 @@ ChosenColumns choose_columns(const std::string& path, const std::vector<std::str
       choice.position.empty() ? std::vector<std::string_view>{"x", "y", "z"} : fields_of(choice.position);
   if (axes.size() != 3)
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: '{}' is no position, expected three columns, as x,y,z", path, choice.position));
+                fmt::format("{}: '{}' is not a list of positions, expected three columns, for example x,y,z", path,
+                            choice.position));
   const NamedColumns columns{path, names};
   ChosenColumns chosen;
   for (std::size_t axis = 0; axis < 3; ++axis) chosen.position[axis] = columns.required(std::string(axes[axis]));

@@ -96,7 +96,7 @@ TEST(TextTable, APositionNeedsThreeColumns) {
   const TemporaryFolder folder;
   write_whole_file(folder / "a.csv", "x,y,z,mass\n1,2,3,4\n");
   for (const std::string position : {"x", "x,y", "x,,", "x,y,z,mass"})
-    expect_error(ErrorKind::bad_input, "'" + position + "' is no position, expected three columns",
+    expect_error(ErrorKind::bad_input, "'" + position + "' is not a list of positions, expected three columns",
                  [&] { read_cloud(folder / "a.csv", {.position = position}); });
   EXPECT_THAT(read_cloud(folder / "a.csv", {.position = "mass,z,y"}).x, ElementsAre(4));
 }

@@ -242,7 +242,8 @@ CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudCho
   for (const std::string& wanted : {choice.position, choice.density, choice.temperature, choice.smoothing_length})
     if (!wanted.empty())
       throw Error(ErrorKind::wrong_usage,
-                  fmt::format("{}: a binary snapshot's fields cannot be named, but '{}' was", path.string(), wanted));
+                  fmt::format("{}: the fields of a GADGET binary file have no names, but '{}' was requested",
+                              path.string(), wanted));
   auto reading = std::make_shared<BinaryReading>();
   reading->type = static_cast<std::size_t>(snapshot_type(choice.type));
   const BinaryPart first = open_part(path);

@@ -69,7 +69,7 @@ Part open_part(const std::filesystem::path& path, int type, const CloudChoice& c
   if (!hdf5_has(part.group, position)) refuse_missing(part, position);
   part.position = open_column(part.group, position, part.path);
   if (part.position.width != 3)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: {}/{} has {} numbers a row, expected 3", part.path, group,
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {}/{} has {} numbers per row, expected 3", part.path, group,
                                                   position, part.position.width));
   part.count = part.position.rows;
   part.density = find_column(part, choice.density, {"Density", "Densities"});

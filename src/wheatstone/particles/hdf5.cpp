@@ -78,23 +78,23 @@ Hdf5Column open_column(hid_t where, const std::string& name, const std::string& 
   const auto refuse = [&](const std::string& what) -> Hdf5Column {
     throw Error(ErrorKind::bad_input, fmt::format("{}: {} {}", file, name, what));
   };
-  if (!hdf5_has(where, name)) return refuse("is not there, expected a dataset");
+  if (!hdf5_has(where, name)) return refuse("does not exist, expected a dataset");
   Hdf5Column column;
   column.dataset = Hdf5Handle(H5Dopen2(where, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!column.dataset) return refuse("is no dataset");
+  if (!column.dataset) return refuse("is not a dataset");
   const Hdf5Handle type(H5Dget_type(column.dataset), H5Tclose);
-  if (!holds_numbers(type)) return refuse("holds no numbers");
+  if (!holds_numbers(type)) return refuse("contains no numbers");
   const Hdf5Handle space(H5Dget_space(column.dataset), H5Sclose);
   std::array<hsize_t, 2> extent{0, 1};
   const int dimensions = H5Sget_simple_extent_ndims(space);
   if (dimensions < 1 || dimensions > 2)
-    return refuse(fmt::format("has {} dimensions, expected one row a particle", dimensions));
+    return refuse(fmt::format("has {} dimensions, expected one row per particle", dimensions));
   H5Sget_simple_extent_dims(space, extent.data(), nullptr);
   column.rows = extent[0];
   column.width = extent[1];
   constexpr hsize_t widest = 1024;
   if (column.width == 0 || column.width > widest)
-    return refuse(fmt::format("has {} numbers a row, expected at most {}", column.width, widest));
+    return refuse(fmt::format("has {} numbers per row, expected at most {}", column.width, widest));
   if (!can_hold(column.dataset, type, column.rows, column.width))
     return refuse(fmt::format("says {} rows, which the file does not hold", column.rows));
   return column;

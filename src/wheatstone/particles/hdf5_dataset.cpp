@@ -92,8 +92,9 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
   // Names within a snapshot's group are a snapshot's; a path from the root is anybody's.
   if (is_snapshot_hdf5(datasets->file) && !choice.position.starts_with("/")) return open_gadget_hdf5(path, choice);
   if (choice.position.empty())
-    throw Error(ErrorKind::bad_input, fmt::format("{}: is no snapshot; name its positions with --position, it has {}",
-                                                  path.string(), fmt::join(all_datasets(datasets->file), ", ")));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: is not a snapshot; name the dataset of the positions with --position; it has {}",
+                            path.string(), fmt::join(all_datasets(datasets->file), ", ")));
   const std::vector<std::string> names = split(choice.position);
   for (const std::string& name : names) {
     datasets->position.push_back(open_named(*datasets, name));
@@ -102,8 +103,9 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
   if (names.size() != 3 && (names.size() != 1 || datasets->position.front().width < 3))
     throw Error(
         ErrorKind::bad_input,
-        fmt::format("{}: {} is no position, expected three numbers a row, or three datasets with commas between",
-                    path.string(), choice.position));
+        fmt::format(
+            "{}: {} is not a list of positions, expected three numbers per row, or three datasets separated by commas",
+            path.string(), choice.position));
   datasets->density = open_named(*datasets, choice.density);
   datasets->temperature = open_named(*datasets, choice.temperature);
   datasets->smoothing_length = open_named(*datasets, choice.smoothing_length);

@@ -129,7 +129,7 @@ TEST(GadgetHdf5, JoinsPartsAndNamesTheMissingOne) {
   write_snapshot(folder / "snap.1.hdf5", 6, 2, 6);
   EXPECT_THAT(read_cloud(folder / "snap.0.hdf5").x, ElementsAre(1, 4, 7, 1, 4, 7));
   write_snapshot(folder / "snap.hdf5", 6, 2, 6);
-  expect_error(ErrorKind::bad_input, "no number", [&] { read_cloud(folder / "snap.hdf5"); });
+  expect_error(ErrorKind::bad_input, "expected a file number", [&] { read_cloud(folder / "snap.hdf5"); });
   write_snapshot(folder / "more.hdf5", 6, 1, 1e12);
   expect_error(ErrorKind::bad_input, "1000000000000 particles, but there are only 3",
                [&] { read_cloud(folder / "more.hdf5"); });
@@ -205,7 +205,8 @@ TEST(Hdf5Dataset, ReadsAnyByName) {
   EXPECT_THAT(read_cloud(folder / "stars.h5", {.position = "/x,/x,/cat/mag"}).z, ElementsAre(7, 8, 9));
   expect_error(ErrorKind::bad_input, "it has /cat/mag, /cat/pos, /x", [&] { read_cloud(folder / "stars.h5"); });
   expect_error(ErrorKind::bad_input, "no dataset '/y'", [&] { read_cloud(folder / "stars.h5", {.position = "/y"}); });
-  expect_error(ErrorKind::bad_input, "no position", [&] { read_cloud(folder / "stars.h5", {.position = "/x"}); });
+  expect_error(ErrorKind::bad_input, "not a list of positions",
+               [&] { read_cloud(folder / "stars.h5", {.position = "/x"}); });
 }
 TEST(CloudSource, ChunksAreTheWholeInOrder) {
   const TemporaryFolder folder;

@@ -67,7 +67,7 @@ CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choic
   const unsigned format = header.at<std::uint8_t>(104);
   if ((format & 0xC0u) != 0)
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is compressed (LAZ), expected LAS; laszip turns it into that", name));
+                fmt::format("{}: is compressed (LAZ), expected LAS; the program laszip converts it", name));
   if (format >= shortest_record.size())
     throw Error(ErrorKind::bad_input, fmt::format("{}: has points of format {}, expected 0 to 10", name, format));
 
@@ -85,7 +85,7 @@ CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choic
     const auto offset = header.at<double>(155 + 8 * axis);
     const auto least = header.at<double>(187 + 16 * axis);
     if (!std::isfinite(scale) || !std::isfinite(offset) || scale == 0)
-      throw Error(ErrorKind::bad_input, fmt::format("{}: its scale or offset is no number", name));
+      throw Error(ErrorKind::bad_input, fmt::format("{}: its scale or offset is not a number", name));
     layout.position[axis] = {.at = 4 * axis, .type = NumberType::i32, .scale = scale, .offset = offset};
     layout.origin[axis] = std::isfinite(least) ? least : offset;
   }

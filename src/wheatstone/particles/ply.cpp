@@ -53,7 +53,7 @@ void add_property(const std::filesystem::path& path, std::istringstream& words, 
   words >> type >> name;
   if (type == "list") refuse(path, "its vertices have lists, expected numbers only");
   const std::optional<NumberType> known = type_of(type);
-  if (!known) refuse(path, fmt::format("has a property of type '{}', which PLY does not know", type.substr(0, 40)));
+  if (!known) refuse(path, fmt::format("has a property of the unknown type '{}'", type.substr(0, 40)));
   header.properties.push_back({name, *known});
 }
 
@@ -76,7 +76,7 @@ PlyHeader read_header(const std::filesystem::path& path, std::ifstream& file) {
       words >> element;
       if (element == "vertex") {
         if (!first_element) refuse(path, "has other elements before its vertices");
-        if (!(words >> header.vertices)) refuse(path, "says no number of vertices");
+        if (!(words >> header.vertices)) refuse(path, "does not give the number of vertices");
       }
       first_element = false;
     }

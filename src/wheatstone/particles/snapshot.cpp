@@ -30,13 +30,13 @@ std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& p
   if (!numbered)
     throw Error(
         ErrorKind::bad_input,
-        fmt::format("{}: is one of {} files, but its name has no number to find the others by", path.string(), count));
+        fmt::format("{}: is one of {} files of a snapshot, expected a file number in its name", path.string(), count));
   std::vector<std::filesystem::path> files;
   for (int i = 0; i < count; ++i) {
     files.push_back(path.parent_path() / fmt::format("{}.{}{}", stem.substr(0, dot), i, ending));
     if (!std::filesystem::is_regular_file(files.back()))
       throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: is missing, one of the {} files of this snapshot", files.back().string(), count));
+                  fmt::format("{}: is missing, expected all {} files of this snapshot", files.back().string(), count));
   }
   return files;
 }

@@ -70,8 +70,8 @@ void parse_row(const Table& table, std::string_view text, std::vector<float>& ro
   row.resize(table.names.size());
   for (std::size_t i = 0; i < row.size(); ++i)
     if (!parse_number(fields[i], row[i]))
-      throw Error(ErrorKind::bad_input, fmt::format("{}: line {}, column {}: '{}' is no number", table.path, table.line,
-                                                    i + 1, fields[i].substr(0, 40)));
+      throw Error(ErrorKind::bad_input, fmt::format("{}: line {}, column {}: '{}' is not a number", table.path,
+                                                    table.line, i + 1, fields[i].substr(0, 40)));
 }
 
 }  // namespace
@@ -82,7 +82,8 @@ CloudSource open_text_table(const std::filesystem::path& path, const CloudChoice
   table->file.open(path);
   std::string first;
   if (!table->read_line(first))
-    throw Error(ErrorKind::bad_input, fmt::format("{}: has no particles, expected a line each", path.string()));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: has no particles, expected one line per particle", path.string()));
   const std::vector<std::string_view> fields = fields_of(first);
   float number = 0;
   const bool numbers = std::ranges::all_of(fields, [&](std::string_view field) { return parse_number(field, number); });

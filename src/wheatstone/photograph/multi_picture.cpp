@@ -18,7 +18,7 @@ constexpr std::uint32_t most_pictures = 1024;
 constexpr std::size_t entry_size = 16, field_size = 12;
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view what) {
-  throw Error(ErrorKind::bad_input, fmt::format("{}: its index of pictures (MPF) is damaged: {}", path.string(), what));
+  throw Error(ErrorKind::bad_input, fmt::format("{}: its MP index is damaged: {}", path.string(), what));
 }
 
 /// A TIFF structure in one byte order, as it stands in a segment.
@@ -31,7 +31,7 @@ class TiffBytes {
   }
 
   std::uint32_t number(std::size_t at, std::size_t length) const {
-    if (at > bytes_.size() || length > bytes_.size() - at) refuse(path_, "it points beyond its end");
+    if (at > bytes_.size() || length > bytes_.size() - at) refuse(path_, "it refers to data beyond its end");
     std::uint32_t number = 0;
     for (std::size_t i = 0; i < length; ++i)
       number = number << 8 | static_cast<std::uint8_t>(bytes_[at + (little_ ? length - 1 - i : i)]);
@@ -88,14 +88,15 @@ MultiPictureEntry read_entry(const TiffBytes& tiff, std::size_t at, const FoundI
   constexpr std::uint32_t format_bits = 0x07000000, type_bits = 0x00FFFFFF;
   const std::uint32_t attribute = tiff.long_at(at);
   const std::size_t offset = tiff.long_at(at + 8);
-  if ((attribute & format_bits) != 0) refuse(path, "one of its pictures is no JPEG");
+  if ((attribute & format_bits) != 0) refuse(path, "one of its pictures is not a JPEG");
   entry.type = attribute & type_bits;
   entry.length = tiff.long_at(at + 4);
   // The first picture is the file's start; the others are counted from the index's byte order on.
   entry.begin = offset == 0 ? 0 : index.begin_in + offset;
   if (entry.begin > file.size() || entry.length > file.size() - entry.begin || entry.length < 4)
     refuse(path, "one of its pictures lies beyond the end of the file");
-  if (!file.substr(entry.begin, 2).starts_with("\xFF\xD8")) refuse(path, "one of its pictures does not begin there");
+  if (!file.substr(entry.begin, 2).starts_with("\xFF\xD8"))
+    refuse(path, "one of its pictures does not begin at the listed position");
   return entry;
 }
 
@@ -111,7 +112,7 @@ std::vector<MultiPictureEntry> read_multi_picture_index(std::string_view bytes, 
   if (!count_field || !entries_field) refuse(path, "it lists no pictures");
   const std::uint32_t count = tiff.long_at(*count_field + 8);
   if (count == 0 || count > most_pictures) refuse(path, fmt::format("it lists {} pictures", count));
-  if (tiff.long_at(*entries_field + 4) != count * entry_size) refuse(path, "its list has not the length that it says");
+  if (tiff.long_at(*entries_field + 4) != count * entry_size) refuse(path, "length mismatch");
 
   const std::size_t list = tiff.long_at(*entries_field + 8);
   std::vector<MultiPictureEntry> entries(count);

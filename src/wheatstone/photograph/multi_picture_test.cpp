@@ -86,7 +86,7 @@ TEST(MultiPicture, RefusesWhatItsIndexCannotMean) {
   refused(plain_file(true, 0), "lists 0 pictures");
   refused(plain_file(true, 3), "length");
   refused(plain_file(true, 0xFFFFFFFF), "pictures");
-  refused(plain_file(true, 2, 0x01020002), "no JPEG");
+  refused(plain_file(true, 2, 0x01020002), "not a JPEG");
   std::string file = plain_file(false);
   const std::size_t header = file.find("MPF") + 4;
   const auto changed = [&](std::size_t at, std::uint32_t number) {
@@ -101,7 +101,7 @@ TEST(MultiPicture, RefusesWhatItsIndexCannotMean) {
   refused(changed(58, 0), "beyond the end of the file");
   refused(changed(62, 0xFFFFFFFF), "beyond the end of the file");
   refused(changed(62, 0), "twice");
-  refused(changed(62, 40), "does not begin there");
+  refused(changed(62, 40), "does not begin at the listed position");
 }
 
 // Whatever one byte of the index says, the pictures that come out lie in the file.

@@ -98,14 +98,15 @@ std::optional<ViewsFile> multi_picture_views(std::string_view bytes, const fs::p
   const std::vector<MultiPictureEntry> entries = views_among(all, bytes);
   if (entries.size() < 2) {
     if (!is_mpo) return {};
-    if (all.empty()) refuse(path, "has no index of pictures (MPF), expected an MPO of two views or more");
+    if (all.empty()) refuse(path, "has no MP index, expected an MPO of two or more views");
     refuse(path, fmt::format("holds {} view{}, expected two or more", entries.empty() ? "no" : "one",
                              entries.empty() ? "s" : ""));
   }
   if (options.layout)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: holds {} pictures, one a view: a layout is for one picture that holds both",
-                            path.string(), entries.size()));
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("{}: contains {} pictures, one per view, expected one picture with both views for a given layout",
+                    path.string(), entries.size()));
   ViewsFile file;
   file.kind = "MPO";
   for (const MultiPictureEntry& entry : entries)
@@ -118,18 +119,19 @@ std::optional<ViewsFile> heif_views(const fs::path& path, const ReadViewsOptions
   std::vector<Image<Rgb8>> pictures = read_heif_pictures(path);
   if (pictures.size() < 2) return {};
   if (pictures.size() > 2 || !same_size(pictures[0], pictures[1]))
-    refuse(path, fmt::format("holds {} pictures, and the installed libheif {} does not tell which are a stereo pair; "
+    refuse(path, fmt::format("holds {} pictures, and the installed libheif {} does not report which are a stereo pair; "
                              "expected two of one size",
                              pictures.size(), heif_version()));
   if (options.layout)
     throw Error(
         ErrorKind::wrong_usage,
-        fmt::format("{}: holds 2 pictures, one a view: a layout is for one picture that holds both", path.string()));
+        fmt::format("{}: contains 2 pictures, one per view, expected one picture with both views for a given layout",
+                    path.string()));
   ViewsFile file;
   file.kind = "HEIC";
   file.views = std::move(pictures);
-  file.note = fmt::format("libheif {} does not tell which eye a picture is for: the first is taken for the left",
-                          heif_version());
+  file.note = fmt::format(
+      "libheif {} does not report which eye a picture belongs to: the first is used for the left eye", heif_version());
   return file;
 }
 
@@ -137,12 +139,11 @@ std::optional<ViewsFile> heif_views(const fs::path& path, const ReadViewsOptions
 
 StereoLayout layout_of(const JpsDescriptor& descriptor, const fs::path& path) {
   using Arrangement = JpsDescriptor::Arrangement;
-  if (!descriptor.stereo) refuse(path, "says of itself that it is for one eye only (JPS descriptor)");
+  if (!descriptor.stereo) refuse(path, "is for one eye only, according to its JPS descriptor");
   const bool side_by_side = descriptor.arrangement == Arrangement::side_by_side;
   if (!side_by_side && descriptor.arrangement != Arrangement::over_under)
-    refuse(path,
-           fmt::format("says of itself that it is {} (JPS descriptor), expected side by side or one above the other",
-                       descriptor.arrangement == Arrangement::anaglyph ? "an anaglyph" : "interleaved"));
+    refuse(path, fmt::format("is {} according to its JPS descriptor, expected side by side or one above the other",
+                             descriptor.arrangement == Arrangement::anaglyph ? "an anaglyph" : "interleaved"));
   StereoLayout layout = side_by_side ? StereoLayout::left_right : StereoLayout::top_bottom;
   if (!descriptor.left_first) layout = with_eyes_swapped(layout);
   return with_half_size(layout, side_by_side ? descriptor.half_width : descriptor.half_height);

@@ -85,15 +85,14 @@ TEST(ReadViews, OfAnMpoWithOnePictureOrNoIndexAreRefused) {
   expect_error(ErrorKind::bad_input, "one.mpo: holds one view, expected two or more",
                [&] { read_views(folder / "one.mpo"); });
   put_bytes(folder / "none.mpo", encode_jpeg(Image<Rgb8>(40, 32, red), 95));
-  expect_error(ErrorKind::bad_input, "none.mpo: has no index", [&] { read_views(folder / "none.mpo"); });
+  expect_error(ErrorKind::bad_input, "none.mpo: has no MP index", [&] { read_views(folder / "none.mpo"); });
   std::string broken = two_colours_mpo();
   replace_once(broken, std::string("\xB0\x01\0\4\0\0\0\1\0\0\0\2", 12),
                std::string("\xB0\x01\0\4\0\0\0\1\0\0\0\3", 12));
   put_bytes(folder / "broken.mpo", broken);
-  expect_error(ErrorKind::bad_input, "broken.mpo: its index of pictures (MPF) is damaged",
-               [&] { read_views(folder / "broken.mpo"); });
+  expect_error(ErrorKind::bad_input, "broken.mpo: its MP index is damaged", [&] { read_views(folder / "broken.mpo"); });
   put_bytes(folder / "whole.mpo", two_colours_mpo());
-  expect_error(ErrorKind::wrong_usage, "holds 2 pictures",
+  expect_error(ErrorKind::wrong_usage, "contains 2 pictures",
                [&] { read_views(folder / "whole.mpo", {.layout = StereoLayout::left_right}); });
 }
 
@@ -271,7 +270,7 @@ TEST(ReadViews, OfAHeicAreItsTwoPictures) {
   EXPECT_TRUE(is_like(file.views[0], red));
   EXPECT_NE(file.note, "");
   put_heic(folder / "b.heic", {{red, 64}, {blue, 72}});
-  expect_error(ErrorKind::bad_input, "does not tell which are a stereo pair", [&] { read_views(folder / "b.heic"); });
+  expect_error(ErrorKind::bad_input, "does not report which are a stereo pair", [&] { read_views(folder / "b.heic"); });
   put_heic(folder / "c.heic", {{red, 64}});
   expect_error(ErrorKind::bad_input, "c.heic: is one picture", [&] { read_views(folder / "c.heic"); });
   EXPECT_EQ(read_views(folder / "c.heic", {.layout = StereoLayout::top_bottom}).views[0].height(), 32);

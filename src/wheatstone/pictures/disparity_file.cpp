@@ -46,7 +46,8 @@ StoredChannel read_first_channel(const std::filesystem::path& path) {
   }
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.image_bytes() > most_bytes)
-    refuse(path, fmt::format("is {}x{} pixels, which is no size for a disparity map", spec.width, spec.height));
+    refuse(path,
+           fmt::format("is {}x{} pixels, which is not a valid size for a disparity map", spec.width, spec.height));
   if (spec.nchannels >= 3) refuse(path, fmt::format("has {} channels, expected one", spec.nchannels));
   StoredChannel stored{Image<float>(spec.width, spec.height), spec.format};
   if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data()))

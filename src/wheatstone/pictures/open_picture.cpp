@@ -51,7 +51,7 @@ bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\
 
 void check_size(const fs::path& path, const OIIO::ImageSpec& spec) {
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) {
-    refuse(path, fmt::format("{}x{} pixels, expected a flat picture", spec.width, spec.height));
+    refuse(path, fmt::format("{}x{} pixels, expected a two-dimensional picture", spec.width, spec.height));
   }
   const std::uint64_t bytes = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
                               std::max<std::uint64_t>(sizeof(Rgb8), static_cast<std::uint64_t>(spec.pixel_bytes()));
@@ -116,11 +116,11 @@ std::string read_picture_bytes(const fs::path& path) {
 OpenPicture open_picture(const fs::path& path) {
   OpenPicture open;
   open.bytes = read_picture_bytes(path);
-  if (!jpeg_is_whole(open.bytes)) refuse_damaged(path, "it breaks off before its end");
+  if (!jpeg_is_whole(open.bytes)) refuse_damaged(path, "it ends too early");
   open.colour_profile = embedded_profile(open.bytes);
   if (is_png(open.bytes)) {
     std::optional<std::string> plain = plain_png(open.bytes);
-    if (!plain) refuse_damaged(path, "it breaks off before its end, or its checksums are wrong");
+    if (!plain) refuse_damaged(path, "it ends too early, or its checksums are wrong");
     open.bytes = std::move(*plain);
     open_in_memory(path, "png", open);
   } else {

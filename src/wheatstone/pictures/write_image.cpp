@@ -49,7 +49,7 @@ std::unique_ptr<OIIO::ImageOutput> encoder_for(const fs::path& path) {
   constexpr std::string_view known[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
   if (std::find(std::begin(known), std::end(known), ending) == std::end(known)) {
     throw Error(ErrorKind::cannot_read_write,
-                fmt::format("{}: unknown kind of picture, expected a name that ends in .png, .jpg, .tif, .webp, .ppm "
+                fmt::format("{}: unknown picture format, expected a name that ends in .png, .jpg, .tif, .webp, .ppm "
                             "or .bmp",
                             path.string()));
   }

@@ -45,8 +45,9 @@ FramedPair framed(const StereoPair& photographs, const StereoGeometry& geometry,
   const int shift = static_cast<int>(std::lround(frame.zero_parallax_px));
   const int common = width - std::abs(shift);
   if (frame.width < 1 || frame.height < 1 || common < 1 || height < 1)
-    throw Error(ErrorKind::wrong_usage, fmt::format("nothing of {}x{} pixels, shifted by {}, can fill {}x{} pixels",
-                                                    width, height, shift, frame.width, frame.height));
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("a picture of {}x{} pixels, shifted by {}, cannot fill {}x{} pixels", width, height, shift,
+                            frame.width, frame.height));
   const double scale = std::max(static_cast<double>(frame.width) / common, static_cast<double>(frame.height) / height);
   const cv::Size scaled(std::max(static_cast<int>(std::lround(common * scale)), frame.width),
                         std::max(static_cast<int>(std::lround(height * scale)), frame.height));

@@ -71,7 +71,7 @@ void fill_from_farther_side(Image<float>& disparity) {
   std::vector<char> known(height);
   tbb::parallel_for(0, height, [&](int y) { known[y] = fill_row(disparity.row(y)) ? 1 : 0; });
   if (std::ranges::find(known, 1) == known.end())
-    throw Error(ErrorKind::bad_input, "the disparity knows no pixel at all, expected at least one finite value");
+    throw Error(ErrorKind::bad_input, "the disparity is unknown everywhere, expected at least one finite value");
   for (int y = 0; y < height; ++y) {
     if (known[y] != 0) continue;
     int distance = 1;

@@ -104,10 +104,9 @@ std::optional<StereoLayout> find_stereo_layout(std::string_view name) {
 StereoLayout layout_by_name(std::string_view name) {
   if (const std::optional<StereoLayout> found = find_stereo_layout(name)) return *found;
   if (name == "anaglyph")
-    throw Error(
-        ErrorKind::wrong_usage,
-        "layout: 'anaglyph' cannot be taken apart: each eye kept only some of its colours; expected the pictures "
-        "that it was made from");
+    throw Error(ErrorKind::wrong_usage,
+                "layout: an anaglyph cannot be separated, because each view kept only some of its colours; expected "
+                "the original pictures");
   throw Error(ErrorKind::wrong_usage, fmt::format("layout: is '{}', expected one of {}", name, stereo_layout_names()));
 }
 

@@ -41,7 +41,7 @@ TEST(StereoLayout, NoTwoHaveANameInCommon) {
 }
 
 TEST(StereoLayout, OfAnAnaglyphOrOfNoKindIsRefused) {
-  expect_error(ErrorKind::wrong_usage, "each eye kept only some of its colours", [] { layout_by_name("anaglyph"); });
+  expect_error(ErrorKind::wrong_usage, "each view kept only some of its colours", [] { layout_by_name("anaglyph"); });
   expect_error(ErrorKind::wrong_usage, "left-right (sbsl), left-right-half (sbs2l)",
                [] { layout_by_name("checkers"); });
   expect_error(ErrorKind::wrong_usage, "is ''", [] { layout_by_name(""); });

@@ -265,7 +265,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
                              StrokeMemory& memory) {
   check_style(style);
   if (style.marks != Marks::strokes)
-    throw Error(ErrorKind::wrong_usage, "style: its marks are not strokes, which alone are carried as strokes");
+    throw Error(ErrorKind::wrong_usage, "style: its marks are not strokes, expected a style of strokes");
   const std::size_t layers = style.radii_px.size();
   const float depth_threshold_px = ScaledStyle(style, frame.views.front().picture.width()).depth_threshold_px;
   const bool scene_begins = frame.flow == nullptr || memory.views.size() != frame.views.size();
