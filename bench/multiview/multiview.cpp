@@ -236,7 +236,7 @@ void print_exact(const Stage& stage) {
   Image<Rgb8> picture(stage.rig.width, stage.rig.height);
   const auto start = std::chrono::steady_clock::now();
   const double before = processor_seconds();
-  for (int i = 0; i < 10; ++i) render_exact(job, 0, picture);
+  for (int i = 0; i < 10; ++i) render_exact(job, central_view, picture);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double cores = (processor_seconds() - before) / wall;
   const double naive =

@@ -77,10 +77,12 @@ void print_row(const Size& size) {
 /// Planning included: a painting for one view alone, against a painting for 48.
 void print_many_views() {
   const SyntheticStill still = make_synthetic_still({.width = 560, .height = 420, .samples_a_side = 1});
-  const double one = median_seconds([&] { paint_view(still.pictures.left, still.geometry.left_disparity, 0, {}); });
+  const double one =
+      median_seconds([&] { paint_view(still.pictures.left, still.geometry.left_disparity, central_view, {}); });
   const Rig rig = evenly_spaced(560, 420, 48, 2);
   const double many = median_seconds([&] {
-    draw_views(widen(plan_painting(still.pictures, still.geometry, {}), still.pictures, still.geometry, {}, {-1, 1}),
+    draw_views(widen(plan_painting(still.pictures, still.geometry, {}), still.pictures, still.geometry, {},
+                     {ViewPosition(-1.f), ViewPosition(1.f)}),
                rig.positions);
   });
   fmt::print("\n48 views of 560x420 over two eye separations: {:.0f} ms, one view alone {:.0f} ms: {:.1f} x, <= 6 {}\n",

@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // What is believed must also be drawn; size alone costs time and finds nothing.
     constexpr int small_px = 256;
     if (painting.painting.width <= small_px && painting.painting.height <= small_px)
-      for (const ViewPosition view : {wheatstone::left_eye, wheatstone::right_eye}) wheatstone::draw(painting, view);
+      for (const wheatstone::ViewPosition view : {wheatstone::left_eye, wheatstone::right_eye})
+        wheatstone::draw(painting, view);
   } catch (const wheatstone::Error&) {
   }
   return 0;
