@@ -155,7 +155,7 @@ TEST(RotoscopeRefusal, OfPlacesWithoutRoomIsExitCodeFour) {
   const TemporaryFolder folder;
   make_film(folder / "a.mp4", 3, {.preset = "ultrafast"});
   refused(folder, {"a.mp4", "--layout", "mono", "-o", "nowhere/o.mp4"}, 4, "nowhere/o.mp4: cannot write");
-  refused(folder, {"a.mp4", "--layout", "mono", "--save-marks", "nowhere/m_%d.wst"}, 4, "nowhere/m_1.wst");
+  refused(folder, {"a.mp4", "--layout", "mono", "--save-marks", "nowhere/m_%d.wst"}, 4, "nowhere/m_%d.wst");
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class Output {
       film_.emplace(
           path, options.writing,
           SegmentOptions{options.frames_between_checkpoints, recipe_of(options), sources_of(options), options.resume});
-    if (!marks.empty()) marks_.emplace(marks, frames_done());
+    if (!marks.empty()) open_marks(marks);
   }
 
   /// Frames that are safe: an earlier run has left them, or this one has closed them.
@@ -103,6 +103,16 @@ class Output {
   }
 
  private:
+  void open_marks(const fs::path& path) {
+    try {
+      marks_.emplace(path, frames_done());
+    } catch (const Error&) {
+      // Nothing was painted yet: nothing stays.
+      if (film_ && frames_done() == 0) film_->discard();
+      throw;
+    }
+  }
+
   static void check_marks(const fs::path& path) {
     const std::optional<FramePattern> pattern = frame_pattern(path);
     if (!pattern)

@@ -185,11 +185,12 @@ TEST(SegmentedFilm, SoundThatIsNotWantedIsNotCopied) {
     writer.finish();
     EXPECT_TRUE(writer.notes().empty());
     std::string found;
-    for (const SideStream& stream : open_film(folder / "a.mkv").facts().side_streams) found += stream.kind + " ";
+    const FilmFacts facts = open_film(folder / "a.mkv").facts();
+    for (const SideStream& stream : facts.side_streams) found += stream.kind + " ";
     return found;
   };
-  EXPECT_EQ(kinds(true, true), "audio subtitle ");
-  EXPECT_EQ(kinds(false, true), "subtitle ");
+  EXPECT_EQ(kinds(true, true), "audio subtitles ");
+  EXPECT_EQ(kinds(false, true), "subtitles ");
   EXPECT_EQ(kinds(true, false), "audio ");
 }
 
