@@ -66,7 +66,7 @@ std::vector<std::vector<std::string>> long_stages() {
   const std::string left = "left.bmp", right = "right.bmp";
   return {{"synth", "still", "-o", "results", "--size", "4000x3000", "--samples", "8"},
           {"synth", "universe", "-o", "results.hdf5", "--particles", "100000000"},
-          {"match", left, right, "-o", "results", "--range", "0,600"},
+          {"match", left, right, "-o", "results", "--range", "0:600"},
           {"paint", left, right, "-o", "results"},
           {"rectify", left, right, "-o", "results"},
           {"pack", left, right, "--to", "wiggle", "-o", "results.webp"},
@@ -77,9 +77,14 @@ std::vector<std::vector<std::string>> long_stages() {
 
 TEST(Ending, OfALongStageTakesLessThanASecondAndLeavesNothing) {
   const TemporaryFolder folder;
+  // Noise, coarse enough to be a picture at any reduced size.
   std::mt19937 random(1);
-  Image<Rgb8> noise(3000, 2000);
-  for (Rgb8& pixel : noise.pixels()) pixel = {static_cast<std::uint8_t>(random()), 0, 0};
+  constexpr int block_px = 50;
+  Image<Rgb8> blocks(80, 60), noise(4000, 3000);
+  for (Rgb8& block : blocks.pixels()) block.r = static_cast<std::uint8_t>(random() % 200);
+  for (int y = 0; y < noise.height(); ++y)
+    for (int x = 0; x < noise.width(); ++x)
+      noise(x, y) = {static_cast<std::uint8_t>(blocks(x / block_px, y / block_px).r + random() % 50), 0, 0};
   for (const char* name : {"left.bmp", "right.bmp"}) write_image(folder / name, noise);
   write_particles(folder / "cloud.npy", 3'000'000);
   const std::set<std::string> before = files_in(folder / "");
