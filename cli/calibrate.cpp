@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "numbers_argument.h"
+#include "number_arguments.h"
 #include "output_option.h"
+#include "typed_options.h"
 #include "wheatstone/calibration/calibration.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
@@ -25,27 +25,13 @@ struct Arguments {
   std::string folder;
   std::vector<std::string> left, right;
   std::string board = "11x7";
-  std::string square = "30mm";
+  double square_mm = 30;
   std::string output = "calibration.yml";
 };
 
-double millimetres(const std::string& text) {
-  constexpr std::array<std::pair<std::string_view, double>, 5> units{
-      {{"", 1}, {"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}}};
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc{})
-    for (const auto& [unit, length] : units)
-      if (text.substr(static_cast<std::size_t>(stop - text.data())) == unit && value > 0) return value * length;
-  throw Error(ErrorKind::wrong_usage, fmt::format("--square: is '{}', expected a length, as 30mm or 1.2in", text));
-}
-
 Checkerboard board_from(const Arguments& arguments) {
-  const std::vector<float> sides = parse_numbers("--board", arguments.board, 'x', 2);
-  if (!std::ranges::all_of(sides, [](float side) { return side >= 3 && side <= 200 && side == std::floor(side); }))
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--board: is '{}', expected inner corners COLUMNSxROWS, 3 to 200", arguments.board));
-  return {static_cast<int>(sides[0]), static_cast<int>(sides[1]), millimetres(arguments.square)};
+  const Size corners = parse_size("--board", arguments.board, {3, 200}, "inner corners COLUMNSxROWS");
+  return {corners.width, corners.height, arguments.square_mm};
 }
 
 /// left* and right* with the same rest of the name.
@@ -152,17 +138,19 @@ void run(const Arguments& arguments, const Session& session) {
 
 void add_calibrate_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *program.add_subcommand("calibrate", "A stereo rig's cameras from photographs of a checkerboard");
-  command.add_option("DIR", arguments->folder, "Folder with left_*.png and right_*.png, or any other format");
-  command.add_option("--left", arguments->left, "The left pictures, instead of a folder");
-  command.add_option("--right", arguments->right, "The right pictures, in the same order");
-  command.add_option("--board", arguments->board, "Inner corners of the board, where four squares meet: COLUMNSxROWS")
+  CLI::App& command =
+      *program.add_subcommand("calibrate", "Calibrate the cameras of a stereo rig from photographs of a checkerboard");
+  command.add_option("DIR", arguments->folder, "Folder with left_*.png and right_*.png, or another picture format");
+  command.add_option("--left", arguments->left, "Left pictures, instead of a folder");
+  command.add_option("--right", arguments->right, "Right pictures, in the same order");
+  command.add_option("--board", arguments->board, "Inner corners of the checkerboard: COLUMNSxROWS")
       ->capture_default_str();
-  command.add_option("--square", arguments->square, "Side of a square: 30mm, 3cm, 1.2in")->capture_default_str();
-  add_output_option(command, arguments->output, "StereoCalibration file, as OpenCV's FileStorage reads it");
+  add_length(command, "--square", arguments->square_mm, {0.01, 10'000},
+             "Side of a square, in mm or with a unit: 3cm, 1.2in");
+  add_output_option(command, arguments->output, "Calibration file, in the format of OpenCV's FileStorage");
   command.footer(
-      "Needs the board in at least 3 pairs, better a dozen, tilted in several directions. Pairs without it and those\n"
-      "that fit far worse than the rest are left out and named.\n\n"
+      "At least 3 pairs must show the whole checkerboard; a dozen, tilted in several directions, are better. Pairs\n"
+      "without it and outliers are left out and named.\n\n"
       "Example:\n  wheatstone calibrate rig --board 11x7 --square 30mm -o calibration.yml\n"
       "  wheatstone rectify left.png right.png --calibration calibration.yml -o rectified");
   command.callback([arguments, &session] { run(*arguments, session); });

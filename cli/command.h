@@ -20,6 +20,11 @@ struct Session {
   Progress progress;  ///< draws the bar and throws Error{interrupted} after Ctrl-C
 };
 
+/// Ends a command that has said itself what went wrong.
+struct ErrorTold {
+  int exit_code;
+};
+
 // Each adds its command to the program. A command throws wheatstone::Error; run_command_line turns that into one line
 // and the exit code. The session outlives the commands and is filled when their callbacks run.
 void add_calibrate_command(CLI::App& program, const Session& session);

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "numbers_argument.h"
+#include "number_arguments.h"
+#include "option_use.h"
+#include "typed_options.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/viewing_geometry.h"
@@ -27,17 +29,19 @@ struct Arguments {
 float screen_width(const std::string& text) {
   const std::size_t comma = text.find(',');
   const std::string unit = comma == std::string::npos ? "mm" : text.substr(comma + 1);
-  const float scale = unit == "mm" ? 1.f : unit == "cm" ? 10.f : unit == "in" ? 25.4f : 0.f;
-  const std::vector<float> size = parse_numbers("--display", text.substr(0, comma), 'x', 2);
-  if (!(scale > 0 && size[0] > 0 && size[1] > 0))
+  const double scale = unit == "mm" ? 1 : unit == "cm" ? 10 : unit == "in" ? 25.4 : 0;
+  if (!(scale > 0))
     throw Error(ErrorKind::wrong_usage, fmt::format("--display: is '{}', expected WIDTHxHEIGHT,mm", text));
-  return scale * size[0];
+  const auto size =
+      parse_numbers("--display", text.substr(0, comma), {'x', 2, {0.001, 1e6}, "a name or WIDTHxHEIGHT,mm"});
+  return static_cast<float>(scale * size[0]);
 }
 
 /// The screen by its sizes, or by its name.
 ViewingGeometry viewing_from(const Arguments& arguments, const CLI::App& command) {
   ViewingGeometry viewing = arguments.viewing;
-  if (!arguments.display.empty() && std::isalpha(static_cast<unsigned char>(arguments.display.front()))) {
+  if (std::isalpha(static_cast<unsigned char>(arguments.display.c_str()[0]))) {
+    refuse_options(command, {"--resolution"}, "with a display's name", "the display has its own");
     const ViewingGeometry preset = viewing_of(find_display(arguments.display));
     viewing.screen_width_mm = preset.screen_width_mm;
     viewing.width_px = preset.width_px;
@@ -45,11 +49,7 @@ ViewingGeometry viewing_from(const Arguments& arguments, const CLI::App& command
     return viewing;
   }
   viewing.screen_width_mm = screen_width(arguments.display);
-  const float columns = parse_numbers("--resolution", arguments.resolution, 'x', 2)[0];
-  if (!(columns >= 1 && columns <= 1e6f))
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--resolution: is '{}', expected WIDTHxHEIGHT", arguments.resolution));
-  viewing.width_px = static_cast<int>(columns);
+  viewing.width_px = parse_size("--resolution", arguments.resolution, {1, 1e6}).width;
   return viewing;
 }
 
@@ -79,12 +79,12 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   fmt::print(session.output,
              "screen: {:.0f} mm wide, {} pixels a view, {:.4f} mm a pixel; seen from {:.0f} mm, eyes {:.0f} mm apart\n",
              viewing.screen_width_mm, viewing.width_px, pitch, viewing.viewing_distance_mm, viewing.eye_separation_mm);
-  fmt::print(session.output, "{:.0f} mm before the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n",
+  fmt::print(session.output, "{:.0f} mm in front of the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n",
              arguments.near_mm, before, before / pitch, angular_disparity_deg(viewing, -arguments.near_mm));
   fmt::print(session.output, "{:.0f} mm behind the screen: parallax {:.2f} mm, {:.1f} pixels, {:.2f} degrees\n",
              arguments.far_mm, behind, behind / pitch, angular_disparity_deg(viewing, arguments.far_mm));
   fmt::print(session.output, "depth planes: {:.1f}\n", planes);
-  fmt::print(session.output, "one pixel at the screen: {:.1f} mm before it, {:.1f} mm behind it\n",
+  fmt::print(session.output, "one pixel of parallax: {:.1f} mm in front of the screen, {:.1f} mm behind it\n",
              -perceived_depth_mm(viewing, -pitch), perceived_depth_mm(viewing, pitch));
   fmt::print(session.output, "total parallax: {:.1f} % of the width\n", percent);
   for (const std::string& warning : warnings) fmt::print(session.output, "comfort: {}\n", warning);
@@ -94,23 +94,21 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 
 void add_depth_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("depth", "Tell how much depth a display shows, in how many planes");
+  CLI::App* command = program.add_subcommand("depth", "Compute how much depth a display shows, and in how many planes");
   command
       ->add_option("--display", arguments->display,
-                   "Size of the screen: WIDTHxHEIGHT,mm (or cm, in); or a display's name")
+                   "Size of the screen, WIDTHxHEIGHT,mm (or cm, in), or the name of a display")
       ->capture_default_str();
-  command->add_option("--resolution", arguments->resolution, "Pixels of one view across the screen: WIDTHxHEIGHT")
+  command->add_option("--resolution", arguments->resolution, "Size of one view in pixels: WIDTHxHEIGHT")
       ->capture_default_str();
-  const auto number = [&](const char* name, float& value, const char* what, double least, double most) {
-    command->add_option(name, value, what)->check(CLI::Range(least, most))->capture_default_str();
-  };
-  number("--distance", arguments->viewing.viewing_distance_mm, "From the eyes to the screen, in mm", 1, 1e6);
-  number("--eye", arguments->viewing.eye_separation_mm, "Between the eyes, or a viewing window's width, in mm", 1,
-         1000);
-  number("--near", arguments->near_mm, "Nearest point, in mm before the screen", 0, 1e6);
-  number("--far", arguments->far_mm, "Farthest point, in mm behind the screen", 0, 1e9);
+  ViewingGeometry& viewing = arguments->viewing;
+  add_length(*command, "--distance", viewing.viewing_distance_mm, {1, 1e6}, "Viewing distance, in mm");
+  add_length(*command, "--eye", viewing.eye_separation_mm, {1, 1000},
+             "Eye separation, or the width of a viewing window, in mm");
+  add_length(*command, "--near", arguments->near_mm, {0, 1e6}, "Depth in front of the screen, in mm");
+  add_length(*command, "--far", arguments->far_mm, {0, 1e9}, "Depth behind the screen, in mm");
   command->footer(
-      "Examples, of which the first has 60 planes and the second 36:\n"
+      "Examples; the first display has 60 planes, the second 36:\n"
       "  wheatstone depth --display 376x301,mm --resolution 1280x1024 --distance 750\n"
       "  wheatstone depth --display 376x212,mm --resolution 640x360 --distance 630");
   command->callback([arguments, command, &session] { run(*arguments, *command, session); });

@@ -12,6 +12,8 @@
 
 #include "command.h"
 #include "film_facts.h"
+#include "option_use.h"
+#include "typed_options.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
@@ -184,22 +186,55 @@ bool is_particles(const fs::path& path) {
          particle_format(path).has_value();
 }
 
-ordered_json facts_of(const fs::path& path, std::optional<float> scale, const std::string& type,
-                      const std::string& layout, const std::string& display) {
-  if (is_film(path)) return facts_of_film(path);
-  if (path.extension() == ".wst") return facts_of_painting(path);
-  if (is_particles(path)) return facts_of_particles(path, type);
-  if (scale) return facts_of_disparity(path, scale);
+struct Arguments {
+  std::string file;
+  std::optional<float> scale;
+  std::string type;
+  std::string layout;
+  std::string display;
+};
+
+ordered_json facts_of(const Arguments& arguments, const CLI::App& command) {
+  const fs::path path = arguments.file;
+  const auto refuse = [&](const std::vector<std::string>& options, const char* situation) {
+    refuse_options(command, options, situation, {});
+  };
+  if (!is_particles(path)) refuse({"--type"}, "on this file; it works on particles");
+  const auto refuse_all = [&](const char* situation) { refuse({"--scale", "--layout", "--display"}, situation); };
+  if (is_film(path)) {
+    refuse_all("on a film");
+    return facts_of_film(path);
+  }
+  if (path.extension() == ".wst") {
+    refuse_all("on a painting (.wst)");
+    return facts_of_painting(path);
+  }
+  if (is_particles(path)) {
+    refuse_all("on particles");
+    return facts_of_particles(path, arguments.type);
+  }
+  if (arguments.scale) {
+    refuse({"--layout", "--display"}, "with --scale, which reads disparities");
+    return facts_of_disparity(path, arguments.scale);
+  }
   const ImageDescription picture = describe_image(path);
   if (is_multiview_exr(path)) {
+    refuse_all("on a multi-view OpenEXR");
     const std::vector<Image<Rgb8>> views = read_multiview_exr(path);
     return {{"kind", "views"}, {"views", views.size()}, {"width", views[0].width()}, {"height", views[0].height()}};
   }
-  if (picture.format == "openexr" && picture.channels == 4) return facts_of_slices(path);
+  if (picture.format == "openexr" && picture.channels == 4) {
+    refuse_all("on slices");
+    return facts_of_slices(path);
+  }
   // One channel of floats is no photograph.
-  if (picture.is_float && picture.channels == 1) return facts_of_disparity(path, {});
+  if (picture.is_float && picture.channels == 1) {
+    refuse({"--layout", "--display"}, "on disparities");
+    return facts_of_disparity(path, {});
+  }
   ordered_json facts = facts_of_picture(picture);
-  put_views(facts, path, layout, display);
+  put_views(facts, path, arguments.layout, arguments.display);
+  if (!facts.contains("views")) refuse({"--display"}, "on a picture of one view; it works on two");
   return facts;
 }
 
@@ -229,33 +264,25 @@ void print_as_text(const ordered_json& facts, const Session& session) {
 }  // namespace
 
 void add_info_command(CLI::App& program, const Session& session) {
-  struct Arguments {
-    std::string file;
-    std::optional<float> scale;
-    std::string type = "gas";
-    std::string layout;
-    std::string display;
-  };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand(
-      "info", "Tell what is in a picture, a disparity file, a film, a painting, particles or slices");
+  CLI::App* command =
+      program.add_subcommand("info", "Describe a picture, disparity file, film, painting, particle file or slices");
   command
       ->add_option("FILE", arguments->file,
                    "Picture, disparity (.pfm, .exr, or any with --scale), film, numbered pictures (frame_%04d.png), "
                    "painting (.wst), particles or slices")
       ->required();
-  command->add_option("--scale", arguments->scale, "Read the picture as disparities: value / SCALE pixels")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--type", arguments->type, "Of a snapshot's particles: gas, halo, disk, bulge, stars or 0 to 5");
-  command->add_option("--layout", arguments->layout, "Of a picture that holds both views, as paint has it");
-  command->add_option(
-      "--display", arguments->display,
-      "Also match the views, and tell how deep they are on this display and whether that is comfortable");
+  add_number(*command, "--scale", arguments->scale, {1e-9, 1e9},
+             "Read the picture as disparities: value / SCALE pixels");
+  command->add_option("--type", arguments->type,
+                      "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5");
+  command->add_option("--layout", arguments->layout, "Layout of a picture that holds both views, as for 'paint'");
+  command->add_option("--display", arguments->display,
+                      "Also match the views and report their depth and comfort on this display");
   command->footer("Examples:\n  wheatstone info left.png\n  wheatstone info photograph.mpo --display desk-stereo");
-  command->callback([arguments, &session] {
+  command->callback([arguments, command, &session] {
     if (!arguments->display.empty()) find_display(arguments->display);
-    const ordered_json facts =
-        facts_of(arguments->file, arguments->scale, arguments->type, arguments->layout, arguments->display);
+    const ordered_json facts = facts_of(*arguments, *command);
     if (session.json) {
       fmt::print(session.output, "{}\n", facts.dump(2));
     } else {

@@ -45,24 +45,30 @@ void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry&
   output.commit();
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
+  refuse_match_options_without_effect(command, arguments.matching, false);
   // What cannot be written is said before the work.
   const StereoArguments& photographs = arguments.photographs;
   OutputFolder folder(arguments.folder, {photographs.left, photographs.right, arguments.matching.model});
   for (const std::string& name : result_names(photographs.rectify != "never")) folder.file(name);
-  const PreparedPair pair = read_photographs(photographs, false, session);
+  const ReadPhotograph read = read_photographs(photographs, false, session);
+  const PreparedPair& pair = read.pair;
   const MatchedPair matched = match(pair.pictures, match_options_from(arguments.matching), session.progress);
   write(folder, pair, matched.geometry);
   if (session.json) {
-    const nlohmann::ordered_json facts{{"folder", arguments.folder},
-                                       {"least_disparity_px", matched.range.least},
-                                       {"largest_disparity_px", matched.range.largest},
-                                       {"left_found_share", matched.left_found_share},
-                                       {"right_found_share", matched.right_found_share},
-                                       {"pair", nlohmann::ordered_json::parse(preparation_json(pair))}};
+    nlohmann::ordered_json facts{{"folder", arguments.folder},
+                                 {"least_disparity_px", matched.range.least},
+                                 {"largest_disparity_px", matched.range.largest},
+                                 {"left_found_share", matched.left_found_share},
+                                 {"right_found_share", matched.right_found_share},
+                                 {"pair", nlohmann::ordered_json::parse(preparation_json(pair))}};
+    if (read.whole.width > 0) facts["reduced_from"] = {{"width", read.whole.width}, {"height", read.whole.height}};
     fmt::print(session.output, "{}\n", facts.dump(2));
     return;
   }
+  if (read.whole.width > 0)
+    fmt::print(session.output, "reduced                  from {}x{} to {}x{} pixels\n", read.whole.width,
+               read.whole.height, pair.pictures.left.width(), pair.pictures.left.height());
   fmt::print(session.output, "disparities looked for   {} to {} px\n", matched.range.least, matched.range.largest);
   fmt::print(session.output, "found, not filled        {:.1f} % of the left view, {:.1f} % of the right\n",
              100 * matched.left_found_share, 100 * matched.right_found_share);
@@ -73,7 +79,7 @@ void run(const Arguments& arguments, const Session& session) {
 
 void add_match_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *program.add_subcommand("match", "Disparity and occlusion of a rectified stereo pair");
+  CLI::App& command = *program.add_subcommand("match", "Estimate disparity and occlusion of a rectified stereo pair");
   command
       .add_option("LEFT", arguments->photographs.left,
                   "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other")
@@ -90,7 +96,7 @@ void add_match_command(CLI::App& program, const Session& session) {
       "right.png,\nthe rectified pair that they belong to.\n\n"
       "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched\n"
       "  wheatstone match photograph.mpo -o matched");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &command, &session] { run(*arguments, command, session); });
 }
 
 }  // namespace wheatstone::cli

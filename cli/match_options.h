@@ -15,13 +15,20 @@ struct MatchArguments {
   std::string model_values = "255";
   std::string range;
   int block_px = MatchOptions().block_px;
-  bool no_check = false;
+  bool no_left_right_check = false;
   std::string refine;  ///< empty: as the quality has it
 };
+
+/// The heading of these options in the help.
+inline constexpr auto match_options_group = "Matching";
 
 void add_match_options(CLI::App& command, MatchArguments& arguments);
 
 /// Throws Error{wrong_usage}.
 MatchOptions match_options_from(const MatchArguments& arguments);
+
+/// Throws Error{wrong_usage} for an option that has no effect beside the others, or where the disparity is given.
+void refuse_match_options_without_effect(const CLI::App& command, const MatchArguments& arguments,
+                                         bool disparity_given);
 
 }  // namespace wheatstone::cli

@@ -4,7 +4,7 @@
 namespace wheatstone::cli {
 
 void add_measure_command(CLI::App& program, const Session& session) {
-  CLI::App& measure = *program.add_subcommand("measure", "How consistent a result is, in numbers");
+  CLI::App& measure = *program.add_subcommand("measure", "Measure the consistency of a result");
   measure.require_subcommand(1);
   measure.get_formatter()->label("SUBCOMMAND", "WHAT");
   measure.footer(

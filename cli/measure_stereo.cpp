@@ -159,11 +159,12 @@ void print_table(const Measured& measured, const Session& session) {
   line("left bare, right eye", fmt::format("{:.2f} %", 100 * guards.right_bare_share));
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
   if (arguments.disparity.empty() && !arguments.right_disparity.empty())
     throw Error(ErrorKind::wrong_usage, "--right-disparity needs --disparity, the left eye's");
   if (arguments.disparity.empty() && arguments.photographs.empty())
     throw Error(ErrorKind::wrong_usage, "measure stereo needs --disparity, or --photographs to match");
+  refuse_match_options_without_effect(command, arguments.matching, !arguments.disparity.empty());
   const StereoPair stylised = read_pair(arguments.left, arguments.right);
   std::optional<StereoPair> photographs;
   if (!arguments.photographs.empty()) {
@@ -191,18 +192,20 @@ void run(const Arguments& arguments, const Session& session) {
 
 void add_measure_stereo(CLI::App& measure, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *measure.add_subcommand("stereo", "How well the two pictures of a stereo pair belong together");
+  CLI::App& command = *measure.add_subcommand("stereo", "Measure the consistency of a stereo pair");
   command.fallthrough();
   command.add_option("LEFT", arguments->left, "Left picture, stylised")->required();
   command.add_option("RIGHT", arguments->right, "Right picture, of the same size")->required();
   command
-      .add_option("--photographs", arguments->photographs, "The pair that they were made from, measured beside them")
+      .add_option("--photographs", arguments->photographs,
+                  "Pair of photographs that they were made from, measured for comparison")
       ->expected(2);
   command.add_option(
       "--disparity", arguments->disparity,
-      "Left view's true disparity: PNG, PFM or EXR, FILE[:SCALE], value / SCALE = pixels; without it the\n"
+      "True disparity of the left view: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = pixels; by default the\n"
       "photographs are matched");
-  command.add_option("--right-disparity", arguments->right_disparity, "The right view's own, if there is one");
+  command.add_option("--right-disparity", arguments->right_disparity,
+                     "True disparity of the right view, in the same form");
   command.add_option("--painting", arguments->painting, "The painting.wst that the pictures were drawn from");
   add_match_options(command, arguments->matching);
   command.footer(
@@ -210,7 +213,7 @@ void add_measure_stereo(CLI::App& measure, const Session& session) {
       "eyes. Blurring wins on differences and loses gradient energy.\n\n"
       "Example:\n  wheatstone measure stereo painted/left.png painted/right.png --photographs still/left.png "
       "still/right.png \\\n    --disparity still/left_disparity.pfm");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &command, &session] { run(*arguments, command, session); });
 }
 
 }  // namespace wheatstone::cli

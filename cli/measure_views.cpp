@@ -13,6 +13,7 @@
 #include "command.h"
 #include "measure_kinds.h"
 #include "pictures_in_folder.h"
+#include "typed_options.h"
 #include "wheatstone/error.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/pictures/read_image.h"
@@ -130,14 +131,16 @@ void run(const Arguments& arguments, const Session& session) {
 
 void add_measure_views(CLI::App& measure, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *measure.add_subcommand("views", "How far views are from a reference for each");
+  CLI::App& command = *measure.add_subcommand("views", "Compare views with reference views");
   command.fallthrough();
-  command.add_option("VIEWS", arguments->views, "Pictures, or folders of them: then all, in the order of their names")
+  command
+      .add_option("VIEWS", arguments->views,
+                  "Pictures, or folders of pictures, which are taken in the order of their names")
       ->required();
-  command.add_option("--against", arguments->against, "The references: as many, of the same sizes")->required();
-  command.add_option("--noticeable", arguments->options.noticeable, "Differences of 0..255 above this are counted")
-      ->check(CLI::Range(0, 255))
-      ->capture_default_str();
+  command.add_option("--against", arguments->against, "Reference views: the same number, of the same sizes")
+      ->required();
+  add_number(command, "--noticeable", arguments->options.noticeable, {0, 255},
+             "Count the pixels that differ by more than this, in 0..255");
   command.footer(
       "Example:\n"
       "  wheatstone render universe.hdf5 --views 9 --method exact --exposure 0.04 -o exact\n"

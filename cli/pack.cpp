@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "command.h"
-#include "numbers_argument.h"
+#include "number_arguments.h"
 #include "output_option.h"
 #include "packing.h"
+#include "typed_options.h"
 #include "views_argument.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/error.h"
+#include "wheatstone/stereo/reduced_pair.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
@@ -23,6 +25,7 @@ struct Arguments {
   PackingArguments packing;
   std::string output;
   float shift_px = 0;
+  int max_size = 0;  ///< longer side of what is matched; 0: as large as it is
   std::string floating_window;
 };
 
@@ -33,22 +36,33 @@ std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const Argument
     if (views.size() != 2)
       throw Error(ErrorKind::wrong_usage,
                   fmt::format("--floating-window: is for two views, but there are {}", views.size()));
-    const std::vector<float> strips = parse_numbers("--floating-window", arguments.floating_window, ',', 2);
+    const std::vector<int> strips =
+        parse_integers("--floating-window", arguments.floating_window, {',', 2, {0, 65535}, "LEFT,RIGHT"});
     StereoPair pair{std::move(views[0]), std::move(views[1])};
-    put_floating_window(pair, static_cast<int>(strips[0]), static_cast<int>(strips[1]));
+    put_floating_window(pair, strips[0], strips[1]);
     views[0] = std::move(pair.left);
     views[1] = std::move(pair.right);
   }
   return views;
 }
 
-void run(const Arguments& arguments, const Session& session) {
+/// Makes the views smaller where their longer side is above `longest_px`.
+void reduce(std::vector<Image<Rgb8>>& views, int longest_px) {
+  const PictureSize whole{views.front().width(), views.front().height()};
+  const PictureSize size = reduced_size(whole, longest_px);
+  if (size.width == whole.width && size.height == whole.height) return;
+  for (Image<Rgb8>& view : views) view = reduced(view, size);
+}
+
+void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
   // What cannot be packed is said before anything is read.
   const Packing packing = find_packing(arguments.packing, arguments.output);
-  ViewsOutput output{arguments.output, files_read(arguments.input)};
+  check_packing(command, packing, arguments.output);
+  ViewsOutput output{arguments.output, files_read(arguments.input), arguments.packing.format};
   output.inputs.emplace_back(arguments.packing.screen);
   check_views_output(output);
-  ReadViews read = read_views_argument(arguments.input, views_wanted(packing), session);
+  ReadViews read = read_views_argument(arguments.input, views_wanted(packing), command, session);
+  if (arguments.max_size > 0) reduce(read.views, arguments.max_size);
   const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), arguments);
   const std::string written = write_packed({packing, arguments.packing, views, output, session});
   if (session.json) {
@@ -71,16 +85,20 @@ void run(const Arguments& arguments, const Session& session) {
 
 void add_pack_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("pack", "Put views into the format of a display");
+  CLI::App* command = program.add_subcommand("pack", "Convert views to the format of a display");
   add_views_arguments(*command, arguments->input);
-  add_output_option(*command, arguments->output, "File; or for quilts its stem, for views a folder")->required();
+  add_output_option(*command, arguments->output, "File; a folder for views; the stem of the file for a quilt")
+      ->required();
   add_packing_options(*command, arguments->packing);
-  command->add_option("--shift", arguments->shift_px,
-                      "Move the views apart by so many pixels from each to the next: what has this disparity comes to "
-                      "lie on the screen");
-  command->add_option("--zero-parallax", arguments->shift_px, "The same")->excludes("--shift");
-  command->add_option("--floating-window", arguments->floating_window,
-                      "LEFT,RIGHT pixels of black at the left eye's left and the right eye's right edge");
+  add_number(*command, "--zero-parallax,--shift", arguments->shift_px, {-65535, 65535},
+             "Disparity in pixels, from each view to the next, that lies on the screen plane");
+  add_number(*command, "--max-size", arguments->max_size, {16, 65535},
+             "Match a reduced copy whose longer side has at most this many pixels")
+      ->default_str("");
+  command->add_option(
+      "--floating-window", arguments->floating_window,
+      "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right edge "
+      "of the right view");
   command->footer(
       "Examples:\n"
       "  wheatstone pack photograph.mpo --to anaglyph -o anaglyph.png\n"
@@ -88,7 +106,7 @@ void add_pack_command(CLI::App& program, const Session& session) {
       "  wheatstone pack left.png right.png -o photograph.mpo\n"
       "  wheatstone pack views --to lenticular --screen step-9 -o screen.png\n"
       "  wheatstone pack views --to quilt --quilt 8x6 -o universe");
-  command->callback([arguments, &session] { run(*arguments, session); });
+  command->callback([arguments, command, &session] { run(*arguments, *command, session); });
 }
 
 }  // namespace wheatstone::cli

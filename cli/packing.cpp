@@ -9,8 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "numbers_argument.h"
+#include "number_arguments.h"
+#include "option_use.h"
+#include "picture_format.h"
 #include "stereo_arguments.h"
+#include "typed_options.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/anaglyph.h"
@@ -46,11 +49,12 @@ std::string all_names() {
 }
 
 QuiltLayout parse_quilt(const std::string& text) {
-  const std::vector<float> numbers = parse_numbers("--quilt", text, 'x', 2);
-  const QuiltLayout layout{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
-  if (layout.columns < 1 || layout.rows < 1 || layout.columns > 1000 || layout.rows > 1000)
-    throw Error(ErrorKind::wrong_usage, fmt::format("--quilt: is '{}', expected COLUMNSxROWS", text));
-  return layout;
+  const Size size = parse_size("--quilt", text, {1, 1000}, "COLUMNSxROWS");
+  return {size.width, size.height};
+}
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::ranges::find(names, name) != names.end();
 }
 
 const PackingFormat* format_named(std::string_view name) {
@@ -176,9 +180,15 @@ std::string chosen_name(const PackingArguments& arguments, const Packing& packin
   if (packing.quilt) return "quilt";
   if (packing.screen) return "lenticular";
   const std::string_view name = name_by_ending(output);
-  if (name.empty())
+  if (name.empty()) {
+    std::string endings;
+    for (const PackingFormat& format : packing_formats())
+      if (!format.ending.empty()) endings += fmt::format("{}, ", format.ending);
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: the ending names no format; choose one with --to: {}", output, all_names()));
+                fmt::format("{}: the ending names no format, expected {}no ending for views; or "
+                            "choose one with --to: {}",
+                            output, endings, all_names()));
+  }
   return std::string(name);
 }
 
@@ -199,25 +209,18 @@ std::span<const PackingFormat> packing_formats() {
 
 void add_packing_options(CLI::App& command, PackingArguments& arguments) {
   command.add_option("--to", arguments.to,
-                     fmt::format("{}; or ffmpeg's names (arcd, sbsl, irl ...). By the output's ending if not given: "
-                                 ".mpo, .jps, .gif, .exr, none for views",
+                     fmt::format("Output format: {}; or ffmpeg's names (arcd, sbsl, irl ...). Chosen by the ending of "
+                                 "the output by default: .mpo, .jps, .gif, .exr, none for views",
                                  all_names()));
   command.add_option("--screen", arguments.screen,
-                     "Lenticular: the name of a display with lenses, or its calibration (.json)");
-  auto* quilt = command.add_option("--quilt", arguments.quilt, "Quilt: COLUMNSxROWS");
-  command.add_option("--display", arguments.display, "Quilt or lenticular picture, as this display takes it")
-      ->excludes(quilt);
-  command.add_option("--quality", arguments.quality, "Of JPEGs in MPO and JPS")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  command
-      .add_option("--depth-scale", arguments.depth_scale,
-                  "Depth is this divided by disparity: camera separation times focal length in pixels")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command.add_option("--seconds", arguments.seconds, "Wiggle: there and back")
-      ->check(CLI::Range(0.05, 60.0))
-      ->capture_default_str();
+                     "Lenticular screen: the name of a display with lenses, or a calibration (.json)");
+  auto* quilt = command.add_option("--quilt", arguments.quilt, "Quilt layout: COLUMNSxROWS");
+  command.add_option("--display", arguments.display, "Quilt or lenticular picture for this display")->excludes(quilt);
+  add_picture_format(command, arguments.format, "File format of views, or of a quilt without an ending");
+  add_number(command, "--quality", arguments.quality, {1, 100}, "JPEG quality of MPO and JPS");
+  add_number(command, "--depth-scale", arguments.depth_scale, {1e-9, 1e9},
+             "Depth times disparity: camera separation times focal length in pixels");
+  add_number(command, "--seconds", arguments.seconds, {0.05, 60}, "Period of a wiggle animation, in seconds");
 }
 
 Packing find_packing(const PackingArguments& arguments, const std::string& output) {
@@ -235,6 +238,26 @@ Packing find_packing(const PackingArguments& arguments, const std::string& outpu
   if (packing.format->name == "quilt" && !packing.quilt)
     throw Error(ErrorKind::wrong_usage, "--to quilt: needs --quilt COLUMNSxROWS, or --display NAME");
   return packing;
+}
+
+bool is_matched(const Packing& packing) { return is_one_of(packing.format->name, {"rgbd", "disparity", "depth"}); }
+
+void check_packing(const CLI::App& command, const Packing& packing, const std::string& output) {
+  const std::string_view name = packing.format->name;
+  const bool has_ending = fs::path(output).has_extension();
+  const auto only = [&](bool works, const char* option, const char* where) {
+    if (!works) refuse_options(command, {option}, fmt::format("with --to {}", packing.name), where);
+  };
+  only(name == "lenticular", "--screen", "it works with lenticular");
+  only(name == "quilt", "--quilt", "it works with quilt");
+  only(name == "quilt" || name == "lenticular", "--display", "it works with quilt and lenticular");
+  only(name == "mpo" || name == "jps", "--quality", "it works with mpo and jps");
+  only(name == "depth", "--depth-scale", "it works with depth");
+  only(name == "wiggle", "--seconds", "it works with wiggle");
+  only(name == "views" || (name == "quilt" && !has_ending), "--format", "the ending of the output says the format");
+  only(is_matched(packing), "--max-size", "it works with disparity, depth and rgbd, which match the views");
+  const bool is_picture = !is_one_of(name, {"mpo", "jps", "views", "wiggle", "exr", "disparity", "depth"});
+  if (is_picture && (has_ending || name != "quilt")) check_picture_ending("--output", output);
 }
 
 int views_wanted(const Packing& packing) {

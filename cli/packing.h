@@ -17,13 +17,14 @@ namespace wheatstone::cli {
 
 /// A packing as it is typed.
 struct PackingArguments {
-  std::string to;         ///< empty: by the output's ending
-  std::string screen;     ///< of lenticular: a display, or a calibration file
-  std::string quilt;      ///< COLUMNSxROWS
-  std::string display;    ///< a preset, whose format is taken
-  int quality = 95;       ///< of JPEG, MPO, JPS
-  double seconds = 0.5;   ///< of a wiggle, there and back
-  float depth_scale = 1;  ///< of depth: camera separation times focal length in pixels
+  std::string to;              ///< empty: by the output's ending
+  std::string screen;          ///< of lenticular: a display, or a calibration file
+  std::string quilt;           ///< COLUMNSxROWS
+  std::string display;         ///< a preset, whose format is taken
+  std::string format = "png";  ///< of views, and of a quilt without an ending
+  int quality = 95;            ///< of JPEG, MPO, JPS
+  double seconds = 0.5;        ///< of a wiggle, there and back
+  float depth_scale = 1;       ///< of depth: camera separation times focal length in pixels
 };
 
 struct PackingFormat;
@@ -64,6 +65,13 @@ void add_packing_options(CLI::App& command, PackingArguments& arguments);
 
 /// What was asked for, by name or by the output's ending. Throws Error{wrong_usage} that lists what there is.
 Packing find_packing(const PackingArguments& arguments, const std::string& output);
+
+/// Throws Error{wrong_usage} for an option that has no effect with this packing, and where the output has an ending
+/// that the packing cannot be written under.
+void check_packing(const CLI::App& command, const Packing& packing, const std::string& output);
+
+/// Whether the packing matches the views.
+bool is_matched(const Packing& packing);
 
 /// How many views the packing needs; 0: any number.
 int views_wanted(const Packing& packing);

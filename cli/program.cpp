@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "typed_options.h"
+
 namespace wheatstone::cli {
 namespace {
 
@@ -31,16 +33,12 @@ void lay_out_help(CLI::App& app, const std::string& word) {
 }
 
 void add_shared_options(CLI::App& program, Session& session) {
-  program.add_flag("--json", session.json, "Print one JSON object instead of text");
-  program.add_option("--threads", session.threads, "Threads to use; 0 for as many as the machine has")
-      ->check(CLI::Range(0, 4096))
-      ->capture_default_str();
-  program.add_option("--seed", session.seed, "Seed of everything random: the same seed gives the same bytes")
-      ->capture_default_str();
-  CLI::Option* verbose = program.add_flag("-v,--verbose", session.verbose, "Tell more");
-  program.add_flag("--quiet", session.quiet, "Tell nothing but errors and results")->excludes(verbose);
-  program
-      .set_config("--config", "", "TOML file with values for any of these options, and for a command's in [COMMAND]")
+  program.add_flag("--json", session.json, "Print the result, or the error, as one JSON object");
+  add_number(program, "--threads", session.threads, {0, 4096}, "Number of threads; 0 uses all processors");
+  add_number(program, "--seed", session.seed, {0, 9.2e18}, "Random seed: the same seed gives the same bytes");
+  CLI::Option* verbose = program.add_flag("-v,--verbose", session.verbose, "Verbose output");
+  program.add_flag("--quiet", session.quiet, "Print results and errors only")->excludes(verbose);
+  program.set_config("--config", "", "TOML file with option values; those of a command stand under [COMMAND]")
       ->type_name("FILE.toml");
   program.allow_config_extras(CLI::config_extras_mode::error);
   program.set_version_flag("--version", "wheatstone " WHEATSTONE_VERSION);
@@ -54,7 +52,7 @@ std::unique_ptr<CLI::App> make_program(Session& session) {
   program->fallthrough();
   program->require_subcommand(1);
   program->footer(
-      "'wheatstone COMMAND --help' tells more. Exit codes: 0 done, 2 wrong usage, 3 bad input,\n"
+      "Run 'wheatstone COMMAND --help' for the options of a command. Exit codes: 0 done, 2 wrong usage, 3 bad input,\n"
       "4 cannot read or write, 5 interrupted.");
   add_shared_options(*program, session);
 

@@ -112,16 +112,16 @@ void run(const Arguments& arguments, const Session& session) {
 void add_rectify_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& command =
-      *program.add_subcommand("rectify", "Turns two photographs so that matching points lie on the same rows");
+      *program.add_subcommand("rectify", "Rectify two photographs: matching points come to lie on the same rows");
   command.add_option("LEFT", arguments->left, "Left photograph")->required();
   command.add_option("RIGHT", arguments->right, "Right photograph, of the same size")->required();
   add_output_option(command, arguments->folder, "Folder for left.png and right.png");
   command.add_option(
       "--calibration", arguments->calibration,
-      "StereoCalibration file of the rig (wheatstone calibrate, or OpenCV's); without one, matched features "
-      "decide");
+      "Calibration file of the stereo rig (from 'wheatstone calibrate' or OpenCV); matched features are used by "
+      "default");
   command.add_flag("--match-colour,!--no-match-colour", arguments->match_colour,
-                   "Bring the right eye's exposure and colour to the left one's; on unless --no-match-colour");
+                   "Match exposure and colour of the right photograph to the left; on by default");
   command.footer(
       "Both pictures are cropped to what is filled in both, on the same rows and columns. Disparities (x_left - "
       "x_right)\n"

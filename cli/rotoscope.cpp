@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,9 +18,9 @@
 #include "film_argument.h"
 #include "interrupt.h"
 #include "match_options.h"
+#include "number_arguments.h"
 #include "output_option.h"
 #include "style_options.h"
-#include "time_argument.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
@@ -105,29 +103,6 @@ std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& re
   return static_cast<std::int64_t>(std::ceil(frames / reading.every));
 }
 
-/// Frames a second: "24", "23.976" or "24000/1001".
-Rational rate_option(const std::string& text) {
-  const auto number_of = [](std::string_view part) {
-    double value = 0;
-    const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    return error == std::errc{} && stop == part.data() + part.size() ? value : 0;
-  };
-  const std::size_t slash = text.find('/');
-  const bool is_ratio = slash != std::string::npos;
-  const double above = number_of(std::string_view(text).substr(0, slash));
-  const double below = is_ratio ? number_of(std::string_view(text).substr(slash + 1)) : 1;
-  // Thousandths keep 23.976; more than a million frames a second are a slip.
-  const double scale = is_ratio ? 1 : 1000;
-  const auto is_whole = [](double value) { return value == std::floor(value); };
-  if (!(above > 0 && above <= 1e6 && below > 0 && below <= 1e6) || (is_ratio && !(is_whole(above) && is_whole(below))))
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--rate: is '{}', expected frames a second, as 24 or 24000/1001", text));
-  auto numerator = static_cast<int>(std::lround(above * scale)), denominator = static_cast<int>(below * scale);
-  const int common = std::max(std::gcd(numerator, denominator), 1);
-  if (numerator == 0) throw Error(ErrorKind::wrong_usage, fmt::format("--rate: is '{}', expected 0.001 or more", text));
-  return {numerator / common, denominator / common};
-}
-
 nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm& film) {
   const RotoscopeTotals& totals = film.totals;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
@@ -186,13 +161,13 @@ void run(const Arguments& arguments, const Session& session) {
   FilmArgument film = find_film(arguments.film, film_layout_option("--layout", arguments.layout));
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   check_not_an_input(arguments.output, std::array{film.film, film.right});
-  FilmReaderOptions reading{.from_s = time_option("--from", arguments.from),
-                            .to_s = time_option("--to", arguments.to),
+  FilmReaderOptions reading{.from_s = parse_time_s("--from", arguments.from),
+                            .to_s = parse_time_s("--to", arguments.to),
                             .every = arguments.frame_step};
   if (!arguments.rate.empty()) {
     if (!frame_pattern(film.film))
       throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures");
-    reading.sequence_rate = rate_option(arguments.rate);
+    reading.sequence_rate = parse_frame_rate("--rate", arguments.rate);
   }
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
   reading.threads = session.threads;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <ostream>
@@ -25,12 +26,19 @@ constexpr int internal_error = 1;
 
 int code_of(ErrorKind kind) { return static_cast<int>(kind); }
 
-/// Says on one line what went wrong and hands the exit code on.
-int fail(std::ostream& errors, int code, std::string message) {
+/// Says on one line what went wrong, as an object too where JSON is asked for, and hands the exit code on.
+int fail(const Session& session, int code, std::string message) {
   run_is_over();
   std::replace(message.begin(), message.end(), '\n', ' ');
-  fmt::print(errors, "wheatstone: {}\n", message);
-  errors.flush();
+  fmt::print(session.errors, "wheatstone: {}\n", message);
+  session.errors.flush();
+  if (session.json) {
+    const nlohmann::ordered_json facts{{"error", message}, {"exit_code", code}};
+    // File names are bytes, which need not be UTF-8.
+    constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    fmt::print(session.output, "{}\n", facts.dump(2, ' ', false, replace));
+    session.output.flush();
+  }
   return code;
 }
 
@@ -92,11 +100,13 @@ int run_program(std::span<const std::string> arguments, Session& session, Progre
     const bool asked_for_help = error.get_exit_code() == 0;
     if (asked_for_help) return program->exit(error, session.output, session.errors);
     const bool missing_file = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
-    return fail(session.errors, code_of(missing_file ? ErrorKind::bad_input : ErrorKind::wrong_usage),
+    return fail(session, code_of(missing_file ? ErrorKind::bad_input : ErrorKind::wrong_usage),
                 usage_message(*program, error));
+  } catch (const ErrorTold& told) {
+    return told.exit_code;
   } catch (const Error& error) {
     display.reset();
-    return fail(session.errors, code_of(error.kind()), error.what());
+    return fail(session, code_of(error.kind()), error.what());
   }
 }
 
@@ -104,7 +114,7 @@ int run_program(std::span<const std::string> arguments, Session& session, Progre
 int check_output(int code, const Session& session) {
   session.output.flush();
   if (session.output) return code;
-  return fail(session.errors, code_of(ErrorKind::cannot_read_write), "standard output: cannot write");
+  return fail(session, code_of(ErrorKind::cannot_read_write), "standard output: cannot write");
 }
 
 }  // namespace
@@ -112,20 +122,22 @@ int check_output(int code, const Session& session) {
 int run_command_line(std::span<const std::string> arguments, std::ostream& output, std::ostream& errors,
                      ProgressDisplay::Style progress) {
   Session session{output, errors};
+  // Known before the line is understood, so that a line that is not gets its error as JSON too.
+  session.json = std::ranges::find(arguments, "--json") != arguments.end();
   // What no one planned for still ends in one line.
   try {
     return check_output(run_program(arguments, session, progress), session);
   } catch (const std::bad_alloc&) {
-    return fail(errors, code_of(ErrorKind::cannot_read_write), "not enough memory");
+    return fail(session, code_of(ErrorKind::cannot_read_write), "not enough memory");
   } catch (const cv::Exception& error) {
     if (error.code == cv::Error::StsNoMem) {
-      return fail(errors, code_of(ErrorKind::cannot_read_write), "not enough memory");
+      return fail(session, code_of(ErrorKind::cannot_read_write), "not enough memory");
     }
-    return fail(errors, internal_error, fmt::format("internal error in OpenCV: {} ({})", error.err, error.func));
+    return fail(session, internal_error, fmt::format("internal error in OpenCV: {} ({})", error.err, error.func));
   } catch (const std::system_error& error) {
-    return fail(errors, code_of(ErrorKind::cannot_read_write), error.what());
+    return fail(session, code_of(ErrorKind::cannot_read_write), error.what());
   } catch (const std::exception& error) {
-    return fail(errors, internal_error, fmt::format("internal error: {}", error.what()));
+    return fail(session, internal_error, fmt::format("internal error: {}", error.what()));
   }
 }
 

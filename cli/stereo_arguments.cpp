@@ -4,10 +4,12 @@
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string_view>
 #include <utility>
 
+#include "typed_options.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/eye_order.h"
 #include "wheatstone/matching/not_a_pair.h"
@@ -46,7 +48,14 @@ ReadPhotographs read_one_file(const StereoArguments& arguments) {
   ReadViewsOptions options;
   if (!arguments.layout.empty()) options.layout = layout_by_name(arguments.layout);
   options.swap = arguments.swap;
-  ViewsFile file = read_views(arguments.left, options);
+  std::optional<ViewsFile> found = find_views(arguments.left, options);
+  if (!found)
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: is one picture, and neither its left and right nor its upper and lower half look like two "
+                    "views of one scene; expected two files, or --layout where it holds both views",
+                    arguments.left));
+  ViewsFile file = std::move(*found);
   ReadPhotographs read;
   read.how = describe_views(file);
   if (file.views.size() > 2)
@@ -57,6 +66,15 @@ ReadPhotographs read_one_file(const StereoArguments& arguments) {
   read.pair = middle_pair(file);
   check_sizes(read.pair, arguments.left, arguments.left);
   return read;
+}
+
+/// Makes a pair smaller where its longer side is above `longest_px`, which 0 leaves open; gives the size that it had.
+PictureSize reduce(StereoPair& pair, int longest_px) {
+  const PictureSize whole{pair.left.width(), pair.left.height()};
+  if (longest_px == 0 || std::max(whole.width, whole.height) <= longest_px) return {};
+  const PictureSize size = reduced_size(whole, longest_px);
+  pair = {reduced(pair.left, size), reduced(pair.right, size)};
+  return whole;
 }
 
 ReadPhotographs read_two_files(const StereoArguments& arguments) {
@@ -70,10 +88,13 @@ ReadPhotographs read_two_files(const StereoArguments& arguments) {
 }  // namespace
 
 void add_stereo_options(CLI::App& command, StereoArguments& arguments) {
-  command.add_option(
-      "--layout", arguments.layout,
-      fmt::format("Where one file has both views: {}; found by itself if not given", fmt::join(layout_names(), ", ")));
-  command.add_flag("--swap", arguments.swap, "The left eye's picture is the right one");
+  command.add_option("--layout", arguments.layout,
+                     fmt::format("Layout of one file that holds both views: {}; detected by default",
+                                 fmt::join(layout_names(), ", ")));
+  command.add_flag("--swap", arguments.swap, "Swap the two views");
+  add_number(command, "--max-size", arguments.max_size, {16, 65535},
+             "Work on a reduced copy whose longer side has at most this many pixels")
+      ->default_str("");
 }
 
 void add_rectify_option(CLI::App& command, StereoArguments& arguments) {
@@ -105,7 +126,7 @@ void tell_row_warning(const PreparedPair& pair, const std::string& name, const S
     tell(session, fmt::format("warning: {}: {}", name, warning));
 }
 
-PreparedPair read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session) {
+ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session) {
   const std::optional<RectifyPolicy> policy = rectify_policy_by_name(arguments.rectify);
   if (!policy)
     throw Error(ErrorKind::wrong_usage, fmt::format("--rectify: is '{}', expected one of: {}", arguments.rectify,
@@ -117,6 +138,7 @@ PreparedPair read_photographs(const StereoArguments& arguments, bool disparity_i
   ReadPhotographs read = one_file ? read_one_file(arguments) : read_two_files(arguments);
   const std::string name = one_file ? fmt::format("{} ({})", arguments.left, read.how)
                                     : fmt::format("{}, {}", arguments.left, arguments.right);
+  const PictureSize whole = reduce(read.pair, arguments.max_size);
   PreparedPair prepared;
   if (disparity_is_given) {
     if (not_a_pair(read.pair)) throw Error(ErrorKind::bad_input, fmt::format("{}: show different scenes", name));
@@ -129,7 +151,7 @@ PreparedPair read_photographs(const StereoArguments& arguments, bool disparity_i
     tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
                               arguments.left, arguments.swap ? "leave out" : "add"));
   tell_row_warning(prepared, name, session);
-  return prepared;
+  return {std::move(prepared), whole};
 }
 
 }  // namespace wheatstone::cli

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "wheatstone/calibration/prepare_pair.h"
+#include "wheatstone/stereo/reduced_pair.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone::cli {
@@ -15,9 +16,10 @@ struct StereoArguments {
   std::string layout;       ///< of one picture that holds both; empty: find it
   bool swap = false;
   std::string rectify = "never";
+  int max_size = 0;  ///< longer side of what is worked on, in pixels; 0: as large as it is
 };
 
-/// Adds --layout and --swap.
+/// Adds --layout, --swap and --max-size.
 void add_stereo_options(CLI::App& command, StereoArguments& arguments);
 
 /// Adds --rectify.
@@ -33,9 +35,15 @@ PreparedPair prepare_named_pair(StereoPair pair, const PreparePairOptions& optio
 /// Says on standard error, under the files' name, where the rows do not fit.
 void tell_row_warning(const PreparedPair& pair, const std::string& name, const Session& session);
 
+/// A pair that was read and prepared.
+struct ReadPhotograph {
+  PreparedPair pair;
+  PictureSize whole;  ///< before it was reduced; 0: it was not
+};
+
 /// Reads photographs from two files or one, and says on standard error how one was understood, and where the eyes look
 /// swapped. Where `disparity_is_given` they are taken as they are, and else prepared for matching: what makes them no
 /// pair is refused, rows that do not fit are told on standard error. Throws Error: bad_input, wrong_usage.
-PreparedPair read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session);
+ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session);
 
 }  // namespace wheatstone::cli

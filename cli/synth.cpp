@@ -4,7 +4,7 @@
 namespace wheatstone::cli {
 
 void add_synth_command(CLI::App& program, const Session& session) {
-  CLI::App& synth = *program.add_subcommand("synth", "Synthetic input with exact ground truth");
+  CLI::App& synth = *program.add_subcommand("synth", "Make synthetic input with exact ground truth");
   synth.require_subcommand(1);
   synth.get_formatter()->label("SUBCOMMAND", "KIND");
   synth.footer("Example:\n  wheatstone synth still -o still");

@@ -8,9 +8,10 @@
 #include <string>
 
 #include "command.h"
+#include "number_arguments.h"
 #include "output_option.h"
-#include "size_argument.h"
 #include "synth_kinds.h"
+#include "typed_options.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/motion/flow_file.h"
 #include "wheatstone/pictures/disparity_file.h"
@@ -45,7 +46,9 @@ void write(const OutputFolder& output, int number, const SyntheticFilmFrame& fra
 void run(const Arguments& arguments, const Session& session) {
   SyntheticFilmOptions options = arguments.film;
   options.still.seed = session.seed;
-  take_size(arguments.size, options.still.width, options.still.height);
+  const Size size = parse_size("--size", arguments.size, {16, 32768});
+  options.still.width = size.width;
+  options.still.height = size.height;
   const int cut = cut_of(options);
 
   OutputFolder output(arguments.folder);
@@ -81,9 +84,7 @@ void add_synth_film(CLI::App& synth, const Session& session) {
                   "walk: the camera moves and turns, and fruit hops about; pan: the camera turns slowly, no more")
       ->transform(CLI::CheckedTransformer(motions, CLI::ignore_case).description(""))
       ->option_text("walk|pan [walk]");
-  command.add_option("--noise", film.noise, "Standard deviation of each frame's own noise, in 0..255")
-      ->check(CLI::Range(0.0, 255.0))
-      ->capture_default_str();
+  add_number(command, "--noise", film.noise, {0, 255}, "Standard deviation of the noise of each frame, in 0..255");
   command.add_option("--samples", film.still.samples_a_side, "Samples along each side of a pixel")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();

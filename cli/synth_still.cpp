@@ -7,9 +7,10 @@
 #include <optional>
 
 #include "command.h"
+#include "number_arguments.h"
 #include "output_option.h"
-#include "size_argument.h"
 #include "synth_kinds.h"
+#include "typed_options.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/pictures/disparity_file.h"
@@ -44,7 +45,9 @@ void write(const OutputFolder& output, const std::string& name, const SyntheticV
 void run(const Arguments& arguments, const Session& session) {
   SyntheticStillOptions options = arguments.still;
   options.seed = session.seed;
-  take_size(arguments.size, options.width, options.height);
+  const Size size = parse_size("--size", arguments.size, {16, 32768});
+  options.width = size.width;
+  options.height = size.height;
 
   OutputFolder output(arguments.folder);
   if (arguments.view) {
@@ -72,30 +75,27 @@ void run(const Arguments& arguments, const Session& session) {
 
 void add_synth_still(CLI::App& synth, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *synth.add_subcommand("still", "A still life on a table by a window, ray-cast");
+  CLI::App& command = *synth.add_subcommand("still", "Ray-cast still life on a table by a window");
   command.fallthrough();
   add_output_option(command, arguments->folder, "Folder for the results");
-  command.add_option("--size", arguments->size, "Of each view: WIDTHxHEIGHT")->capture_default_str();
-  command.add_option("--samples", arguments->still.samples_a_side, "Samples along each side of a pixel")
-      ->check(CLI::Range(1, 8))
-      ->capture_default_str();
-  command.add_option("--largest-disparity", arguments->still.largest_disparity_px,
-                     "Of the nearest point, in pixels; 45 in a picture 640 wide if not given");
-  command.add_option("--least-disparity", arguments->still.least_disparity_px,
-                     "Of the wall, in pixels; 6 in a picture 640 wide if not given");
-  command.add_flag("--converged", arguments->still.converged, "Disparity 0 in the middle of the range: mixed signs");
-  CLI::Option* views = command.add_option("--views", arguments->views, "Views from the left eye to the right")
-                           ->check(CLI::Range(1, 1000))
-                           ->capture_default_str();
-  command
-      .add_option("--view", arguments->view, "Only the view at this position: left eye -0.5, centre 0, right eye 0.5")
-      ->check(CLI::Range(-10.0, 10.0))
+  command.add_option("--size", arguments->size, "Size of each view: WIDTHxHEIGHT")->capture_default_str();
+  add_number(command, "--samples", arguments->still.samples_a_side, {1, 8}, "Samples along each side of a pixel");
+  add_number(command, "--largest-disparity", arguments->still.largest_disparity_px, {-65535, 65535},
+             "Disparity of the nearest point in pixels; 45 per 640 pixels of width by default");
+  add_number(command, "--least-disparity", arguments->still.least_disparity_px, {-65535, 65535},
+             "Disparity of the wall in pixels; 6 per 640 pixels of width by default");
+  command.add_flag("--converged", arguments->still.converged,
+                   "Put disparity 0 in the middle of the range, so that both signs occur");
+  CLI::Option* views =
+      add_number(command, "--views", arguments->views, {1, 1000}, "Number of views from the left eye to the right eye");
+  add_number(command, "--view", arguments->view, {-10, 10},
+             "Write one view only, at this position: left eye -0.5, centre 0, right eye 0.5")
       ->excludes(views);
   command.footer(
       "Two views are written as left.png and right.png with left_disparity.pfm, left_occlusion.png and so on: exact, "
       "in\n"
       "pixels, each in its own view. Other numbers of views are written as view_000.png with view_000_disparity.pfm.\n"
-      "--seed moves and recolours what lies on the table.\n\n"
+      "--seed changes the positions and colours of the objects on the table.\n\n"
       "Example:\n  wheatstone synth still -o still --size 1280x960 --seed 2");
   command.callback([arguments, &session] { run(*arguments, session); });
 }

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "output_option.h"
 #include "synth_kinds.h"
+#include "typed_options.h"
 #include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 
@@ -48,18 +49,13 @@ void run(const Arguments& arguments, const Session& session) {
 
 void add_synth_universe(CLI::App& synth, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *synth.add_subcommand("universe", "Gas along the cosmic web, as a GADGET-4 HDF5 snapshot");
+  CLI::App& command = *synth.add_subcommand("universe", "Gas of the cosmic web, as a GADGET-4 HDF5 snapshot");
   command.fallthrough();
-  add_output_option(command, arguments->file, "The snapshot");
-  command.add_option("--particles", arguments->universe.particles, "How many")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000'000}))
-      ->capture_default_str();
-  command.add_option("--redshift", arguments->universe.redshift, "0 is today")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  command.add_option("--box", arguments->universe.box_mpc_h, "Side of the periodic box, in Mpc/h")
-      ->check(CLI::Range(1.0, 10000.0))
-      ->capture_default_str();
+  add_output_option(command, arguments->file, "Snapshot file");
+  SyntheticUniverseOptions& universe = arguments->universe;
+  add_number(command, "--particles", universe.particles, {1, 1e11}, "Number of particles");
+  add_number(command, "--redshift", universe.redshift, {0, 1000}, "Redshift; 0 is today");
+  add_number(command, "--box", universe.box_mpc_h, {1, 10'000}, "Side of the periodic box, in Mpc/h");
   command.footer("Example:\n  wheatstone synth universe --particles 1000000 --redshift 0 --seed 7 -o universe.hdf5");
   command.callback([arguments, &session] { run(*arguments, session); });
 }

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
-#include "numbers_argument.h"
+#include "number_arguments.h"
+#include "option_use.h"
 #include "pictures_in_folder.h"
-#include "stereo_arguments.h"
+#include "typed_options.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
@@ -77,27 +79,50 @@ ReadViews render_stack(const std::string& file, int count, float span, const Pro
 }
 
 ReadViews take_quilt(const ViewsArguments& arguments, const std::string& file) {
-  const std::vector<float> numbers = parse_numbers("--from-quilt", arguments.quilt, 'x', 2);
-  const QuiltLayout layout{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
-  if (layout.columns < 1 || layout.rows < 1 || layout.columns > 1000 || layout.rows > 1000)
-    throw Error(ErrorKind::wrong_usage, fmt::format("--from-quilt: is '{}', expected COLUMNSxROWS", arguments.quilt));
-  return {views_of_quilt(read_image(file), layout), "taken from a quilt"};
+  const Size size = parse_size("--from-quilt", arguments.quilt, {1, 1000}, "COLUMNSxROWS");
+  return {views_of_quilt(read_image(file), {size.width, size.height}), "taken from a quilt"};
 }
 
-ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const Session& session) {
-  const std::string& file = arguments.files.front();
-  if (fs::is_directory(file)) return read_pictures(pictures_in(file));
-  if (!arguments.quilt.empty()) return take_quilt(arguments, file);
-  if (file.ends_with(".wst")) return draw_painting(file, count_of(arguments, wanted));
-  if (file.ends_with(".exr")) {
-    if (is_multiview_exr(file)) return {read_multiview_exr(file), "a multi-view OpenEXR"};
-    return render_stack(file, count_of(arguments, wanted), arguments.span, session.progress);
-  }
+/// The views that a picture holds.
+ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::string& file) {
   ReadViewsOptions options;
   if (!arguments.layout.empty()) options.layout = layout_by_name(arguments.layout);
-  ViewsFile found = read_views(file, options);
-  std::string how = describe_views(found);
-  return {std::move(found.views), std::move(how)};
+  std::optional<ViewsFile> found = find_views(file, options);
+  if (!found)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: is one picture, and neither its left and right nor its upper and lower half look like "
+                            "two views of one scene; expected more files, or --layout where it holds both views",
+                            file));
+  std::string how = describe_views(*found);
+  return {std::move(found->views), std::move(how)};
+}
+
+ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::App& command, const Session& session) {
+  const std::string& file = arguments.files.front();
+  const auto refuse = [&](const std::vector<std::string>& options, const char* situation) {
+    refuse_options(command, options, situation, {});
+  };
+  if (fs::is_directory(file)) {
+    refuse({"--layout", "--from-quilt", "--views", "--span"}, "on a folder of views");
+    return read_pictures(pictures_in(file));
+  }
+  if (!arguments.quilt.empty()) {
+    refuse({"--layout", "--views", "--span"}, "with --from-quilt");
+    return take_quilt(arguments, file);
+  }
+  if (file.ends_with(".wst")) {
+    refuse({"--layout", "--span"}, "on a painting (.wst), whose views lie between its two eyes");
+    return draw_painting(file, count_of(arguments, wanted));
+  }
+  if (file.ends_with(".exr")) {
+    refuse({"--layout"}, "on OpenEXR files");
+    if (!is_multiview_exr(file))
+      return render_stack(file, count_of(arguments, wanted), arguments.span, session.progress);
+    refuse({"--views", "--span"}, "on a multi-view OpenEXR, which has its own views");
+    return {read_multiview_exr(file), "a multi-view OpenEXR"};
+  }
+  refuse({"--views", "--span"}, "on pictures; it works on a painting (.wst) or slices (.exr)");
+  return read_views_in_picture(arguments, file);
 }
 
 }  // namespace
@@ -109,14 +134,13 @@ void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
                   "multi-view OpenEXR, painting (.wst), slices (.exr)")
       ->required();
   command.add_option("--layout", arguments.layout,
-                     fmt::format("Where one picture has both views: {}; found by itself if not given",
+                     fmt::format("Layout of one picture that holds both views: {}; detected by default",
                                  fmt::join(layout_names(), ", ")));
-  command.add_option("--from-quilt", arguments.quilt, "The picture is a quilt of COLUMNSxROWS views");
-  command.add_flag("--swap", arguments.swap, "The views are from right to left");
-  command.add_option("--views", arguments.views, "How many to make of slices")->check(CLI::Range(1, 1000));
-  command.add_option("--span", arguments.span, "Eye separations between the outermost, of slices")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
+  command.add_option("--from-quilt", arguments.quilt, "Read the picture as a quilt of COLUMNSxROWS views");
+  command.add_flag("--swap", arguments.swap, "Reverse the order of the views: they are stored from right to left");
+  add_number(command, "--views", arguments.views, {1, 1000}, "Number of views to make from slices")->default_str("");
+  add_number(command, "--span", arguments.span, {0, 100},
+             "Distance from the first view to the last, in eye separations, for slices");
 }
 
 std::vector<fs::path> files_read(const ViewsArguments& arguments) {
@@ -125,11 +149,13 @@ std::vector<fs::path> files_read(const ViewsArguments& arguments) {
   return {arguments.files.begin(), arguments.files.end()};
 }
 
-ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const Session& session) {
+ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const CLI::App& command,
+                              const Session& session) {
   const bool one_file = arguments.files.size() == 1;
-  if (!one_file && !(arguments.layout.empty() && arguments.quilt.empty()))
-    throw Error(ErrorKind::wrong_usage, "--layout and --from-quilt are for one file that holds all views");
-  ReadViews read = one_file ? read_one_file(arguments, wanted, session) : read_pictures(arguments.files);
+  if (!one_file)
+    refuse_options(command, {"--layout", "--from-quilt", "--views", "--span"}, "on several files",
+                   "it works on one file that holds all views");
+  ReadViews read = one_file ? read_one_file(arguments, wanted, command, session) : read_pictures(arguments.files);
   if (arguments.swap) std::ranges::reverse(read.views);
   return read;
 }

@@ -31,7 +31,8 @@ struct ReadViews {
 std::vector<std::filesystem::path> files_read(const ViewsArguments& arguments);
 
 /// Reads or makes the views. `wanted` is how many the packing needs where they are made; 0: no matter.
-/// Throws Error: bad_input, wrong_usage.
-ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const Session& session);
+/// Throws Error: bad_input, wrong_usage also for an option of `command` that has no effect on this input.
+ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const CLI::App& command,
+                              const Session& session);
 
 }  // namespace wheatstone::cli

@@ -4,6 +4,7 @@
 
 #include "pictures_in_folder.h"
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
 #include "wheatstone/pictures/write_image.h"
 
@@ -15,12 +16,22 @@ void check_views_output(const ViewsOutput& output) {
     if (file.filename().string().starts_with("view_")) check_not_an_input(file, output.inputs);
 }
 
+void check_format_fits(const CLI::App& command, const ViewsOutput& output) {
+  const std::string ending = std::filesystem::path(output.name).extension().string();
+  if (command.count("--format") > 0 && !ending.empty() && ending != "." + output.format)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--format: is '{}', but --output is '{}'", output.format, output.name));
+}
+
 std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& layout, double aspect,
                         const ViewsOutput& output) {
   const std::filesystem::path path = output.name;
   if (!(aspect > 0)) aspect = static_cast<double>(views.front().width()) / views.front().height();
   const std::filesystem::path file =
-      path.has_extension() ? path : path.parent_path() / quilt_name(path.filename().string(), layout, aspect);
+      path.has_extension()
+          ? path
+          : path.parent_path() / std::filesystem::path(quilt_name(path.filename().string(), layout, aspect))
+                                     .replace_extension(output.format);
   check_not_an_input(file, output.inputs);
   write_image(file, make_quilt(views, layout));
   return file.string();
@@ -29,7 +40,7 @@ std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& l
 std::string write_lenticular(std::span<const Image<Rgb8>> views, const LenticularScreen& screen,
                              const ViewsOutput& output) {
   std::filesystem::path file = output.name;
-  if (!file.has_extension()) file += ".png";
+  if (!file.has_extension()) file += "." + output.format;
   check_not_an_input(file, output.inputs);
   write_image(file, interleave(views, screen));
   return file.string();
@@ -39,7 +50,7 @@ void write_view_folder(std::span<const Image<Rgb8>> views, const ViewsOutput& ou
   OutputFolder folder(output.name, output.inputs);
   for (std::size_t v = 0; v < views.size(); ++v) {
     report(progress, "writing", static_cast<double>(v) / static_cast<double>(views.size()));
-    write_image(folder.file(fmt::format("view_{:03}.png", v)), views[v]);
+    write_image(folder.file(fmt::format("view_{:03}.{}", v, output.format)), views[v]);
   }
   folder.commit();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -16,6 +17,7 @@ namespace wheatstone::cli {
 struct ViewsOutput {
   std::string name;                           ///< of a file or a folder
   std::vector<std::filesystem::path> inputs;  ///< the files that the run reads
+  std::string format = "png";                 ///< of pictures whose names are not typed in full
 };
 
 /// Says before the work what writing would refuse: an output that is an input, or a folder whose views are inputs.
@@ -29,12 +31,16 @@ std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& l
                         const ViewsOutput& output);
 
 /// Writes one picture with the views interleaved under the screen's lenses, and returns its name: the output's, with
-/// ".png" where that has no ending. Throws Error: cannot_read_write, or wrong_usage where that is an input.
+/// the format's ending where that has none. Throws Error: cannot_read_write, or wrong_usage where that is an input.
 std::string write_lenticular(std::span<const Image<Rgb8>> views, const LenticularScreen& screen,
                              const ViewsOutput& output);
 
-/// Writes view_000.png, the leftmost, and so on into a folder that appears when all are there. In a folder that exists
-/// they replace all views that are there. Throws Error: cannot_read_write, or wrong_usage where an input is in the way.
+/// Throws Error{wrong_usage} where --format was given beside a file name whose ending says another.
+void check_format_fits(const CLI::App& command, const ViewsOutput& output);
+
+/// Writes view_000.png, the leftmost, and so on, or in another format, into a folder that appears when all are there.
+/// In a folder that exists they replace all views that are there. Throws Error: cannot_read_write, or wrong_usage where
+/// an input is in the way.
 void write_view_folder(std::span<const Image<Rgb8>> views, const ViewsOutput& output, const Progress& progress = {});
 
 }  // namespace wheatstone::cli

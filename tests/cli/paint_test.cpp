@@ -169,12 +169,13 @@ TEST(PaintCommand, RefusesParametersThatMakeNoSense) {
   expect_refused(folder, paint_line({"--radii", "-3"}), 2, "radius is -3");
   expect_refused(folder, paint_line({"--threshold", "0"}), 2, "threshold is 0");
   expect_refused(folder, paint_line({"--style", "cubist"}), 2, "impressionist");
-  expect_refused(folder, paint_line({"--disparity", "disparity.pfm", "--range", "0:10"}), 2, "choose one");
+  expect_refused(folder, paint_line({"--disparity", "disparity.pfm", "--range", "0:10"}), 2,
+                 "--range: has no effect with --disparity");
   expect_refused(folder, paint_line({"--right-disparity", "disparity.pfm"}), 2, "--disparity");
   expect_refused(folder, paint_line({"--zero-parallax", "3", "--zero-parallax-at", "3,4"}), 2, "excludes");
   expect_refused(folder, paint_line({"--zero-parallax-at", "3000,4"}), 2, "3000,4");
   expect_refused(folder, paint_line({"--range", "30:10"}), 2, "30:10");
-  expect_refused(folder, {"paint"}, 2, "two photographs");
+  expect_refused(folder, {"paint"}, 2, "no photographs");
 }
 
 TEST(PaintCommand, RefusesADamagedPainting) {

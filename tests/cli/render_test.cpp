@@ -80,9 +80,9 @@ TEST(RenderCommand, MethodsAgreeByMeasureViews) {
 TEST(RenderCommand, StreamsWhatItRendersWhole) {
   const TemporaryFolder folder;
   for (const std::string out : {"stream", "whole"}) {
-    std::vector<std::string> line{"render", universe(), "--views", "2",       "--size", "320x180", "--exposure",
-                                  "0.1",    "--method", "layered", "--chunk", "3000",   "-o",      out};
-    if (out == "stream") line.emplace_back("--stream");
+    std::vector<std::string> line{"render",     universe(), "--views",  "2",       "--size", "320x180",
+                                  "--exposure", "0.1",      "--method", "layered", "-o",     out};
+    if (out == "stream") line.insert(line.end(), {"--stream", "--chunk", "3000"});
     run_in(folder, line);
   }
   const auto views = nlohmann::json::parse(
@@ -121,7 +121,7 @@ TEST(RenderCommand, AsADisplayWantsIt) {
   EXPECT_EQ(quilt.width(), 3360);
   EXPECT_EQ(quilt.height(), 3360);
   // What is typed beside it counts for more.
-  run_in(folder, {"render", universe(), "--display", "nine-view", "--views", "3", "--depth-map", "0:-50,0.3:0,1:60",
+  run_in(folder, {"render", universe(), "--display", "nine-view", "--views", "3", "--depth-mapping", "0:-50,0.3:0,1:60",
                   "--smooth-depth", "-o", "three"});
   EXPECT_TRUE(std::filesystem::exists(folder / "three" / "view_002.png"));
   EXPECT_FALSE(std::filesystem::exists(folder / "three" / "view_003.png"));
@@ -153,8 +153,8 @@ TEST(RenderCommand, RefusesBadFilesAndLeavesNothing) {
        {"none.csv", "nan.csv", "letter.csv", "cut.hdf5", "cut.exr", "plain.exr", "missing.hdf5"})
     expect_refused(folder, {"render", name, "-o", "out"}, 3, name);
   put_bytes(folder / "good.csv", "x,y,z\n1,2,3\n4,5,6\n");
-  expect_refused(folder, {"render", "good.csv", "--cut", "sphere:100,0,0,1", "-o", "out"}, 3,
-                 "the cut holds no particle");
+  expect_refused(folder, {"render", "good.csv", "--select", "sphere:100,0,0,1", "-o", "out"}, 3,
+                 "no particle is inside the selected region");
   expect_refused(folder, {"render", "good.csv", "--density", "mass", "-o", "out"}, 3, "but x, y, z");
   expect_refused(folder,
                  {"render", "good.csv", "--quiet", "--planes", "100000", "--size", "4000x4000", "--save-slices",
@@ -187,10 +187,10 @@ TEST(RenderCommand, RefusesWhatMakesNoSense) {
   refused({"--size", "0x5"}, "--size");
   refused({"--size", "wide"}, "--size");
   refused({"--splat", "5,2"}, "--s");
-  refused({"--cut", "moon"}, "--cut");
+  refused({"--select", "moon"}, "--select");
   refused({"--colours", "mauve"}, "inferno");
   refused({"--cold", "blue"}, "--cold");
-  refused({"--depth-map", "0:5,1:-5"}, "--depth-map");
+  refused({"--depth-mapping", "0:5,1:-5"}, "--depth-mapping");
   refused({"--method", "magic"}, "--method");
 }
 

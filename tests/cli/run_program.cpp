@@ -137,7 +137,8 @@ void expect_refused(const TemporaryFolder& folder, const std::vector<std::string
   EXPECT_THAT(result.errors, testing::StartsWith("wheatstone: "));
   EXPECT_THAT(result.errors, testing::HasSubstr(part));
   EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
-  EXPECT_EQ(result.output, "");
+  const bool as_json = std::ranges::find(arguments, "--json") != arguments.end();
+  EXPECT_EQ(result.output.substr(0, 13), as_json ? "{\n  \"error\": " : "");
   EXPECT_EQ(files_in(folder / ""), before);
 }
 

@@ -35,7 +35,8 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const Progr
 std::set<std::string> files_in(const std::filesystem::path& folder);
 
 /// Runs the program in `folder` and expects that it ends with `exit_code`, writes exactly one line on standard error,
-/// "wheatstone: …" with `part` in it, writes nothing on standard output, and leaves no file that was not there before.
+/// "wheatstone: …" with `part` in it, writes nothing on standard output but the error that --json asks for, and leaves
+/// no file that was not there before.
 void expect_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,
                     const std::string& part);
 

@@ -30,7 +30,7 @@ TEST(SynthFilmCommand, WritesFramesWithTheirTruth) {
 TEST(SynthFilmCommand, RefusesNonsenseAndLeavesNothing) {
   const TemporaryFolder folder;
   expect_refused(folder, {"synth", "film", "-o", "film", "--frames", "4", "--cut", "4"}, 2, "cut at frame 4");
-  expect_refused(folder, {"synth", "film", "-o", "film", "--size", "96"}, 2, "'96' is no size");
+  expect_refused(folder, {"synth", "film", "-o", "film", "--size", "96"}, 2, "--size: is '96', expected WIDTHxHEIGHT");
   expect_refused(folder, {"synth", "film", "-o", "film", "--motion", "run"}, 2, "run");
   expect_refused(folder, {"synth", "film", "-o", "film", "--frames", "0"}, 2, "0");
 }

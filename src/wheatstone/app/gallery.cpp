@@ -8,16 +8,17 @@ namespace wheatstone {
 namespace {
 
 struct Shown {
-  std::string_view file, caption;
+  std::string_view file;  ///< without an ending: in the format of the pictures
+  std::string_view caption;
 };
 
 constexpr std::array<Shown, 10> pictures{{
-    {"left_photograph.png", "Photograph, left eye"},
-    {"right_photograph.png", "Photograph, right eye"},
-    {"left.png", "Painting, left eye"},
-    {"right.png", "Painting, right eye"},
-    {"anaglyph.png", "Anaglyph, for red–cyan glasses"},
-    {"side_by_side.png", "Side by side, for parallel viewing"},
+    {"left_photograph", "Photograph, left eye"},
+    {"right_photograph", "Photograph, right eye"},
+    {"left", "Painting, left eye"},
+    {"right", "Painting, right eye"},
+    {"anaglyph", "Anaglyph, for red–cyan glasses"},
+    {"side_by_side", "Side by side, for parallel viewing"},
     {"disparity.png", "Disparity: near is red, far is blue"},
     {"left_occlusion.png", "Seen by the left eye only"},
     {"right_occlusion.png", "Seen by the right eye only"},
@@ -52,12 +53,15 @@ std::string escaped(std::string_view text) {
 
 }  // namespace
 
-std::string gallery_html(std::string_view report_json) {
+std::string gallery_html(std::string_view format, std::string_view report_json) {
   std::string page(head);
-  for (const Shown& picture : pictures)
+  for (const Shown& picture : pictures) {
+    const bool has_ending = picture.file.find('.') != std::string_view::npos;
+    const std::string file = has_ending ? std::string(picture.file) : fmt::format("{}.{}", picture.file, format);
     page +=
         fmt::format("<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
-                    picture.file, picture.caption);
+                    file, picture.caption);
+  }
   page += fmt::format("</main>\n<h2>Numbers</h2>\n<pre>{}</pre>\n</body></html>\n", escaped(report_json));
   return page;
 }

@@ -6,6 +6,7 @@
 namespace wheatstone {
 
 /// A page that shows the pictures of a result folder, by their names there, and the report's numbers below them.
-std::string gallery_html(std::string_view report_json);
+/// `format` is the ending of the pictures that are painted.
+std::string gallery_html(std::string_view format, std::string_view report_json);
 
 }  // namespace wheatstone

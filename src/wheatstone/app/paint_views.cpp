@@ -38,7 +38,7 @@ Image<Rgb8> middle_of(const Image<Rgb8>& picture, int margin) {
 }  // namespace
 
 PaintedViews paint_views(const StereoPair& photographs, const PaintViewsOptions& options, const Progress& progress) {
-  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "--views: 0, expected at least 1");
+  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
   check_style(options.painting.style);
   const StereoGeometry geometry = find_geometry(photographs, options.painting, progress).geometry;
   const DepthEnds range = range_of(geometry.left_disparity);

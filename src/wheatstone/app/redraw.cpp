@@ -32,19 +32,23 @@ Painting scaled(const Painting& painting, double scale) {
   const double width = std::round(painting.painting.width * scale),
                height = std::round(painting.painting.height * scale);
   if (!(width >= 1 && height >= 1 && width <= largest_side_px && height <= largest_side_px))
-    throw Error(ErrorKind::wrong_usage, fmt::format("--scale {} makes {}x{} pixels, expected 1 to {} a side", scale,
+    throw Error(ErrorKind::wrong_usage, fmt::format("a scale of {} makes {}x{} pixels, expected 1 to {} a side", scale,
                                                     width, height, largest_side_px));
   return resized(painting, scale);
 }
 
-void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options) {
+void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options,
+                const Progress& progress) {
   const Painting sized = scaled(painting, options.scale);
+  const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
+  report(progress, "drawing", 0);
   const StereoPair pictures{draw(sized, left_eye).picture, draw(sized, right_eye).picture};
-  const StereoPair presented = set_convergence(pictures, nearest_disparity(sized));
-  write_image(folder.file("left.png"), pictures.left);
-  write_image(folder.file("right.png"), pictures.right);
-  write_image(folder.file("side_by_side.png"), side_by_side(presented));
-  write_image(folder.file("anaglyph.png"), anaglyph(presented));
+  const StereoPair presented = set_convergence(pictures, options.zero_parallax_px.value_or(nearest_disparity(sized)));
+  report(progress, "writing", 0);
+  write_image(folder.file(picture("left")), pictures.left);
+  write_image(folder.file(picture("right")), pictures.right);
+  write_image(folder.file(picture("side_by_side")), side_by_side(presented));
+  write_image(folder.file(picture("anaglyph")), anaglyph(presented));
   if (options.svg) {
     write_svg(folder.file("left.svg"), sized, left_eye);
     write_svg(folder.file("right.svg"), sized, right_eye);

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/marks/painting.h"
+#include "wheatstone/progress.h"
 
 namespace wheatstone {
 
@@ -10,13 +14,16 @@ namespace wheatstone {
 Painting scaled(const Painting& painting, double scale);
 
 struct RedrawOptions {
-  double scale = 1;  ///< how many times as large
-  bool svg = false;  ///< also left.svg and right.svg, the marks as vectors
+  double scale = 1;            ///< how many times as large
+  bool svg = false;            ///< also left.svg and right.svg, the marks as vectors
+  std::string format = "png";  ///< of the pictures, as a file's ending
+  /// Disparity on the screen plane, in pixels of the result; none: that of the nearest mark, but for outliers.
+  std::optional<float> zero_parallax_px = std::nullopt;
 };
 
 /// Draws a painting again, for both eyes, over its canvas colour: left.png, right.png, side_by_side.png and
-/// anaglyph.png in a folder, which is committed. The nearest mark's depth, but for outliers, lies on the
-/// screen plane. Throws Error as the folder and `scaled` do.
-void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options = {});
+/// anaglyph.png, or in another format, in a folder, which is committed. Throws Error as the folder and `scaled` do.
+void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options = {},
+                const Progress& progress = {});
 
 }  // namespace wheatstone

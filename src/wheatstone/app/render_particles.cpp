@@ -48,10 +48,10 @@ Staged stage(const RenderParticlesOptions& options, const CloudStatistics& stati
 
 [[noreturn]] void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts) {
   throw Error(ErrorKind::bad_input,
-              counts.dropped > 0
-                  ? fmt::format("{}: nothing is left to draw, {} particles have no finite position", file.string(),
-                                counts.dropped)
-                  : fmt::format("{}: nothing is left to draw, the cut holds no particle", file.string()));
+              counts.dropped > 0 ? fmt::format("{}: nothing is left to draw, {} particles have no finite position",
+                                               file.string(), counts.dropped)
+                                 : fmt::format("{}: nothing is left to draw, no particle is inside the selected region",
+                                               file.string()));
 }
 
 /// Distances are computed in single precision: their squares must not overflow.
@@ -155,11 +155,11 @@ DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float neares
 
 RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                    const Progress& progress) {
-  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "--views: 0, expected at least 1");
+  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
   make_splat_style(options.appearance, {});  // what makes no sense is said before the long work
   const CloudSource source = open_cloud(file, options.choice);
   if (options.selection.centre && !(source.box_size > 0))
-    throw Error(ErrorKind::bad_input, fmt::format("{}: has no periodic box, which --centre needs", file.string()));
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no periodic box, which a centre needs", file.string()));
   RenderedParticles result = options.stream ? stream(file, options, progress) : render_whole(file, options, progress);
   result.format = source.format;
   if (options.stream || options.slices) {
@@ -171,8 +171,9 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
       result.rendered.views = render_slices(result.stack, result.rig, options.rendering.filter, progress);
   }
   const ViewingGeometry viewing = viewing_of(options);
-  float nearest = -options.depth.near_mm;
-  float farthest = options.depth.far_mm;
+  const bool regions = !options.depth.regions.empty();
+  float nearest = regions ? options.depth.regions.front().behind_mm : -options.depth.near_mm;
+  float farthest = regions ? options.depth.regions.back().behind_mm : options.depth.far_mm;
   for (const PerceivedDepth::Region& region : options.depth.regions) {
     nearest = std::min(nearest, region.behind_mm);
     farthest = std::max(farthest, region.behind_mm);

@@ -64,7 +64,7 @@ std::string preparation_json(const PreparedPair& pair) {
 }
 
 std::string report_json(const PaintingReport& told) {
-  const auto& [result, style, pair, measures] = told;
+  const auto& [result, style, pair, measures, whole] = told;
   const StrokePainting& painting = result.painted.painting;
   Json report{{"width", painting.width},
               {"height", painting.height},
@@ -87,6 +87,7 @@ std::string report_json(const PaintingReport& told) {
                          {"left_found_share", rounded(result.matched->left_found_share)},
                          {"right_found_share", rounded(result.matched->right_found_share)}};
   }
+  if (whole.width > 0) report["reduced_from"] = {{"width", whole.width}, {"height", whole.height}};
   if (pair != nullptr) report["pair"] = Json::parse(preparation_json(*pair));
   if (measures != nullptr) {
     report["measures"] = {{"painting", to_json(measures->painting)},

@@ -4,6 +4,7 @@
 
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/calibration/prepare_pair.h"
+#include "wheatstone/stereo/reduced_pair.h"
 
 namespace wheatstone {
 
@@ -31,6 +32,7 @@ struct PaintingReport {
   const Style& style;
   const PreparedPair* pair = nullptr;          ///< that was painted; none: nothing is told of it
   const PaintingMeasures* measures = nullptr;  ///< none: not measured
+  PictureSize whole{};  ///< of the photographs, where a reduced copy was painted; 0: they were painted as they are
 };
 
 /// What was done and how it came out, as a JSON document.

@@ -1,5 +1,6 @@
 #include "wheatstone/app/write_results.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <functional>
@@ -18,12 +19,16 @@
 namespace wheatstone {
 
 std::vector<std::string> result_names(const ResultOptions& options) {
-  std::vector<std::string> names{
-      "left.png",           "right.png",           "side_by_side.png",   "anaglyph.png",        "disparity.png",
-      "left_disparity.pfm", "right_disparity.pfm", "left_occlusion.png", "right_occlusion.png", "painting.wst",
-      "report.json"};
+  std::vector<std::string> names;
+  const auto add_pictures = [&](std::initializer_list<const char*> pictures) {
+    for (const char* picture : pictures) names.push_back(fmt::format("{}.{}", picture, options.format));
+  };
+  add_pictures({"left", "right", "side_by_side", "anaglyph"});
+  names.insert(names.end(), {"disparity.png", "left_disparity.pfm", "right_disparity.pfm", "left_occlusion.png",
+                             "right_occlusion.png", "painting.wst", "report.json"});
   if (options.svg) names.insert(names.end(), {"left.svg", "right.svg"});
-  if (options.html) names.insert(names.end(), {"left_photograph.png", "right_photograph.png", "index.html"});
+  if (options.html) add_pictures({"left_photograph", "right_photograph"});
+  if (options.html) names.emplace_back("index.html");
   return names;
 }
 
@@ -39,11 +44,12 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   const StereoGeometry& geometry = result.geometry;
   const Painting painting = marks_of(result.painted, told.style);
   const StereoPair presented = set_convergence(pictures, result.zero_parallax_px);
+  const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   std::vector<Output> outputs{
-      {"left.png", [&](const Path& path) { write_image(path, pictures.left); }},
-      {"right.png", [&](const Path& path) { write_image(path, pictures.right); }},
-      {"side_by_side.png", [&](const Path& path) { write_image(path, side_by_side(presented)); }},
-      {"anaglyph.png", [&](const Path& path) { write_image(path, anaglyph(presented)); }},
+      {picture("left"), [&](const Path& path) { write_image(path, pictures.left); }},
+      {picture("right"), [&](const Path& path) { write_image(path, pictures.right); }},
+      {picture("side_by_side"), [&](const Path& path) { write_image(path, side_by_side(presented)); }},
+      {picture("anaglyph"), [&](const Path& path) { write_image(path, anaglyph(presented)); }},
       {"disparity.png", [&](const Path& path) { write_image(path, disparity_picture(geometry.left_disparity)); }},
       {"left_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
       {"right_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.right_disparity); }},
@@ -57,10 +63,11 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
     outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }});
   }
   if (options.html) {
-    outputs.push_back({"left_photograph.png", [&](const Path& path) { write_image(path, photographs.left); }});
-    outputs.push_back({"right_photograph.png", [&](const Path& path) { write_image(path, photographs.right); }});
-    outputs.push_back(
-        {"index.html", [&](const Path& path) { write_whole_file(path, gallery_html(report_json(told))); }});
+    outputs.push_back({picture("left_photograph"), [&](const Path& path) { write_image(path, photographs.left); }});
+    outputs.push_back({picture("right_photograph"), [&](const Path& path) { write_image(path, photographs.right); }});
+    outputs.push_back({"index.html", [&](const Path& path) {
+                         write_whole_file(path, gallery_html(options.format, report_json(told)));
+                       }});
   }
 
   std::mutex reporting;

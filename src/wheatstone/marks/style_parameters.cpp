@@ -10,6 +10,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/image/colour_code.h"
 
 namespace wheatstone {
 namespace {
@@ -45,14 +46,9 @@ std::vector<float> parse_list(std::string_view name, std::string_view text) {
 }
 
 Rgb8 parse_colour(std::string_view name, std::string_view text) {
-  unsigned value = 0;
-  if (text.size() == 7 && text[0] == '#') {
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, value, 16);
-    if (error == std::errc{} && end == text.data() + 7)
-      return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
-              static_cast<std::uint8_t>(value)};
-  }
-  refuse(name, text, "a colour as #rrggbb");
+  const std::optional<Rgb8> colour = colour_of_code(text);
+  if (!colour) refuse(name, text, "a colour as #rrggbb");
+  return *colour;
 }
 
 template <class Member>

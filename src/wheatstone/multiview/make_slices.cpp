@@ -118,11 +118,10 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
                         state.order.band_rows * static_cast<double>(state.order.bins());
   const double bytes = pixels * (options.opaque ? 36 : 32);
   if (bytes > static_cast<double>(memory_limit_bytes))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("--planes: {} slices of {}x{} pixels need {:.1f} GB, expected at most "
-                            "{:.1f} GB; give fewer planes or smaller views",
-                            state.order.parts, state.right() - state.left(), rig.height, bytes / 1e9,
-                            static_cast<double>(memory_limit_bytes) / 1e9));
+    throw Error(ErrorKind::bad_input, fmt::format("{} slices of {}x{} pixels need {:.1f} GB, expected at most "
+                                                  "{:.1f} GB; give fewer planes or smaller views",
+                                                  state.order.parts, state.right() - state.left(), rig.height,
+                                                  bytes / 1e9, static_cast<double>(memory_limit_bytes) / 1e9));
   if (options.opaque) {
     state.opaque.assign(state.order.bins(), OpaqueBand(state.left(), state.right(), state.order.band_rows));
   } else {

@@ -65,13 +65,13 @@ float automatic_exposure(const Cloud& cloud, const Scene& scene, const Rig& rig)
 namespace {
 
 void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
-  if (rig.positions.empty()) throw Error(ErrorKind::wrong_usage, "--views: 0, expected at least 1");
+  if (rig.positions.empty()) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
   if (rig.width <= 0 || rig.height <= 0)
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("--size: {}x{} pixels, expected at least 1x1", rig.width, rig.height));
+                fmt::format("views are {}x{} pixels, expected at least 1x1", rig.width, rig.height));
   if (scene.mapping.points.empty()) throw Error(ErrorKind::wrong_usage, "the depth mapping has no point");
   if (options.planes < 0)
-    throw Error(ErrorKind::wrong_usage, fmt::format("--planes: {}, expected at least 1", options.planes));
+    throw Error(ErrorKind::wrong_usage, fmt::format("there are {} depth planes, expected at least 1", options.planes));
 }
 
 Choice choose(const Cloud& cloud, const Scene& scene, const Rig& rig, const RenderOptions& options) {

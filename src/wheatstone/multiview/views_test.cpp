@@ -260,8 +260,8 @@ TEST(Render, RefusesWhatMakesNoSense) {
   Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig);
   rig.positions.clear();
-  expect_error(ErrorKind::wrong_usage, "--views", [&] { render(cloud, scene, rig); });
-  expect_error(ErrorKind::wrong_usage, "--planes", [&] { render(cloud, scene, nine_views(), {.planes = -1}); });
+  expect_error(ErrorKind::wrong_usage, "0 views", [&] { render(cloud, scene, rig); });
+  expect_error(ErrorKind::wrong_usage, "-1 depth planes", [&] { render(cloud, scene, nine_views(), {.planes = -1}); });
 }
 
 TEST(Slices, RefuseToOutgrowMemory) {
@@ -269,7 +269,7 @@ TEST(Slices, RefuseToOutgrowMemory) {
   const Rig rig = nine_views();
   CloudStatistics statistics;
   statistics.add(cloud);
-  expect_error(ErrorKind::bad_input, "--planes",
+  expect_error(ErrorKind::bad_input, "slices of",
                [&] { SliceMaker(scene_of(cloud, rig), statistics, rig, {.planes = 1000}, 1 << 20); });
 }
 

@@ -42,7 +42,7 @@ void fill_by_name(SplatStyle& splat_style, const std::string& name) {
   if (found == std::end(colour_maps)) {
     std::string names;
     for (const auto& [known, code] : colour_maps) names += fmt::format(" {}", known);
-    throw Error(ErrorKind::wrong_usage, fmt::format("--colours: no colour map '{}', expected one of:{}", name, names));
+    throw Error(ErrorKind::wrong_usage, fmt::format("there is no colour map '{}', expected one of:{}", name, names));
   }
   cv::Mat values(1, SplatStyle::palette_size, CV_8UC1);
   for (int i = 0; i < SplatStyle::palette_size; ++i) values.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(i);
@@ -61,11 +61,13 @@ void spread_palette(SplatStyle& splat_style, const Appearance& appearance, const
   float last = given_or(appearance.hottest, values.percentile(0.98));
   if (splat_style.logarithmic) {
     if (!(first > 0 || values.total() == 0))
-      throw Error(ErrorKind::wrong_usage, "--coldest: must be above 0 on a logarithmic scale");
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("the coldest temperature is {}, expected above 0 on a logarithmic scale", first));
     first = std::log2(std::max(first, 1e-37f));
     last = std::log2(std::max(last, 1e-37f));
   }
-  if (last < first) throw Error(ErrorKind::wrong_usage, "--hottest: must not be below --coldest");
+  if (!(last >= first))
+    throw Error(ErrorKind::wrong_usage, "the hottest temperature is below the coldest, expected an ascending range");
   splat_style.palette_first = first;
   // Where all have one value, they get the first colour.
   splat_style.palette_scale = last > first ? (SplatStyle::palette_size - 1) / (last - first) : 0.f;
@@ -78,10 +80,10 @@ SplatStyle make_splat_style(const Appearance& appearance, const CloudStatistics&
                                appearance.largest_px <= SplatStyle::widest_px;
   if (!sizes_are_right)
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("--splat: {} to {} pixels, expected a range within 0 to {}", appearance.smallest_px,
-                            appearance.largest_px, SplatStyle::widest_px));
+                fmt::format("splat diameters are {} to {} pixels, expected a range within 0 to {}",
+                            appearance.smallest_px, appearance.largest_px, SplatStyle::widest_px));
   if (!(appearance.opacity > 0) || !std::isfinite(appearance.opacity))
-    throw Error(ErrorKind::wrong_usage, "--opacity: must be above 0");
+    throw Error(ErrorKind::wrong_usage, fmt::format("the opacity is {}, expected above 0", appearance.opacity));
   SplatStyle splat_style;
   splat_style.log2_density_middle = statistics.density.total() > 0 ? std::log2(statistics.density.percentile(0.5)) +
                                                                          appearance.density_shift * std::log2(10.f)

@@ -78,12 +78,11 @@ TEST(SplatStyle, TakesColourMapsByName) {
 
 TEST(SplatStyle, RefusesWhatMakesNoSense) {
   const CloudStatistics statistics = statistics_of(line(10));
-  expect_error(ErrorKind::wrong_usage, "--splat", [&] { make_splat_style({.smallest_px = 0}, statistics); });
-  expect_error(ErrorKind::wrong_usage, "--splat",
+  expect_error(ErrorKind::wrong_usage, "splat diameters", [&] { make_splat_style({.smallest_px = 0}, statistics); });
+  expect_error(ErrorKind::wrong_usage, "splat diameters",
                [&] { make_splat_style({.smallest_px = 5, .largest_px = 4}, statistics); });
-  expect_error(ErrorKind::wrong_usage, "--opacity", [&] { make_splat_style({.opacity = 0}, statistics); });
-  expect_error(ErrorKind::wrong_usage, "--hottest",
-               [&] { make_splat_style({.coldest = 10, .hottest = 1}, statistics); });
+  expect_error(ErrorKind::wrong_usage, "opacity is 0", [&] { make_splat_style({.opacity = 0}, statistics); });
+  expect_error(ErrorKind::wrong_usage, "hottest", [&] { make_splat_style({.coldest = 10, .hottest = 1}, statistics); });
 }
 
 }  // namespace

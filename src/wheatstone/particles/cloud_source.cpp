@@ -74,18 +74,8 @@ void append(Cloud& to, const Cloud& more) {
   to.box_size = more.box_size;
 }
 
-}  // namespace
-
-std::optional<ParticleFormat> particle_format(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
-  const std::string bytes = some_bytes(path);
-  const std::optional<ParticleFormat> format = format_of(bytes);
-  if (format == ParticleFormat::text && !looks_like_table(bytes)) return std::nullopt;
-  return format;
-}
-
-CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& choice) {
+/// Opens by what the file holds, whatever its name.
+CloudSource open_by_content(const std::filesystem::path& path, const CloudChoice& choice) {
   const std::optional<ParticleFormat> format = format_of(first_bytes(path));
   if (!format)
     throw Error(
@@ -105,6 +95,28 @@ CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& cho
     default:
       return open_text_table(path, choice);
   }
+}
+
+}  // namespace
+
+std::optional<ParticleFormat> particle_format(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  const std::string bytes = some_bytes(path);
+  const std::optional<ParticleFormat> format = format_of(bytes);
+  if (format == ParticleFormat::text && !looks_like_table(bytes)) return std::nullopt;
+  return format;
+}
+
+CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& choice) {
+  CloudChoice with_type = choice;
+  if (choice.type.empty()) with_type.type = "gas";
+  CloudSource source = open_by_content(path, with_type);
+  if (!choice.type.empty() && !source.format.starts_with("GADGET"))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: is {}, but a particle type is chosen, expected a GADGET snapshot", path.string(),
+                            source.format));
+  return source;
 }
 
 Cloud read_cloud(const std::filesystem::path& path, const CloudChoice& choice, const Progress& progress) {

@@ -14,10 +14,10 @@ namespace wheatstone {
 
 /// What of a file becomes the cloud. Names that are empty are found by the format's own conventions.
 struct CloudChoice {
-  std::string type = "gas";      ///< of a snapshot's particles: gas, halo, disk, bulge, stars, bndry, or 0..5
-  std::string position;          ///< name of the dataset or column ("/Coordinates"); "x,y,z" for three columns
-  std::string density;           ///< name of the dataset or column
-  std::string temperature;       ///< name of the dataset or column; any scalar
+  std::string type;         ///< of a snapshot's particles: gas, halo, disk, bulge, stars, bndry, or 0..5; empty: gas
+  std::string position;     ///< name of the dataset or column ("/Coordinates"); "x,y,z" for three columns
+  std::string density;      ///< name of the dataset or column
+  std::string temperature;  ///< name of the dataset or column; any scalar
   std::string smoothing_length;  ///< name of the dataset or column
 };
 

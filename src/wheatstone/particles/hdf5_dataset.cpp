@@ -93,7 +93,7 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
   if (is_snapshot_hdf5(datasets->file) && !choice.position.starts_with("/")) return open_gadget_hdf5(path, choice);
   if (choice.position.empty())
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is not a snapshot; name the dataset of the positions with --position; it has {}",
+                fmt::format("{}: is not a snapshot, so the dataset of the positions must be named; it has {}",
                             path.string(), fmt::join(all_datasets(datasets->file), ", ")));
   const std::vector<std::string> names = split(choice.position);
   for (const std::string& name : names) {

@@ -176,7 +176,7 @@ TEST(GadgetHdf5, NamesWhatIsMissingAndWhatThereIs) {
                [&] { read_cloud(folder / "snap.hdf5", {.temperature = "Metallicity"}); });
   expect_error(ErrorKind::bad_input, "type 'halo'; by type it has 0: 3",
                [&] { read_cloud(folder / "snap.hdf5", {.type = "halo"}); });
-  expect_error(ErrorKind::wrong_usage, "--type: is 'jellyfish'",
+  expect_error(ErrorKind::wrong_usage, "particle type is 'jellyfish'",
                [&] { read_cloud(folder / "snap.hdf5", {.type = "jellyfish"}); });
 }
 

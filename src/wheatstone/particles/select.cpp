@@ -1,37 +1,13 @@
 #include "wheatstone/particles/select.h"
 
-#include <fmt/format.h>
-
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <vector>
-
-#include "wheatstone/error.h"
 
 namespace wheatstone {
 namespace {
 
 constexpr float least = std::numeric_limits<float>::min();
-
-[[noreturn]] void refuse_cut(const std::string& text) {
-  throw Error(ErrorKind::wrong_usage,
-              fmt::format("--cut: is '{}', expected sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1", text));
-}
-
-/// Numbers between commas, exactly as many as there is room for.
-void parse_numbers(const std::string& text, std::size_t from, std::span<double> numbers) {
-  const char* at = text.data() + from;
-  const char* const end = text.data() + text.size();
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto [stop, error] = std::from_chars(at, end, numbers[i]);
-    const bool last = i + 1 == numbers.size();
-    const bool ends_well = last ? stop == end : stop != end && *stop == ',';
-    if (error != std::errc{} || !ends_well || !std::isfinite(numbers[i])) refuse_cut(text);
-    at = stop + 1;
-  }
-}
 
 /// Moves positions so that `centre` comes to the middle of the periodic box.
 void wrap(Cloud& cloud, const std::array<double, 3>& centre) {
@@ -78,23 +54,6 @@ void keep(std::vector<Value>& column, const std::vector<std::uint32_t>& kept) {
 }
 
 }  // namespace
-
-Cut parse_cut(const std::string& text) {
-  if (text.starts_with("sphere:")) {
-    std::array<double, 4> numbers{};
-    parse_numbers(text, 7, numbers);
-    if (!(numbers[3] > 0)) refuse_cut(text);
-    return Sphere{{numbers[0], numbers[1], numbers[2]}, numbers[3]};
-  }
-  if (text.starts_with("box:")) {
-    std::array<double, 6> numbers{};
-    parse_numbers(text, 4, numbers);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!(numbers[axis] < numbers[axis + 3])) refuse_cut(text);
-    return Box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
-  }
-  refuse_cut(text);
-}
 
 SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::uint64_t first) {
   SelectionCounts counts;

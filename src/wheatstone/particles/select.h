@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <variant>
 
 #include "wheatstone/particles/cloud.h"
@@ -25,9 +24,6 @@ struct Selection {
   Cut cut;
   std::uint64_t every = 1;  ///< keep one particle of so many
 };
-
-/// "sphere:X,Y,Z,R" or "box:X0,Y0,Z0,X1,Y1,Z1". Throws Error{wrong_usage}.
-Cut parse_cut(const std::string& text);
 
 /// What was left out, or put right.
 struct SelectionCounts {

@@ -15,7 +15,7 @@ int snapshot_type(const std::string& name) {
   if (found != names.end()) return static_cast<int>(found - names.begin());
   if (name.size() == 1 && name[0] >= '0' && name[0] <= '5') return name[0] - '0';
   throw Error(ErrorKind::wrong_usage,
-              fmt::format("--type: is '{}', expected gas, halo, disk, bulge, stars, bndry or 0 to 5", name));
+              fmt::format("the particle type is '{}', expected gas, halo, disk, bulge, stars, bndry or 0 to 5", name));
 }
 
 std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& path, int count) {

@@ -239,7 +239,7 @@ ViewsFile read_views(const fs::path& path, const ReadViewsOptions& options) {
   refuse(
       path,
       "is one picture, and neither its left and right nor its upper and lower half look like two views of one scene; "
-      "expected two files, or a stereo photograph whose layout is found or given (--layout)");
+      "expected two files, or a stereo photograph whose layout is found or given");
 }
 
 }  // namespace wheatstone

@@ -3,8 +3,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <memory>
 #include <string>
@@ -43,17 +45,17 @@ OIIO::ImageSpec spec_of(std::string_view format, int width, int height, int chan
   throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write the picture: {}", path.string(), reason));
 }
 
-std::unique_ptr<OIIO::ImageOutput> encoder_for(const fs::path& path) {
+std::string ending_of(const fs::path& path) {
   std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  constexpr std::string_view known[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
-  if (std::find(std::begin(known), std::end(known), ending) == std::end(known)) {
-    throw Error(ErrorKind::cannot_read_write,
-                fmt::format("{}: unknown picture format, expected a name that ends in .png, .jpg, .tif, .webp, .ppm "
-                            "or .bmp",
-                            path.string()));
-  }
-  std::unique_ptr<OIIO::ImageOutput> encoder = OIIO::ImageOutput::create("picture" + ending);
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+std::unique_ptr<OIIO::ImageOutput> encoder_for(const fs::path& path) {
+  if (!is_picture_name(path))
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: unknown picture format, expected a name that ends in {}",
+                                                    path.string(), fmt::join(picture_endings(), ", ")));
+  std::unique_ptr<OIIO::ImageOutput> encoder = OIIO::ImageOutput::create("picture" + ending_of(path));
   if (!encoder) fail_to_encode(path, OIIO::geterror());
   return encoder;
 }
@@ -91,6 +93,16 @@ void write_encoded(const fs::path& path, const Pixels& pixels) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> picture_endings() {
+  static constexpr std::array<std::string_view, 8> endings{".png",  ".jpg",  ".jpeg", ".tif",
+                                                           ".tiff", ".webp", ".ppm",  ".bmp"};
+  return endings;
+}
+
+bool is_picture_name(const fs::path& path) {
+  return std::ranges::find(picture_endings(), ending_of(path)) != picture_endings().end();
+}
 
 std::string encode_jpeg(ImageView<const Rgb8> image, int quality) {
   const fs::path path = "picture.jpg";

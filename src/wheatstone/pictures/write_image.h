@@ -1,14 +1,23 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "wheatstone/image/image.h"
 
 namespace wheatstone {
 
-/// Writes a picture in the format of its file name (.png, .jpg, .tif, .webp, .ppm, .bmp), under a temporary name that
-/// becomes the real one when the file is whole. Throws Error{cannot_read_write}; then nothing is left behind.
+/// The endings of file names that a picture can be written under: ".png", ".jpg" and so on.
+std::span<const std::string_view> picture_endings();
+
+/// Whether a picture can be written under this name, by its ending.
+bool is_picture_name(const std::filesystem::path& path);
+
+/// Writes a picture in the format of its file name (picture_endings), under a temporary name that becomes the real one
+/// when the file is whole. Throws Error{wrong_usage} for another ending, Error{cannot_read_write}; then nothing is left
+/// behind.
 void write_image(const std::filesystem::path& path, ImageView<const Rgb8> image);
 void write_image(const std::filesystem::path& path, ImageView<const std::uint8_t> image);
 

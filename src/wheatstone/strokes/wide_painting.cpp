@@ -187,7 +187,7 @@ WidePainting widen(StrokePainting painting, const StereoPair& photographs, const
                    const Style& style, ViewRange views) {
   if (style.propagation != Propagation::strokes)
     throw Error(ErrorKind::wrong_usage,
-                "views beside the two eyes need strokes that are propagated, --propagation strokes");
+                "views beside the two eyes need strokes that are propagated, expected propagation 'strokes'");
   for (Layer& layer : painting.layers)
     for (Stroke& stroke : layer.strokes) stroke.views = views;
   std::vector<StrokePainting> outer;

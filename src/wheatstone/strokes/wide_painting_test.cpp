@@ -92,7 +92,7 @@ TEST(WidePainting, TheSameOnAnyNumberOfThreads) {
 TEST(WidePainting, NeedsStrokesThatArePropagated) {
   Style style;
   style.propagation = Propagation::independent;
-  expect_error(ErrorKind::wrong_usage, "--propagation",
+  expect_error(ErrorKind::wrong_usage, "propagation",
                [&] { widen(planned(), still().pictures, still().geometry, style, range); });
 }
 

@@ -4,6 +4,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -176,11 +178,12 @@ void SyntheticUniverse::State::sum_density() {
 
 SyntheticUniverse::SyntheticUniverse(const SyntheticUniverseOptions& options, const Progress& progress)
     : state_(std::make_unique<State>()) {
-  if (options.particles == 0) throw Error(ErrorKind::wrong_usage, "--particles: 0, expected at least 1");
+  if (options.particles == 0) throw Error(ErrorKind::wrong_usage, "the number of particles is 0, expected at least 1");
   if (!(options.redshift >= 0 && options.redshift <= 1000))
-    throw Error(ErrorKind::wrong_usage, "--redshift: expected 0 to 1000");
+    throw Error(ErrorKind::wrong_usage, fmt::format("the redshift is {}, expected 0 to 1000", options.redshift));
   if (!(options.box_mpc_h >= 1 && options.box_mpc_h <= 10000))
-    throw Error(ErrorKind::wrong_usage, "--box: expected 1 to 10000 Mpc/h");
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("the side of the box is {} Mpc/h, expected 1 to 10000", options.box_mpc_h));
   State& state = *state_;
   state.options = options;
   state.lattice_side = static_cast<std::uint64_t>(std::ceil(std::cbrt(static_cast<double>(options.particles)) - 1e-9));

@@ -1,0 +1,148 @@
+#include "number_arguments.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "wheatstone/error.h"
+#include "wheatstone/image/colour_code.h"
+
+namespace wheatstone::cli {
+namespace {
+
+/// What has no better bound: far beyond anything sensible, and yet safe to calculate with in single precision.
+constexpr double no_bound = 1e30;
+
+[[noreturn]] void refuse(const std::string& option, std::string_view text, std::string_view expected) {
+  throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected {}", option, text, expected));
+}
+
+std::string words_of(NumberRange range) {
+  if (range.least <= -no_bound && range.most >= no_bound) return {};
+  if (range.most >= no_bound) return fmt::format(" of at least {}", range.least);
+  return fmt::format(" from {} to {}", range.least, range.most);
+}
+
+bool in_range(double value, NumberRange range) { return value >= range.least && value <= range.most; }
+
+/// A number and what follows it; nothing where the text does not begin with a finite number.
+template <class Number>
+std::optional<std::pair<Number, std::string_view>> leading_number(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  Number value{};
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{}) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>)
+    if (!std::isfinite(value)) return std::nullopt;
+  return std::pair{value, text.substr(static_cast<std::size_t>(stop - text.data()))};
+}
+
+/// The whole text as a number; nothing where it is anything else.
+template <class Number>
+std::optional<Number> whole_number(std::string_view text) {
+  const auto found = leading_number<Number>(text);
+  return found && found->second.empty() ? std::optional(found->first) : std::nullopt;
+}
+
+template <class Number>
+std::vector<Number> parse_list(const std::string& option, std::string_view text, const NumberList& list) {
+  std::vector<Number> numbers;
+  std::string_view rest = text;
+  while (true) {
+    const std::size_t stop = rest.find(list.between);
+    const std::optional<Number> number = whole_number<Number>(rest.substr(0, stop));
+    if (!number || !in_range(static_cast<double>(*number), list.range)) break;
+    numbers.push_back(*number);
+    if (stop == std::string_view::npos) {
+      if (numbers.size() == list.count) return numbers;
+      break;
+    }
+    rest.remove_prefix(stop + 1);
+  }
+  refuse(option, text, fmt::format("{}, each number{}", list.expected, words_of(list.range)));
+}
+
+}  // namespace
+
+double parse_number(const std::string& option, std::string_view text, NumberRange range) {
+  const std::optional<double> value = whole_number<double>(text);
+  if (!value || !in_range(*value, range)) refuse(option, text, "a number" + words_of(range));
+  return *value;
+}
+
+long long parse_integer(const std::string& option, std::string_view text, NumberRange range) {
+  const std::optional<long long> value = whole_number<long long>(text);
+  if (!value || !in_range(static_cast<double>(*value), range)) refuse(option, text, "a whole number" + words_of(range));
+  return *value;
+}
+
+std::vector<double> parse_numbers(const std::string& option, std::string_view text, const NumberList& list) {
+  return parse_list<double>(option, text, list);
+}
+
+std::vector<int> parse_integers(const std::string& option, std::string_view text, const NumberList& list) {
+  return parse_list<int>(option, text, list);
+}
+
+double parse_length_mm(const std::string& option, std::string_view text, NumberRange range_mm) {
+  constexpr std::array<std::pair<std::string_view, double>, 5> units{
+      {{"", 1}, {"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}}};
+  if (const auto number = leading_number<double>(text))
+    for (const auto& [unit, millimetres] : units)
+      if (number->second == unit && in_range(number->first * millimetres, range_mm)) return number->first * millimetres;
+  refuse(option, text, fmt::format("a length{} mm, as 30mm, 3cm, 0.03m or 1.2in", words_of(range_mm)));
+}
+
+Size parse_size(const std::string& option, std::string_view text, NumberRange side, std::string_view expected) {
+  const std::vector<int> sides = parse_integers(option, text, {'x', 2, side, expected});
+  return {sides[0], sides[1]};
+}
+
+std::optional<double> parse_time_s(const std::string& option, std::string_view text) {
+  if (text.empty()) return {};
+  const auto wrong = [&] { refuse(option, text, "seconds or [HH:]MM:SS, as 12.5 or 1:02:03"); };
+  double seconds = 0;
+  std::string_view rest = text;
+  for (int parts = 1;; ++parts) {
+    const std::size_t colon = rest.find(':');
+    const bool last = colon == std::string_view::npos;
+    const double value = whole_number<double>(rest.substr(0, colon)).value_or(-1);
+    // Below the first, minutes and seconds end at 60; only the last has a fraction.
+    if (!in_range(value, {0, parts > 1 ? std::nextafter(60.0, 0.0) : 1e9}) || parts > 3) wrong();
+    if (!last && value != std::floor(value)) wrong();
+    seconds = 60 * seconds + value;
+    if (last) return seconds;
+    rest.remove_prefix(colon + 1);
+  }
+}
+
+Rational parse_frame_rate(const std::string& option, std::string_view text) {
+  const std::size_t slash = text.find('/');
+  const bool is_ratio = slash != std::string_view::npos;
+  // More than a million frames per second are a slip, fewer than one in a thousand seconds as well.
+  const auto part = [](std::string_view number, bool whole) -> std::optional<double> {
+    const std::optional<double> value = whole_number<double>(number);
+    if (!value || !in_range(*value, {0.001, 1e6}) || (whole && *value != std::floor(*value))) return std::nullopt;
+    return value;
+  };
+  const std::optional<double> above = part(text.substr(0, slash), is_ratio);
+  const std::optional<double> below = is_ratio ? part(text.substr(slash + 1), true) : 1.0;
+  if (!above || !below) refuse(option, text, "frames per second from 0.001 to 1000000, as 24 or 24000/1001");
+  // Thousandths keep 23.976.
+  const double scale = is_ratio ? 1 : 1000;
+  const auto numerator = static_cast<int>(std::lround(*above * scale)), denominator = static_cast<int>(*below * scale);
+  const int common = std::gcd(numerator, denominator);
+  return {numerator / common, denominator / common};
+}
+
+Rgb8 parse_colour(const std::string& option, std::string_view text) {
+  const std::optional<Rgb8> colour = colour_of_code(text);
+  if (!colour) refuse(option, text, "a colour as 3366FF");
+  return *colour;
+}
+
+}  // namespace wheatstone::cli

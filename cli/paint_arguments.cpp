@@ -1,0 +1,141 @@
+#include "paint_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+
+#include "option_use.h"
+#include "output_option.h"
+#include "picture_format.h"
+#include "typed_options.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/error.h"
+#include "wheatstone/marks/style_parameters.h"
+
+namespace wheatstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a file's name says that it holds both views.
+bool is_stereo_name(const std::string& file) {
+  constexpr std::array endings{".mpo", ".jps", ".pns"};
+  std::string ending = fs::path(file).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+bool are_left_and_right(const PaintArguments& arguments) {
+  const std::vector<std::string>& files = arguments.files;
+  if (files.size() != 2 || !arguments.photographs.layout.empty()) return false;
+  const bool first = is_stereo_name(files[0]), second = is_stereo_name(files[1]);
+  if (first != second)
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("{} holds both views and {} is one picture, expected LEFT and RIGHT, or files that hold both "
+                    "views each (--layout says so of pictures)",
+                    files[first ? 0 : 1], files[first ? 1 : 0]));
+  return !first;
+}
+
+void add_display_options(CLI::App& command, PaintArguments& arguments) {
+  std::string names;
+  for (const DisplayPreset& preset : display_presets()) names += fmt::format(" {}", preset.name);
+  auto* display = command.add_option("--display", arguments.display,
+                                     "Paint the views of a display, as one quilt where the display takes one:" + names);
+  add_number(command, "--views", arguments.views, {1, 1000}, "Number of views; the display's own by default")
+      ->default_str("")
+      ->needs(display);
+  command.add_option("--size", arguments.size, "Size of a view, WIDTHxHEIGHT; the display's own by default")
+      ->needs(display);
+  add_number(command, "--span", arguments.span, {0.01, 20},
+             "Distance from the first view to the last, in eye separations; chosen from the depth by default")
+      ->default_str("")
+      ->needs(display);
+}
+
+}  // namespace
+
+void add_paint_options(CLI::App& command, PaintArguments& arguments) {
+  command.add_option("PHOTOGRAPHS", arguments.files,
+                     "LEFT and RIGHT photograph; or files that hold both views each: MPO, JPS, side by side, one above "
+                     "the other; or one painting.wst, which is drawn again");
+  add_output_option(command, arguments.folder, "Folder for the results");
+  add_picture_format(command, arguments.format, "File format of the painted pictures; masks and disparities are PNG");
+  command.add_option("--print-style", arguments.print_style, "Print a style as a style file (.toml) and exit");
+  command.add_option(
+      "--disparity", arguments.disparity,
+      "Disparity of the left view, which replaces matching: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = pixels");
+  command.add_option("--right-disparity", arguments.right_disparity, "Disparity of the right view, in the same form");
+  auto* plane = command.add_option("--zero-parallax", arguments.zero_parallax,
+                                   "Disparity in pixels that lies on the screen plane, or 'nearest'");
+  plane->capture_default_str();
+  command
+      .add_option("--zero-parallax-at", arguments.zero_parallax_at,
+                  "Pixel X,Y of the left photograph that lies on the screen plane")
+      ->excludes(plane);
+  add_number(command, "--scale", arguments.scale, {0.01, 32}, "Scale factor of a painting.wst that is drawn again");
+  add_display_options(command, arguments);
+  command.add_flag("--report", arguments.measure, "Measure the consistency of the two painted views");
+  command.add_flag("--svg", arguments.svg, "Also write left.svg and right.svg, the marks as vector graphics");
+  command.add_flag("--html", arguments.html, "Also write index.html, which shows the pictures");
+  add_stereo_options(command, arguments.photographs);
+  add_rectify_option(command, arguments.photographs);
+  add_style_options(command, arguments.style);
+  add_match_options(command, arguments.matching);
+}
+
+void refuse_for_printing(const CLI::App& command) {
+  std::vector<std::string> kept{"--print-style"};
+  for (const StyleParameter& parameter : style_parameters()) kept.push_back(fmt::format("--{}", parameter.name));
+  refuse_all_but(command, kept, "with --print-style", "nothing is painted");
+}
+
+void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments) {
+  refuse_options(command, {"--display"}, "on a painting (.wst), which holds what two eyes show",
+                 fmt::format("the views of a display are painted from the photographs, with 'wheatstone paint LEFT "
+                             "RIGHT --display {}'",
+                             arguments.display));
+  refuse_all_but(command, {"--output", "--format", "--scale", "--svg", "--zero-parallax"}, "on a painting (.wst)",
+                 "it works on photographs");
+}
+
+void refuse_for_photographs(const CLI::App& command, const PaintArguments& arguments, bool several) {
+  refuse_options(command, {"--scale"}, "on photographs", "it works on a painting (.wst)");
+  if (several)
+    refuse_options(command, {"--disparity", "--right-disparity", "--zero-parallax-at"}, "on several photographs",
+                   "it belongs to one");
+  if (!arguments.disparity.empty())
+    refuse_options(command, {"--max-size"}, "with --disparity", "the disparity belongs to the whole picture");
+  refuse_match_options_without_effect(command, arguments.matching, !arguments.disparity.empty());
+  if (arguments.display.empty()) return;
+  refuse_options(command, {"--report", "--html", "--svg"}, "with --display", "it works where two eyes are painted");
+  if (arguments.zero_parallax == "nearest")
+    refuse_options(command, {"--zero-parallax"}, "as 'nearest' with --display", "it works with a disparity in pixels");
+}
+
+std::vector<PaintJob> paint_jobs(const PaintArguments& arguments) {
+  const std::vector<std::string>& files = arguments.files;
+  if (files.empty())
+    throw Error(ErrorKind::wrong_usage,
+                "paint: no photographs, expected two files, LEFT and RIGHT, or one with both views");
+  if (are_left_and_right(arguments)) return {{files[0], files[1], arguments.folder}};
+  if (files.size() == 1) return {{files[0], {}, arguments.folder}};
+  std::vector<PaintJob> jobs;
+  std::map<std::string, std::string> file_of;
+  for (const std::string& file : files) {
+    const std::string stem = fs::path(file).stem().string();
+    const auto [known, is_new] = file_of.emplace(stem, file);
+    if (!is_new)
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("{}: would be painted into the same folder as {}, expected different names", file,
+                              known->second));
+    jobs.push_back({file, {}, (fs::path(arguments.folder) / stem).string()});
+  }
+  return jobs;
+}
+
+}  // namespace wheatstone::cli

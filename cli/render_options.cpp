@@ -1,0 +1,326 @@
+#include "render_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "number_arguments.h"
+#include "option_use.h"
+#include "output_option.h"
+#include "picture_format.h"
+#include "typed_options.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::cli {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Method>, 4> methods{{{"auto", Method::automatic},
+                                                                      {"exact", Method::exact},
+                                                                      {"incremental", Method::incremental},
+                                                                      {"layered", Method::layered}}};
+constexpr std::array<std::pair<std::string_view, SliceFilter>, 3> filters{
+    {{"nearest", SliceFilter::nearest}, {"linear", SliceFilter::linear}, {"centroid", SliceFilter::centroid}}};
+constexpr std::array<std::pair<std::string_view, SizeRule>, 3> size_rules{
+    {{"denser-smaller", SizeRule::denser_smaller},
+     {"denser-larger", SizeRule::denser_larger},
+     {"smoothing-length", SizeRule::smoothing_length}}};
+
+constexpr auto particles_group = "Particles", appearance_group = "Appearance", views_group = "Views and depth",
+               method_group = "Method and output";
+
+constexpr NumberRange coordinates{-1e30, 1e30};
+
+/// "sphere:X,Y,Z,R" or "box:X0,Y0,Z0,X1,Y1,Z1".
+Cut parse_selection(const std::string& text) {
+  constexpr std::string_view expected = "sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1";
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string_view kind = std::string_view(text).substr(0, colon);
+  const std::string_view rest = std::string_view(text).substr(std::min(colon + 1, text.size()));
+  if (kind == "sphere") {
+    const auto n = parse_numbers("--select", rest, {',', 4, coordinates, expected});
+    if (n[3] > 0) return Sphere{{n[0], n[1], n[2]}, n[3]};
+  } else if (kind == "box") {
+    const auto n = parse_numbers("--select", rest, {',', 6, coordinates, expected});
+    if (n[0] < n[3] && n[1] < n[4] && n[2] < n[5]) return Box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  }
+  throw Error(ErrorKind::wrong_usage, fmt::format("--select: is '{}', expected {}", text, expected));
+}
+
+/// "0:-80,0.4:0,1:80": shares of the scene's depth, and millimetres behind the screen.
+std::vector<PerceivedDepth::Region> parse_depth_mapping(const std::string& text) {
+  std::vector<PerceivedDepth::Region> regions;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const auto pair =
+        parse_numbers("--depth-mapping", text.substr(at, comma - at), {':', 2, {-1e9, 1e9}, "SHARE:MM,SHARE:MM,..."});
+    regions.push_back({static_cast<float>(pair[0]), static_cast<float>(pair[1])});
+    at = comma + 1;
+  }
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const bool rises =
+        i == 0 || (regions[i].share > regions[i - 1].share && regions[i].behind_mm >= regions[i - 1].behind_mm);
+    if (!rises || regions[i].share < 0 || regions[i].share > 1)
+      throw Error(
+          ErrorKind::wrong_usage,
+          fmt::format("--depth-mapping: is '{}', expected SHARE:MM pairs in ascending order, shares from 0 to 1",
+                      text));
+  }
+  return regions;
+}
+
+void add_particle_options(CLI::App& command, RenderArguments& arguments) {
+  CloudChoice& choice = arguments.options.choice;
+  const auto text = [&](const char* name, std::string& value, const char* help) {
+    return command.add_option(name, value, help)->group(particles_group);
+  };
+  text("--type", choice.type,
+       "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5; gas by default");
+  text("--position", choice.position, "Dataset or columns of the positions: /Coordinates, or x,y,z");
+  text("--density", choice.density, "Dataset or column of the density");
+  text("--temperature", choice.temperature, "Dataset or column of the temperature, which sets the colours");
+  text("--smoothing-length", choice.smoothing_length, "Dataset or column of the smoothing length");
+  text("--centre", arguments.centre, "Point X,Y,Z of a periodic box that is moved to the middle of the views");
+  text("--select", arguments.selection, "Keep the particles in sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1 only");
+  add_number(command, "--subsample", arguments.options.selection.every, {1, 1e12}, "Keep every Nth particle")
+      ->group(particles_group);
+  add_number(command, "--neighbours", arguments.options.neighbours, {2, 1000},
+             "Neighbours that the density is estimated from, where the file has no density")
+      ->group(particles_group);
+  CLI::Option* stream = command
+                            .add_flag("--stream", arguments.options.stream,
+                                      "Read the file twice, in chunks: memory does not grow with the file")
+                            ->group(particles_group);
+  add_number(command, "--chunk", arguments.options.chunk, {1000, 1 << 30}, "Particles per chunk with --stream")
+      ->needs(stream)
+      ->group(particles_group);
+}
+
+void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
+  Appearance& appearance = arguments.options.appearance;
+  const auto number = [&](const char* name, float& value, NumberRange range, const char* help) {
+    add_number(command, name, value, range, help)->group(appearance_group);
+  };
+  command.add_option("--splat", arguments.splat, "Smallest and largest splat diameter in pixels: MIN,MAX")
+      ->capture_default_str()
+      ->group(appearance_group);
+  add_choice<SizeRule>(command, "--size-rule", appearance.size_rule, size_rules, "What sets the size of a splat")
+      ->group(appearance_group);
+  number("--opacity", appearance.opacity, {1e-6, 1000}, "Opacity of the densest particles");
+  number("--least-opacity", appearance.least_opacity, {0, 1},
+         "Opacity of the least dense particles, as a fraction of --opacity");
+  number("--density-slope", appearance.density_slope, {-100, 100},
+         "Slope of the sigmoid that turns density into opacity, per factor of ten in density");
+  number("--density-shift", appearance.density_shift, {-30, 30},
+         "Centre of that sigmoid, in factors of ten above the median density");
+  CLI::Option* map = command
+                         .add_option("--colours", appearance.colour_map,
+                                     "Colour map: inferno, magma, plasma, viridis, cividis, turbo, twilight, hot, jet, "
+                                     "bone")
+                         ->group(appearance_group);
+  command.add_option("--cold", arguments.cold, "Colour of the coldest particles; 2860FF by default")
+      ->excludes(map)
+      ->group(appearance_group);
+  command.add_option("--hot", arguments.hot, "Colour of the hottest particles; FF781E by default")
+      ->excludes(map)
+      ->group(appearance_group);
+  number("--coldest", appearance.coldest, coordinates,
+         "Temperature where the colours begin; 2nd percentile by default");
+  number("--hottest", appearance.hottest, coordinates, "Temperature where they end; 98th percentile by default");
+  command.add_flag("!--linear-colours", appearance.logarithmic, "Map the temperature to colours linearly")
+      ->group(appearance_group);
+  number("--exposure", arguments.options.rendering.exposure, {1e-9, 1e9},
+         "Factor on the light before tone mapping; from the central view by default");
+  command
+      .add_flag("--opaque", arguments.options.rendering.opaque,
+                "Draw opaque particles: the nearest hides the others, instead of adding their light")
+      ->group(appearance_group);
+}
+
+void add_camera_options(CLI::App& command, RenderArguments& arguments) {
+  Framing& framing = arguments.options.framing;
+  const auto number = [&](const char* name, float& value, NumberRange range, const char* help) {
+    add_number(command, name, value, range, help)->group(views_group);
+  };
+  number("--azimuth", framing.azimuth_deg, {-360, 360}, "Direction that the camera looks from, in degrees");
+  number("--elevation", framing.elevation_deg, {-90, 90}, "Height of the camera above the horizon, in degrees");
+  number("--fov", framing.field_of_view_deg, {1, 150}, "Horizontal field of view, in degrees");
+  number("--zoom", framing.zoom, {0.01, 1000}, "Magnification: 2 shows half as much");
+}
+
+void add_depth_options(CLI::App& command, RenderArguments& arguments) {
+  PerceivedDepth& depth = arguments.options.depth;
+  const auto length = [&](const char* name, float& value, NumberRange range, const char* help) {
+    add_length(command, name, value, range, help)->group(views_group);
+  };
+  length("--near", depth.near_mm, {0, 100'000}, "Depth in front of the screen, in mm");
+  length("--far", depth.far_mm, {0, 1e9}, "Depth behind the screen, in mm");
+  length("--eye", depth.viewing.eye_separation_mm, {1, 1000},
+         "Eye separation, or the width of a viewing window, in mm");
+  length("--distance", depth.viewing.viewing_distance_mm, {1, 1e6}, "Viewing distance, in mm");
+  length("--screen-width", depth.viewing.screen_width_mm, {1, 1e6}, "Width of the screen, in mm");
+  CLI::Option* mapping =
+      command
+          .add_option("--depth-mapping", arguments.depth_mapping,
+                      "Depth mapping by regions: SHARE:MM,... where SHARE is 0 for the nearest and 1 for the farthest "
+                      "particle, and MM is the depth behind the screen")
+          ->group(views_group);
+  command.add_flag("--smooth-depth", depth.smooth, "Interpolate the depth mapping with a smooth monotone curve")
+      ->needs(mapping)
+      ->group(views_group);
+}
+
+void add_view_options(CLI::App& command, RenderArguments& arguments) {
+  RenderParticlesOptions& options = arguments.options;
+  std::string names;
+  for (const DisplayPreset& display : display_presets()) names += fmt::format(" {}", display.name);
+  command
+      .add_option("--display", arguments.display,
+                  "Set views, span, size, distance, depth and quilt for a display:" + names)
+      ->group(views_group);
+  add_number(command, "--views", options.views, {1, 1000}, "Number of views")->group(views_group);
+  add_number(command, "--span", options.span, {0, 100}, "Distance from the first view to the last, in eye separations")
+      ->group(views_group);
+  command.add_option("--size", arguments.size, "Size of a view: WIDTHxHEIGHT")
+      ->capture_default_str()
+      ->group(views_group);
+  add_camera_options(command, arguments);
+  add_depth_options(command, arguments);
+}
+
+void add_method_options(CLI::App& command, RenderArguments& arguments) {
+  RenderOptions& rendering = arguments.options.rendering;
+  add_choice<Method>(command, "--method", rendering.method, methods, "Rendering method; --verbose tells which was used")
+      ->group(method_group);
+  add_choice<SliceFilter>(command, "--filter", rendering.filter, filters, "Depth-plane filter of the layered method")
+      ->group(method_group);
+  add_number(command, "--planes", rendering.planes, {1, 100'000},
+             "Number of depth planes; one per pixel of parallax by default")
+      ->default_str("")
+      ->group(method_group);
+  CLI::Option* quilt =
+      command.add_option("--quilt", arguments.quilt, "Write one quilt of COLUMNSxROWS views")->group(method_group);
+  CLI::Option* interleave = command
+                                .add_option("--interleave", arguments.interleave,
+                                            "Write one picture for a lenticular screen: its name, or a calibration "
+                                            "(.json)")
+                                ->excludes(quilt)
+                                ->group(method_group);
+  command.add_option("--save-slices", arguments.save_slices, "Also write the depth planes: FILE.exr")
+      ->check(not_empty())
+      ->group(method_group);
+  add_picture_format(command, arguments.format, "File format of the views or the quilt")
+      ->excludes(interleave)
+      ->group(method_group);
+}
+
+void refuse_for_slices(const CLI::App& command) {
+  constexpr auto situation = "on slices (.exr)", where = "it works on particles";
+  refuse_group(command, particles_group, {}, situation, where);
+  refuse_group(command, appearance_group, {"--exposure"}, situation, where);
+  refuse_group(command, views_group,
+               {"--display", "--views", "--span", "--near", "--far", "--eye", "--distance", "--screen-width"},
+               situation, where);
+  refuse_options(command, {"--method", "--planes"}, situation, where);
+  if (!was_given(command, "--near") && !was_given(command, "--far"))
+    refuse_options(command, {"--eye", "--distance", "--screen-width"}, "on slices (.exr) whose depth stays as it is",
+                   "it works with --near or --far");
+}
+
+void refuse_for_particles(const CLI::App& command, const RenderArguments& arguments) {
+  const RenderOptions& rendering = arguments.options.rendering;
+  const bool makes_slices = arguments.options.stream || !arguments.save_slices.empty() || !arguments.interleave.empty();
+  const bool other_method = rendering.method == Method::exact || rendering.method == Method::incremental;
+  if (makes_slices && other_method)
+    refuse_options(command, {"--method"}, "with --stream, --save-slices or --interleave", "these render depth planes");
+  if (other_method)
+    refuse_options(command, {"--filter", "--planes"}, fmt::format("with --method {}", name_of(rendering.method)),
+                   "it works with --method layered");
+  if (rendering.opaque && !makes_slices)
+    refuse_options(command, {"--filter"}, "with --opaque", "it works on particles that add their light");
+  if (arguments.options.stream)
+    refuse_options(command, {"--neighbours"}, "with --stream", "streamed particles have no density estimate");
+  if (!arguments.depth_mapping.empty())
+    refuse_options(command, {"--near", "--far"}, "with --depth-mapping", "the mapping says where the depth ends");
+}
+
+}  // namespace
+
+std::string name_of(Method method) {
+  const auto* const found = std::ranges::find(methods, method, [](const auto& entry) { return entry.second; });
+  return std::string(found->first);
+}
+
+void add_render_options(CLI::App& command, RenderArguments& arguments) {
+  command
+      .add_option("FILE", arguments.file,
+                  "GADGET snapshot (HDF5 or binary), any HDF5, PLY, LAS, .npy or text; or slices (.exr)")
+      ->required();
+  add_output_option(command, arguments.output, "Folder for the views; or the name of the quilt or picture");
+  add_particle_options(command, arguments);
+  add_appearance_options(command, arguments);
+  add_view_options(command, arguments);
+  add_method_options(command, arguments);
+}
+
+void refuse_options_without_effect(const CLI::App& command, const RenderArguments& arguments, bool input_is_slices) {
+  if (input_is_slices) {
+    refuse_for_slices(command);
+  } else {
+    refuse_for_particles(command, arguments);
+  }
+}
+
+RenderArguments for_display(const RenderArguments& given, const CLI::App& command) {
+  RenderArguments arguments = given;
+  if (given.display.empty()) return arguments;
+  const DisplayPreset& display = find_display(given.display);
+  const auto unless_given = [&](const char* option, auto& value, const auto& preset) {
+    if (!was_given(command, option)) value = preset;
+  };
+  RenderParticlesOptions& options = arguments.options;
+  ViewingGeometry& viewing = options.depth.viewing;
+  unless_given("--views", options.views, display.views);
+  unless_given("--span", options.span, span_of(display, viewing.eye_separation_mm));
+  unless_given("--size", arguments.size, fmt::format("{}x{}", display.view_width_px, display.view_height_px));
+  unless_given("--distance", viewing.viewing_distance_mm, display.viewing_distance_mm);
+  unless_given("--screen-width", viewing.screen_width_mm, display.screen_width_mm);
+  // Depth that a small screen can show: as much of the width as a desk's screen has with 10 cm either way.
+  const float depth_mm = std::min(100.f, 0.27f * display.screen_width_mm);
+  unless_given("--near", options.depth.near_mm, depth_mm);
+  unless_given("--far", options.depth.far_mm, depth_mm);
+  arguments.aspect = display.aspect;
+  if (display.quilt_columns > 0 && given.interleave.empty())
+    unless_given("--quilt", arguments.quilt, fmt::format("{}x{}", display.quilt_columns, display.quilt_rows));
+  return arguments;
+}
+
+RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
+  RenderParticlesOptions options = arguments.options;
+  constexpr double most_pixels = 16384;
+  const auto splat = parse_numbers("--splat", arguments.splat, {',', 2, {0, SplatStyle::widest_px}, "MIN,MAX"});
+  if (!(splat[0] > 0 && splat[0] <= splat[1]))
+    throw Error(ErrorKind::wrong_usage, fmt::format("--splat: is '{}', expected MIN,MAX with 0 < MIN <= MAX <= {}",
+                                                    arguments.splat, SplatStyle::widest_px));
+  const Size size = parse_size("--size", arguments.size, {1, most_pixels});
+  options.width = size.width;
+  options.height = size.height;
+  options.appearance.smallest_px = static_cast<float>(splat[0]);
+  options.appearance.largest_px = static_cast<float>(splat[1]);
+  if (!arguments.centre.empty()) {
+    const auto centre = parse_numbers("--centre", arguments.centre, {',', 3, coordinates, "X,Y,Z"});
+    options.selection.centre = {centre[0], centre[1], centre[2]};
+  }
+  if (!arguments.selection.empty()) options.selection.cut = parse_selection(arguments.selection);
+  if (!arguments.depth_mapping.empty()) options.depth.regions = parse_depth_mapping(arguments.depth_mapping);
+  if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);
+  if (!arguments.hot.empty()) options.appearance.hot = parse_colour("--hot", arguments.hot);
+  options.slices = !arguments.save_slices.empty() || !arguments.interleave.empty();
+  options.without_views = !arguments.interleave.empty();
+  return options;
+}
+
+}  // namespace wheatstone::cli

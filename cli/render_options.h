@@ -1,0 +1,38 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "wheatstone/app/render_particles.h"
+
+namespace wheatstone::cli {
+
+/// What `render` is told, as it is typed.
+struct RenderArguments {
+  std::string file;
+  std::string output = "views";
+  RenderParticlesOptions options;
+  std::string size = "640x360";
+  std::string splat = "2,6";
+  std::string display, centre, selection, depth_mapping;
+  std::string cold, hot;
+  std::string quilt, interleave, save_slices;
+  std::string format = "png";
+  double aspect = 0;  ///< of the display; 0: a view's own
+};
+
+void add_render_options(CLI::App& command, RenderArguments& arguments);
+
+/// Throws Error{wrong_usage} for an option that has no effect on this input, or beside the others.
+void refuse_options_without_effect(const CLI::App& command, const RenderArguments& arguments, bool input_is_slices);
+
+/// What a display by name asks for, where the user does not say otherwise. Throws Error{wrong_usage}.
+RenderArguments for_display(const RenderArguments& given, const CLI::App& command);
+
+/// Throws Error{wrong_usage}.
+RenderParticlesOptions render_options_from(const RenderArguments& arguments);
+
+/// The name of a way of rendering.
+std::string name_of(Method method);
+
+}  // namespace wheatstone::cli
