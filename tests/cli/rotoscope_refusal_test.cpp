@@ -42,7 +42,7 @@ TEST(RotoscopeRefusal, OfAFilmWithoutPicturesOrOfAnUnknownCodec) {
   const std::size_t at = bytes.find("V_MPEG4/ISO/AVC");
   ASSERT_NE(at, std::string::npos);
   put_bytes(folder / "unknown.mkv", bytes.replace(at, 15, "V_PAINTED/STONE"));
-  refused(folder, {"unknown.mkv"}, 3, "unknown.mkv: its pictures are coded as of an unknown kind");
+  refused(folder, {"unknown.mkv"}, 3, "unknown.mkv: its video codec is unknown");
 }
 
 TEST(RotoscopeRefusal, OfATruncatedFilmComesAfterWhatDecodesIsWritten) {
@@ -54,7 +54,7 @@ TEST(RotoscopeRefusal, OfATruncatedFilmComesAfterWhatDecodesIsWritten) {
   const ProgramResult result = run_program(line, {.folder = folder / ""});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.errors, testing::StartsWith("wheatstone: a.mp4: breaks off after "));
-  EXPECT_THAT(result.errors, HasSubstr("frames that could be decoded are painted in o.mp4\n"));
+  EXPECT_THAT(result.errors, HasSubstr("frames that could be decoded were painted to o.mp4\n"));
   EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1);
   const std::size_t painted = frames_of(folder / "o.mp4").size();
   EXPECT_GT(painted, 5u);
@@ -128,10 +128,10 @@ TEST(RotoscopeRefusal, OfOptionsThatMakeNoSense) {
   mono({"--style", "cubist"}, 2, "cubist");
   mono({"--from", "soon"}, 2, "--from: is 'soon'");
   mono({"--from", "1", "--to", "0.5"}, 2, "to: 0.5 s, expected more than from");
-  mono({"--from", "60"}, 2, "the film has no frame in the time asked for");
+  mono({"--from", "60"}, 2, "the film has no frame in the requested time range");
   mono({"--frame-step", "0"}, 2, "--frame-step");
   mono({"--every", "2"}, 2, "--every");
-  mono({"--save-marks", "marks.wst"}, 2, "marks.wst: needs a place for the frame's number");
+  mono({"--save-marks", "marks.wst"}, 2, "marks.wst: has no frame number pattern");
   mono({"-o", "o.avi"}, 2, "o.avi: films are written to");
   mono({"-o", "o_%04d.wst", "--resume"}, 2, "cannot be resumed");
 }

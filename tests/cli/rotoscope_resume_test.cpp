@@ -99,7 +99,7 @@ TEST(RotoscopeResumeLong, KilledAtAnyMomentTheFilmIsTheSame) {
     EXPECT_GE(painted, frame);
     EXPECT_FALSE(fs::exists(work / name));
 
-    expect_refused(work.folder(), Workplace::line(name), 2, "--resume goes on with it, or remove it");
+    expect_refused(work.folder(), Workplace::line(name), 2, "continue it with --resume, or delete this folder");
     const ProgramResult resumed = work.run(name, {"--resume"});
     ASSERT_EQ(resumed.exit_code, 0) << resumed.errors;
     const auto facts = nlohmann::json::parse(resumed.output);
@@ -135,9 +135,9 @@ TEST(RotoscopeResume, InterruptedItSaysHowToGoOn) {
   ASSERT_EQ(work.run("whole.mp4").exit_code, 0);
   const ProgramResult stopped = work.run_until("a.mp4", 9, SIGINT);
   EXPECT_EQ(stopped.exit_code, 5);
-  EXPECT_THAT(stopped.errors,
-              testing::MatchesRegex("wheatstone: interrupted; --resume goes on after the first (8|12|16) frames, which "
-                                    "are in a.mp4.part and a.mp4_%04d.wst.part\n"));
+  EXPECT_THAT(stopped.errors, testing::MatchesRegex(
+                                  "wheatstone: interrupted; --resume continues after the first (8|12|16) frames, which "
+                                  "are in a.mp4.part and a.mp4_%04d.wst.part\n"));
   EXPECT_FALSE(fs::exists(work / "a.mp4"));
   EXPECT_EQ(work.run("a.mp4", {"--resume"}).exit_code, 0);
   EXPECT_TRUE(bytes_of(work / "a.mp4") == bytes_of(work / "whole.mp4"));

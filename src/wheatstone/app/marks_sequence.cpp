@@ -25,7 +25,7 @@ void MarksSequence::check(std::int64_t frames) const {
   for (std::int64_t frame = 1; frame <= frames; ++frame)
     if (!fs::exists(hidden_.file(frame), ignored))
       throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: is missing; remove both folders to begin anew", hidden_.file(frame).string()));
+                  fmt::format("{}: is missing; delete both folders to start again", hidden_.file(frame).string()));
 }
 
 void MarksSequence::give_names(std::int64_t frames) {

@@ -45,7 +45,7 @@ class Output {
         style_(options.frames.style) {
     const bool only_marks = path.extension() == ".wst";
     if (only_marks && options.resume)
-      throw Error(ErrorKind::wrong_usage, "marks alone cannot be resumed: write a film beside them");
+      throw Error(ErrorKind::wrong_usage, "a run that writes only marks cannot be resumed: write a film too");
     const fs::path marks = only_marks ? path : options.marks;
     if (!marks.empty()) check_marks(marks);
     if (!only_marks)
@@ -117,11 +117,11 @@ class Output {
     const std::optional<FramePattern> pattern = frame_pattern(path);
     if (!pattern)
       throw Error(ErrorKind::wrong_usage,
-                  fmt::format("{}: needs a place for the frame's number, as marks_%04d.wst", path.string()));
+                  fmt::format("{}: has no frame number pattern, expected a name like marks_%04d.wst", path.string()));
     const std::vector<std::int64_t> existing = numbers_of(*pattern);
     if (!existing.empty())
       throw Error(ErrorKind::wrong_usage,
-                  fmt::format("{}: {} exists already, and frames of two runs would mix; expected no such file",
+                  fmt::format("{}: {} exists already, expected no such file, because frames of two runs would be mixed",
                               path.string(), pattern->file(existing.front()).filename().string()));
   }
 
@@ -155,7 +155,7 @@ void add(const RotoscopedFrame& frame, RotoscopedFilm& film) {
 void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmOptions& options,
                   const Progress& progress, RotoscopeState& state, RotoscopedFilm& film) {
   film.resumed_frames = source.skip(output.frames_done());
-  if (film.resumed_frames > 0) report(progress, "going on", 0);
+  if (film.resumed_frames > 0) report(progress, "resuming", 0);
   const std::int64_t expected = options.expected_frames;
   const auto start = std::chrono::steady_clock::now();
   const double processor_start = processor_seconds();
@@ -176,7 +176,7 @@ void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmO
     frame.left = std::move(eyes.left);
     frame.right = std::move(eyes.right);
   }
-  if (film.frames == 0) throw Error(ErrorKind::wrong_usage, "the film has no frame in the time asked for");
+  if (film.frames == 0) throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
   film.totals = state.totals;
   film.seconds = seconds_since(start);
   film.core_seconds = processor_seconds() - processor_start;
@@ -215,14 +215,14 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     const std::int64_t kept = out.frames_done();
     if (!can_go_on || kept == 0) out.discard();
     if (error.kind() == ErrorKind::interrupted && kept > 0)
-      throw Error(
-          ErrorKind::interrupted,
-          fmt::format("interrupted; --resume goes on after the first {} frames, which are in {}", kept, out.folders()));
+      throw Error(ErrorKind::interrupted,
+                  fmt::format("interrupted; --resume continues after the first {} frames, which are in {}", kept,
+                              out.folders()));
     throw;
   }
   film.loss = source.loss();
   if (film.loss && !options.keep_going)
-    throw Error(ErrorKind::bad_input, fmt::format("{}; the {} frames that could be decoded are painted in {}",
+    throw Error(ErrorKind::bad_input, fmt::format("{}; the {} frames that could be decoded were painted to {}",
                                                   *film.loss, film.frames, output.string()));
   return film;
 }

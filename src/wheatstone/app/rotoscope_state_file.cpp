@@ -182,7 +182,7 @@ class Decoder {
   explicit Decoder(std::string_view name) : name_(name) {}
 
   [[noreturn]] void fail() const {
-    throw Error(ErrorKind::bad_input, fmt::format("{}: damaged, remove its folder to begin anew", name_));
+    throw Error(ErrorKind::bad_input, fmt::format("{}: is damaged, delete its folder to start again", name_));
   }
   void expect(bool holds) const {
     if (!holds) fail();

@@ -237,7 +237,7 @@ TEST(RotoscopeFilm, StoppedWhileItJoinsItJoinsAgain) {
     const Progress stop = [](std::string_view step, double) {
       if (step == "join") throw Error(ErrorKind::interrupted, "interrupted");
     };
-    expect_error(ErrorKind::interrupted, "--resume goes on after the first 6 frames",
+    expect_error(ErrorKind::interrupted, "--resume continues after the first 6 frames",
                  [&] { paint_film(folder, options, "o.mp4", stop); });
     EXPECT_FALSE(fs::exists(folder / "o.mp4"));
     options.resume = true;

@@ -79,8 +79,8 @@ void DecodedFilm::open_decoder(const AVStream& stream) {
   const char* name = avcodec_get_name(stream.codecpar->codec_id);
   const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
   if (codec == nullptr) {
-    const std::string known = stream.codecpar->codec_id == AV_CODEC_ID_NONE ? "of an unknown kind" : name;
-    refuse_film(path_, fmt::format("its pictures are coded as {}, which cannot be decoded", known));
+    const std::string known = stream.codecpar->codec_id == AV_CODEC_ID_NONE ? "unknown" : name;
+    refuse_film(path_, fmt::format("its video codec is {}, which cannot be decoded", known));
   }
   decoder_.reset(avcodec_alloc_context3(codec));
   if (!decoder_) throw std::bad_alloc();

@@ -42,7 +42,7 @@ void check_container(const std::filesystem::path& path, const FilmWriterOptions&
                             path.string()));
   }
   if (options.codec == "ffv1" && container != Container::matroska) {
-    throw Error(ErrorKind::wrong_usage, fmt::format("{}: ffv1 is held only by Matroska, expected .mkv", path.string()));
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: only Matroska can hold ffv1, expected .mkv", path.string()));
   }
 }
 
@@ -119,7 +119,7 @@ void FilmFile::say_layout(AVStream& stream) {
     if (data == nullptr) throw std::bad_alloc();
     std::memcpy(data, &*stereo, sizeof(AVStereo3D));
   } else if (!in_pictures) {
-    notes_.push_back(fmt::format("the layout {} cannot be said in {} with {}; Matroska can say it", traits.name,
+    notes_.push_back(fmt::format("the layout {} cannot be stored in {} with {}; Matroska can store it", traits.name,
                                  format_of(container), options_.codec));
   }
 }

@@ -198,7 +198,7 @@ TEST(FilmReader, AHoleInTheNumbersIsRefusedByName) {
   expect_error(ErrorKind::bad_input, "f_03.png is missing, the next there is f_05.png",
                [&] { open_film(folder / "f_%02d.png"); });
   expect_error(ErrorKind::bad_input, "no picture has such a name", [&] { open_film(folder / "g_%02d.png"); });
-  expect_error(ErrorKind::wrong_usage, "second place", [&] { open_film(folder / "f_%02d_%d.png"); });
+  expect_error(ErrorKind::wrong_usage, "second number pattern", [&] { open_film(folder / "f_%02d_%d.png"); });
   expect_error(ErrorKind::wrong_usage, "percent sign", [&] { open_film(folder / "f_%s.png"); });
   write_image(folder / "f_03.png", Image<Rgb8>(4, 4));
   write_image(folder / "f_04.png", Image<Rgb8>(5, 4));
@@ -229,7 +229,7 @@ TEST(FilmReader, RefusesSoundWithoutPicturesAndUnknownCodecs) {
   ASSERT_NE(codec, std::string::npos);
   bytes.replace(codec, 15, "V_WHATEVER/XXXX");
   put_bytes(folder / "b.mkv", bytes);
-  expect_error(ErrorKind::bad_input, "b.mkv: its pictures are coded as", [&] { open_film(folder / "b.mkv"); });
+  expect_error(ErrorKind::bad_input, "b.mkv: its video codec is", [&] { open_film(folder / "b.mkv"); });
 }
 
 TEST(FilmReader, RefusesPicturesThatChangeTheirSize) {

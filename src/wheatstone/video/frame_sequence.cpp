@@ -64,9 +64,9 @@ std::optional<FramePattern> frame_pattern(const fs::path& path) {
       part += '%';
       at += 2;
     } else {
-      if (found) refuse_pattern(path, "holds a second place for a number");
+      if (found) refuse_pattern(path, "contains a second number pattern");
       const std::size_t length = read_number_place(std::string_view(name).substr(at), pattern.least_digits);
-      if (length == 0) refuse_pattern(path, "holds a percent sign without a number's place");
+      if (length == 0) refuse_pattern(path, "contains a percent sign without a number pattern");
       found = true;
       at += length;
     }

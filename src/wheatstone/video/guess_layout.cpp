@@ -90,12 +90,12 @@ GuessedLayout guess_layout(std::span<const Image<Rgb8>> frames) {
     const bool half = proportions / 2 < 0.95;
     return {half ? StereoLayout::left_right_half : StereoLayout::left_right,
             fmt::format("the left and right halves are alike ({:.2f}){}; the left eye is assumed on the left", best,
-                        half ? " and upright, so squeezed" : "")};
+                        half ? " and narrow, and therefore squeezed" : "")};
   }
   const bool half = proportions * 2 > 2.4;
   return {half ? StereoLayout::top_bottom_half : StereoLayout::top_bottom,
           fmt::format("the upper and lower halves are alike ({:.2f}){}; the left eye is assumed on top", best,
-                      half ? " and very wide, so squeezed" : "")};
+                      half ? " and very wide, and therefore squeezed" : "")};
 }
 
 }  // namespace wheatstone

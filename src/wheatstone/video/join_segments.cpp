@@ -33,11 +33,11 @@ Clock clock_of(const fs::path& folder, std::int64_t count) {
   for (std::int64_t number = 0; number < count; ++number) {
     const std::optional<SegmentTimes> times = segment_times(folder, number);
     const fs::path file = segment_film(folder, number);
-    if (!times) refuse_film(file, "is missing; remove the folder to begin anew");
+    if (!times) refuse_film(file, "is missing; delete the folder to start again");
     SegmentTimes& all = clock.all;
     if (number == 0) all.time_base = times->time_base;
     if (times->time_base != all.time_base || (number > 0 && times->pts.front() <= all.pts.back())) {
-      refuse_film(file, "its times do not follow those before; remove the folder to begin anew");
+      refuse_film(file, "its times do not follow those before; delete the folder to start again");
     }
     all.pts.insert(all.pts.end(), times->pts.begin(), times->pts.end());
     all.durations.insert(all.durations.end(), times->durations.begin(), times->durations.end());
@@ -80,7 +80,7 @@ void join_segments(const fs::path& folder, std::int64_t count, const fs::path& f
             joined.begin(*coded, clock.all.time_base);
           }
           if (!same_coding(parameters, *coded) || shown >= size || place >= clock.all.size()) {
-            refuse_film(file, "does not fit the segments before; remove the folder to begin anew");
+            refuse_film(file, "does not fit the segments before; delete the folder to start again");
           }
           packet.pts = clock.all.pts[before + shown];
           packet.dts = clock.dts(place++);
@@ -88,7 +88,7 @@ void join_segments(const fs::path& folder, std::int64_t count, const fs::path& f
           joined.add(packet);
         });
     if (found != static_cast<std::int64_t>(size)) {
-      refuse_film(file, fmt::format("{} frames, expected {}; remove the folder to begin anew", found, size));
+      refuse_film(file, fmt::format("{} frames, expected {}; delete the folder to start again", found, size));
     }
     before += size;
     report(progress, "join", static_cast<double>(number + 1) / static_cast<double>(count));

@@ -52,11 +52,11 @@ std::optional<SegmentTimes> segment_times(const fs::path& folder, std::int64_t n
     const bool ascends = std::ranges::adjacent_find(times.pts, std::greater_equal<>()) == times.pts.end();
     if (times.pts.empty() || times.pts.size() != times.durations.size() || !ascends || times.reordering < 0 ||
         times.time_base.numerator < 1 || times.time_base.denominator < 1) {
-      refuse_film(file, "its times make no sense; remove the folder to begin anew");
+      refuse_film(file, "its times make no sense; delete the folder to start again");
     }
     return times;
   } catch (const json::exception&) {
-    refuse_film(file, "is damaged; remove the folder to begin anew");
+    refuse_film(file, "is damaged; delete the folder to start again");
   }
 }
 
@@ -102,14 +102,14 @@ std::int64_t read_segment(const fs::path& folder, std::int64_t number,
   const fs::path file = segment_film(folder, number);
   const OwnedInput input = open_input(file);
   const int index = video_stream_of(*input);
-  if (index < 0) refuse_film(file, "has no pictures; remove the folder to begin anew");
+  if (index < 0) refuse_film(file, "has no pictures; delete the folder to start again");
   const AVStream& stream = *input->streams[index];
   const OwnedPacket packet = new_packet();
   std::int64_t count = 0;
   while (av_read_frame(input.get(), packet.get()) >= 0) {
     if (packet->stream_index == index) {
       const std::int64_t shown = av_rescale_q(packet->pts, stream.time_base, as_av(numbering));
-      if (packet->pts == AV_NOPTS_VALUE || shown < 0) refuse_film(file, "is damaged; remove the folder to begin anew");
+      if (packet->pts == AV_NOPTS_VALUE || shown < 0) refuse_film(file, "is damaged; delete the folder to start again");
       sink(*stream.codecpar, *packet, static_cast<std::size_t>(shown));
       ++count;
     }

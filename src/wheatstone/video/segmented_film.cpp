@@ -42,12 +42,13 @@ void claim(const fs::path& folder, const std::string& fingerprint, bool resume) 
   if (!resume)
     throw Error(
         ErrorKind::wrong_usage,
-        fmt::format("{}: left by a run that did not finish; --resume goes on with it, or remove it", folder.string()));
+        fmt::format("{}: was left by a run that did not finish; continue it with --resume, or delete this folder",
+                    folder.string()));
   const json found = json::parse(read_whole_file(manifest, most_bytes_of_manifest), nullptr, false);
   if (!found.is_discarded() && found.value("made_of", std::string()) == fingerprint) return;
-  throw Error(ErrorKind::wrong_usage,
-              fmt::format("{}: left by a run with other options or sources; repeat those, or remove it to begin anew",
-                          folder.string()));
+  throw Error(ErrorKind::wrong_usage, fmt::format("{}: was left by a run with other options or sources; use the same "
+                                                  "ones, or delete this folder to start again",
+                                                  folder.string()));
 }
 
 /// A killed run may have left temporary files.

@@ -16,7 +16,7 @@ void check_no_pictures(const fs::path& path, const FramePattern& pattern) {
   const auto existing = numbers_of(pattern);
   if (existing.empty()) return;
   throw Error(ErrorKind::wrong_usage,
-              fmt::format("{}: {} exists already, and frames of two runs would mix; expected no such file",
+              fmt::format("{}: {} exists already, expected no such file, because frames of two runs would be mixed",
                           path.string(), pattern.file(existing.front()).filename().string()));
 }
 

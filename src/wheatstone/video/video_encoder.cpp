@@ -156,7 +156,7 @@ VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int heig
   set_private_options(codec, options, coding);
   const int error = avcodec_open2(&codec, encoder, nullptr);
   if (error < 0) {
-    refuse(fmt::format("{} cannot code {}x{} pixels as {}: {}", coding.name, codec.width, codec.height, format.name,
+    refuse(fmt::format("{} cannot encode {}x{} pixels as {}: {}", coding.name, codec.width, codec.height, format.name,
                        libav_reason(error)));
   }
   frame_from_rgb_.emplace(codec.width, codec.height, codec.pix_fmt, codec.colorspace, codec.color_range);
