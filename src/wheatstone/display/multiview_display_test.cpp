@@ -243,7 +243,7 @@ TEST(Lenticular, RefusesBadCalibrationsAndUnknownNames) {
           "does not describe a valid screen");
   refused(R"({"screenW":100,"screenH":100,"pitch":1,"slope":0,"center":0,"DPI":100})",
           "does not describe a valid screen");
-  expect_error(ErrorKind::wrong_usage, "no multiView attribute", [] { interleave({}, {}); });
+  expect_error(ErrorKind::wrong_usage, "no views", [] { interleave({}, {}); });
   expect_error(ErrorKind::wrong_usage, "one size", [] {
     std::vector<Image<Rgb8>> views = numbered(2, 4, 4);
     views[1] = Image<Rgb8>(3, 4);
