@@ -85,7 +85,7 @@ TEST(RotoscopeStateFile, NumbersThatDoNotFitTogetherAreRefused) {
     EXPECT_EQ(decode_rotoscope_state(encode_rotoscope_state(state), "s").layers_before, state.layers_before);
     change(state);
     const std::string bytes = encode_rotoscope_state(state);
-    expect_error(ErrorKind::bad_input, "s: damaged", [&] { decode_rotoscope_state(bytes, "s"); });
+    expect_error(ErrorKind::bad_input, "s: is damaged", [&] { decode_rotoscope_state(bytes, "s"); });
   };
   refused([](RotoscopeState& state) { state.layers_before[0].strokes[0].point_count = 2; });
   refused([](RotoscopeState& state) { state.layers_before[0].strokes[0].first_point = 0xffffffff; });

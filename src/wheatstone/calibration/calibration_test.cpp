@@ -220,7 +220,7 @@ TEST(CalibrationFile, SaysWhatItLacks) {
     std::string without = text;
     without.insert(without.find("\n" + name + ":") + 1, "other_");
     put_bytes(folder / "lacking.yml", without);
-    expect_error(ErrorKind::bad_input, "lacking.yml: lacks '" + name + "'",
+    expect_error(ErrorKind::bad_input, "lacking.yml: '" + name + "' is missing",
                  [&] { read_stereo_calibration(folder / "lacking.yml"); });
   }
   put_bytes(folder / "letter.yml", "Dear Sir, this is a letter.\n");
