@@ -47,7 +47,8 @@ void add_shared_options(CLI::App& program, Session& session) {
 }  // namespace
 
 std::unique_ptr<CLI::App> make_program(Session& session) {
-  auto program = std::make_unique<CLI::App>("Pictures for two eyes, and for forty-five.", "wheatstone");
+  auto program = std::make_unique<CLI::App>(
+      "Stereo and multi-view painterly rendering, and particle rendering for 3D displays.", "wheatstone");
   // Taken over by every command: what all share may stand before or behind the command's name.
   program->fallthrough();
   program->require_subcommand(1);

@@ -171,7 +171,7 @@ TEST(RenderCommand, RefusesPositionsThatAreTooFarAway) {
     if (!stream.empty()) line.push_back(stream);
     expect_refused(folder, line, 3, "far.csv: has a particle at 1e+38, expected positions of at most 1e+18");
     line[1] = "endless.csv";
-    expect_refused(folder, line, 3, "endless.csv: nothing is left to draw, 2 particles have no finite position");
+    expect_refused(folder, line, 3, "endless.csv: no particles to draw, 2 have no finite position");
   }
 }
 

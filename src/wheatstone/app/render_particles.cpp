@@ -48,10 +48,9 @@ Staged stage(const RenderParticlesOptions& options, const CloudStatistics& stati
 
 [[noreturn]] void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts) {
   throw Error(ErrorKind::bad_input,
-              counts.dropped > 0 ? fmt::format("{}: nothing is left to draw, {} particles have no finite position",
-                                               file.string(), counts.dropped)
-                                 : fmt::format("{}: nothing is left to draw, no particle is inside the selected region",
-                                               file.string()));
+              counts.dropped > 0
+                  ? fmt::format("{}: no particles to draw, {} have no finite position", file.string(), counts.dropped)
+                  : fmt::format("{}: no particles to draw, no particle is inside the selected region", file.string()));
 }
 
 /// Distances are computed in single precision: their squares must not overflow.

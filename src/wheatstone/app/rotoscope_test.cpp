@@ -341,7 +341,7 @@ TEST(RotoscopeFilm, ADamagedRestIsNamedAndNotRemoved) {
   const std::string whole = bytes_of(state);
   put_bytes(state, whole.substr(0, 100));
   options.resume = true;
-  expect_error(ErrorKind::bad_input, "state_000000004: damaged", [&] { paint_film(folder, options); });
+  expect_error(ErrorKind::bad_input, "state_000000004: is damaged", [&] { paint_film(folder, options); });
   put_bytes(state, whole);
   EXPECT_EQ(paint_film(folder, options).resumed_frames, 4);
 }
