@@ -111,7 +111,7 @@ TEST(RotoscopeStateFile, DamagedInAnyPlaceItIsRefused) {
   const std::string whole = bytes_of(folder / "state");
   const auto refused = [&](const std::string& bytes) {
     put_bytes(folder / "state", bytes);
-    expect_error(ErrorKind::bad_input, "state: damaged", [&] { read_rotoscope_state(folder / "state"); });
+    expect_error(ErrorKind::bad_input, "state: is damaged", [&] { read_rotoscope_state(folder / "state"); });
   };
   for (std::size_t size = 0; size < 200; ++size) refused(whole.substr(0, size));
   for (std::size_t part = 1; part < 40; ++part) refused(whole.substr(0, whole.size() * part / 40));
