@@ -39,7 +39,7 @@ TEST(FindCut, NoiseAndAChangeOfLightAreNone) {
     pixel = {static_cast<std::uint8_t>(pixel.r * 4 / 5), static_cast<std::uint8_t>(pixel.g * 4 / 5),
              static_cast<std::uint8_t>(pixel.b * 4 / 5)};
   EXPECT_FALSE(find_cut(left_frame(1, 1), darker).cut);
-  expect_error(ErrorKind::bad_input, "sizes", [&] { find_cut(darker, Image<Rgb8>(20, 20)); });
+  expect_error(ErrorKind::bad_input, "differ in size", [&] { find_cut(darker, Image<Rgb8>(20, 20)); });
 }
 
 }  // namespace
