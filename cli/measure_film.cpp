@@ -292,36 +292,39 @@ void run(const Arguments& arguments, const Session& session) {
 
 void add_measure_film(CLI::App& measure, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
-      *measure.add_subcommand("film", "How much films flicker, and how well their eyes belong together");
+  CLI::App& command = *measure.add_subcommand("film", "Measure flicker and stereo consistency of films");
   command.fallthrough();
   command
       .add_option("FILMS", arguments->films,
-                  "Films, numbered pictures (left_%04d.png), folders of them, or an eye each: LEFT,RIGHT")
+                  "Films, numbered pictures (left_%04d.png), folders of them, or one film per eye: LEFT,RIGHT")
       ->required();
-  command.add_option("--against", arguments->source, "The film that they were made from, in the same forms")
-      ->required();
-  command.add_option("--truth", arguments->truth,
-                     "Folder as synth film writes it, of the source's true flow and disparities, frames from 0;\n"
-                     "without it flow and disparities are estimated from the source");
+  command.add_option("--against", arguments->source, "Film that they were made from, in the same forms")->required();
+  command.add_option(
+      "--truth", arguments->truth,
+      "Folder from 'synth film' with the exact flow and disparities of the source, whose frames count from 0;\n"
+      "by default they are estimated from the source");
   auto* marks = command.add_option("--marks", arguments->marks,
-                                   "The first film's marks, as rotoscope --save-marks keeps them: marks_%04d.wst");
-  command.add_option("--fade", arguments->fade_frames, "Frames of the shorter fade: faster is popping")
+                                   "Marks of the first film, from rotoscope --save-marks: marks_%04d.wst");
+  command
+      .add_option("--fade", arguments->fade_frames,
+                  "Number of frames of the shorter fade; strokes that change faster count as popped")
       ->check(CLI::Range(1, 1000))
       ->needs(marks)
       ->capture_default_str();
-  command.add_option("--layout", arguments->layout, "How films hold two eyes, if they do not say");
-  command.add_option("--frames", arguments->frames, "Only so many, from the first; 0 for all")
+  command.add_option("--layout", arguments->layout, "Stereo layout of films that do not specify one");
+  command.add_option("--frames", arguments->frames, "Number of frames to measure, from the first; 0 for all")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
   command.add_option("--stereo-frame-step", arguments->stereo_step, "Compare the eyes of every Nth frame")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command.footer(
-      "E_warp is the mean squared difference, of 0..1, of each frame and the next warped back along the source's "
-      "flow,\n"
-      "where that flow is confirmed; cuts are left out. Of the left eye. Blurring wins on it: look at the gradient\n"
-      "energy in --json, too. With --marks also the share of strokes that stay, and those that pop.\n\n"
+      "E_warp is the mean squared difference (values 0..1) between each frame of the left eye and the next frame, "
+      "warped\n"
+      "back along the optical flow of the source. Pixels whose flow is not confirmed by the backward flow are left "
+      "out,\n"
+      "and so are cuts. Blurring a film reduces E_warp: compare the gradient energy in --json, too. With --marks, the\n"
+      "shares of strokes that are kept and that pop are printed.\n\n"
       "Example:\n  wheatstone synth film -o film\n"
       "  wheatstone rotoscope film --truth film -o painted.mkv\n"
       "  wheatstone measure film painted.mkv --against film --truth film");

@@ -194,19 +194,19 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
   constexpr auto group = "Film";
   FilmWriterOptions& writing = arguments.options.writing;
   command
-      .add_option(
-          "--layout", arguments.layout,
-          "How the film holds two eyes: sbs, sbs-half, tb, tb-half, mono, …; as it says, or guessed, if not given")
+      .add_option("--layout", arguments.layout,
+                  "Stereo layout of the film: sbs, sbs-half, tb, tb-half, mono, …; by default from its metadata, or "
+                  "else estimated from the pictures")
       ->group(group);
   command
       .add_option("--output-layout", arguments.output_layout,
-                  "How the painted film holds them; like the source if not given")
+                  "Stereo layout of the painted film; that of the source by default")
       ->group(group);
-  command.add_option("--from", arguments.from, "Begin there: seconds or [HH:]MM:SS")->group(group);
-  command.add_option("--to", arguments.to, "End there")->group(group);
+  command.add_option("--from", arguments.from, "Start time: seconds or [HH:]MM:SS")->group(group);
+  command.add_option("--to", arguments.to, "End time: seconds or [HH:]MM:SS")->group(group);
   command
       .add_option("--rate", arguments.rate,
-                  "Frames a second of numbered pictures, as 25 or 24000/1001; 24 if not given")
+                  "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default")
       ->group(group);
   command.add_option("--frame-step", arguments.frame_step, "Paint every Nth frame only")
       ->check(CLI::Range(1, 1'000'000))
@@ -215,24 +215,26 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--codec", writing.codec, "h264, hevc, or ffv1 (lossless, .mkv)")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--crf", writing.crf, "Quality of h264 and hevc, 0 (best) to 51")->group(group);
-  command.add_option("--preset", writing.preset, "Effort of h264 and hevc, ultrafast to placebo")
+  command.add_option("--crf", writing.crf, "Constant rate factor of h264 and hevc: from 0, the best quality, to 51")
+      ->group(group);
+  command.add_option("--preset", writing.preset, "Encoder preset of h264 and hevc, from ultrafast to placebo")
       ->capture_default_str()
       ->group(group);
   command.add_option("--pixel-format", writing.pixel_format, "yuv420p, yuv422p, yuv444p; bgr0 for ffv1")->group(group);
   command.add_flag("--no-audio", arguments.no_audio, "Do not copy the film's sound")->group(group);
   command.add_flag("--no-subtitles", arguments.no_subtitles, "Do not copy the film's subtitles")->group(group);
-  command.add_option("--save-marks", arguments.options.marks, "Also keep each frame's marks: marks_%04d.wst")
+  command.add_option("--save-marks", arguments.options.marks, "Also write the marks of each frame: marks_%04d.wst")
       ->group(group);
-  command.add_flag("--resume", arguments.options.resume, "Go on with what a run that was stopped has left")
-      ->group(group);
+  command.add_flag("--resume", arguments.options.resume, "Continue a run that was stopped")->group(group);
   command
       .add_option("--checkpoint", arguments.options.frames_between_checkpoints,
-                  "Frames that a stopped run loses at most")
+                  "Number of frames between checkpoints: a stopped run loses at most this many")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str()
       ->group(group);
-  command.add_flag("--keep-going", arguments.options.keep_going, "A damaged film is no error: paint what decodes")
+  command
+      .add_flag("--keep-going", arguments.options.keep_going,
+                "Paint the frames of a damaged film that can be decoded, without an error at the end")
       ->group(group);
 }
 
@@ -240,7 +242,7 @@ void add_time_options(CLI::App& command, Arguments& arguments) {
   constexpr auto group = "Time and depth";
   RotoscopeOptions& frames = arguments.options.frames;
   static const std::map<std::string, FlowMethod> flows{{"farneback", FlowMethod::farneback}, {"dis", FlowMethod::dis}};
-  command.add_option("--flow", frames.flow, "How motion is found: farneback, or dis, which is faster")
+  command.add_option("--flow", frames.flow, "Optical flow method: farneback, or dis, which is faster")
       ->transform(CLI::CheckedTransformer(flows, CLI::ignore_case).description(""))
       ->option_text("farneback|dis [farneback]")
       ->group(group);
@@ -248,21 +250,26 @@ void add_time_options(CLI::App& command, Arguments& arguments) {
                                                           {"average", CentralMerge::average}};
   command
       .add_option("--central", frames.central,
-                  "How both eyes become one view: visible, from the eyes that see a point; average, which ghosts")
+                  "How the eyes are merged to the central view: visible takes the colour from the eyes that see a "
+                  "point; average takes the average of both, which causes ghosting")
       ->transform(CLI::CheckedTransformer(merges, CLI::ignore_case).description(""))
       ->option_text("visible|average [visible]")
       ->group(group);
-  command.add_option("--fade-in", frames.carrying.fade_in_frames, "Frames over which new strokes come")
+  command.add_option("--fade-in", frames.carrying.fade_in_frames, "Number of frames over which new strokes fade in")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()
       ->group(group);
-  command.add_option("--fade-out", frames.carrying.fade_out_frames, "Frames over which strokes go that no longer fit")
+  command
+      .add_option("--fade-out", frames.carrying.fade_out_frames,
+                  "Number of frames over which strokes that no longer fit fade out")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()
       ->group(group);
-  command.add_flag("--frame-by-frame", frames.anew, "Carry nothing from frame to frame: flickers, to compare with")
+  command.add_flag("--frame-by-frame", frames.anew, "Paint every frame separately, which flickers; for comparison")
       ->group(group);
-  command.add_option("--truth", arguments.truth, "Folder of synth film: its true flow and disparities, not estimated")
+  command
+      .add_option("--truth", arguments.truth,
+                  "Folder of 'synth film' whose exact flow and disparities are used instead of estimates")
       ->group(group);
 }
 
@@ -270,12 +277,14 @@ void add_time_options(CLI::App& command, Arguments& arguments) {
 
 void add_rotoscope_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *program.add_subcommand("rotoscope", "A painted film that fuses and does not flicker");
+  CLI::App& command =
+      *program.add_subcommand("rotoscope", "Paint a stereo or ordinary film; strokes follow the motion of the film");
   command
       .add_option("FILM", arguments->film,
-                  "Film of two eyes or one; numbered pictures (frame_%04d.png); a folder; or an eye each: LEFT,RIGHT")
+                  "Film with one or two eyes; numbered pictures (frame_%04d.png); a folder of them; or one film per "
+                  "eye: LEFT,RIGHT")
       ->required();
-  command.add_option("RIGHT", arguments->right, "The right eye's film, where FILM is the left eye's");
+  command.add_option("RIGHT", arguments->right, "Film of the right eye, if FILM is that of the left eye");
   add_output_option(command, arguments->output,
                     "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks (frame_%04d.wst)");
   add_film_options(command, *arguments);
@@ -283,8 +292,8 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
   add_style_options(command, arguments->style);
   add_match_options(command, arguments->matching);
   command.footer(
-      "Strokes are made once, in the view between the eyes, and carried along the film's motion. Audio and\n"
-      "subtitles are copied. A stopped run goes on with --resume and gives the same film.\n\n"
+      "Strokes are planned in the view between the eyes and follow the motion of the film. Audio and subtitles are\n"
+      "copied. --resume continues a stopped run and gives the same film.\n\n"
       "Examples:\n  wheatstone rotoscope film.mp4 -o painted.mp4\n"
       "  wheatstone rotoscope film.mp4 --from 0:10 --to 0:12 --style expressionist -o try.mp4\n"
       "  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4");

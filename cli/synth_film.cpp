@@ -72,16 +72,17 @@ void run(const Arguments& arguments, const Session& session) {
 void add_synth_film(CLI::App& synth, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   SyntheticFilmOptions& film = arguments->film;
-  CLI::App& command = *synth.add_subcommand("film", "A stereo film of such still lifes, with its exact flow");
+  CLI::App& command = *synth.add_subcommand("film", "Ray-cast stereo film of the still life, with exact flow");
   command.fallthrough();
   add_output_option(command, arguments->folder, "Folder for the results");
-  command.add_option("--size", arguments->size, "Of each view: WIDTHxHEIGHT")->capture_default_str();
-  command.add_option("--frames", film.frames, "How many")->check(CLI::Range(1, 100'000))->capture_default_str();
-  command.add_option("--cut", film.cut, "The frame with which another scene begins, 0 for none; half-way if not given");
+  command.add_option("--size", arguments->size, "Size of each view: WIDTHxHEIGHT")->capture_default_str();
+  command.add_option("--frames", film.frames, "Number of frames")->check(CLI::Range(1, 100'000))->capture_default_str();
+  command.add_option("--cut", film.cut,
+                     "First frame of the second scene; 0 for a film without a cut; the middle of the film by default");
   static const std::map<std::string, FilmMotion> motions{{"walk", FilmMotion::walk}, {"pan", FilmMotion::pan}};
   command
       .add_option("--motion", film.motion,
-                  "walk: the camera moves and turns, and fruit hops about; pan: the camera turns slowly, no more")
+                  "walk: the camera moves and turns, and fruit bounces; pan: the camera only turns, slowly")
       ->transform(CLI::CheckedTransformer(motions, CLI::ignore_case).description(""))
       ->option_text("walk|pan [walk]");
   add_number(command, "--noise", film.noise, {0, 255}, "Standard deviation of the noise of each frame, in 0..255");
@@ -89,9 +90,12 @@ void add_synth_film(CLI::App& synth, const Session& session) {
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
   command.footer(
-      "Frames count from 0. Beside left_0000.png and right_0000.png stand left_disparity_0000.pfm,\n"
-      "left_occlusion_0000.png and the right eye's, and of the left eye flow_forward_0000.flo, to the next frame,\n"
-      "flow_backward_0000.flo, to the one before, and their occlusions: all exact, without the noise.\n\n"
+      "Frames count from 0. For each frame, the folder contains left_0000.png, left_disparity_0000.pfm and\n"
+      "left_occlusion_0000.png, and the same for the right eye. For the left eye it also contains the optical flow to "
+      "the\n"
+      "next frame, flow_forward_0000.flo, and to the previous frame, flow_backward_0000.flo, with their occlusion "
+      "masks.\n"
+      "All are exact, without the noise.\n\n"
       "Example:\n  wheatstone synth film -o film --cut 25\n"
       "  wheatstone synth film -o pan --motion pan --cut 0 --noise 4");
   command.callback([arguments, &session] { run(*arguments, session); });
