@@ -13,6 +13,8 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/coarse_to_fine_internal.h"
+#include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/match_reliability_internal.h"
 #include "wheatstone/stereo/fitting_pair.h"
@@ -21,7 +23,7 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 4> names{"sgbm", "bm", "dp", "onnx"};
+constexpr std::array<std::string_view, 5> names{"census", "sgbm", "bm", "dp", "onnx"};
 constexpr std::array<std::string_view, 3> values_names{"255", "1", "imagenet"};
 constexpr std::array<std::string_view, 3> quality_names{"fast", "good", "best"};
 constexpr int least_side_px = 16;
@@ -79,43 +81,6 @@ Image<float> match_right(const cv::Mat& left, const cv::Mat& right, const Dispar
   return disparity;
 }
 
-/// Drops what the other view's disparity does not confirm.
-Image<float> confirmed(const Image<float>& own, const Image<float>& other, float sign, float tolerance_px) {
-  Image<float> result(own.width(), own.height(), unknown);
-  tbb::parallel_for(0, own.height(), [&](int y) {
-    const auto from = own.row(y), into = other.row(y);
-    const auto to = result.row(y);
-    for (int x = 0; x < own.width(); ++x) {
-      const float target = std::floor(static_cast<float>(x) + 0.5f + sign * from[x]);
-      if (!(target >= 0 && target < static_cast<float>(own.width()))) continue;
-      if (std::abs(into[static_cast<int>(target)] - from[x]) <= tolerance_px) to[x] = from[x];
-    }
-  });
-  return result;
-}
-
-constexpr int unknown_sixteenths = -32768;
-
-cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
-  cv::Mat sixteenths(disparity.height(), disparity.width(), CV_16S);
-  for (int y = 0; y < disparity.height(); ++y)
-    for (int x = 0; x < disparity.width(); ++x)
-      sixteenths.at<std::int16_t>(y, x) =
-          std::isfinite(disparity(x, y))
-              ? static_cast<std::int16_t>(std::lround(sign * disparity(x, y) * sixteenths_a_px))
-              : static_cast<std::int16_t>(unknown_sixteenths);
-  return sixteenths;
-}
-
-void remove_speckles(Image<float>& disparity, int least_surface_px) {
-  cv::Mat sixteenths = in_sixteenths(disparity, 1);
-  constexpr int same_surface = 2 * sixteenths_a_px;
-  cv::filterSpeckles(sixteenths, unknown_sixteenths, least_surface_px, same_surface);
-  for (int y = 0; y < disparity.height(); ++y)
-    for (int x = 0; x < disparity.width(); ++x)
-      if (sixteenths.at<std::int16_t>(y, x) == unknown_sixteenths) disparity(x, y) = unknown;
-}
-
 /// Weighted least squares, led by the picture's edges and by what both views agree on. Where the views agree on nothing
 /// far and wide the filter returns numbers without meaning; there the disparity stays as it was.
 Image<float> refined(const Image<float>& left, const Image<float>& right, const cv::Mat& left_picture,
@@ -136,11 +101,6 @@ Image<float> refined(const Image<float>& left, const Image<float>& right, const 
     }
   }
   return disparity;
-}
-
-double finite_share(const Image<float>& disparity) {
-  const auto known = std::ranges::count_if(disparity.pixels(), [](float d) { return std::isfinite(d); });
-  return static_cast<double>(known) / static_cast<double>(disparity.pixels().size());
 }
 
 /// Replaces doubtful places; those that were are NaN in the result, which else is the disparity as it was found. Where
@@ -167,39 +127,50 @@ void keep_confirmed(const Image<float>& before, const Image<float>& found, Image
   }
 }
 
-MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options) {
-  const cv::Mat left_picture = as_mat(pair.left), right_picture = as_mat(pair.right);
+/// The steps of every matcher but ours: matched both ways, checked, and filled row by row.
+CheckedMatch match_both_ways(const cv::Mat& left_picture, const cv::Mat& right_picture, const DisparityRange& range,
+                             const MatchOptions& options) {
+  CheckedMatch match;
   Image<float> left, right;
   tbb::parallel_invoke([&] { left = match_one_way(left_picture, right_picture, range, options); },
                        [&] { right = match_right(left_picture, right_picture, range, options); });
   if (options.left_right_check) {
-    Image<float> left_confirmed = confirmed(left, right, -1, options.check_tolerance_px);
-    right = confirmed(right, left, 1, options.check_tolerance_px);
-    left = std::move(left_confirmed);
+    match.found = confirmed_disparity(left, right, -1, options.check_tolerance_px);
+    match.right = confirmed_disparity(right, left, 1, options.check_tolerance_px);
+  } else {
+    match.found = std::move(left);
+    match.right = std::move(right);
   }
-  remove_speckles(left, options.least_surface_px);
-  remove_speckles(right, options.least_surface_px);
-
-  MatchedPair matched;
-  matched.range = range;
-  matched.left_found_share = finite_share(left);
-  matched.right_found_share = finite_share(right);
-  if (matched.left_found_share == 0)
+  remove_speckles(match.found, options.least_surface_px);
+  remove_speckles(match.right, options.least_surface_px);
+  if (known_share(match.found) == 0)
     throw Error(ErrorKind::bad_input, fmt::format("no pixel of the two pictures matches between disparities {} and {}",
                                                   range.least, range.largest));
-  Image<float> found = left;
-  if (options.distrust) found = distrust(left, right, pair, range);
-  const Image<float> before = left;
-  fill_from_farther_side(left);
-  fill_from_farther_side(right);
+  match.left = match.found;
+  return match;
+}
+
+MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options) {
+  const cv::Mat left_picture = as_mat(pair.left), right_picture = as_mat(pair.right);
+  CheckedMatch match = options.matcher == Matcher::census
+                           ? match_coarse_to_fine(left_picture, right_picture, range, options)
+                           : match_both_ways(left_picture, right_picture, range, options);
+  MatchedPair matched;
+  matched.range = range;
+  matched.left_found_share = known_share(match.found);
+  matched.right_found_share = known_share(match.right);
+  if (options.distrust) match.found = distrust(match.left, match.right, pair, range);
+  const Image<float> before = match.left;
+  fill_from_farther_side(match.left);
+  fill_from_farther_side(match.right);
   if (options.wls) {
-    left = refined(left, right, left_picture, range, options);
-    if (options.wls_keeps_confirmed) keep_confirmed(before, found, left);
+    match.left = refined(match.left, match.right, left_picture, range, options);
+    if (options.wls_keeps_confirmed) keep_confirmed(before, match.found, match.left);
   }
   // Filling goes scan line by scan line; a median across them takes the streaks out and keeps the edges.
-  cv::Mat matrix = as_mat(left);
+  cv::Mat matrix = as_mat(match.left);
   cv::medianBlur(matrix, matrix, 5);
-  matched.geometry = geometry_from_left(std::move(left));
+  matched.geometry = geometry_from_left(std::move(match.left));
   return matched;
 }
 

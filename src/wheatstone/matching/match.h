@@ -12,8 +12,9 @@ namespace wheatstone {
 
 /// How corresponding pixels are found.
 enum class Matcher {
-  sgbm,  ///< semi-global matching (OpenCV, MODE_SGBM_3WAY)
-  bm,    ///< block matching (OpenCV)
+  census,  ///< semi-global matching of censuses, coarse to fine, ours
+  sgbm,    ///< semi-global matching (OpenCV, MODE_SGBM_3WAY)
+  bm,      ///< block matching (OpenCV)
   dp,  ///< dynamic programming along scan lines (Birchfield & Tomasi 1998), one of the two of Stavrakis & Gelautz 2005
   onnx,  ///< a neural network from a file (OpenCV's DNN module)
 };
@@ -48,7 +49,7 @@ std::span<const std::string_view> match_quality_names();
 std::optional<MatchQuality> match_quality_by_name(std::string_view name);
 
 struct MatchOptions {
-  Matcher matcher = Matcher::sgbm;
+  Matcher matcher = Matcher::census;
   /// For onnx: a network with two inputs of 1×3×H×W, left and right, or one of 1×6×H×W; open sides are the picture's,
   /// rounded up to 32. It answers with one map of disparities, in pixels of W; where they are mostly negative they are
   /// taken for a flow and turned round.

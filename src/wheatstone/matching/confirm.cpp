@@ -1,0 +1,56 @@
+#include "wheatstone/matching/confirm_internal.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/calib3d.hpp>
+
+#include "wheatstone/matching/match_internal.h"
+
+namespace wheatstone {
+namespace {
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+}
+
+Image<float> confirmed_disparity(const Image<float>& own, const Image<float>& other, float sign, float tolerance_px) {
+  Image<float> result(own.width(), own.height(), unknown);
+  tbb::parallel_for(0, own.height(), [&](int y) {
+    const auto from = own.row(y), into = other.row(y);
+    const auto to = result.row(y);
+    for (int x = 0; x < own.width(); ++x) {
+      const float target = std::floor(static_cast<float>(x) + 0.5f + sign * from[x]);
+      if (!(target >= 0 && target < static_cast<float>(own.width()))) continue;
+      if (std::abs(into[static_cast<int>(target)] - from[x]) <= tolerance_px) to[x] = from[x];
+    }
+  });
+  return result;
+}
+
+cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
+  cv::Mat sixteenths(disparity.height(), disparity.width(), CV_16S);
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x)
+      sixteenths.at<std::int16_t>(y, x) =
+          std::isfinite(disparity(x, y))
+              ? static_cast<std::int16_t>(std::lround(sign * disparity(x, y) * sixteenths_a_px))
+              : static_cast<std::int16_t>(unknown_sixteenths);
+  return sixteenths;
+}
+
+void remove_speckles(Image<float>& disparity, int least_surface_px) {
+  cv::Mat sixteenths = in_sixteenths(disparity, 1);
+  constexpr int same_surface = 2 * sixteenths_a_px;
+  cv::filterSpeckles(sixteenths, unknown_sixteenths, least_surface_px, same_surface);
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x)
+      if (sixteenths.at<std::int16_t>(y, x) == unknown_sixteenths) disparity(x, y) = unknown;
+}
+
+double known_share(const Image<float>& disparity) {
+  const auto known = std::ranges::count_if(disparity.pixels(), [](float d) { return std::isfinite(d); });
+  return static_cast<double>(known) / static_cast<double>(disparity.pixels().size());
+}
+
+}  // namespace wheatstone

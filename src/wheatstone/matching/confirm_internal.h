@@ -1,0 +1,23 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// What the other view's disparity agrees with, within a tolerance; NaN elsewhere. `sign` is −1 where `own` is the left
+/// view and 1 where it is the right one.
+Image<float> confirmed_disparity(const Image<float>& own, const Image<float>& other, float sign, float tolerance_px);
+
+/// As OpenCV's filters take it: CV_16S, sixteenths of a pixel.
+inline constexpr int unknown_sixteenths = -32768;
+cv::Mat in_sixteenths(const Image<float>& disparity, float sign);
+
+/// Makes connected patches of like disparity unknown that have fewer than this many pixels.
+void remove_speckles(Image<float>& disparity, int least_surface_px);
+
+/// The share of pixels, 0..1, whose disparity is known.
+double known_share(const Image<float>& disparity);
+
+}  // namespace wheatstone

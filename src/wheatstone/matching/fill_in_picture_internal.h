@@ -1,0 +1,15 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// Gives every unknown pixel of the left disparity a value: what the right view hides takes that of the farther surface
+/// beside it, and all else that of its surroundings, spread over the picture but not across its edges (the fast global
+/// smoother of Min et al. 2014, as a solver with confidences). `picture` is the left one, 8-bit RGB; `other` is the
+/// disparity of the right view, by which hidden pixels are told. Throws Error{bad_input} where nothing is known.
+void fill_in_picture(Image<float>& disparity, const Image<float>& other, const cv::Mat& picture);
+
+}  // namespace wheatstone
