@@ -28,7 +28,8 @@ void add_match_options(CLI::App& command, MatchArguments& arguments) {
            "Matching quality: fast matches at half the size; best replaces unreliable places and refines edges")
       ->group(group);
   CLI::Option* matcher = add_name(command, "--matcher", arguments.matcher, matcher_names(),
-                                  "Matching method: semi-global, block matching, scan-line dynamic programming, or a "
+                                  "Matching method: semi-global matching of census transforms from coarse to fine, "
+                                  "OpenCV's semi-global or block matching, scan-line dynamic programming, or a "
                                   "network (--model)")
                              ->group(group);
   CLI::Option* model =
@@ -83,7 +84,7 @@ void refuse_match_options_without_effect(const CLI::App& command, const MatchArg
   const std::string situation = fmt::format("with --matcher {}", arguments.matcher);
   // The refinement takes its radius from the window.
   const bool refines = arguments.refine == "wls" || (arguments.refine.empty() && arguments.quality == "best");
-  if ((arguments.matcher == "dp" || arguments.matcher == "onnx") && !refines)
+  if (arguments.matcher != "sgbm" && arguments.matcher != "bm" && !refines)
     refuse_options(command, {"--block"}, situation, "it works with sgbm and bm");
   if (arguments.matcher == "onnx") refuse_options(command, {"--range"}, situation, "the network has its own range");
 }

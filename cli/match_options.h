@@ -10,7 +10,7 @@ namespace wheatstone::cli {
 /// The options of matching as they are typed.
 struct MatchArguments {
   std::string quality = "good";
-  std::string matcher = "sgbm";
+  std::string matcher = "census";
   std::string model;
   std::string model_values = "255";
   std::string range;

@@ -290,6 +290,7 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
   add_film_options(command, *arguments);
   add_time_options(command, *arguments);
   add_style_options(command, arguments->style);
+  arguments->matching.matcher = name_of(RotoscopeOptions().matching.matcher);  // films need a quick one
   add_match_options(command, arguments->matching);
   command.footer(
       "Strokes are planned in the view between the eyes and follow the motion of the film. Audio and subtitles are\n"

@@ -15,7 +15,8 @@ namespace wheatstone {
 
 struct RotoscopeOptions {
   Style style;
-  MatchOptions matching;         ///< where it has no range, one is found for each scene
+  /// Where it has no range, one is found for each scene.
+  MatchOptions matching{.matcher = Matcher::sgbm};
   int widest_matched_px = 1280;  ///< wider frames are matched in copies of this width
   int widest_flow_px = 960;      ///< and their flow is found in copies of this one
   FlowMethod flow = FlowMethod::farneback;

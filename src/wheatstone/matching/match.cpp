@@ -203,6 +203,8 @@ std::span<const std::string_view> matcher_names() { return names; }
 
 std::optional<Matcher> matcher_by_name(std::string_view name) { return by_name<Matcher>(names, name); }
 
+std::string_view name_of(Matcher matcher) { return names[static_cast<std::size_t>(matcher)]; }
+
 std::span<const std::string_view> network_values_names() { return values_names; }
 
 std::optional<NetworkValues> network_values_by_name(std::string_view name) {

@@ -12,7 +12,7 @@ namespace wheatstone {
 
 /// How corresponding pixels are found.
 enum class Matcher {
-  census,  ///< semi-global matching of censuses, coarse to fine, ours
+  census,  ///< semi-global matching of census transforms from coarse to fine; its own, and the best for photographs
   sgbm,    ///< semi-global matching (OpenCV, MODE_SGBM_3WAY)
   bm,      ///< block matching (OpenCV)
   dp,  ///< dynamic programming along scan lines (Birchfield & Tomasi 1998), one of the two of Stavrakis & Gelautz 2005
@@ -21,6 +21,7 @@ enum class Matcher {
 
 std::span<const std::string_view> matcher_names();
 std::optional<Matcher> matcher_by_name(std::string_view name);
+std::string_view name_of(Matcher matcher);
 
 /// What a network's pictures consist of; red, green, blue.
 enum class NetworkValues {
