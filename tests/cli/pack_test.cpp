@@ -102,7 +102,9 @@ TEST(PackCommand, MakesWhatScreensShow) {
 /// An output of the format, and what it needs besides the views.
 std::vector<std::string> pack_words(const cli::PackingFormat& format, std::string_view name) {
   std::vector<std::string> words{"pack", "left.png", "right.png", "--to", std::string(name), "-o"};
-  words.push_back("out" + std::string(format.ending.empty() ? ".png" : format.ending));
+  // Depths of far things do not fit a PNG.
+  const std::string_view ending = format.name == "depth" ? ".exr" : format.ending.empty() ? ".png" : format.ending;
+  words.push_back("out" + std::string(ending));
   if (format.name == "quilt") words.insert(words.end(), {"--quilt", "2x1"});
   if (format.name == "lenticular") words.insert(words.end(), {"--screen", "barrier-2"});
   return words;

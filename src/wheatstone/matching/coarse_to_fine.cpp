@@ -49,6 +49,31 @@ std::vector<Level> levels_of(const cv::Mat& left, const cv::Mat& right, double c
   return levels;
 }
 
+/// The right picture with the left one's exposure and colour, told from the means and spreads of their channels; as it
+/// is where these are nearly equal.
+cv::Mat exposed_alike(const cv::Mat& left, const cv::Mat& right) {
+  cv::Scalar left_mean, left_spread, right_mean, right_spread;
+  cv::meanStdDev(left, left_mean, left_spread);
+  cv::meanStdDev(right, right_mean, right_spread);
+  constexpr double least_spread = 1, near_gain = 0.03, near_mean = 3;
+  bool alike = true;
+  std::array<double, 3> gain{};
+  for (int channel = 0; channel < 3; ++channel) {
+    gain[channel] = std::max(left_spread[channel], least_spread) / std::max(right_spread[channel], least_spread);
+    alike = alike && std::abs(gain[channel] - 1) <= near_gain &&
+            std::abs(left_mean[channel] - right_mean[channel]) <= near_mean;
+  }
+  if (alike) return right;
+  std::vector<cv::Mat> channels;
+  cv::split(right, channels);
+  for (int channel = 0; channel < 3; ++channel)
+    channels[channel].convertTo(channels[channel], -1, gain[channel],
+                                left_mean[channel] - gain[channel] * right_mean[channel]);
+  cv::Mat result;
+  cv::merge(channels, result);
+  return result;
+}
+
 /// The colour distance of two pixels, 0..765.
 int colour_distance(const cv::Vec3b& a, const cv::Vec3b& b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
@@ -123,7 +148,7 @@ CheckedMatch checked(BandMatch match, const Level& level, const Image<float>& gu
 
 CheckedMatch match_coarse_to_fine(const cv::Mat& left, const cv::Mat& right, const DisparityRange& range,
                                   const MatchOptions& options, const Progress& progress) {
-  const std::vector<Level> levels = levels_of(left, right, coarsest_scale(left.size(), range));
+  const std::vector<Level> levels = levels_of(left, exposed_alike(left, right), coarsest_scale(left.size(), range));
   CheckedMatch match;
   for (std::size_t i = levels.size(); i-- > 0;) {
     const Level& level = levels[i];

@@ -43,7 +43,7 @@ struct DisparityRange {
 enum class MatchQuality {
   fast,  ///< at half the pictures' size
   good,  ///< the defaults
-  best,  ///< doubtful places replaced by their surroundings, edges refined
+  best,  ///< doubtful places replaced by their surroundings, edges refined: for plain walls and repeated patterns
 };
 
 std::span<const std::string_view> match_quality_names();

@@ -92,10 +92,10 @@ TEST(MatchQuality, FindsTeddyAsWellAsItPromises) {
   const double fast = bad_2(teddy, MatchQuality::fast), good = bad_2(teddy, MatchQuality::good);
   const double best = bad_2(teddy, MatchQuality::best);
   RecordProperty("bad_2", std::to_string(fast) + " " + std::to_string(good) + " " + std::to_string(best));
-  // Reached: .060, .056, .054. The same bytes on every run; another OpenCV or processor moves it by less than .005.
+  // Reached: .061, .030, .037. The same bytes on every run; another OpenCV or processor moves it by less than .005.
   EXPECT_LE(fast, 0.065);
-  EXPECT_LE(good, 0.061);
-  EXPECT_LE(best, 0.059);
+  EXPECT_LE(good, 0.034);
+  EXPECT_LE(best, 0.041);
 }
 
 TEST(MatchQuality, BestIsNoWorseThanGood) {
