@@ -1,18 +1,19 @@
 #include "wheatstone/matching/coarse_to_fine_internal.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
+#include "wheatstone/matching/enlarge_internal.h"
 #include "wheatstone/matching/fill_in_picture_internal.h"
 #include "wheatstone/matching/semi_global_internal.h"
 
@@ -23,10 +24,15 @@ namespace {
 constexpr int coarsest_width_px = 900;
 constexpr double most_coarse_costs = 80e6;
 /// Disparities looked at around what the coarser copy had.
-constexpr int fine_count = 12;
+constexpr int fine_count = 16;
 
 struct Level {
   cv::Mat left, right;
+};
+
+/// What one size leaves to the next.
+struct Guess {
+  Image<float> left, found;
 };
 
 double coarsest_scale(cv::Size size, const DisparityRange& range) {
@@ -74,39 +80,6 @@ cv::Mat exposed_alike(const cv::Mat& left, const cv::Mat& right) {
   return result;
 }
 
-/// The colour distance of two pixels, 0..765.
-int colour_distance(const cv::Vec3b& a, const cv::Vec3b& b) {
-  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
-}
-
-/// The disparity of a copy of half the size at this one's: each pixel takes that of the coarser pixel around it whose
-/// colour is most like its own, so that depth edges follow the picture's.
-Image<float> enlarged_along_edges(const Image<float>& coarse, const Level& coarse_level, const Level& level) {
-  const int width = level.left.cols, height = level.left.rows;
-  Image<float> result(width, height);
-  const float factor = static_cast<float>(width) / static_cast<float>(coarse.width());
-  tbb::parallel_for(0, height, [&](int y) {
-    const auto* own = level.left.ptr<cv::Vec3b>(y);
-    const int middle_y = std::min(y / 2, coarse.height() - 1);
-    for (int x = 0; x < width; ++x) {
-      const int middle_x = std::min(x / 2, coarse.width() - 1);
-      int least = std::numeric_limits<int>::max();
-      for (int j = std::max(middle_y - 1, 0); j <= std::min(middle_y + 1, coarse.height() - 1); ++j) {
-        const auto* colours = coarse_level.left.ptr<cv::Vec3b>(j);
-        for (int i = std::max(middle_x - 1, 0); i <= std::min(middle_x + 1, coarse.width() - 1); ++i) {
-          constexpr int own_pixel_bonus = 12;  // neighbours must be clearly more alike
-          const bool own_pixel = i == middle_x && j == middle_y;
-          const int distance = colour_distance(own[x], colours[i]) - (own_pixel ? own_pixel_bonus : 0);
-          if (distance >= least) continue;
-          least = distance;
-          result(x, y) = coarse(i, j) * factor;
-        }
-      }
-    }
-  });
-  return result;
-}
-
 SearchBand whole_range(cv::Size size, const DisparityRange& range) {
   return {Image<std::int16_t>(size.width, size.height, static_cast<std::int16_t>(range.least)),
           range.largest - range.least + 1};
@@ -115,31 +88,30 @@ SearchBand whole_range(cv::Size size, const DisparityRange& range) {
 SearchBand band_around(const Image<float>& disparity) {
   SearchBand band{Image<std::int16_t>(disparity.width(), disparity.height()), fine_count};
   std::ranges::transform(disparity.pixels(), band.first.pixels().begin(),
-                         [](float d) { return static_cast<std::int16_t>(std::lround(d) - fine_count / 2); });
+                         [](float d) { return static_cast<std::int16_t>(std::floor(d + 0.5f) - fine_count / 2); });
   return band;
 }
 
-/// Checks and completes what was found at one size. `guess`, empty at the coarsest, is what the coarser copy had: it
+/// Checks and completes what was found at one size. `guess`, none at the coarsest, is what the coarser copy had: it
 /// stays where this size finds nothing.
-CheckedMatch checked(BandMatch match, const Level& level, const Image<float>& guess, const Image<float>& guess_found,
-                     const MatchOptions& options) {
+CheckedMatch checked(BandMatch match, const Level& level, std::optional<Guess> guess, const MatchOptions& options) {
   CheckedMatch result;
   result.found = options.left_right_check ? confirmed_disparity(match.left, match.right, -1, options.check_tolerance_px)
                                           : match.left;
   result.right = options.left_right_check ? confirmed_disparity(match.right, match.left, 1, options.check_tolerance_px)
                                           : match.right;
   remove_speckles(result.found, options.least_surface_px);
-  if (known_share(result.found) == 0) throw Error(ErrorKind::bad_input, "no pixel of the two pictures matches");
-  if (guess.empty()) {
+  if (guess) {
+    result.left = std::move(guess->left);
+    for (std::size_t i = 0; i < result.left.pixels().size(); ++i) {
+      float& found = result.found.pixels()[i];
+      if (!std::isfinite(found)) found = guess->found.pixels()[i];
+      if (std::isfinite(found)) result.left.pixels()[i] = found;
+    }
+  } else {
+    if (known_share(result.found) == 0) throw Error(ErrorKind::bad_input, "no pixel of the two pictures matches");
     result.left = result.found;
     fill_in_picture(result.left, match.right, level.left);
-    return result;
-  }
-  result.left = guess;
-  for (std::size_t i = 0; i < result.left.pixels().size(); ++i) {
-    float& found = result.found.pixels()[i];
-    if (!std::isfinite(found)) found = guess_found.pixels()[i];
-    if (std::isfinite(found)) result.left.pixels()[i] = found;
   }
   return result;
 }
@@ -153,18 +125,19 @@ CheckedMatch match_coarse_to_fine(const cv::Mat& left, const cv::Mat& right, con
   for (std::size_t i = levels.size(); i-- > 0;) {
     const Level& level = levels[i];
     report(progress, "matching", 1 - static_cast<double>(level.left.total()) / static_cast<double>(left.total()));
-    Image<float> guess, guess_found;
+    std::optional<Guess> guess;
     SearchBand band;
     if (i + 1 == levels.size()) {
       const double scale = static_cast<double>(level.left.cols) / left.cols;
       band = whole_range(level.left.size(), {static_cast<int>(std::floor(range.least * scale)),
                                              static_cast<int>(std::ceil(range.largest * scale))});
     } else {
-      guess = enlarged_along_edges(match.left, levels[i + 1], level);
-      guess_found = enlarged_along_edges(match.found, levels[i + 1], level);
-      band = band_around(guess);
+      const Image<std::uint8_t> alike = most_alike_neighbours(levels[i + 1].left, level.left);
+      guess = {enlarged(match.left, alike), enlarged(match.found, alike)};
+      match = {};
+      band = band_around(guess->left);
     }
-    match = checked(match_semi_global(level.left, level.right, band), level, guess, guess_found, options);
+    match = checked(match_semi_global(level.left, level.right, band), level, std::move(guess), options);
   }
   return match;
 }

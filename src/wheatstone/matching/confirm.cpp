@@ -28,6 +28,14 @@ Image<float> confirmed_disparity(const Image<float>& own, const Image<float>& ot
   return result;
 }
 
+bool is_hidden_from(std::span<const float> right, int x, const DisparityRange& range) {
+  const int begin = std::max(x - range.largest, 0);
+  const int end = std::min(x - range.least + 1, static_cast<int>(right.size()));
+  for (int there = begin; there < end; ++there)
+    if (std::abs(right[there] - static_cast<float>(x - there)) <= 1) return false;
+  return true;
+}
+
 cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
   cv::Mat sixteenths(disparity.height(), disparity.width(), CV_16S);
   for (int y = 0; y < disparity.height(); ++y)

@@ -1,14 +1,20 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <span>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/matching/match.h"
 
 namespace wheatstone {
 
 /// What the other view's disparity agrees with, within a tolerance; NaN elsewhere. `sign` is −1 where `own` is the left
 /// view and 1 where it is the right one.
 Image<float> confirmed_disparity(const Image<float>& own, const Image<float>& other, float sign, float tolerance_px);
+
+/// True where the right view holds nothing that could be column x of the left one: no disparity of the range leads to a
+/// pixel with the same one, to within a pixel. `right` is a row of its disparities.
+bool is_hidden_from(std::span<const float> right, int x, const DisparityRange& range);
 
 /// As OpenCV's filters take it: CV_16S, sixteenths of a pixel.
 inline constexpr int unknown_sixteenths = -32768;

@@ -8,33 +8,24 @@
 #include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {
 namespace {
 
-struct Range {
+struct Ends {
   float least = 0, largest = 0;
 };
 
-Range range_of(const Image<float>& disparity) {
-  Range range{INFINITY, -INFINITY};
+Ends ends_of(const Image<float>& disparity) {
+  Ends range{INFINITY, -INFINITY};
   for (const float d : disparity.pixels()) {
     if (!std::isfinite(d)) continue;
     range.least = std::min(range.least, d);
     range.largest = std::max(range.largest, d);
   }
   return range;
-}
-
-/// True where no disparity leads from a pixel of the left view to one of the right view with the same disparity.
-bool is_hidden(std::span<const float> other, int x, const Range& range) {
-  const int width = static_cast<int>(other.size());
-  const int begin = std::max(x - static_cast<int>(std::ceil(range.largest)), 0);
-  const int end = std::min(x - static_cast<int>(std::floor(range.least)) + 1, width);
-  for (int there = begin; there < end; ++there)
-    if (std::abs(other[there] - static_cast<float>(x - there)) <= 1) return false;
-  return true;
 }
 
 /// Pixels whose partners would lie beside the right picture have one known neighbour only, to their right, and what it
@@ -66,7 +57,8 @@ void fill_in_picture(Image<float>& disparity, const Image<float>& other, const c
   Image<float> farther = disparity;
   fill_from_farther_side(farther);
   steady_border(disparity, farther);
-  const Range range = range_of(disparity);
+  const Ends ends = ends_of(disparity);
+  const DisparityRange range{static_cast<int>(std::floor(ends.least)), static_cast<int>(std::ceil(ends.largest))};
 
   // The solver's data: what is known, and what is hidden with less confidence.
   constexpr float hidden_confidence = 0.5f;
@@ -76,8 +68,8 @@ void fill_in_picture(Image<float>& disparity, const Image<float>& other, const c
     auto* weight = confidence.ptr<float>(y);
     for (int x = 0; x < width; ++x) {
       const bool known = std::isfinite(disparity(x, y));
-      weight[x] = known ? 1.f : is_hidden(other.row(y), x, range) ? hidden_confidence : 0.f;
-      value[x] = weight[x] * (farther(x, y) - range.least);
+      weight[x] = known ? 1.f : is_hidden_from(other.row(y), x, range) ? hidden_confidence : 0.f;
+      value[x] = weight[x] * (farther(x, y) - ends.least);
     }
   });
   constexpr double smoothness = 4000, colour_sigma = 4;
@@ -93,7 +85,7 @@ void fill_in_picture(Image<float>& disparity, const Image<float>& other, const c
       if (std::isfinite(disparity(x, y))) continue;
       const bool spread = given[x] == 0 && weight[x] > least_confidence;
       disparity(x, y) =
-          spread ? std::clamp(range.least + value[x] / weight[x], range.least, range.largest) : farther(x, y);
+          spread ? std::clamp(ends.least + value[x] / weight[x], ends.least, ends.largest) : farther(x, y);
     }
   });
 }

@@ -127,7 +127,7 @@ void keep_confirmed(const Image<float>& before, const Image<float>& found, Image
   }
 }
 
-/// The steps of every matcher but ours: matched both ways, checked, and filled row by row.
+/// The steps of every matcher but ours: matched both ways and checked. What is not found stays unknown.
 CheckedMatch match_both_ways(const cv::Mat& left_picture, const cv::Mat& right_picture, const DisparityRange& range,
                              const MatchOptions& options) {
   CheckedMatch match;
@@ -161,9 +161,10 @@ MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& ran
   matched.right_found_share = known_share(match.right);
   if (options.distrust) match.found = distrust(match.left, match.right, pair, range);
   const Image<float> before = match.left;
-  fill_from_farther_side(match.left);
-  fill_from_farther_side(match.right);
+  // Only our own matcher fills what it does not find over the picture; the others' is filled row by row.
+  if (options.matcher != Matcher::census) fill_from_farther_side(match.left);
   if (options.wls) {
+    fill_from_farther_side(match.right);
     match.left = refined(match.left, match.right, left_picture, range, options);
     if (options.wls_keeps_confirmed) keep_confirmed(before, match.found, match.left);
   }

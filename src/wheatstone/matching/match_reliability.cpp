@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/confirm_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -53,16 +54,6 @@ Costs compare(const cv::Mat& left, const cv::Mat& right, const cv::Mat& disparit
     });
   }
   return costs;
-}
-
-/// True where the right view holds nothing that could be this pixel: no disparity leads to a pixel with the same one.
-bool hidden_from(std::span<const float> other, int x, const DisparityRange& range) {
-  for (int d = range.least; d <= range.largest; ++d) {
-    const int there = x - d;
-    if (there < 0 || there >= static_cast<int>(other.size())) continue;
-    if (std::abs(other[there] - static_cast<float>(d)) <= 1) return false;
-  }
-  return true;
 }
 
 struct Step {
@@ -165,7 +156,7 @@ void replace_doubtful(Image<float>& disparity, const Image<float>& other, const 
       if (continues_surroundings(before(x, y), around)) continue;
       std::ranges::sort(around, {}, &Seen::disparity);
       const auto known = std::ranges::count_if(around, [](const Seen& seen) { return seen.disparity < nothing; });
-      if (known == 0 || hidden_from(other.row(y), x, range)) continue;
+      if (known == 0 || is_hidden_from(other.row(y), x, range)) continue;
       disparity(x, y) = around[static_cast<std::size_t>(known - 1) / 2].disparity;
     }
   });
