@@ -11,6 +11,7 @@
 #include "command.h"
 #include "number_arguments.h"
 #include "output_option.h"
+#include "print_facts.h"
 #include "typed_options.h"
 #include "wheatstone/calibration/calibration.h"
 #include "wheatstone/error.h"
@@ -93,7 +94,7 @@ void print_json(const CalibrationResult& result, const Arguments& arguments, con
                                  result.calibration.translation[2])},
       {"eyes_swapped", eyes_swapped(result.calibration)},
       {"pairs", pairs}};
-  fmt::print(session.output, "{}\n", facts.dump(2));
+  print_facts(facts, session);
 }
 
 void print_summary(const CalibrationResult& result, const Arguments& arguments, const Session& session) {

@@ -9,6 +9,7 @@
 #include "command.h"
 #include "number_arguments.h"
 #include "option_use.h"
+#include "print_facts.h"
 #include "typed_options.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/display_presets.h"
@@ -73,7 +74,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
                                        {"pixel_in_front_mm", -perceived_depth_mm(viewing, -pitch)},
                                        {"pixel_behind_mm", perceived_depth_mm(viewing, pitch)},
                                        {"warnings", warnings}};
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
     return;
   }
   fmt::print(session.output,

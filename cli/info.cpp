@@ -13,6 +13,7 @@
 #include "command.h"
 #include "film_facts.h"
 #include "option_use.h"
+#include "print_facts.h"
 #include "typed_options.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/convergence.h"
@@ -241,7 +242,7 @@ ordered_json facts_of(const Arguments& arguments, const CLI::App& command) {
 std::string as_text(const ordered_json& value) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>() : json_text(value, -1);
 }
 
 void print_as_text(const ordered_json& facts, const Session& session) {
@@ -284,7 +285,7 @@ void add_info_command(CLI::App& program, const Session& session) {
     if (!arguments->display.empty()) find_display(arguments->display);
     const ordered_json facts = facts_of(*arguments, *command);
     if (session.json) {
-      fmt::print(session.output, "{}\n", facts.dump(2));
+      print_facts(facts, session);
     } else {
       print_as_text(facts, session);
     }

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "match_options.h"
 #include "output_option.h"
+#include "print_facts.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/report.h"
@@ -46,7 +47,7 @@ void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry&
 }
 
 void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
-  refuse_match_options_without_effect(command, arguments.matching, false);
+  refuse_match_options_without_effect(command, arguments.matching, {});
   // What cannot be written is said before the work.
   const StereoArguments& photographs = arguments.photographs;
   OutputFolder folder(arguments.folder, {photographs.left, photographs.right, arguments.matching.model});
@@ -63,7 +64,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
                                  {"right_found_share", matched.right_found_share},
                                  {"pair", nlohmann::ordered_json::parse(preparation_json(pair))}};
     if (read.whole.width > 0) facts["reduced_from"] = {{"width", read.whole.width}, {"height", read.whole.height}};
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
     return;
   }
   if (read.whole.width > 0)

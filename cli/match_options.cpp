@@ -77,10 +77,9 @@ MatchOptions match_options_from(const MatchArguments& arguments) {
 }
 
 void refuse_match_options_without_effect(const CLI::App& command, const MatchArguments& arguments,
-                                         bool disparity_given) {
-  if (disparity_given)
-    refuse_group(command, match_options_group, {}, "with --disparity",
-                 "nothing is matched where the disparity is given");
+                                         const std::string& disparity_given) {
+  if (!disparity_given.empty())
+    refuse_group(command, match_options_group, {}, disparity_given, "nothing is matched where the disparity is given");
   const std::string situation = fmt::format("with --matcher {}", arguments.matcher);
   // The refinement takes its radius from the window.
   const bool refines = arguments.refine == "wls" || (arguments.refine.empty() && arguments.quality == "best");

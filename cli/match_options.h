@@ -27,8 +27,9 @@ void add_match_options(CLI::App& command, MatchArguments& arguments);
 /// Throws Error{wrong_usage}.
 MatchOptions match_options_from(const MatchArguments& arguments);
 
-/// Throws Error{wrong_usage} for an option that has no effect beside the others, or where the disparity is given.
+/// Throws Error{wrong_usage} for an option that has no effect beside the others, or for any where the disparity is
+/// given: `disparity_given` says by what, as "with --disparity", and is empty where it is not.
 void refuse_match_options_without_effect(const CLI::App& command, const MatchArguments& arguments,
-                                         bool disparity_given);
+                                         const std::string& disparity_given);
 
 }  // namespace wheatstone::cli

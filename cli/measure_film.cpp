@@ -15,6 +15,8 @@
 #include "command.h"
 #include "film_argument.h"
 #include "measure_kinds.h"
+#include "print_facts.h"
+#include "typed_options.h"
 #include "wheatstone/app/report.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
@@ -275,7 +277,7 @@ void run(const Arguments& arguments, const Session& session) {
     Json facts = to_json(arguments, films, frame, cuts);
     if (!shorter.empty()) facts["shorter"] = shorter;
     if (marks) facts["marks"] = to_json(*marks);
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
     return;
   }
   print_table(films, cuts, session);
@@ -305,19 +307,14 @@ void add_measure_film(CLI::App& measure, const Session& session) {
       "by default they are estimated from the source");
   auto* marks = command.add_option("--marks", arguments->marks,
                                    "Marks of the first film, from rotoscope --save-marks: marks_%04d.wst");
-  command
-      .add_option("--fade", arguments->fade_frames,
-                  "Number of frames of the shorter fade; strokes that change faster count as popped")
-      ->check(CLI::Range(1, 1000))
-      ->needs(marks)
-      ->capture_default_str();
+  add_number(command, "--fade", arguments->fade_frames, {1, 1000},
+             "Number of frames of the shorter fade; strokes that change faster count as popped")
+      ->needs(marks);
   command.add_option("--layout", arguments->layout, "Stereo layout of films that do not specify one");
-  command.add_option("--frames", arguments->frames, "Number of frames to measure, from the first; 0 for all")
-      ->check(CLI::Range(0, 1'000'000))
-      ->capture_default_str();
-  command.add_option("--stereo-frame-step", arguments->stereo_step, "Compare the eyes of every Nth frame")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
+  add_number(command, "--frames", arguments->frames, {0, 1'000'000},
+             "Number of frames to measure, from the first; 0 for all");
+  add_number(command, "--stereo-frame-step", arguments->stereo_step, {1, 1'000'000},
+             "Compare the eyes of every Nth frame");
   command.footer(
       "E_warp is the mean squared difference (values 0..1) between each frame of the left eye and the next frame, "
       "warped\n"

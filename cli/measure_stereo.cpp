@@ -10,6 +10,7 @@
 #include "disparity_argument.h"
 #include "match_options.h"
 #include "measure_kinds.h"
+#include "print_facts.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/report.h"
 #include "wheatstone/drawing/draw.h"
@@ -164,7 +165,8 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
     throw Error(ErrorKind::wrong_usage, "--right-disparity needs --disparity, the left eye's");
   if (arguments.disparity.empty() && arguments.photographs.empty())
     throw Error(ErrorKind::wrong_usage, "measure stereo needs --disparity, or --photographs to match");
-  refuse_match_options_without_effect(command, arguments.matching, !arguments.disparity.empty());
+  refuse_match_options_without_effect(command, arguments.matching,
+                                      arguments.disparity.empty() ? "" : "with --disparity");
   const StereoPair stylised = read_pair(arguments.left, arguments.right);
   std::optional<StereoPair> photographs;
   if (!arguments.photographs.empty()) {
@@ -182,7 +184,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   if (photographs) measured.photographs = measure_pair(*photographs, truth.left_disparity);
   if (!arguments.painting.empty()) measured.painting = measure_guards(arguments, stylised, truth.geometry);
   if (session.json) {
-    fmt::print(session.output, "{}\n", to_json(measured).dump(2));
+    print_facts(to_json(measured), session);
   } else {
     print_table(measured, session);
   }

@@ -13,6 +13,7 @@
 #include "command.h"
 #include "measure_kinds.h"
 #include "pictures_in_folder.h"
+#include "print_facts.h"
 #include "typed_options.h"
 #include "wheatstone/error.h"
 #include "wheatstone/measures/view_measures.h"
@@ -121,7 +122,7 @@ void run(const Arguments& arguments, const Session& session) {
     measured.push_back({views[i].filename().string(), measure_view(view, reference, arguments.options)});
   }
   if (session.json) {
-    fmt::print(session.output, "{}\n", to_json(measured, arguments.options.noticeable).dump(2));
+    print_facts(to_json(measured, arguments.options.noticeable), session);
   } else {
     print_table(measured, arguments.options.noticeable, session);
   }

@@ -10,6 +10,7 @@
 #include "number_arguments.h"
 #include "output_option.h"
 #include "packing.h"
+#include "print_facts.h"
 #include "typed_options.h"
 #include "views_argument.h"
 #include "wheatstone/display/arrange.h"
@@ -72,7 +73,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
                                        {"width", views.front().width()},
                                        {"height", views.front().height()},
                                        {"input", read.how}};
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
     return;
   }
   if (session.verbose)

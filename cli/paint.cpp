@@ -14,6 +14,7 @@
 #include "disparity_argument.h"
 #include "number_arguments.h"
 #include "paint_arguments.h"
+#include "print_facts.h"
 #include "wheatstone/app/paint_views.h"
 #include "wheatstone/app/redraw.h"
 #include "wheatstone/app/write_results.h"
@@ -87,8 +88,8 @@ ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
 }
 
 /// What a display wants, where the user does not say otherwise.
-PaintViewsOptions views_options(const Arguments& arguments, const PaintPhotographOptions& painting) {
-  const DisplayPreset& display = find_display(arguments.display);
+PaintViewsOptions views_options(const Arguments& arguments, const DisplayPreset& display,
+                                const PaintPhotographOptions& painting) {
   PaintViewsOptions options{.painting = painting,
                             .views = arguments.views > 0 ? arguments.views : display.views,
                             .width = display.view_width_px,
@@ -104,9 +105,8 @@ PaintViewsOptions views_options(const Arguments& arguments, const PaintPhotograp
 }
 
 /// Writes a quilt or a lenticular picture where the display takes one, and else a picture a view.
-std::string write_views(const Arguments& arguments, const ViewsOutput& output, const PaintedViews& result,
+std::string write_views(const DisplayPreset& display, const ViewsOutput& output, const PaintedViews& result,
                         const Progress& progress) {
-  const DisplayPreset& display = find_display(arguments.display);
   const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
   if (layout.columns * layout.rows == static_cast<int>(result.views.size()))
     return write_quilt(result.views, layout, display.aspect, output);
@@ -124,9 +124,10 @@ struct Painted {
 
 Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const ReadPhotograph& photograph,
                           const PaintPhotographOptions& painting, const Session& session) {
-  const PaintViewsOptions options = views_options(arguments, painting);
+  const DisplayPreset& display = find_display(arguments.display);
+  const PaintViewsOptions options = views_options(arguments, display, painting);
   const PaintedViews result = paint_views(photograph.pair.pictures, options, session.progress);
-  const std::string written = write_views(arguments, output_of(arguments, job.output), result, session.progress);
+  const std::string written = write_views(display, output_of(arguments, job.output), result, session.progress);
   Json facts{{"output", written},
              {"views", result.views.size()},
              {"width", options.width},
@@ -157,7 +158,7 @@ PaintPhotographOptions options_from(const Arguments& arguments, const Session& s
   if (arguments.display.empty()) return options;
   if (options.style.texture)
     throw Error(ErrorKind::wrong_usage, "--texture: has no effect with --display; it works where two eyes are painted");
-  views_options(arguments, options);
+  views_options(arguments, find_display(arguments.display), options);
   return options;
 }
 
@@ -224,7 +225,7 @@ void paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, co
   const std::string summary = fmt::format("{} of {} photographs painted", jobs.size() - failed, jobs.size());
   if (session.json) {
     const Json facts{{"painted", jobs.size() - failed}, {"failed", failed}, {"photographs", photographs}};
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
   } else {
     for (const Json& one : photographs)
       if (one.contains("output"))
@@ -247,7 +248,7 @@ void draw_painting_again(const Arguments& arguments, const CLI::App& command, co
   OutputFolder folder(arguments.folder, output_of(arguments, arguments.folder).inputs);
   draw_again(read_painting(arguments.files.front()), folder, options, session.progress);
   if (session.json) {
-    fmt::print(session.output, "{}\n", Json{{"folder", arguments.folder}}.dump(2));
+    print_facts({{"folder", arguments.folder}}, session);
   } else {
     fmt::print(session.output, "written to       {}\n", arguments.folder);
   }
@@ -269,7 +270,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   if (jobs.size() > 1) return paint_all(arguments, jobs, options, session);
   const Painted painted = paint_one(arguments, jobs.front(), options, session);
   if (session.json) {
-    fmt::print(session.output, "{}\n", painted.facts.dump(2));
+    print_facts(painted.facts, session);
   } else {
     fmt::print(session.output, "{}written to       {}\n", painted.text, painted.written);
   }

@@ -110,7 +110,8 @@ void refuse_for_photographs(const CLI::App& command, const PaintArguments& argum
                    "it belongs to one");
   if (!arguments.disparity.empty())
     refuse_options(command, {"--max-size"}, "with --disparity", "the disparity belongs to the whole picture");
-  refuse_match_options_without_effect(command, arguments.matching, !arguments.disparity.empty());
+  refuse_match_options_without_effect(command, arguments.matching,
+                                      arguments.disparity.empty() ? "" : "with --disparity");
   if (arguments.display.empty()) return;
   refuse_options(command, {"--report", "--html", "--svg"}, "with --display", "it works where two eyes are painted");
   if (arguments.zero_parallax == "nearest")

@@ -1,5 +1,6 @@
 #include "program.h"
 
+#include <regex>
 #include <string>
 
 #include "typed_options.h"
@@ -10,6 +11,12 @@ namespace {
 /// A command's help, which also tells of the options that all commands share.
 class CommandHelp : public CLI::Formatter {
  public:
+  /// CLI11 writes behind a flag's names what its second form sets: "--no-swap{false}".
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    static const std::regex set_value(R"(\{[^}]*\})");
+    return std::regex_replace(CLI::Formatter::make_option_name(option, is_positional), set_value, "");
+  }
+
   std::string make_footer(const CLI::App* app) const override {
     if (app->get_parent() == nullptr) return CLI::Formatter::make_footer(app);
     const CLI::App* program = app;

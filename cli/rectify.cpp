@@ -6,6 +6,8 @@
 
 #include "command.h"
 #include "output_option.h"
+#include "picture_format.h"
+#include "print_facts.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/calibration/rectify.h"
@@ -18,6 +20,7 @@ namespace {
 struct Arguments {
   std::string left, right;
   std::string folder = "rectified";
+  std::string format = "png";
   std::string calibration;
   bool match_colour = true;
 };
@@ -55,7 +58,7 @@ void print_json(const RectifiedPair& pair, const Arguments& arguments, const Ses
   if (pair.colour) facts["colour"] = {{"gain", pair.colour->gain}, {"gamma", pair.colour->gamma}};
   if (pair.homographies)
     facts["homographies"] = {{"left", pair.homographies->left}, {"right", pair.homographies->right}};
-  fmt::print(session.output, "{}\n", facts.dump(2));
+  print_facts(facts, session);
 }
 
 void print_summary(const RectifiedPair& pair, const Arguments& arguments, const Session& session) {
@@ -95,7 +98,8 @@ void print_summary(const RectifiedPair& pair, const Arguments& arguments, const 
 void run(const Arguments& arguments, const Session& session) {
   // Before the work, so that what cannot be written is known at once.
   OutputFolder folder(arguments.folder, {arguments.left, arguments.right, arguments.calibration});
-  const std::filesystem::path left = folder.file("left.png"), right = folder.file("right.png");
+  const std::filesystem::path left = folder.file(fmt::format("left.{}", arguments.format));
+  const std::filesystem::path right = folder.file(fmt::format("right.{}", arguments.format));
   const RectifiedPair pair = rectified(arguments, session);
   write_image(left, pair.pictures.left);
   write_image(right, pair.pictures.right);
@@ -116,6 +120,7 @@ void add_rectify_command(CLI::App& program, const Session& session) {
   command.add_option("LEFT", arguments->left, "Left photograph")->required();
   command.add_option("RIGHT", arguments->right, "Right photograph, of the same size")->required();
   add_output_option(command, arguments->folder, "Folder for left.png and right.png");
+  add_picture_format(command, arguments->format, "File format of the rectified pictures");
   command.add_option(
       "--calibration", arguments->calibration,
       "Calibration file of the stereo rig (from 'wheatstone calibrate' or OpenCV); matched features are used by "

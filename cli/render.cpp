@@ -10,6 +10,7 @@
 #include "number_arguments.h"
 #include "option_use.h"
 #include "picture_format.h"
+#include "print_facts.h"
 #include "render_options.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
@@ -120,7 +121,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"planes", result.rendered.planes},
                                  {"exposure", result.rendered.exposure},
                                  {"warnings", result.warnings}};
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
     return;
   }
   if (result.dropped > 0)

@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "command.h"
@@ -19,8 +19,11 @@
 #include "interrupt.h"
 #include "match_options.h"
 #include "number_arguments.h"
+#include "option_use.h"
 #include "output_option.h"
+#include "print_facts.h"
 #include "style_options.h"
+#include "typed_options.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
@@ -144,11 +147,30 @@ void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const
   fmt::print(session.output, "written to       {}\n", arguments.output);
 }
 
-void run(const Arguments& arguments, const Session& session) {
+/// Refuses options that change nothing in this run, as far as that is known before the film is opened.
+void refuse_options_without_effect(const CLI::App& command, const Arguments& arguments) {
+  const bool known = !arguments.truth.empty();
+  refuse_match_options_without_effect(command, arguments.matching, known ? "with --truth" : "");
+  const Style& style = arguments.options.frames.style;
+  const auto refuse = [&](const std::vector<std::string>& options, std::string_view situation, std::string_view where) {
+    refuse_options(command, options, situation, where);
+  };
+  if (style.marks == Marks::strokes)
+    refuse({"--propagation"}, "on the strokes of a film", "they are planned in the view between the eyes");
+  if (style.marks != Marks::strokes)
+    refuse({"--fade-in", "--fade-out"}, fmt::format("on a painting of {}", name_of(style.marks)),
+           "it works with strokes");
+  if (arguments.options.frames.anew)
+    refuse({"--flow", "--fade-in", "--fade-out"}, "with --frame-by-frame", "nothing is carried from frame to frame");
+  if (known) refuse({"--flow"}, "with --truth", "the exact flow is read");
+}
+
+void run(Arguments arguments, const CLI::App& command, const Session& session) {
+  arguments.options.frames.style = style_from(arguments.style, session.seed);
+  arguments.options.frames.matching = match_options_from(arguments.matching);
+  refuse_options_without_effect(command, arguments);
   end_only_by_itself();  // what is painted is kept for --resume
   RotoscopeFilmOptions options = arguments.options;
-  options.frames.style = style_from(arguments.style, session.seed);
-  options.frames.matching = match_options_from(arguments.matching);
   if (!arguments.truth.empty()) {
     if (!arguments.from.empty() || arguments.frame_step != 1)
       throw Error(ErrorKind::wrong_usage,
@@ -173,6 +195,10 @@ void run(const Arguments& arguments, const Session& session) {
   reading.threads = session.threads;
   options.reading = reading;
   StereoFilmReader source = open_film(film, reading);
+  if (source.layout() == StereoLayout::mono && film.right.empty()) {
+    refuse_group(command, match_options_group, {}, "on a film of one eye", {});
+    refuse_options(command, {"--central"}, "on a film of one eye", {});
+  }
   if (session.verbose && film.right.empty())
     fmt::print(session.errors, "layout: {} ({})\n", layout_name(source.layout()), source.layout_how());
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));
@@ -184,7 +210,7 @@ void run(const Arguments& arguments, const Session& session) {
   if (!left_out.empty() && !session.quiet) fmt::print(session.errors, "wheatstone: {}\n", fmt::join(left_out, "; "));
   const RotoscopedFilm result = rotoscope_film(source, arguments.output, options, session.progress);
   if (session.json) {
-    fmt::print(session.output, "{}\n", to_json(arguments, result).dump(2));
+    print_facts(to_json(arguments, result), session);
   } else {
     print_summary(arguments, result, session);
   }
@@ -208,14 +234,12 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
       .add_option("--rate", arguments.rate,
                   "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default")
       ->group(group);
-  command.add_option("--frame-step", arguments.frame_step, "Paint every Nth frame only")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str()
-      ->group(group);
+  add_number(command, "--frame-step", arguments.frame_step, {1, 1'000'000}, "Paint every Nth frame only")->group(group);
   command.add_option("--codec", writing.codec, "h264, hevc, or ffv1 (lossless, .mkv)")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--crf", writing.crf, "Constant rate factor of h264 and hevc: from 0, the best quality, to 51")
+  add_number(command, "--crf", writing.crf, {0, 51},
+             "Constant rate factor of h264 and hevc: from 0, the best quality, to 51")
       ->group(group);
   command.add_option("--preset", writing.preset, "Encoder preset of h264 and hevc, from ultrafast to placebo")
       ->capture_default_str()
@@ -226,11 +250,8 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--save-marks", arguments.options.marks, "Also write the marks of each frame: marks_%04d.wst")
       ->group(group);
   command.add_flag("--resume", arguments.options.resume, "Continue a run that was stopped")->group(group);
-  command
-      .add_option("--checkpoint", arguments.options.frames_between_checkpoints,
-                  "Number of frames between checkpoints: a stopped run loses at most this many")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str()
+  add_number(command, "--checkpoint", arguments.options.frames_between_checkpoints, {1, 100'000},
+             "Number of frames between checkpoints: a stopped run loses at most this many")
       ->group(group);
   command
       .add_flag("--keep-going", arguments.options.keep_going,
@@ -241,29 +262,23 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
 void add_time_options(CLI::App& command, Arguments& arguments) {
   constexpr auto group = "Time and depth";
   RotoscopeOptions& frames = arguments.options.frames;
-  static const std::map<std::string, FlowMethod> flows{{"farneback", FlowMethod::farneback}, {"dis", FlowMethod::dis}};
-  command.add_option("--flow", frames.flow, "Optical flow method: farneback, or dis, which is faster")
-      ->transform(CLI::CheckedTransformer(flows, CLI::ignore_case).description(""))
-      ->option_text("farneback|dis [farneback]")
+  static constexpr std::array flows{std::pair{std::string_view("farneback"), FlowMethod::farneback},
+                                    std::pair{std::string_view("dis"), FlowMethod::dis}};
+  add_choice<FlowMethod>(command, "--flow", frames.flow, flows,
+                         "Optical flow method: farneback, or dis, which is faster")
       ->group(group);
-  static const std::map<std::string, CentralMerge> merges{{"visible", CentralMerge::visible},
-                                                          {"average", CentralMerge::average}};
-  command
-      .add_option("--central", frames.central,
-                  "How the eyes are merged to the central view: visible takes the colour from the eyes that see a "
-                  "point; average takes the average of both, which causes ghosting")
-      ->transform(CLI::CheckedTransformer(merges, CLI::ignore_case).description(""))
-      ->option_text("visible|average [visible]")
+  static constexpr std::array merges{std::pair{std::string_view("visible"), CentralMerge::visible},
+                                     std::pair{std::string_view("average"), CentralMerge::average}};
+  add_choice<CentralMerge>(
+      command, "--central", frames.central, merges,
+      "How the eyes are merged to the central view: visible takes the colour from the eyes that see a point; average "
+      "takes the average of both, which causes ghosting")
       ->group(group);
-  command.add_option("--fade-in", frames.carrying.fade_in_frames, "Number of frames over which new strokes fade in")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str()
+  add_number(command, "--fade-in", frames.carrying.fade_in_frames, {1, 1000},
+             "Number of frames over which new strokes fade in")
       ->group(group);
-  command
-      .add_option("--fade-out", frames.carrying.fade_out_frames,
-                  "Number of frames over which strokes that no longer fit fade out")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str()
+  add_number(command, "--fade-out", frames.carrying.fade_out_frames, {1, 1000},
+             "Number of frames over which strokes that no longer fit fade out")
       ->group(group);
   command.add_flag("--frame-by-frame", frames.anew, "Paint every frame separately, which flickers; for comparison")
       ->group(group);
@@ -298,7 +313,7 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
       "Examples:\n  wheatstone rotoscope film.mp4 -o painted.mp4\n"
       "  wheatstone rotoscope film.mp4 --from 0:10 --to 0:12 --style expressionist -o try.mp4\n"
       "  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &command, &session] { run(*arguments, command, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "interrupt.h"
+#include "print_facts.h"
 #include "program.h"
 #include "wheatstone/error.h"
 
@@ -33,10 +34,7 @@ int fail(const Session& session, int code, std::string message) {
   fmt::print(session.errors, "wheatstone: {}\n", message);
   session.errors.flush();
   if (session.json) {
-    const nlohmann::ordered_json facts{{"error", message}, {"exit_code", code}};
-    // File names are bytes, which need not be UTF-8.
-    constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    fmt::print(session.output, "{}\n", facts.dump(2, ' ', false, replace));
+    print_facts({{"error", message}, {"exit_code", code}}, session);
     session.output.flush();
   }
   return code;

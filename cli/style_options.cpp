@@ -3,9 +3,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <string_view>
+#include <vector>
+
+#include "wheatstone/error.h"
 #include "wheatstone/marks/style_parameters.h"
 
 namespace wheatstone::cli {
+
+namespace {
+
+[[noreturn]] void refuse_for_marks(const StyleParameter& parameter, Marks marks) {
+  std::vector<std::string_view> works_with;
+  for (const Marks kind : parameter.read_by) works_with.push_back(name_of(kind));
+  throw Error(ErrorKind::wrong_usage, fmt::format("--{}: has no effect on a painting of {}; it works with {}",
+                                                  parameter.name, name_of(marks), fmt::join(works_with, ", ")));
+}
+
+}  // namespace
 
 void add_style_options(CLI::App& command, StyleArguments& arguments) {
   constexpr auto group = "Style";
@@ -37,6 +52,9 @@ Style style_from(const StyleArguments& arguments, std::uint64_t seed) {
     const auto change = arguments.changes.find(std::string(parameter.name));
     if (change != arguments.changes.end()) parameter.set(style, change->second);
   }
+  for (const StyleParameter& parameter : style_parameters())
+    if (arguments.changes.contains(std::string(parameter.name)) && !is_read_by(parameter, style.marks))
+      refuse_for_marks(parameter, style.marks);
   style.seed = seed;
   check_style(style);
   return style;

@@ -16,7 +16,8 @@ struct StyleArguments {
 
 void add_style_options(CLI::App& command, StyleArguments& arguments);
 
-/// Throws Error{wrong_usage}, or bad_input for a style file.
+/// Throws Error: wrong_usage, also for a parameter given that the style's kind of marks does not read; bad_input for a
+/// style file.
 Style style_from(const StyleArguments& arguments, std::uint64_t seed);
 
 }  // namespace wheatstone::cli

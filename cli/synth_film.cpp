@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <map>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "command.h"
 #include "number_arguments.h"
 #include "output_option.h"
+#include "print_facts.h"
 #include "synth_kinds.h"
 #include "typed_options.h"
 #include "wheatstone/app/output_folder.h"
@@ -61,7 +64,7 @@ void run(const Arguments& arguments, const Session& session) {
     const nlohmann::ordered_json facts{
         {"folder", arguments.folder},   {"frames", options.frames},       {"cut", cut},
         {"width", options.still.width}, {"height", options.still.height}, {"seed", options.still.seed}};
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
   } else {
     fmt::print(session.output, "written to {}\n", arguments.folder);
   }
@@ -76,19 +79,15 @@ void add_synth_film(CLI::App& synth, const Session& session) {
   command.fallthrough();
   add_output_option(command, arguments->folder, "Folder for the results");
   command.add_option("--size", arguments->size, "Size of each view: WIDTHxHEIGHT")->capture_default_str();
-  command.add_option("--frames", film.frames, "Number of frames")->check(CLI::Range(1, 100'000))->capture_default_str();
-  command.add_option("--cut", film.cut,
-                     "First frame of the second scene; 0 for a film without a cut; the middle of the film by default");
-  static const std::map<std::string, FilmMotion> motions{{"walk", FilmMotion::walk}, {"pan", FilmMotion::pan}};
-  command
-      .add_option("--motion", film.motion,
-                  "walk: the camera moves and turns, and fruit bounces; pan: the camera only turns, slowly")
-      ->transform(CLI::CheckedTransformer(motions, CLI::ignore_case).description(""))
-      ->option_text("walk|pan [walk]");
+  add_number(command, "--frames", film.frames, {1, 100'000}, "Number of frames");
+  add_number(command, "--cut", film.cut, {0, 100'000},
+             "First frame of the second scene; 0 for a film without a cut; the middle of the film by default");
+  static constexpr std::array motions{std::pair{std::string_view("walk"), FilmMotion::walk},
+                                      std::pair{std::string_view("pan"), FilmMotion::pan}};
+  add_choice<FilmMotion>(command, "--motion", film.motion, motions,
+                         "walk: the camera moves and turns, and fruit bounces; pan: the camera only turns, slowly");
   add_number(command, "--noise", film.noise, {0, 255}, "Standard deviation of the noise of each frame, in 0..255");
-  command.add_option("--samples", film.still.samples_a_side, "Samples along each side of a pixel")
-      ->check(CLI::Range(1, 8))
-      ->capture_default_str();
+  add_number(command, "--samples", film.still.samples_a_side, {1, 8}, "Samples along each side of a pixel");
   command.footer(
       "Frames count from 0. For each frame, the folder contains left_0000.png, left_disparity_0000.pfm and\n"
       "left_occlusion_0000.png, and the same for the right eye. For the left eye it also contains the optical flow to "

@@ -9,6 +9,7 @@
 #include "command.h"
 #include "number_arguments.h"
 #include "output_option.h"
+#include "print_facts.h"
 #include "synth_kinds.h"
 #include "typed_options.h"
 #include "wheatstone/app/output_folder.h"
@@ -65,7 +66,7 @@ void run(const Arguments& arguments, const Session& session) {
   if (session.json) {
     const nlohmann::ordered_json facts{
         {"folder", arguments.folder}, {"width", options.width}, {"height", options.height}, {"seed", options.seed}};
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
   } else {
     fmt::print(session.output, "written to {}\n", arguments.folder);
   }

@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "output_option.h"
+#include "print_facts.h"
 #include "synth_kinds.h"
 #include "typed_options.h"
 #include "wheatstone/particles/write_gadget.h"
@@ -39,7 +40,7 @@ void run(const Arguments& arguments, const Session& session) {
   if (session.json) {
     const nlohmann::ordered_json facts{
         {"file", arguments.file}, {"particles", written}, {"redshift", options.redshift}, {"seed", options.seed}};
-    fmt::print(session.output, "{}\n", facts.dump(2));
+    print_facts(facts, session);
   } else {
     fmt::print(session.output, "written to {}\n", arguments.file);
   }

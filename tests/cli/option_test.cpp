@@ -1,6 +1,7 @@
 // What holds of options of every command: numbers are finite and in range, none is accepted that has no effect, errors
 // and results are JSON where that is asked for.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "cli/style_options.h"
+#include "wheatstone/error.h"
+#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
@@ -19,7 +23,8 @@ using Line = std::vector<std::string>;
 
 constexpr int width = 96, height = 64, shift = 6;
 
-/// Writes left.png, right.png, both beside each other as both.png, a disparity and a table of particles.
+/// Writes left.png, right.png, both beside each other as both.png, a film of one frame and one eye, a disparity and a
+/// table of particles.
 void write_inputs(const TemporaryFolder& folder) {
   const auto level = [](int x, int y) { return static_cast<std::uint8_t>((x * x * 7 + y * y * 3 + x * y * 11) % 251); };
   Image<Rgb8> left(width, height), right(width, height), both(2 * width, height);
@@ -33,6 +38,7 @@ void write_inputs(const TemporaryFolder& folder) {
   write_image(folder / "right.png", right);
   write_image(folder / "both.png", both);
   write_image(folder / "again.png", both);
+  write_image(folder / "frame_0000.png", left);
   write_disparity(folder / "disparity.pfm", Image<float>(width, height, shift));
   put_bytes(folder / "points.csv", "x,y,z\n1,2,3\n4,5,6\n");
 }
@@ -160,6 +166,13 @@ std::vector<WithoutEffect> options_without_effect() {
       {{"paint", "both.png", "again.png", "--layout", "sbs", "-o", "out"},
        {{"--disparity", "disparity.pfm"}, {"--zero-parallax-at", "3,4"}}},
       {{"paint", "--print-style", "dual"}, {{"--report"}, {"--output", "x"}, {"--style", "mosaic"}}},
+      {paint, {{"--colours", "9"}, {"--tile", "20"}, {"--style", "mosaic", "--grid", "2"}}},
+      {{"rotoscope", "film", "-o", "out.mkv"}, {{"--propagation", "raster"}, {"--style", "mosaic", "--fade-in", "3"}}},
+      {{"rotoscope", "film", "--frame-by-frame", "-o", "out.mkv"}, {{"--flow", "dis"}, {"--fade-out", "3"}}},
+      {{"rotoscope", "film", "--truth", "film", "-o", "out.mkv"}, {{"--quality", "best"}, {"--flow", "dis"}}},
+      {{"rotoscope", "film", "--matcher", "dp", "-o", "out.mkv"}, {{"--block", "5"}}},
+      {{"rotoscope", "frame_%04d.png", "--layout", "mono", "-o", "out.mkv"},
+       {{"--range", "0:9"}, {"--quality", "fast"}, {"--central", "average"}}},
       {with(match, {"--matcher", "dp"}), {{"--block", "5"}}},
       {match, {{"--model", "net.onnx", "--matcher", "bm"}}},
       {with(pack_two, {"-o", "out.mpo"}),
@@ -218,12 +231,51 @@ TEST(OptionsWithoutEffect, AreRefused) {
   }
 }
 
-TEST(Choices, AreListedByTheirNames) {
-  for (const std::string& command : commands()) {
-    const std::string help = run_program({command, "--help"}).output;
-    EXPECT_THAT(help, testing::Not(testing::HasSubstr("ENUM"))) << command;
-    EXPECT_THAT(help, testing::Not(testing::HasSubstr(":{"))) << command;
+/// The program's own help and that of every command and of every kind below one.
+std::vector<Line> all_with_help() {
+  std::vector<Line> all{{}};
+  for (const std::string& command : commands()) all.push_back({command});
+  for (const char* kind : {"still", "film", "universe"}) all.push_back({"synth", kind});
+  for (const char* kind : {"stereo", "film", "views"}) all.push_back({"measure", kind});
+  return all;
+}
+
+TEST(Help, HasNoMarksOfTheParserInIt) {
+  for (const Line& line : all_with_help()) {
+    const ProgramResult help = run_program(with(line, {"--help"}));
+    ASSERT_EQ(help.exit_code, 0);
+    for (const char* mark : {"{", "}", "ENUM", "TEXT:", "INT:", " INT", "UINT", "FLOAT", "NUMBER:", " in [", "->"})
+      EXPECT_THAT(help.output, testing::Not(testing::HasSubstr(mark))) << testing::PrintToString(line);
   }
+}
+
+TEST(StyleParameters, AreRefusedWhereTheKindOfMarksDoesNotReadThem) {
+  for (const char* style : {"impressionist", "posterise", "mosaic", "diffusion"}) {
+    const Marks marks = style_by_name(style).marks;
+    for (const StyleParameter& parameter : style_parameters()) {
+      std::string value = parameter.toml_value(style_by_name(style));
+      std::erase_if(value,
+                    [](char letter) { return std::string_view("\"[] ").find(letter) != std::string_view::npos; });
+      const cli::StyleArguments arguments{style, {{std::string(parameter.name), value}}};
+      std::string said;
+      try {
+        cli::style_from(arguments, 1);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::wrong_usage);
+        said = error.what();
+      }
+      const auto refusal = testing::StartsWith(
+          fmt::format("--{}: has no effect on a painting of {}; it works with ", parameter.name, name_of(marks)));
+      if (is_read_by(parameter, marks)) {
+        EXPECT_EQ(said, "") << style;
+      } else {
+        EXPECT_THAT(said, refusal) << style;
+      }
+    }
+  }
+}
+
+TEST(Help, ListsChoicesByTheirNames) {
   EXPECT_THAT(run_program({"render", "--help"}).output, testing::HasSubstr("auto|exact|incremental|layered"));
 }
 
@@ -244,6 +296,31 @@ TEST(Json, IsValidWhateverTheNamesAre) {
   const ProgramResult result = run_program({"paint", "first/painting.wst", "-o", "a\"b", "--json", "--quiet"}, here);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(nlohmann::json::parse(result.output)["folder"], "a\"b");
+}
+
+TEST(Json, ReplacesWhatIsNoUtf8InFileNames) {
+  const TemporaryFolder folder;
+  write_inputs(folder);
+  const ProgramRun here{.folder = folder / ""};
+  const std::string name = "caf\xE9", replaced = "caf\xEF\xBF\xBD";
+  const auto facts_of = [&](const Line& line) {
+    const ProgramResult result = run_program(with(line, {"--json", "--quiet"}), here);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return nlohmann::json::parse(result.output, nullptr, false);
+  };
+  EXPECT_EQ(facts_of({"pack", "left.png", "right.png", "-o", name + ".jps"})["output"], replaced + ".jps");
+  EXPECT_EQ(facts_of({"synth", "still", "--size", "32x24", "-o", name})["folder"], replaced);
+  EXPECT_EQ(facts_of({"match", "left.png", "right.png", "--range", "0:8", "-o", name + "_m"})["folder"],
+            replaced + "_m");
+  EXPECT_EQ(facts_of({"paint", "both.png", "--layout", "sbs", "--range", "0:8", "-o", name + "_p"})["width"], width);
+  EXPECT_EQ(facts_of({"paint", name + "_p/painting.wst", "-o", name + "_again"})["folder"], replaced + "_again");
+  // The run's own notes, which --resume compares, hold the name of the marks.
+  EXPECT_EQ(facts_of({"rotoscope", "frame_%04d.png", "--layout", "mono", "--save-marks", name + "_%04d.wst", "-o",
+                      "f.mkv"})["frames"],
+            1);
+  const ProgramResult missing = run_program({"info", name + ".png", "--json"}, here);
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_EQ(nlohmann::json::parse(missing.output, nullptr, false)["exit_code"], 3);
 }
 
 TEST(Json, TellsErrorsToo) {

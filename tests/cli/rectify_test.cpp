@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
@@ -52,6 +53,22 @@ TEST(RectifyCommand, MakesAPairThatCanBePainted) {
   const ProgramResult painted =
       run_program({"paint", "rectified/left.png", "rectified/right.png", "-o", "painted", "--quiet"}, here);
   EXPECT_EQ(painted.exit_code, 0) << painted.errors;
+}
+
+TEST(RectifyCommand, WritesTheFormatThatIsAskedFor) {
+  const TemporaryFolder folder;
+  write_spoiled_pair(folder);
+  const ProgramRun here = {.folder = folder / ""};
+  for (const std::string format : {"jpg", "tif", "webp"}) {
+    const ProgramResult result =
+        run_program({"rectify", "left.png", "right.png", "--format", format, "-o", format, "--quiet"}, here);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(files_in(folder / format), (std::set<std::string>{"left." + format, "right." + format}));
+    EXPECT_EQ(describe_image(folder / (format + "/left." + format)).format, format == "jpg"   ? "jpeg"
+                                                                            : format == "tif" ? "tiff"
+                                                                                              : format);
+  }
+  expect_refused(folder, {"rectify", "left.png", "right.png", "--format", "bmp"}, 2, "png|jpg|tif|webp");
 }
 
 TEST(RectifyCommand, LeavesColoursAloneWhenAsked) {

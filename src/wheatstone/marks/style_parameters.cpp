@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -51,42 +53,66 @@ Rgb8 parse_colour(std::string_view name, std::string_view text) {
   return *colour;
 }
 
+constexpr std::array every_kind{Marks::strokes, Marks::regions, Marks::tiles, Marks::curves};
+constexpr std::array strokes_only{Marks::strokes};
+constexpr std::array regions_only{Marks::regions};
+constexpr std::array tiles_only{Marks::tiles};
+
 template <class Member>
-StyleParameter number(std::string_view name, std::string_view help, Member member) {
-  return {name, help, false, [=](const Style& style) { return fmt::format("{}", style.*member); },
+StyleParameter number(std::string_view name, std::string_view help, Member member,
+                      std::span<const Marks> read_by = strokes_only) {
+  return {name,
+          help,
+          false,
+          [=](const Style& style) { return fmt::format("{}", style.*member); },
           [=](Style& style, std::string_view text) {
             style.*member = parse_number<std::remove_cvref_t<decltype(style.*member)>>(name, text);
-          }};
+          },
+          read_by};
 }
 
 StyleParameter jitter(std::string_view name, std::string_view help, float ColourJitter::*member) {
-  return {name, help, false, [=](const Style& style) { return fmt::format("{}", style.jitter.*member); },
-          [=](Style& style, std::string_view text) { style.jitter.*member = parse_number<float>(name, text); }};
+  return {name,
+          help,
+          false,
+          [=](const Style& style) { return fmt::format("{}", style.jitter.*member); },
+          [=](Style& style, std::string_view text) { style.jitter.*member = parse_number<float>(name, text); },
+          strokes_only};
 }
 
-StyleParameter toggle(std::string_view name, std::string_view help, bool Style::*member) {
-  return {name, help, true, [=](const Style& style) { return style.*member ? "true" : "false"; },
-          [=](Style& style, std::string_view text) { style.*member = parse_switch(name, text); }};
+StyleParameter toggle(std::string_view name, std::string_view help, bool Style::*member,
+                      std::span<const Marks> read_by = strokes_only) {
+  return {name,
+          help,
+          true,
+          [=](const Style& style) { return style.*member ? "true" : "false"; },
+          [=](Style& style, std::string_view text) { style.*member = parse_switch(name, text); },
+          read_by};
 }
 
 template <class Value>
 StyleParameter choice(std::string_view name, std::string_view help, Value Style::*member,
-                      std::optional<Value> (*by_name)(std::string_view), std::string_view names) {
-  return {name, help, false, [=](const Style& style) { return fmt::format("\"{}\"", name_of(style.*member)); },
+                      std::optional<Value> (*by_name)(std::string_view), std::string_view names,
+                      std::span<const Marks> read_by = strokes_only) {
+  return {name,
+          help,
+          false,
+          [=](const Style& style) { return fmt::format("\"{}\"", name_of(style.*member)); },
           [=](Style& style, std::string_view text) {
             const std::optional<Value> value = by_name(text);
             if (!value) refuse(name, text, names);
             style.*member = *value;
-          }};
+          },
+          read_by};
 }
 
 std::vector<StyleParameter> make_parameters() {
   return {
       {"radii", "Brush radii from coarse to fine, in pixels of a picture 640 pixels wide: 8,4,2", false,
        [](const Style& style) { return fmt::format("[{}]", fmt::join(style.radii_px, ", ")); },
-       [](Style& style, std::string_view text) { style.radii_px = parse_list("radii", text); }},
+       [](Style& style, std::string_view text) { style.radii_px = parse_list("radii", text); }, strokes_only},
       toggle("absolute-radii", "Give radii and the depth threshold in pixels of this picture instead",
-             &Style::absolute_radii),
+             &Style::absolute_radii, every_kind),
       number("threshold", "T: RGB distance (0..441) above which a grid cell gets a stroke", &Style::threshold),
       number("grid", "f_g: size of a grid cell, which gets at most one stroke, as a multiple of the radius",
              &Style::grid),
@@ -105,18 +131,18 @@ std::vector<StyleParameter> make_parameters() {
       toggle("dual", "Strokes of two colours, side by side", &Style::dual),
       toggle("texture", "Relief of the paint, lit from one side", &Style::texture),
       choice("marks", "Kind of marks: strokes, regions of few colours, tiles of a mosaic, or curves", &Style::marks,
-             marks_by_name, "strokes, regions, tiles or curves"),
-      number("colours", "k: number of colours of a posterised picture", &Style::colours),
-      number("tile", "Width of a mosaic's tiles, in pixels of a picture 640 pixels wide", &Style::tile_px),
+             marks_by_name, "strokes, regions, tiles or curves", every_kind),
+      number("colours", "k: number of colours of a posterised picture", &Style::colours, regions_only),
+      number("tile", "Width of a mosaic's tiles, in pixels of a picture 640 pixels wide", &Style::tile_px, tiles_only),
       toggle("depth-test", "End strokes at depth edges", &Style::depth_test),
       number("depth-threshold", "Disparity step that counts as a depth edge, in pixels of a picture 640 pixels wide",
-             &Style::depth_threshold_px),
+             &Style::depth_threshold_px, every_kind),
       toggle("follow-depth-edges", "Let the finest strokes beside depth edges run along them; otherwise they are dots",
              &Style::follow_depth_edges),
       number("occlusion-dilation", "Dilation of the occlusion masks, as a multiple of the largest radius",
              &Style::occlusion_dilation),
       choice("propagation", "How the second eye is painted: strokes, raster or independent", &Style::propagation,
-             propagation_by_name, "strokes, raster or independent"),
+             propagation_by_name, "strokes, raster or independent", every_kind),
       choice("orientation", "Direction of strokes in areas without texture: smooth, or gradient (strokes end there)",
              &Style::orientation, orientation_by_name, "smooth or gradient"),
       choice("reference-filter", "Filter that blurs the photograph: median or gaussian", &Style::reference_filter,
@@ -128,7 +154,8 @@ std::vector<StyleParameter> make_parameters() {
          const Rgb8 c = style.canvas_colour;
          return fmt::format("\"#{:02x}{:02x}{:02x}\"", c.r, c.g, c.b);
        },
-       [](Style& style, std::string_view text) { style.canvas_colour = parse_colour("canvas-colour", text); }},
+       [](Style& style, std::string_view text) { style.canvas_colour = parse_colour("canvas-colour", text); },
+       strokes_only},
   };
 }
 
@@ -168,6 +195,10 @@ void apply_key(std::string_view key, const toml::node& node, Style& style) {
 std::span<const StyleParameter> style_parameters() {
   static const std::vector<StyleParameter> parameters = make_parameters();
   return parameters;
+}
+
+bool is_read_by(const StyleParameter& parameter, Marks marks) {
+  return std::ranges::find(parameter.read_by, marks) != parameter.read_by.end();
 }
 
 std::string style_to_toml(const Style& style) {

@@ -33,19 +33,18 @@ constexpr const char* pictures_folder = ".pictures";
 /// Takes over the folder of an earlier run with the same fingerprint, or begins a new one.
 void claim(const fs::path& folder, const std::string& fingerprint, bool resume) {
   const fs::path manifest = folder / "manifest.json";
+  // The fingerprint has file names in it, which are bytes and need not be UTF-8.
+  const std::string wanted = json{{"format", "wheatstone segments"}, {"version", 1}, {"made_of", fingerprint}}.dump(
+      2, ' ', false, json::error_handler_t::replace);
   std::error_code ignored;
-  if (!fs::exists(manifest, ignored)) {
-    write_whole_file(manifest,
-                     json{{"format", "wheatstone segments"}, {"version", 1}, {"made_of", fingerprint}}.dump(2));
-    return;
-  }
+  if (!fs::exists(manifest, ignored)) return write_whole_file(manifest, wanted);
   if (!resume)
     throw Error(
         ErrorKind::wrong_usage,
         fmt::format("{}: was left by a run that did not finish; continue it with --resume, or delete this folder",
                     folder.string()));
   const json found = json::parse(read_whole_file(manifest, most_bytes_of_manifest), nullptr, false);
-  if (!found.is_discarded() && found.value("made_of", std::string()) == fingerprint) return;
+  if (found.is_object() && found.value("made_of", json()) == json::parse(wanted).at("made_of")) return;
   throw Error(ErrorKind::wrong_usage, fmt::format("{}: was left by a run with other options or sources; use the same "
                                                   "ones, or delete this folder to start again",
                                                   folder.string()));

@@ -1,0 +1,79 @@
+// The table of which parameters each kind of marks reads, against paintings.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/synthetic/synthetic_still.h"
+
+namespace wheatstone {
+namespace {
+
+/// A value for every parameter that no preset has.
+const std::map<std::string_view, std::string_view>& other_values() {
+  static const std::map<std::string_view, std::string_view> values{
+      {"radii", "14,3"},
+      {"absolute-radii", "true"},
+      {"threshold", "20"},
+      {"grid", "2"},
+      {"blur", "4"},
+      {"curvature", "0.2"},
+      {"opacity", "0.4"},
+      {"min-length", "9"},
+      {"max-length", "5"},
+      {"jitter-hue", "0.9"},
+      {"jitter-saturation", "0.9"},
+      {"jitter-value", "0.9"},
+      {"jitter-red", "0.9"},
+      {"jitter-green", "0.9"},
+      {"jitter-blue", "0.9"},
+      {"dual", "true"},
+      {"texture", "true"},
+      {"colours", "4"},
+      {"tile", "40"},
+      {"depth-test", "false"},
+      {"depth-threshold", "60"},
+      {"follow-depth-edges", "false"},
+      {"occlusion-dilation", "4"},
+      {"propagation", "independent"},
+      {"orientation", "gradient"},
+      {"reference-filter", "gaussian"},
+      {"background", "colour"},
+      {"canvas-colour", "#ff0000"},
+  };
+  return values;
+}
+
+class StyleReads : public testing::TestWithParam<const char*> {};
+
+TEST_P(StyleReads, ExactlyTheParametersThatItsTableNames) {
+  const SyntheticStill still = make_synthetic_still({.width = 128, .height = 96});
+  Style base = style_by_name(GetParam());
+  // The canvas shows, so that its colour counts.
+  if (base.marks == Marks::strokes) base.background = Background::colour;
+  const StereoPair as_it_is = paint(still.pictures, still.geometry, base).pictures;
+  for (const StyleParameter& parameter : style_parameters()) {
+    if (parameter.name == "marks") continue;
+    // This one is refused where it would have no effect.
+    if (parameter.name == "texture" && base.marks != Marks::strokes) {
+      EXPECT_FALSE(is_read_by(parameter, base.marks));
+      continue;
+    }
+    Style changed = base;
+    parameter.set(changed, other_values().at(parameter.name));
+    if (parameter.name == "background") changed.background = Background::photograph;
+    const StereoPair pictures = paint(still.pictures, still.geometry, changed).pictures;
+    const bool same = std::ranges::equal(pictures.left.pixels(), as_it_is.left.pixels()) &&
+                      std::ranges::equal(pictures.right.pixels(), as_it_is.right.pixels());
+    EXPECT_EQ(!same, is_read_by(parameter, base.marks)) << parameter.name << " of " << name_of(base.marks);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryKind, StyleReads, testing::Values("impressionist", "posterise", "mosaic", "diffusion"));
+
+}  // namespace
+}  // namespace wheatstone
