@@ -68,7 +68,7 @@ ordered_json facts_of_disparity(const fs::path& path, std::optional<float> scale
 
 ordered_json facts_of_painting(const fs::path& path) {
   const Painting any = read_painting(path);
-  const StrokePainting& painting = any.painting;
+  const StrokePainting& painting = any.strokes;
   DisparityRange range;
   ordered_json facts = {{"kind", "painting"}, {"width", painting.width}, {"height", painting.height}};
   if (any.regions.width > 0) {

@@ -225,7 +225,7 @@ MarksOfFilm measure_marks(const Arguments& arguments, bool two_eyes, int frames,
     Json facts{{"frame", frame}, {"bare_share", bare}};
     if (frame > 0 && std::ranges::find(cuts, frame) == cuts.end()) {
       const StrokeChanges changes =
-          compare_strokes(before.painting.layers, now.painting.layers, 1.0 / arguments.fade_frames);
+          compare_strokes(before.strokes.layers, now.strokes.layers, 1.0 / arguments.fade_frames);
       marks.changes.whole += changes.whole;
       marks.changes.survived += changes.survived;
       marks.changes.popped += changes.popped;

@@ -80,7 +80,7 @@ Truth find_truth(const Arguments& arguments, const StereoPair& stylised, const s
 
 PaintingGuards measure_guards(const Arguments& arguments, const StereoPair& stylised, const StereoGeometry& geometry) {
   const Painting any = read_painting(arguments.painting);
-  const StrokePainting& painting = any.painting;
+  const StrokePainting& painting = any.strokes;
   if (!same_size(geometry.left_disparity, stylised.left) || painting.width != stylised.left.width() ||
       painting.height != stylised.left.height())
     throw Error(ErrorKind::bad_input,

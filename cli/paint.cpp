@@ -50,20 +50,21 @@ std::string summary_of(const PaintedPhotograph& result, const PaintingMeasures* 
   std::string text;
   const auto to = std::back_inserter(text);
   const PaintedPair& painted = result.painted;
+  const Painting& painting = painted.painting;
   std::size_t strokes = 0;
-  for (const Layer& layer : painted.painting.layers) strokes += layer.strokes.size();
+  for (const Layer& layer : painting.strokes.layers) strokes += layer.strokes.size();
   const double seconds = painted.times.planning_s + painted.times.rasterising_s;
-  if (!painted.curves.lines.empty()) {
-    fmt::format_to(to, "painted          {} lines beside edges, {:.2f} s\n", painted.curves.lines.size(), seconds);
-  } else if (painted.regions.marks.empty()) {
-    fmt::format_to(to, "painted          {} strokes in {} layers, {:.2f} s\n", strokes, painted.painting.layers.size(),
+  if (!painting.curves.lines.empty()) {
+    fmt::format_to(to, "painted          {} lines beside edges, {:.2f} s\n", painting.curves.lines.size(), seconds);
+  } else if (painting.regions.marks.empty()) {
+    fmt::format_to(to, "painted          {} strokes in {} layers, {:.2f} s\n", strokes, painting.strokes.layers.size(),
                    seconds);
   } else {
-    fmt::format_to(to, "painted          {} regions, {:.2f} s\n", painted.regions.marks.size(), seconds);
+    fmt::format_to(to, "painted          {} regions, {:.2f} s\n", painting.regions.marks.size(), seconds);
   }
   if (whole.width > 0)
     fmt::format_to(to, "reduced          from {}x{} to {}x{} pixels\n", whole.width, whole.height,
-                   painted.painting.width, painted.painting.height);
+                   painting.strokes.width, painting.strokes.height);
   fmt::format_to(to, "left bare        {:.2f} % of the left eye, {:.2f} % of the right\n",
                  100 * painted.left_bare_share, 100 * painted.right_bare_share);
   fmt::format_to(to, "zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);

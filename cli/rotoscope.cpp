@@ -31,6 +31,7 @@
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/video/frame_sequence.h"
+#include "wheatstone/video/segmented_film.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -165,6 +166,15 @@ void refuse_options_without_effect(const CLI::App& command, const Arguments& arg
   if (known) refuse({"--flow"}, "with --truth", "the exact flow is read");
 }
 
+RotoscopedFilm begin_or_resume(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
+                               const Progress& progress) {
+  try {
+    return rotoscope_film(source, output, options, progress);
+  } catch (const UnfinishedFilm& error) {
+    throw Error(error.kind(), fmt::format("{}; use --resume to continue that run", error.what()));
+  }
+}
+
 void run(Arguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.style = style_from(arguments.style, session.seed);
   arguments.options.frames.matching = match_options_from(arguments.matching);
@@ -208,7 +218,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   if (!film.right.empty()) options.made_from.push_back(film.right);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
   if (!left_out.empty() && !session.quiet) fmt::print(session.errors, "wheatstone: {}\n", fmt::join(left_out, "; "));
-  const RotoscopedFilm result = rotoscope_film(source, arguments.output, options, session.progress);
+  const RotoscopedFilm result = begin_or_resume(source, arguments.output, options, session.progress);
   if (session.json) {
     print_facts(to_json(arguments, result), session);
   } else {

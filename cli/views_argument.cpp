@@ -67,7 +67,7 @@ ReadViews draw_painting(const std::string& file, int count) {
   const Painting painting = read_painting(file);
   ReadViews read;
   read.how = "drawn from a painting";
-  for (const ViewPosition view : evenly_spaced(painting.painting.width, painting.painting.height, count).positions)
+  for (const ViewPosition view : evenly_spaced(painting.strokes.width, painting.strokes.height, count).positions)
     read.views.push_back(draw(painting, view).picture);
   return read;
 }

@@ -54,7 +54,7 @@ TEST(Info, TellsOfAPainting) {
   layer.points = {{1, 2, 3}, {5, 6, 7}};
   layer.strokes = {{.point_count = 2, .radius_px = 4}};
   painting.layers = {layer};
-  write_painting(folder / "p.wst", {.painting = painting});
+  write_painting(folder / "p.wst", {.strokes = painting});
   const nlohmann::json facts = facts_of(folder / "p.wst");
   EXPECT_EQ(facts["kind"], "painting");
   EXPECT_EQ(facts["width"], 40);
@@ -65,7 +65,7 @@ TEST(Info, TellsOfAPainting) {
 
 TEST(Info, TellsOfAPaintingOfAreas) {
   const TemporaryFolder folder;
-  Painting painting{.painting = {.width = 40, .height = 30}};
+  Painting painting{.strokes = {.width = 40, .height = 30}};
   painting.regions = {40, 30, {{1, 1, 3}, {9, 1, 3}, {5, 8, 4}}, {{0, 3}}, {{0, 1}}};
   write_painting(folder / "p.wst", painting);
   const nlohmann::json facts = facts_of(folder / "p.wst");

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "scenes/moving_picture.h"
 #include "wheatstone/pictures/write_image.h"
-#include "wheatstone/video/moving_picture_internal.h"
 
 namespace wheatstone {
 namespace {

@@ -102,7 +102,7 @@ TEST(PaintCommand, TakesItsStyleFromAFileThatItPrinted) {
   ASSERT_EQ(printed.exit_code, 0);
   put_bytes(folder / "mine.toml", printed.output);
   EXPECT_EQ(run_program(paint_line({"--style", "mine.toml"}), {.folder = folder / ""}).exit_code, 0);
-  EXPECT_EQ(read_painting(folder / "painted/painting.wst").painting.layers.size(), 2u);
+  EXPECT_EQ(read_painting(folder / "painted/painting.wst").strokes.layers.size(), 2u);
 }
 
 TEST(PaintCommand, DrawsAPaintingAgain) {

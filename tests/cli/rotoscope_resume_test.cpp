@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "cli/run_program.h"
+#include "scenes/moving_picture.h"
 #include "wheatstone/stereo/packed_pair.h"
-#include "wheatstone/video/moving_picture_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -99,7 +99,8 @@ TEST(RotoscopeResumeLong, KilledAtAnyMomentTheFilmIsTheSame) {
     EXPECT_GE(painted, frame);
     EXPECT_FALSE(fs::exists(work / name));
 
-    expect_refused(work.folder(), Workplace::line(name), 2, "continue it with --resume, or delete this folder");
+    expect_refused(work.folder(), Workplace::line(name), 2,
+                   "did not finish, and must be deleted to start again; use --resume to continue that run");
     const ProgramResult resumed = work.run(name, {"--resume"});
     ASSERT_EQ(resumed.exit_code, 0) << resumed.errors;
     const auto facts = nlohmann::json::parse(resumed.output);
@@ -135,9 +136,9 @@ TEST(RotoscopeResume, InterruptedItSaysHowToGoOn) {
   ASSERT_EQ(work.run("whole.mp4").exit_code, 0);
   const ProgramResult stopped = work.run_until("a.mp4", 9, SIGINT);
   EXPECT_EQ(stopped.exit_code, 5);
-  EXPECT_THAT(stopped.errors, testing::MatchesRegex(
-                                  "wheatstone: interrupted; --resume continues after the first (8|12|16) frames, which "
-                                  "are in a.mp4.part and a.mp4_%04d.wst.part\n"));
+  EXPECT_THAT(stopped.errors,
+              testing::MatchesRegex("wheatstone: interrupted; the first (8|12|16) frames are kept in a.mp4.part and "
+                                    "a.mp4_%04d.wst.part; use --resume to continue that run\n"));
   EXPECT_FALSE(fs::exists(work / "a.mp4"));
   EXPECT_EQ(work.run("a.mp4", {"--resume"}).exit_code, 0);
   EXPECT_TRUE(bytes_of(work / "a.mp4") == bytes_of(work / "whole.mp4"));

@@ -8,10 +8,11 @@
 #include <sstream>
 
 #include "cli/run_program.h"
+#include "psnr.h"
+#include "scenes/moving_picture.h"
 #include "shared_data.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"
-#include "wheatstone/video/moving_picture_internal.h"
 #include "wheatstone/video/stereo_film.h"
 
 namespace wheatstone {
@@ -116,7 +117,7 @@ TEST(RotoscopeCommand, ARotatedSourceIsPaintedUpright) {
   const Image<Rgb8> upright = frames_of(folder / "a.mp4")[0].picture;
   Image<Rgb8> upside_down = upright;
   std::ranges::reverse(upside_down.pixels());
-  EXPECT_GT(psnr(painted, upright), psnr(painted, upside_down) + 3);
+  EXPECT_GT(psnr_db(painted, upright), psnr_db(painted, upside_down) + 3);
 }
 
 TEST(RotoscopeCommand, PaintsThePartThatIsAskedFor) {
@@ -130,8 +131,8 @@ TEST(RotoscopeCommand, PaintsThePartThatIsAskedFor) {
   for (int i = 0; i < 5; ++i) {
     EXPECT_NEAR(frames[i].seconds(), 0.08 * i, 1e-9);
     // Of the right frame: the next one looks less like it.
-    EXPECT_GT(psnr(frames[i].picture, moving_picture(64, 48, 5 + 2 * i)),
-              psnr(frames[i].picture, moving_picture(64, 48, 5 + 2 * i + 3)));
+    EXPECT_GT(psnr_db(frames[i].picture, moving_picture(64, 48, 5 + 2 * i)),
+              psnr_db(frames[i].picture, moving_picture(64, 48, 5 + 2 * i + 3)));
   }
 }
 
@@ -215,9 +216,9 @@ TEST(RotoscopeCommand, NoStrokeCrossesACut) {
   const std::vector<StereoFrame> carried = eyes_of(open_stereo_film(folder / "o.mkv"));
   const std::vector<StereoFrame> anew = eyes_of(open_stereo_film(folder / "anew.mkv"));
   // The first frame of the second scene looks like one that is painted alone, and not like the first scene.
-  const double alone = psnr(anew[4].left, source[4].left);
-  EXPECT_NEAR(psnr(carried[4].left, source[4].left), alone, 0.3);
-  EXPECT_LT(psnr(carried[4].left, source[3].left), alone - 2);
+  const double alone = psnr_db(anew[4].left, source[4].left);
+  EXPECT_NEAR(psnr_db(carried[4].left, source[4].left), alone, 0.3);
+  EXPECT_LT(psnr_db(carried[4].left, source[3].left), alone - 2);
 }
 
 TEST(RotoscopeCommand, SavesMarksAFrameEachFromOneOn) {

@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         {reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize()}, "input");
     // What is believed must also be drawn; size alone costs time and finds nothing.
     constexpr int small_px = 256;
-    if (painting.painting.width <= small_px && painting.painting.height <= small_px)
+    if (painting.strokes.width <= small_px && painting.strokes.height <= small_px)
       for (const wheatstone::ViewPosition view : {wheatstone::left_eye, wheatstone::right_eye})
         wheatstone::draw(painting, view);
   } catch (const wheatstone::Error&) {

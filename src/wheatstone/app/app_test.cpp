@@ -38,7 +38,7 @@ TEST(PaintPhotograph, WritesEverythingThatItPromises) {
   EXPECT_EQ(names, result_names({.html = true}));
   for (const std::string& name : names) EXPECT_TRUE(fs::exists(folder / ("out/" + name))) << name;
   EXPECT_EQ(read_image(folder / "out/left.png"), result.painted.pictures.left);
-  EXPECT_EQ(read_painting(folder / "out/painting.wst").painting, result.painted.painting);
+  EXPECT_EQ(read_painting(folder / "out/painting.wst"), result.painted.painting);
   const auto report = nlohmann::json::parse(read_whole_file(folder / "out/report.json", 1 << 20));
   EXPECT_EQ(report["width"], 240);
   EXPECT_LT(report["measures"]["painting"]["left_right_rmse"], 0.1);
@@ -69,14 +69,14 @@ TEST(Redraw, KeepsThePaintingWhenItIsMadeLarger) {
   options.left_disparity = still().geometry.left_disparity;
   options.style.background = Background::colour;
   const PaintedPhotograph result = paint_photograph(still().pictures, options);
-  const Painting large = scaled({.painting = result.painted.painting}, 2);
+  const Painting large = scaled(result.painted.painting, 2);
   const Image<Rgb8> small_picture = result.painted.pictures.right, large_picture = draw(large, right_eye).picture;
   ASSERT_EQ(large_picture.width(), 480);
   double difference = 0;
   for (int y = 0; y < 180; ++y)
     for (int x = 0; x < 240; ++x) difference += std::abs(small_picture(x, y).g - large_picture(2 * x, 2 * y).g);
   EXPECT_LT(difference / (240 * 180), 8);
-  EXPECT_THROW(scaled({.painting = result.painted.painting}, 1000), Error);
+  EXPECT_THROW(scaled(result.painted.painting, 1000), Error);
 }
 
 TEST(Redraw, MakesTheSamePicturesOfAPaintingFileInEveryStyle) {
@@ -103,7 +103,7 @@ TEST(Redraw, WritesBothEyes) {
   PaintPhotographOptions options;
   options.left_disparity = still().geometry.left_disparity;
   OutputFolder again(folder / "again");
-  draw_again({.painting = paint_photograph(still().pictures, options).painted.painting}, again, {.scale = 0.5});
+  draw_again(paint_photograph(still().pictures, options).painted.painting, again, {.scale = 0.5});
   EXPECT_EQ(read_image(folder / "again/left.png").width(), 120);
   EXPECT_TRUE(fs::exists(folder / "again/anaglyph.png"));
   EXPECT_FALSE(fs::exists(folder / "again/left.svg")) << "only where it is asked for";

@@ -29,8 +29,7 @@ float nearest_disparity(const Painting& painting) {
 
 Painting scaled(const Painting& painting, double scale) {
   constexpr double largest_side_px = 65535;
-  const double width = std::round(painting.painting.width * scale),
-               height = std::round(painting.painting.height * scale);
+  const double width = std::round(painting.strokes.width * scale), height = std::round(painting.strokes.height * scale);
   if (!(width >= 1 && height >= 1 && width <= largest_side_px && height <= largest_side_px))
     throw Error(ErrorKind::wrong_usage, fmt::format("a scale of {} makes {}x{} pixels, expected 1 to {} a side", scale,
                                                     width, height, largest_side_px));

@@ -47,7 +47,7 @@ double occluded_share(const Image<std::uint8_t>& occlusion) {
 PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPhotograph& result,
                                   ImageView<const float> left_disparity) {
   return {measure_pair(result.painted.pictures, left_disparity), measure_pair(photographs, left_disparity),
-          measure_strokes(result.painted.painting, result.geometry)};
+          measure_strokes(result.painted.painting.strokes, result.geometry)};
 }
 
 std::string pair_measures_json(const PairMeasures& measures) { return to_json(measures).dump(2); }
@@ -65,15 +65,15 @@ std::string preparation_json(const PreparedPair& pair) {
 
 std::string report_json(const PaintingReport& told) {
   const auto& [result, style, pair, measures, whole] = told;
-  const StrokePainting& painting = result.painted.painting;
-  Json report{{"width", painting.width},
-              {"height", painting.height},
+  const auto& [strokes, regions, curves, relief] = result.painted.painting;
+  Json report{{"width", strokes.width},
+              {"height", strokes.height},
               {"style", style.name},
               {"propagation", name_of(style.propagation)},
               {"seed", style.seed},
-              {"layers", layers_json(painting)},
-              {"regions", result.painted.regions.marks.size()},
-              {"curves", result.painted.curves.lines.size()},
+              {"layers", layers_json(strokes)},
+              {"regions", regions.marks.size()},
+              {"curves", curves.lines.size()},
               {"zero_parallax_px", rounded(result.zero_parallax_px)},
               {"left_occluded_share", occluded_share(result.geometry.left_occlusion)},
               {"right_occluded_share", occluded_share(result.geometry.right_occlusion)},

@@ -109,7 +109,7 @@ FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes
 
 /// Compares the frame with the one before and adds it to the film's sums.
 void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& state, RotoscopedFrame& result) {
-  const std::vector<Layer>& layers = result.painted.painting.layers;
+  const std::vector<Layer>& layers = result.painted.painting.strokes.layers;
   const double largest_step =
       1.0 / std::max(std::min(options.carrying.fade_in_frames, options.carrying.fade_out_frames), 1);
   if (!result.scene_begins) result.changes = compare_strokes(state.layers_before, layers, largest_step);
@@ -147,8 +147,8 @@ RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& 
     state.flow_before = find_flow(frame, task, state);
   }
   report(progress, "painting", 0);
-  PaintedFrame painted =
-      paint_frame({frame.views, carries ? &state.flow_before : nullptr}, options.style, options.carrying, state.memory);
+  PaintedFrame painted = paint_frame({frame.views, carries ? &state.flow_before : nullptr}, options.style,
+                                     options.carrying, state.memory, progress);
   result.painted = std::move(painted.painted);
   result.counts = painted.counts;
 

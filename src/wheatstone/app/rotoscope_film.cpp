@@ -39,10 +39,7 @@ std::vector<fs::path> sources_of(const RotoscopeFilmOptions& options) {
 class Output {
  public:
   Output(const fs::path& path, const RotoscopeFilmOptions& options)
-      : path_(path),
-        layout_(options.writing.layout),
-        frames_between_checkpoints_(options.frames_between_checkpoints),
-        style_(options.frames.style) {
+      : path_(path), layout_(options.writing.layout), frames_between_checkpoints_(options.frames_between_checkpoints) {
     const bool only_marks = path.extension() == ".wst";
     if (only_marks && options.resume)
       throw Error(ErrorKind::wrong_usage, "a run that writes only marks cannot be resumed: write a film too");
@@ -65,7 +62,7 @@ class Output {
 
   void write(const RotoscopedFrame& frame, const StereoFrame& source, const RotoscopeState& state) {
     const PaintedPair& painted = frame.painted;
-    if (marks_) marks_->write(state.frames, marks_of(painted, style_));
+    if (marks_) marks_->write(state.frames, painted.painting);
     if (!film_) return;
     const bool at_checkpoint = state.frames % frames_between_checkpoints_ == 0;
     // Before the segment of these frames is closed: each closed segment has its state.
@@ -130,7 +127,6 @@ class Output {
   fs::path path_;
   StereoLayout layout_;
   int frames_between_checkpoints_;
-  Style style_;
   std::optional<SegmentedFilm> film_;
   std::optional<MarksSequence> marks_;
 };
@@ -152,8 +148,9 @@ void add(const RotoscopedFrame& frame, RotoscopedFilm& film) {
   film.painting_times.rasterising_s += frame.painted.times.rasterising_s;
 }
 
-void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmOptions& options,
-                  const Progress& progress, RotoscopeState& state, RotoscopedFilm& film) {
+RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmOptions& options,
+                            const Progress& progress, RotoscopeState& state) {
+  RotoscopedFilm film;
   film.resumed_frames = source.skip(output.frames_done());
   if (film.resumed_frames > 0) report(progress, "resuming", 0);
   const std::int64_t expected = options.expected_frames;
@@ -180,6 +177,7 @@ void paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmO
   film.totals = state.totals;
   film.seconds = seconds_since(start);
   film.core_seconds = processor_seconds() - processor_start;
+  return film;
 }
 
 }  // namespace
@@ -205,7 +203,7 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
   RotoscopedFilm film;
   bool painted = false;
   try {
-    paint_frames(source, out, options, progress, state, film);
+    film = paint_frames(source, out, options, progress, state);
     painted = true;
     report(progress, "joining", 0);
     film.notes = out.finish(state, progress);
@@ -215,9 +213,8 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     const std::int64_t kept = out.frames_done();
     if (!can_go_on || kept == 0) out.discard();
     if (error.kind() == ErrorKind::interrupted && kept > 0)
-      throw Error(ErrorKind::interrupted,
-                  fmt::format("interrupted; --resume continues after the first {} frames, which are in {}", kept,
-                              out.folders()));
+      throw UnfinishedFilm(ErrorKind::interrupted,
+                           fmt::format("interrupted; the first {} frames are kept in {}", kept, out.folders()));
     throw;
   }
   film.loss = source.loss();

@@ -47,10 +47,10 @@ std::string recipe_of(const RotoscopeFilmOptions& options);
 /// Every `frames_between_checkpoints` frames all that the rest depends on is saved beside the output, in
 /// "OUTPUT.part"; a run that is killed and resumed gives the same film. Marks get their names when the film is whole;
 /// until then they lie in "MARKS.part". A run that is stopped before the first of these intervals is painted leaves
-/// nothing behind; later it leaves these two folders and nothing else. An output of the form "marks_%04d.wst" keeps
-/// marks and no pictures, and cannot be resumed: stopped, it leaves nothing. Throws as the reader, the writer and
-/// rotoscope_frame do, Error{wrong_usage} where marks of such names exist, and Error{bad_input} after the film is
-/// written where the source is damaged, unless `keep_going`.
+/// nothing behind; later it leaves these two folders and nothing else, and throws UnfinishedFilm{interrupted}. An
+/// output of the form "marks_%04d.wst" keeps marks and no pictures, and cannot be resumed: stopped, it leaves nothing.
+/// Throws as the reader, the writer and rotoscope_frame do, Error{wrong_usage} where marks of such names exist, and
+/// Error{bad_input} after the film is written where the source is damaged, unless `keep_going`.
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const std::filesystem::path& output,
                               const RotoscopeFilmOptions& options, const Progress& progress = {});
 

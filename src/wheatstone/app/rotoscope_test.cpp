@@ -5,12 +5,13 @@
 #include <random>
 #include <set>
 
+#include "psnr.h"
+#include "scenes/moving_picture.h"
 #include "throws_error.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/struct_fields_internal.h"
 #include "wheatstone/synthetic/synthetic_film.h"
-#include "wheatstone/video/moving_picture_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -145,8 +146,8 @@ TEST(Rotoscope, OneEyeGivesOneEye) {
     EXPECT_EQ(painted.painted.pictures.left.width(), 96);
     EXPECT_TRUE(painted.painted.pictures.right.empty());
     EXPECT_EQ(painted.scene_begins, frame == 0);
-    EXPECT_GT(psnr(painted.painted.pictures.left, moving_picture(96, 64, frame)),
-              psnr(painted.painted.pictures.left, moving_picture(96, 64, frame + 20)));
+    EXPECT_GT(psnr_db(painted.painted.pictures.left, moving_picture(96, 64, frame)),
+              psnr_db(painted.painted.pictures.left, moving_picture(96, 64, frame + 20)));
   }
 }
 
@@ -237,7 +238,7 @@ TEST(RotoscopeFilm, StoppedWhileItJoinsItJoinsAgain) {
     const Progress stop = [](std::string_view step, double) {
       if (step == "join") throw Error(ErrorKind::interrupted, "interrupted");
     };
-    expect_error(ErrorKind::interrupted, "--resume continues after the first 6 frames",
+    expect_error(ErrorKind::interrupted, "the first 6 frames are kept in ",
                  [&] { paint_film(folder, options, "o.mp4", stop); });
     EXPECT_FALSE(fs::exists(folder / "o.mp4"));
     options.resume = true;
@@ -261,7 +262,8 @@ TEST(RotoscopeFilm, OtherMatchingOrAnotherNetworkIsNotGoneOnWith) {
   const Progress stop = [](std::string_view step, double) {
     if (step.starts_with("painting frame 5")) throw Error(ErrorKind::interrupted, "interrupted");
   };
-  expect_error(ErrorKind::interrupted, "after the first 4 frames", [&] { paint_film(folder, options, "o.mp4", stop); });
+  expect_error(ErrorKind::interrupted, "the first 4 frames are kept",
+               [&] { paint_film(folder, options, "o.mp4", stop); });
   options.resume = true;
   const auto refused = [&](const RotoscopeFilmOptions& other) {
     expect_error(ErrorKind::wrong_usage, "left by a run with other options", [&] { paint_film(folder, other); });
@@ -334,7 +336,8 @@ TEST(RotoscopeFilm, ADamagedRestIsNamedAndNotRemoved) {
   const Progress stop = [](std::string_view step, double) {
     if (step.starts_with("painting frame 5")) throw Error(ErrorKind::interrupted, "interrupted");
   };
-  expect_error(ErrorKind::interrupted, "after the first 4 frames", [&] { paint_film(folder, options, "o.mp4", stop); });
+  expect_error(ErrorKind::interrupted, "the first 4 frames are kept",
+               [&] { paint_film(folder, options, "o.mp4", stop); });
   const fs::path state = folder / "o.mp4.part/state_000000004";
   ASSERT_TRUE(fs::exists(state));
   EXPECT_FALSE(fs::exists(folder / "o.mp4.part/state_000000002")) << "only the last state is kept";

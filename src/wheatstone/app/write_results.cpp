@@ -42,7 +42,7 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   const PaintedPhotograph& result = told.painted;
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
-  const Painting painting = marks_of(result.painted, told.style);
+  const Painting& painting = result.painted.painting;
   const StereoPair presented = set_convergence(pictures, result.zero_parallax_px);
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   std::vector<Output> outputs{

@@ -13,7 +13,7 @@ namespace {
 std::string svg_of_any(const Painting& painting, ViewPosition view) {
   if (painting.regions.width > 0) return svg_of(painting.regions, view);
   if (painting.curves.width > 0) return svg_of(painting.curves, view, encode_png(draw(painting.curves, view).picture));
-  return svg_of(painting.painting, view);
+  return svg_of(painting.strokes, view);
 }
 
 }  // namespace

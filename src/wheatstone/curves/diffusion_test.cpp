@@ -49,8 +49,8 @@ TEST(Diffusion, GivesTheSameBytesOnAnyNumberOfThreads) {
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     PaintedPair painted = paint_scene();
-    if (first.curves.lines.empty()) first = painted;
-    EXPECT_EQ(painted.curves, first.curves);
+    if (first.painting.curves.lines.empty()) first = painted;
+    EXPECT_EQ(painted.painting, first.painting);
     EXPECT_EQ(painted.pictures.right, first.pictures.right);
   }
 }

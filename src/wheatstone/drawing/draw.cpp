@@ -7,8 +7,8 @@ namespace wheatstone {
 DrawnView draw(const Painting& painting, ViewPosition view) {
   if (painting.regions.width > 0) return draw(painting.regions, view);
   if (painting.curves.width > 0) return draw(painting.curves, view);
-  DrawnView drawn = draw(painting.painting, view);
-  light_paint(painting.painting, view, painting.relief, drawn.picture);
+  DrawnView drawn = draw(painting.strokes, view);
+  light_paint(painting.strokes, view, painting.relief, drawn.picture);
   return drawn;
 }
 

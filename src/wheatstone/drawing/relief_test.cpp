@@ -68,13 +68,13 @@ TEST(Relief, TexturedStrokesFuseWhereIndependentEyesDoNot) {
   const PaintedPair textured = paint_scene(Propagation::strokes);
   EXPECT_LT(difference(textured), 0.35 * difference(paint_scene(Propagation::independent)));
   EXPECT_LT(textured.right_bare_share, 0.005);
-  EXPECT_NE(textured.pictures.left, draw(textured.painting, left_eye).picture);
+  EXPECT_NE(textured.pictures.left, draw(textured.painting.strokes, left_eye).picture);
 }
 
 TEST(Relief, GivesTheSameBytesOnAnyNumberOfThreads) {
   Style style;
   style.absolute_radii = true;
-  const StrokePainting painting = paint(test_scene::photographs(), test_scene::geometry(), style).painting;
+  const StrokePainting painting = paint(test_scene::photographs(), test_scene::geometry(), style).painting.strokes;
   Image<float> first;
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);

@@ -99,8 +99,8 @@ TEST(Svg, StrokesThatAreLeftOutDoNotShowInThePicture) {
   Style style = style_by_name("expressionist");
   style.background = Background::colour;
   const PaintedPair painted = paint(test_scene::photographs(), test_scene::geometry(), style);
-  const StrokePainting kept = without_hidden(painted.painting, left_eye, 1.f / 128);
-  const Image<Rgb8> before = draw(painted.painting, left_eye).picture, after = draw(kept, left_eye).picture;
+  const StrokePainting kept = without_hidden(painted.painting.strokes, left_eye, 1.f / 128);
+  const Image<Rgb8> before = draw(painted.painting.strokes, left_eye).picture, after = draw(kept, left_eye).picture;
   int worst = 0;
   double sum = 0;
   for (std::size_t i = 0; i < before.pixels().size(); ++i) {
@@ -115,9 +115,9 @@ TEST(Svg, StrokesThatAreLeftOutDoNotShowInThePicture) {
   for (const Layer& layer : kept.layers)
     strokes += static_cast<std::size_t>(
         std::ranges::count_if(layer.strokes, [](const Stroke& s) { return s.views.contains(left_eye); }));
-  EXPECT_EQ(count_of(svg_of(painted.painting, left_eye), "<path"), strokes);
+  EXPECT_EQ(count_of(svg_of(painted.painting.strokes, left_eye), "<path"), strokes);
   // A pixel of this picture holds no more than 24 bytes of SVG, where every stroke with all its points would take 180.
-  EXPECT_LE(svg_of(painted.painting, left_eye).size(), 24u * test_scene::width * test_scene::height);
+  EXPECT_LE(svg_of(painted.painting.strokes, left_eye).size(), 24u * test_scene::width * test_scene::height);
 }
 
 TEST(Svg, DiffusionCurvesLieOverTheDrawnView) {

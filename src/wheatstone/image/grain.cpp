@@ -6,6 +6,18 @@
 #include "wheatstone/image/opencv_internal.h"
 
 namespace wheatstone {
+namespace {
+
+template <class Pixel>
+Image<Pixel> median_5x5(ImageView<const Pixel> picture) {
+  Image<Pixel> result(picture.width(), picture.height());
+  cv::Mat to = as_mat(result);
+  constexpr int kernel = 5;
+  cv::medianBlur(as_mat(picture), to, kernel);
+  return result;
+}
+
+}  // namespace
 
 Image<Rgb8> without_grain(ImageView<const Rgb8> photograph, float scale) {
   Image<Rgb8> smooth(photograph.width(), photograph.height()), result(photograph.width(), photograph.height());
@@ -18,20 +30,8 @@ Image<Rgb8> without_grain(ImageView<const Rgb8> photograph, float scale) {
   return result;
 }
 
-Image<Rgb8> without_grain_quickly(ImageView<const Rgb8> photograph) {
-  Image<Rgb8> result(photograph.width(), photograph.height());
-  cv::Mat to = as_mat(result);
-  constexpr int kernel = 5;
-  cv::medianBlur(as_mat(photograph), to, kernel);
-  return result;
-}
+Image<Rgb8> without_grain_quickly(ImageView<const Rgb8> photograph) { return median_5x5(photograph); }
 
-Image<float> without_outliers(ImageView<const float> disparity) {
-  Image<float> result(disparity.width(), disparity.height());
-  cv::Mat to = as_mat(result);
-  constexpr int kernel = 5;
-  cv::medianBlur(as_mat(disparity), to, kernel);
-  return result;
-}
+Image<float> without_outliers(ImageView<const float> disparity) { return median_5x5(disparity); }
 
 }  // namespace wheatstone

@@ -21,10 +21,10 @@ Painting resized(Painting painting, double scale) {
     part.height = times(part.height, scale);
   };
   const auto factor = static_cast<float>(scale);
-  resize(painting.painting);
+  resize(painting.strokes);
   resize(painting.regions);
   resize(painting.curves);
-  for (Layer& layer : painting.painting.layers) resize_strokes(layer, factor);
+  for (Layer& layer : painting.strokes.layers) resize_strokes(layer, factor);
   for (ControlPoint& point : painting.regions.points) point = times(point, factor);
   for (RegionMark& mark : painting.regions.marks) mark.disparity *= factor;
   for (ColourPoint& point : painting.curves.points) point.at = times(point.at, factor);
@@ -35,7 +35,7 @@ Painting resized(Painting painting, double scale) {
 
 std::vector<float> disparities_of_marks(const Painting& painting) {
   std::vector<float> disparities;
-  for (const Layer& layer : painting.painting.layers)
+  for (const Layer& layer : painting.strokes.layers)
     for (const Stroke& stroke : layer.strokes) disparities.push_back(stroke.disparity);
   for (const RegionMark& mark : painting.regions.marks) disparities.push_back(mark.disparity);
   for (const ColourPoint& point : painting.curves.points) disparities.push_back(point.at.disparity);

@@ -16,9 +16,9 @@ struct Relief {
 };
 
 /// A painting of one kind of marks: regions or curves where these have a size, else strokes. The other kinds are
-/// empty; `painting` always has the size of the pictures.
+/// empty; `strokes` always has the size of the pictures.
 struct Painting {
-  StrokePainting painting;
+  StrokePainting strokes;
   RegionPainting regions;
   DiffusionPainting curves;
   Relief relief;  ///< of the strokes

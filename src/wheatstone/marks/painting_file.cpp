@@ -211,7 +211,7 @@ Painting decode_payload(const file::Painting& from, const Checker& checker) {
                      from.relief_bristle_px() <= static_cast<float>(largest_side_px),
                  "the relief's bristles are out of range");
   Painting any{{width, height, {from.canvas_red(), from.canvas_green(), from.canvas_blue()}, {}}, {}, {}};
-  for (const file::Layer* layer : *from.layers()) any.painting.layers.push_back(decode_layer(*layer, checker));
+  for (const file::Layer* layer : *from.layers()) any.strokes.layers.push_back(decode_layer(*layer, checker));
   if (from.regions() != nullptr) any.regions = decode_regions(*from.regions(), width, height, checker);
   if (from.curves() != nullptr) any.curves = decode_curves(*from.curves(), width, height, checker);
   any.relief = {from.relief_depth_px(), from.relief_bristle_px()};
@@ -222,7 +222,7 @@ Painting decode_payload(const file::Painting& from, const Checker& checker) {
 
 std::string encode_painting(const Painting& any) {
   flatbuffers::FlatBufferBuilder payload;
-  const StrokePainting& painting = any.painting;
+  const StrokePainting& painting = any.strokes;
   std::vector<flatbuffers::Offset<file::Layer>> layers;
   for (const Layer& layer : painting.layers) layers.push_back(encode_layer(layer, payload));
   flatbuffers::Offset<file::Regions> regions;

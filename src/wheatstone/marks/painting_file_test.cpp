@@ -38,13 +38,13 @@ StrokePainting small_painting() {
 }
 
 Painting small(int kind) {
-  Painting any{.painting = small_painting()};
+  Painting any{.strokes = small_painting()};
   if (kind == 0) {
-    any.painting.layers[0].strokes[1].number = 77;
+    any.strokes.layers[0].strokes[1].number = 77;
     any.relief = {1.5f, 3};
     return any;
   }
-  any.painting.layers.clear();
+  any.strokes.layers.clear();
   const ViewRange right_only{right_eye, right_eye};
   if (kind == 1) {
     any.regions = {20, 10, {{1, 1, 3}, {9, 1, 3}, {5, 8, 4}, {4, 2, 3}, {6, 2, 3}, {5, 4, 3.5f}}, {{0, 3}, {3, 3}}, {}};
@@ -125,7 +125,7 @@ TEST(PaintingFile, DrawsNothingWildFromAPayloadThatWasForged) {
         bad[i] = static_cast<std::uint8_t>(bad[i] ^ flip);
         try {
           const Painting painting = decode_painting(sealed(bad.data(), bad.size(), 2), "some.wst");
-          if (painting.painting.width > 100 || painting.painting.height > 100) continue;
+          if (painting.strokes.width > 100 || painting.strokes.height > 100) continue;
           for (const ViewPosition view : {left_eye, right_eye}) draw(painting, view);
           ++drawn;
         } catch (const Error& error) {
@@ -143,9 +143,9 @@ TEST(PaintingFile, DrawsNothingWildFromAPayloadThatWasForged) {
 TEST(PaintingFile, RefusesMarksThatReferToNothing) {
   using Spoil = void (*)(Painting&);
   const std::pair<int, Spoil> spoilt[] = {
-      {0, [](Painting& p) { p.painting.layers[0].strokes[1].point_count = 2; }},
-      {0, [](Painting& p) { p.painting.layers[0].strokes[1].reference_view = ViewPosition(1e9f); }},
-      {0, [](Painting& p) { p.painting.layers[0].radius_px = NAN; }},
+      {0, [](Painting& p) { p.strokes.layers[0].strokes[1].point_count = 2; }},
+      {0, [](Painting& p) { p.strokes.layers[0].strokes[1].reference_view = ViewPosition(1e9f); }},
+      {0, [](Painting& p) { p.strokes.layers[0].radius_px = NAN; }},
       {0, [](Painting& p) { p.relief.depth_px = -1; }},
       {0, [](Painting& p) { p.relief.bristle_px = 0; }},
       {0, [](Painting& p) { p.regions = small(1).regions; }},
@@ -189,7 +189,7 @@ TEST(PaintingFile, ReadsVersion1) {
       0,   64,  64,  0,   0,  192, 192, 0,   0,   16, 65,  3,  0,  0,  0,   0,   0,  0,  64,  0,   0,  176, 64,
       0,   0,   0,   65,  3,  0,   0,   0,   0,   0,  128, 63, 0,  0,  128, 64,  0,  0,  224, 64};
   const Painting read = decode_painting({reinterpret_cast<const char*>(bytes), std::size(bytes)}, "old.wst");
-  EXPECT_EQ(read, Painting{.painting = small_painting()});
+  EXPECT_EQ(read, Painting{.strokes = small_painting()});
 }
 
 TEST(PaintingFile, NamesAFutureVersion) {

@@ -9,7 +9,6 @@
 
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/drawing/relief.h"
 #include "wheatstone/painting/paint.h"
 
 namespace wheatstone {
@@ -23,16 +22,8 @@ Style style_of(std::string_view name) {
   return style;
 }
 
-struct Painted {
-  PaintedPair pair;
-  Painting any;
-};
-
-Painted painted(std::string_view name) {
-  const Style style = style_of(name);
-  PaintedPair pair = paint(test_scene::photographs(), test_scene::geometry(), style);
-  Painting any{pair.painting, pair.regions, pair.curves, relief_for(style, test_scene::width)};
-  return {std::move(pair), std::move(any)};
+PaintedPair painted(std::string_view name) {
+  return paint(test_scene::photographs(), test_scene::geometry(), style_of(name));
 }
 
 double mean_difference(const Image<Rgb8>& small, const Image<Rgb8>& large, int scale) {
@@ -49,20 +40,20 @@ double mean_difference(const Image<Rgb8>& small, const Image<Rgb8>& large, int s
 
 TEST(Painting, IsDrawnAsItsKindOfMarksIs) {
   for (const std::string_view name : {"expressionist", "posterise", "diffusion"}) {
-    const Painted made = painted(name);
-    EXPECT_EQ(draw(made.any, left_eye).picture, made.pair.pictures.left) << name;
-    EXPECT_EQ(draw(made.any, right_eye).picture, made.pair.pictures.right) << name;
+    const PaintedPair made = painted(name);
+    EXPECT_EQ(draw(made.painting, left_eye).picture, made.pictures.left) << name;
+    EXPECT_EQ(draw(made.painting, right_eye).picture, made.pictures.right) << name;
   }
 }
 
 TEST(Painting, IsTheSamePictureWhenItIsMadeLarger) {
   constexpr int scale = 4;
   for (const std::string_view name : {"expressionist", "posterise", "diffusion"}) {
-    const Painted made = painted(name);
-    const Image<Rgb8> large = draw(resized(made.any, scale), right_eye).picture;
+    const PaintedPair made = painted(name);
+    const Image<Rgb8> large = draw(resized(made.painting, scale), right_eye).picture;
     ASSERT_EQ(large.width(), scale * test_scene::width);
-    const double same = mean_difference(made.pair.pictures.right, large, scale);
-    const double other_eye = mean_difference(made.pair.pictures.left, large, scale);
+    const double same = mean_difference(made.pictures.right, large, scale);
+    const double other_eye = mean_difference(made.pictures.left, large, scale);
     RecordProperty(std::string(name), std::to_string(same));
     EXPECT_LT(same, 6) << name;
     EXPECT_LT(same, 0.5 * other_eye) << name;
@@ -71,7 +62,7 @@ TEST(Painting, IsTheSamePictureWhenItIsMadeLarger) {
 
 TEST(Painting, TellsTheDisparitiesOfItsMarks) {
   for (const std::string_view name : {"expressionist", "posterise", "diffusion"}) {
-    const std::vector<float> disparities = disparities_of_marks(painted(name).any);
+    const std::vector<float> disparities = disparities_of_marks(painted(name).painting);
     EXPECT_FLOAT_EQ(*std::ranges::max_element(disparities), test_scene::square_disparity) << name;
     EXPECT_FLOAT_EQ(*std::ranges::min_element(disparities), test_scene::wall_disparity) << name;
   }

@@ -71,9 +71,9 @@ double worst_psnr(const std::vector<Image<Rgb8>>& views, const std::vector<Image
   return worst;
 }
 
-std::vector<Image<Rgb8>> views_of(const Cloud& cloud, const Scene& scene, const Rig& rig, Method method,
-                                  SliceFilter filter = SliceFilter::linear, bool opaque = false) {
-  return render(cloud, scene, rig, {.method = method, .filter = filter, .opaque = opaque, .exposure = 0.5f}).views;
+std::vector<Image<Rgb8>> views_of(const Cloud& cloud, const Scene& scene, const Rig& rig, RenderOptions options) {
+  options.exposure = 0.5f;
+  return render(cloud, scene, rig, options).views;
 }
 
 TEST(Exact, IsWhatTheNaiveLoopDraws) {
@@ -81,7 +81,7 @@ TEST(Exact, IsWhatTheNaiveLoopDraws) {
   Rig rig = nine_views();
   for (const auto& [smallest, largest] : {std::pair{2.f, 6.f}, std::pair{1.f, 3.f}, std::pair{8.f, 24.f}}) {
     const Scene scene = scene_of(cloud, rig, smallest, largest);
-    const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, Method::exact);
+    const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, {.method = Method::exact});
     for (const std::size_t v : {0, 5}) {
       const Image<Rgb8> truth = naive_view(cloud, scene, rig, rig.positions[v], 0.5f);
       EXPECT_GT(measure_view(views[v], truth).psnr_db, 60) << smallest << ".." << largest << ", view " << v;
@@ -99,12 +99,13 @@ TEST(EveryInstructionSet, DrawsWhatTheNaiveLoopDraws) {
   for (const auto target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
     hwy::SetSupportedTargetsForTest(target);
-    const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
+    const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, {.method = Method::exact});
     EXPECT_GT(measure_view(exact[1], truth).psnr_db, 60);
     EXPECT_LT(measure_view(exact[0], truth).psnr_db, 40) << "another view must be told apart";
-    EXPECT_EQ(views_of(cloud, scene, rig, Method::incremental), exact);
+    EXPECT_EQ(views_of(cloud, scene, rig, {.method = Method::incremental}), exact);
     for (const SliceFilter filter : {SliceFilter::nearest, SliceFilter::linear, SliceFilter::centroid}) {
-      const double layered = measure_view(views_of(cloud, scene, rig, Method::layered, filter)[1], truth).psnr_db;
+      const double layered =
+          measure_view(views_of(cloud, scene, rig, {.method = Method::layered, .filter = filter})[1], truth).psnr_db;
       EXPECT_GT(layered, filter == SliceFilter::nearest ? 35 : 42) << static_cast<int>(filter);
     }
   }
@@ -115,17 +116,21 @@ TEST(Incremental, EqualsExactToTheBit) {
   const Cloud cloud = clumps(30000);
   const Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig);
-  EXPECT_EQ(views_of(cloud, scene, rig, Method::incremental), views_of(cloud, scene, rig, Method::exact));
+  EXPECT_EQ(views_of(cloud, scene, rig, {.method = Method::incremental}),
+            views_of(cloud, scene, rig, {.method = Method::exact}));
 }
 
 TEST(Layered, IsWithin45DecibelsOfExactInEveryView) {
   const Cloud cloud = clumps(200000);
   const Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig);
-  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
-  const double nearest = worst_psnr(views_of(cloud, scene, rig, Method::layered, SliceFilter::nearest), exact);
-  const double linear = worst_psnr(views_of(cloud, scene, rig, Method::layered, SliceFilter::linear), exact);
-  const double centroid = worst_psnr(views_of(cloud, scene, rig, Method::layered, SliceFilter::centroid), exact);
+  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, {.method = Method::exact});
+  const double nearest =
+      worst_psnr(views_of(cloud, scene, rig, {.method = Method::layered, .filter = SliceFilter::nearest}), exact);
+  const double linear =
+      worst_psnr(views_of(cloud, scene, rig, {.method = Method::layered, .filter = SliceFilter::linear}), exact);
+  const double centroid =
+      worst_psnr(views_of(cloud, scene, rig, {.method = Method::layered, .filter = SliceFilter::centroid}), exact);
   EXPECT_GE(linear, 45);
   EXPECT_GE(centroid, linear + 2);
   EXPECT_LE(nearest, linear - 2);
@@ -148,9 +153,9 @@ TEST(Layered, PutsNoLoneSplatFartherThanHalfAPixelOff) {
   const Cloud cloud = lone_particles();
   const Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig, 5, 5);
-  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
+  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, {.method = Method::exact});
   for (const SliceFilter filter : {SliceFilter::linear, SliceFilter::centroid}) {
-    const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, Method::layered, filter);
+    const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, {.method = Method::layered, .filter = filter});
     for (std::size_t v = 0; v < views.size(); ++v) {
       const ViewMeasures measures = measure_view(views[v], exact[v]);
       EXPECT_GT(measures.isolated_splats, 10u);
@@ -172,9 +177,9 @@ TEST(Layered, FollowsAMappingOfManyRegions) {
   const float last = scene.mapping.points.back().depth;
   scene.mapping.points = {
       {first, -19}, {first + 0.4f * (last - first), -15}, {first + 0.5f * (last - first), 12}, {last, 16}};
-  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
+  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, {.method = Method::exact});
   EXPECT_GT(measure_view(exact[0], naive_view(cloud, scene, rig, rig.positions[0], 0.5f)).psnr_db, 55);
-  EXPECT_GE(worst_psnr(views_of(cloud, scene, rig, Method::layered), exact), 45);
+  EXPECT_GE(worst_psnr(views_of(cloud, scene, rig, {.method = Method::layered}), exact), 45);
 }
 
 TEST(Opaque, NearestParticleHidesTheOthers) {
@@ -198,7 +203,8 @@ TEST(Opaque, NearestParticleHidesTheOthers) {
   appearance.hot = {255, 0, 0};
   scene.splat_style = make_splat_style(appearance, statistics);
   for (const Method method : {Method::exact, Method::incremental, Method::layered}) {
-    const Rgb8 middle = views_of(cloud, scene, rig, method, SliceFilter::linear, true)[0](32, 16);
+    const Rgb8 middle =
+        views_of(cloud, scene, rig, {.method = method, .filter = SliceFilter::linear, .opaque = true})[0](32, 16);
     EXPECT_GT(middle.g, 60);
     EXPECT_EQ(middle.r, 0);
   }
@@ -208,9 +214,12 @@ TEST(Opaque, WaysOfRenderingAgree) {
   const Cloud cloud = clumps(3000);
   const Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig);
-  const auto exact = views_of(cloud, scene, rig, Method::exact, SliceFilter::linear, true);
-  EXPECT_EQ(views_of(cloud, scene, rig, Method::incremental, SliceFilter::linear, true), exact);
-  const auto layered = views_of(cloud, scene, rig, Method::layered, SliceFilter::linear, true);
+  const auto exact =
+      views_of(cloud, scene, rig, {.method = Method::exact, .filter = SliceFilter::linear, .opaque = true});
+  EXPECT_EQ(views_of(cloud, scene, rig, {.method = Method::incremental, .filter = SliceFilter::linear, .opaque = true}),
+            exact);
+  const auto layered =
+      views_of(cloud, scene, rig, {.method = Method::layered, .filter = SliceFilter::linear, .opaque = true});
   // Discs move by whole pixels: only their rims differ.
   EXPECT_LT(measure_view(layered[4], exact[4]).differing_share, 0.02);
   EXPECT_LT(measure_view(layered[0], exact[0]).differing_share, 0.2);
@@ -221,9 +230,10 @@ TEST(Render, SameBytesOnAnyNumberOfThreads) {
   const Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig);
   for (const Method method : {Method::exact, Method::incremental, Method::layered}) {
-    const std::vector<Image<Rgb8>> many = views_of(cloud, scene, rig, method, SliceFilter::centroid);
+    const std::vector<Image<Rgb8>> many =
+        views_of(cloud, scene, rig, {.method = method, .filter = SliceFilter::centroid});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(views_of(cloud, scene, rig, method, SliceFilter::centroid), many);
+    EXPECT_EQ(views_of(cloud, scene, rig, {.method = method, .filter = SliceFilter::centroid}), many);
   }
 }
 
@@ -233,7 +243,7 @@ TEST(Render, FewParticlesAndNoneInSight) {
     const Cloud cloud = clumps(count);
     const Scene scene = scene_of(cloud, rig);
     for (const Method method : {Method::exact, Method::incremental, Method::layered}) {
-      const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, method);
+      const std::vector<Image<Rgb8>> views = views_of(cloud, scene, rig, {.method = method});
       EXPECT_TRUE(std::ranges::any_of(views[3].pixels(), [](Rgb8 p) { return p.r + p.g + p.b > 30; })) << count;
     }
   }
@@ -250,9 +260,9 @@ TEST(Render, AllInOnePlace) {
   cloud.x = cloud.y = cloud.z = std::vector<float>(1000, 5.f);
   const Rig rig = nine_views();
   const Scene scene = scene_of(cloud, rig);
-  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, Method::exact);
-  EXPECT_EQ(views_of(cloud, scene, rig, Method::incremental), exact);
-  EXPECT_GE(worst_psnr(views_of(cloud, scene, rig, Method::layered), exact), 45);
+  const std::vector<Image<Rgb8>> exact = views_of(cloud, scene, rig, {.method = Method::exact});
+  EXPECT_EQ(views_of(cloud, scene, rig, {.method = Method::incremental}), exact);
+  EXPECT_GE(worst_psnr(views_of(cloud, scene, rig, {.method = Method::layered}), exact), 45);
 }
 
 TEST(Render, RefusesWhatMakesNoSense) {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
 
+#include <exception>
+
+#include "wheatstone/curves/plan_diffusion.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/draw_in_style.h"
 #include "wheatstone/drawing/rasterise.h"
@@ -66,8 +69,8 @@ StrokePainting joined(StrokePainting left, const StrokePainting& right) {
 /// Draws both eyes of a planned painting.
 void draw_both(const StereoPair& photographs, const Style& style, PaintedPair& result) {
   DrawnView left, right;
-  tbb::parallel_invoke([&] { left = draw_in_style(photographs.left, result.painting, left_eye, style); },
-                       [&] { right = draw_in_style(photographs.right, result.painting, right_eye, style); });
+  tbb::parallel_invoke([&] { left = draw_in_style(photographs.left, result.painting.strokes, left_eye, style); },
+                       [&] { right = draw_in_style(photographs.right, result.painting.strokes, right_eye, style); });
   result.pictures = {std::move(left.picture), std::move(right.picture)};
   result.left_bare_share = left.bare_share;
   result.right_bare_share = right.bare_share;
@@ -84,31 +87,39 @@ StrokePainting plan(const StereoPair& photographs, const StereoGeometry& geometr
                     const Progress& progress) {
   if (style.propagation == Propagation::strokes) return plan_with_strokes(photographs, geometry, style, progress);
   StrokePainting left, right;
+  std::exception_ptr thrown;
   tbb::parallel_invoke(
-      [&] { left = plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress); },
+      [&] {
+        // Thrown on when the right eye has ended, too: its loops would be cancelled, and it would go on with what they
+        // have not done.
+        try {
+          left = plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress);
+        } catch (...) {
+          thrown = std::current_exception();
+        }
+      },
       [&] {
         right = style.propagation == Propagation::raster
                     ? plan_right_only(photographs, geometry, style)
                     : plan_by_itself(photographs.right, geometry.right_disparity, right_eye, style, {});
       });
+  if (thrown) std::rethrow_exception(thrown);
   return joined(std::move(left), right);
 }
 
 /// Plans the kinds of marks that are not strokes.
 void plan_other_marks(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                      PaintedPair& result) {
-  if (style.marks == Marks::regions) result.regions = plan_posterised(photographs, geometry, style);
-  if (style.marks == Marks::tiles) result.regions = plan_mosaic(photographs, geometry, style);
-  if (style.marks == Marks::curves) result.curves = plan_diffusion(photographs, geometry, style);
+                      Painting& painting) {
+  if (style.marks == Marks::regions) painting.regions = plan_posterised(photographs, geometry, style);
+  if (style.marks == Marks::tiles) painting.regions = plan_mosaic(photographs, geometry, style);
+  if (style.marks == Marks::curves) painting.curves = plan_diffusion(photographs, geometry, style);
 }
 
 /// Draws both eyes of what was planned.
-void draw_other_marks(const Style& style, PaintedPair& result) {
-  const auto drawn = [&](ViewPosition view) {
-    return style.marks == Marks::curves ? draw(result.curves, view) : draw(result.regions, view);
-  };
+void draw_other_marks(PaintedPair& result) {
   DrawnView left, right;
-  tbb::parallel_invoke([&] { left = drawn(left_eye); }, [&] { right = drawn(right_eye); });
+  tbb::parallel_invoke([&] { left = draw(result.painting, left_eye); },
+                       [&] { right = draw(result.painting, right_eye); });
   result.pictures = {std::move(left.picture), std::move(right.picture)};
   result.left_bare_share = left.bare_share;
   result.right_bare_share = right.bare_share;
@@ -117,16 +128,16 @@ void draw_other_marks(const Style& style, PaintedPair& result) {
 PaintedPair paint_other_marks(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                               const Progress& progress) {
   PaintedPair result;
-  result.painting.width = photographs.left.width();
-  result.painting.height = photographs.left.height();
+  result.painting.strokes.width = photographs.left.width();
+  result.painting.strokes.height = photographs.left.height();
   report(progress, "painting", 0);
   {
     const Stopwatch watch(result.times.planning_s);
-    plan_other_marks(photographs, geometry, style, result);
+    plan_other_marks(photographs, geometry, style, result.painting);
   }
   report(progress, "painting", 0.5);
   const Stopwatch watch(result.times.rasterising_s);
-  draw_other_marks(style, result);
+  draw_other_marks(result);
   report(progress, "painting", 1);
   return result;
 }
@@ -139,10 +150,6 @@ void check_is_of_strokes(const Style& style) {
 }
 
 }  // namespace
-
-Painting marks_of(const PaintedPair& painted, const Style& style) {
-  return {painted.painting, painted.regions, painted.curves, relief_for(style, painted.painting.width)};
-}
 
 StrokePainting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                              const Progress& progress) {
@@ -158,8 +165,9 @@ PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry,
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);
-    result.painting = plan_painting(photographs, geometry, style, progress);
+    result.painting.strokes = plan_painting(photographs, geometry, style, progress);
   }
+  result.painting.relief = relief_for(style, result.painting.strokes.width);
   const Stopwatch watch(result.times.rasterising_s);
   draw_both(photographs, style, result);
   if (style.propagation == Propagation::raster) lay_left_over_right(geometry, result);

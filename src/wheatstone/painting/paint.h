@@ -1,9 +1,6 @@
 #pragma once
 
-#include "wheatstone/curves/plan_diffusion.h"
 #include "wheatstone/marks/painting.h"
-#include "wheatstone/marks/region_painting.h"
-#include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
@@ -18,19 +15,14 @@ struct PaintingTimes {
 };
 
 /// A painting of both eyes and its two pictures. With Propagation::raster the right picture is made from pixels and is
-/// not what `draw` makes of the marks. A style's marks are strokes, regions or curves; the others are empty.
+/// not what `draw` makes of the marks.
 struct PaintedPair {
-  StrokePainting painting;
-  RegionPainting regions;  ///< of a posterised picture or a mosaic
-  DiffusionPainting curves;
+  Painting painting;
   StereoPair pictures;
   double left_bare_share = 0;  ///< of the pixels, 0..1, that no mark covers
   double right_bare_share = 0;
   PaintingTimes times;
 };
-
-/// A painted pair's marks, as its file keeps them.
-Painting marks_of(const PaintedPair& painted, const Style& style);
 
 /// The strokes of a rectified pair's painting, not drawn. What it takes and throws is as for `paint`, but a style whose
 /// marks are not strokes is Error{wrong_usage}.

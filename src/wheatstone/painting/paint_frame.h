@@ -24,8 +24,9 @@ struct PaintedFrame {
 };
 
 /// Paints a frame of a film for both eyes, or for the one view there is, and leaves no pixel bare. Throws
-/// Error{wrong_usage} for a style that cannot be painted with.
+/// Error{wrong_usage} for a style that cannot be painted with. What `progress` throws, between the steps of planning
+/// and drawing, ends it: then `memory` is of no further use.
 PaintedFrame paint_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                         PaintingMemory& memory);
+                         PaintingMemory& memory, const Progress& progress = {});
 
 }  // namespace wheatstone

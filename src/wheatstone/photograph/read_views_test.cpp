@@ -2,12 +2,12 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <libheif/heif.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "scenes/heif_pictures.h"
 #include "scenes/test_photographs.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
@@ -235,43 +235,16 @@ TEST(ReadViews, AreTurnedUpright) {
   EXPECT_EQ(read_views(folder / "a.mpo").views[1].height(), 40);
 }
 
-/// Writes plain pictures of these colours and heights as one HEIC file; false where no encoder is installed.
-bool put_heic(const std::filesystem::path& path, const std::vector<std::pair<Rgb8, int>>& pictures) {
-  heif_context* context = heif_context_alloc();
-  heif_encoder* encoder = nullptr;
-  if (heif_context_get_encoder_for_format(context, heif_compression_HEVC, &encoder).code != heif_error_Ok) {
-    heif_context_free(context);
-    return false;
-  }
-  for (const auto& [colour, height] : pictures) {
-    heif_image* image = nullptr;
-    heif_image_create(64, height, heif_colorspace_RGB, heif_chroma_interleaved_RGB, &image);
-    heif_image_add_plane(image, heif_channel_interleaved, 64, height, 8);
-    int stride = 0;
-    std::uint8_t* plane = heif_image_get_plane(image, heif_channel_interleaved, &stride);
-    for (int y = 0; y < height; ++y)
-      std::fill_n(reinterpret_cast<Rgb8*>(plane + static_cast<std::ptrdiff_t>(y) * stride), 64, colour);
-    heif_image_handle* handle = nullptr;
-    heif_context_encode_image(context, image, encoder, nullptr, &handle);
-    heif_image_handle_release(handle);
-    heif_image_release(image);
-  }
-  heif_encoder_release(encoder);
-  heif_context_write_to_file(context, path.c_str());
-  heif_context_free(context);
-  return true;
-}
-
 TEST(ReadViews, OfAHeicAreItsTwoPictures) {
   const TemporaryFolder folder;
-  if (!put_heic(folder / "a.heic", {{red, 64}, {blue, 64}})) GTEST_SKIP() << "no HEVC encoder";
+  if (!put_heic(folder / "a.heic", {{red}, {blue}})) GTEST_SKIP() << "no HEVC encoder";
   const ViewsFile file = read_views(folder / "a.heic");
   ASSERT_EQ(file.views.size(), 2u);
   EXPECT_TRUE(is_like(file.views[0], red));
   EXPECT_NE(file.note, "");
-  put_heic(folder / "b.heic", {{red, 64}, {blue, 72}});
+  put_heic(folder / "b.heic", {{red}, {blue, 64, 72}});
   expect_error(ErrorKind::bad_input, "does not report which are a stereo pair", [&] { read_views(folder / "b.heic"); });
-  put_heic(folder / "c.heic", {{red, 64}});
+  put_heic(folder / "c.heic", {{red}});
   expect_error(ErrorKind::bad_input, "c.heic: is one picture", [&] { read_views(folder / "c.heic"); });
   EXPECT_EQ(read_views(folder / "c.heic", {.layout = StereoLayout::top_bottom}).views[0].height(), 32);
 }

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <vector>
 
+#include "psnr.h"
 #include "scenes/test_photographs.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
@@ -14,15 +14,6 @@
 
 namespace wheatstone {
 namespace {
-
-double psnr_db(const Image<Rgb8>& a, const Image<Rgb8>& b) {
-  double squares = 0;
-  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
-    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
-    for (const int difference : {p.r - q.r, p.g - q.g, p.b - q.b}) squares += difference * difference;
-  }
-  return 10 * std::log10(255.0 * 255.0 * 3 * static_cast<double>(a.pixels().size()) / squares);
-}
 
 bool has_exiftool() { return std::system("exiftool -ver >/dev/null 2>&1") == 0; }
 

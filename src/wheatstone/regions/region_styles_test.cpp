@@ -48,7 +48,7 @@ TEST_P(RegionStyle, CoversBothEyes) {
 }
 
 TEST_P(RegionStyle, LeavesTheRightEyeBareWithoutWhatOnlyItSees) {
-  RegionPainting regions = paint_scene(small_style(GetParam())).regions;
+  RegionPainting regions = paint_scene(small_style(GetParam())).painting.regions;
   std::erase_if(regions.marks, [](const RegionMark& mark) { return mark.reference_view == right_eye; });
   EXPECT_GT(draw(regions, right_eye).bare_share, 0.02);
   EXPECT_LT(draw(regions, left_eye).bare_share, 0.005);
@@ -59,8 +59,8 @@ TEST_P(RegionStyle, GivesTheSameBytesOnAnyNumberOfThreads) {
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     PaintedPair painted = paint_scene(small_style(GetParam()));
-    if (first.regions.marks.empty()) first = painted;
-    EXPECT_EQ(painted.regions, first.regions);
+    if (first.painting.regions.marks.empty()) first = painted;
+    EXPECT_EQ(painted.painting, first.painting);
     EXPECT_EQ(painted.pictures.left, first.pictures.left);
     EXPECT_EQ(painted.pictures.right, first.pictures.right);
   }
@@ -82,11 +82,11 @@ std::size_t spanning_marks(const RegionPainting& regions) {
 
 TEST_P(RegionStyle, NoRegionSpansTwoSurfacesUnlessDepthIsIgnored) {
   Style style = small_style(GetParam());
-  const RegionPainting regions = paint_scene(style).regions;
+  const RegionPainting regions = paint_scene(style).painting.regions;
   EXPECT_EQ(spanning_marks(regions), 0u);
   for (const Ring& ring : regions.rings) EXPECT_GE(ring.point_count, 3u);
   style.depth_threshold_px = 100;
-  EXPECT_GT(spanning_marks(paint_scene(style).regions), 0u);
+  EXPECT_GT(spanning_marks(paint_scene(style).painting.regions), 0u);
 }
 
 TEST_P(RegionStyle, StaysWhatItIsOnPicturesOfAnySize) {
@@ -115,7 +115,7 @@ TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
   Style style = small_style("posterise");
   style.colours = 3;
   std::vector<std::uint32_t> colours;
-  for (const RegionMark& mark : paint_scene(style).regions.marks)
+  for (const RegionMark& mark : paint_scene(style).painting.regions.marks)
     colours.push_back(mark.colour.r * 65536u + mark.colour.g * 256u + mark.colour.b);
   std::ranges::sort(colours);
   colours.erase(std::unique(colours.begin(), colours.end()), colours.end());
@@ -147,8 +147,8 @@ TEST(Mosaic, TurnsItsTilesAlongTheEdgesOfThePicture) {
   Style style = small_style("mosaic");
   style.tile_px = 12;
   const StereoGeometry geometry = geometry_from_left(Image<float>(size, size, 0));
-  EXPECT_GT(diagonal_order(paint({stripe, stripe}, geometry, style).regions), 0.1);
-  EXPECT_LT(diagonal_order(paint({flat, flat}, geometry, style).regions), -0.1);
+  EXPECT_GT(diagonal_order(paint({stripe, stripe}, geometry, style).painting.regions), 0.1);
+  EXPECT_LT(diagonal_order(paint({flat, flat}, geometry, style).painting.regions), -0.1);
 }
 
 TEST(DrawRegions, LeavesHolesAndHidesByDepth) {

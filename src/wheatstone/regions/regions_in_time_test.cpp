@@ -10,6 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "scenes/short_film.h"
 #include "throws_error.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
@@ -17,26 +18,13 @@
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/regions/mosaic.h"
 #include "wheatstone/regions/posterise.h"
-#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone {
 namespace {
 
 constexpr int width = 192, height = 108;
 
-/// A film, its central views, and the flow between these as it is estimated.
-struct TestFilm {
-  std::vector<SyntheticFilmFrame> frames;
-  std::vector<CentralView> centres;
-  std::vector<FlowPair> flows;  ///< of each frame but the first
-
-  std::vector<SceneView> scene(std::size_t i) const {
-    return scene_from_centre(centres[i], frames[i].pictures, frames[i].geometry);
-  }
-  const FlowPair* flow_to(std::size_t i) const { return i == 0 ? nullptr : &flows[i - 1]; }
-};
-
-TestFilm make_film(FilmMotion motion) {
+ShortFilm make_film(FilmMotion motion) {
   SyntheticFilmOptions options;
   options.still.width = width;
   options.still.height = height;
@@ -44,24 +32,16 @@ TestFilm make_film(FilmMotion motion) {
   options.cut = 0;
   options.motion = motion;
   options.noise = 5;
-  TestFilm film;
-  constexpr int frames = 4;
-  for (int i = 0; i < frames; ++i) {
-    film.frames.push_back(make_synthetic_film_frame(options, i));
-    film.centres.push_back(make_central_view(film.frames.back().pictures, film.frames.back().geometry));
-  }
-  for (std::size_t i = 1; i < film.centres.size(); ++i)
-    film.flows.push_back(estimate_flow(film.centres[i - 1].picture, film.centres[i].picture));
+  return film_with_estimated_flow(options, 4);
+}
+
+const ShortFilm& walk() {
+  static const ShortFilm film = make_film(FilmMotion::walk);
   return film;
 }
 
-const TestFilm& walk() {
-  static const TestFilm film = make_film(FilmMotion::walk);
-  return film;
-}
-
-const TestFilm& pan() {
-  static const TestFilm film = make_film(FilmMotion::pan);
+const ShortFilm& pan() {
+  static const ShortFilm film = make_film(FilmMotion::pan);
   return film;
 }
 
@@ -85,7 +65,7 @@ class Painter {
     return style_.marks == Marks::regions ? plan_posterised(pair, geometry, style_)
                                           : plan_mosaic(pair, geometry, style_);
   }
-  RegionPainting plan_frame(const TestFilm& film, std::size_t i, bool afresh = false) {
+  RegionPainting plan_frame(const ShortFilm& film, std::size_t i, bool afresh = false) {
     const std::vector<SceneView> views = film.scene(i);
     return plan({views, afresh ? nullptr : film.flow_to(i)});
   }
@@ -98,7 +78,7 @@ class Painter {
 };
 
 /// E_warp of the left eye's film.
-double flicker(const TestFilm& film, Painter painter, bool afresh = false) {
+double flicker(const ShortFilm& film, Painter painter, bool afresh = false) {
   TemporalError error;
   Image<Rgb8> before;
   for (std::size_t i = 0; i < film.frames.size(); ++i) {
@@ -110,7 +90,7 @@ double flicker(const TestFilm& film, Painter painter, bool afresh = false) {
 }
 
 /// How much less than frame by frame.
-double flicker_left(const TestFilm& film, std::string_view name) {
+double flicker_left(const ShortFilm& film, std::string_view name) {
   const double left = flicker(film, Painter(name)) / flicker(film, Painter(name), true);
   testing::Test::RecordProperty(&film == &walk() ? "walk" : "pan", std::to_string(left));
   return left;

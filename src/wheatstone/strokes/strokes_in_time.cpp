@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <mutex>
 #include <optional>
 
 #include "wheatstone/drawing/rasterise.h"
@@ -186,6 +188,41 @@ class ViewAtWork {
   LayerPlanner planner_;
 };
 
+/// Plans the views at once and tells of each layer. What `progress` throws in one view is thrown when both have ended:
+/// the loops of the other would be cancelled, and it would go on with what they have not done.
+class ViewsPlan {
+ public:
+  ViewsPlan(const Progress& progress, std::size_t views, std::size_t layers)
+      : progress_(progress), thrown_(views), steps_(views * (layers + 1)) {}
+
+  /// Calls `plan(view)` for all views.
+  template <class Plan>
+  void run(Plan plan) {
+    tbb::parallel_for(std::size_t{0}, thrown_.size(), [&](std::size_t view) {
+      try {
+        plan(view);
+      } catch (...) {
+        thrown_[view] = std::current_exception();
+      }
+    });
+    for (const std::exception_ptr& thrown : thrown_)
+      if (thrown) std::rethrow_exception(thrown);
+  }
+
+  /// Before a view's first layer and after each.
+  void report_step() {
+    const std::scoped_lock lock(reporting_);
+    report(progress_, "painting", static_cast<double>(done_++) / static_cast<double>(steps_));
+  }
+
+ private:
+  const Progress& progress_;
+  std::vector<std::exception_ptr> thrown_;
+  std::size_t steps_;
+  std::size_t done_ = 0;
+  std::mutex reporting_;
+};
+
 std::int64_t living_strokes(const StrokeMemory& memory) {
   std::int64_t count = 0;
   for (const std::vector<TrackedLayer>& layers : memory.views)
@@ -262,7 +299,7 @@ StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const 
 }  // namespace
 
 CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                             StrokeMemory& memory) {
+                             StrokeMemory& memory, const Progress& progress) {
   check_style(style);
   if (style.marks != Marks::strokes)
     throw Error(ErrorKind::wrong_usage, "style: its marks are not strokes, expected a style of strokes");
@@ -276,10 +313,14 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
     result.counts.before = living_strokes(memory);
     carry(frame, style, options, memory);
   }
-  tbb::parallel_for(std::size_t{0}, frame.views.size(), [&](std::size_t view) {
+  ViewsPlan plan(progress, frame.views.size(), layers);
+  plan.run([&](std::size_t view) {
+    plan.report_step();
     ViewAtWork work(frame.views[view], frame.views.front(), style, scene_begins);
-    for (std::size_t i = 0; i < layers; ++i)
+    for (std::size_t i = 0; i < layers; ++i) {
       work.plan(static_cast<int>(i), scene_begins, options, memory.views[view][i]);
+      plan.report_step();
+    }
     for (TrackedLayer& tracked : memory.views[view]) drop_hidden(frame, depth_threshold_px, tracked);
   });
   result.counts.begun = give_numbers(memory);

@@ -6,6 +6,7 @@
 #include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/motion/film_frame.h"
+#include "wheatstone/progress.h"
 
 namespace wheatstone {
 
@@ -53,13 +54,14 @@ struct StrokeCounts {
 /// The strokes of a frame: those of the frame before, moved with the flow, as long as they fit; new ones where paint
 /// is missing or wrong. What fails fades out, what is new fades in; where a scene begins, all is new and whole. Strokes
 /// keep their numbers, and their order as far as their depths let them. Throws Error{wrong_usage} for a style that is
-/// not of strokes.
+/// not of strokes. What `progress` throws, once a layer of a view at least, ends it: then `memory` is of no further
+/// use.
 struct CarriedPainting {
   StrokePainting painting;
   StrokeCounts counts;
 };
 CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                             StrokeMemory& memory);
+                             StrokeMemory& memory, const Progress& progress = {});
 
 /// What strokes left bare in one of a scene's views.
 struct BareView {

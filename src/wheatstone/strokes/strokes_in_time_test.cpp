@@ -10,50 +10,25 @@
 #include <optional>
 #include <vector>
 
+#include "scenes/short_film.h"
 #include "throws_error.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/measures/film_measures.h"
-#include "wheatstone/motion/central_flow.h"
 #include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/strokes/strokes_between_frames.h"
 #include "wheatstone/strokes/visible_runs_internal.h"
-#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone {
 namespace {
 
 /// A film of a camera that walks and fruit that hops, with the true flow of its central views.
-struct TestFilm {
-  std::vector<SyntheticFilmFrame> frames;
-  std::vector<CentralView> centres;
-  std::vector<FlowPair> flows;  ///< of each frame but the first
-
-  std::vector<SceneView> scene(std::size_t i) const {
-    return scene_from_centre(centres[i], frames[i].pictures, frames[i].geometry);
-  }
-  const FlowPair* flow_to(std::size_t i) const { return i == 0 ? nullptr : &flows[i - 1]; }
-  FlowPair left_flow_to(std::size_t i) const { return {frames[i - 1].to_next, frames[i].to_previous}; }
-};
-
-const TestFilm& film() {
-  static const TestFilm made = [] {
+const ShortFilm& film() {
+  static const ShortFilm made = [] {
     SyntheticFilmOptions options;
     options.still = {.width = 320, .height = 180, .samples_a_side = 2};
     options.cut = 0;
-    TestFilm result;
-    constexpr int frames = 5;
-    for (int i = 0; i < frames; ++i) {
-      result.frames.push_back(make_synthetic_film_frame(options, i));
-      result.centres.push_back(make_central_view(result.frames.back().pictures, result.frames.back().geometry));
-    }
-    for (std::size_t i = 1; i < result.frames.size(); ++i) {
-      const auto frame = [&](std::size_t k) {
-        return MovingMoment{result.frames[k].geometry.left_disparity, result.centres[k].disparity};
-      };
-      result.flows.push_back(central_flow(result.left_flow_to(i), frame(i - 1), frame(i)));
-    }
-    return result;
+    return film_with_true_flow(options, 5);
   }();
   return made;
 }
@@ -113,8 +88,8 @@ TEST(StrokesInTime, SurviveLeaveNothingBareAndDoNotPop) {
     EXPECT_EQ(carried()[i].painted.right_bare_share, 0) << i;
     if (i == 0) continue;
     const double largest_step = 1.0 / CarryOptions().fade_in_frames;
-    const StrokeChanges changes =
-        compare_strokes(carried()[i - 1].painted.painting.layers, carried()[i].painted.painting.layers, largest_step);
+    const StrokeChanges changes = compare_strokes(carried()[i - 1].painted.painting.strokes.layers,
+                                                  carried()[i].painted.painting.strokes.layers, largest_step);
     sum.whole += changes.whole;
     sum.survived += changes.survived;
     EXPECT_EQ(changes.popped, 0) << i;
@@ -206,11 +181,11 @@ TEST(StrokesInTime, AFilmOfOneEyeIsPaintedToo) {
     EXPECT_TRUE(frame.painted.pictures.right.empty());
     EXPECT_EQ(frame.painted.left_bare_share, 0);
     if (i > 0) {
-      const StrokeChanges changes = compare_strokes(before, frame.painted.painting.layers, 0.5);
+      const StrokeChanges changes = compare_strokes(before, frame.painted.painting.strokes.layers, 0.5);
       EXPECT_GT(static_cast<double>(changes.survived) / static_cast<double>(changes.whole), 0.85);
       EXPECT_EQ(changes.popped, 0);
     }
-    before = frame.painted.painting.layers;
+    before = frame.painted.painting.strokes.layers;
   }
 }
 

@@ -5,12 +5,13 @@
 
 #include <fstream>
 
+#include "psnr.h"
+#include "scenes/moving_picture.h"
 #include "shared_data.h"
 #include "throws_error.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/guess_layout.h"
-#include "wheatstone/video/moving_picture_internal.h"
 #include "wheatstone/video/picture_conversion_internal.h"
 
 namespace wheatstone {
@@ -37,8 +38,8 @@ TEST(FilmReader, TellsAndDelivers) {
   const std::vector<Frame> frames = frames_of(std::move(reader));
   ASSERT_EQ(frames.size(), 30u);
   EXPECT_DOUBLE_EQ(frames[7].seconds(), 7 / 25.0);
-  EXPECT_GT(psnr(frames[7].picture, moving_picture(64, 48, 7)), 36);
-  EXPECT_LT(psnr(frames[7].picture, moving_picture(64, 48, 12)), 25);
+  EXPECT_GT(psnr_db(frames[7].picture, moving_picture(64, 48, 7)), 36);
+  EXPECT_LT(psnr_db(frames[7].picture, moving_picture(64, 48, 12)), 25);
 }
 
 TEST(FilmReader, APictureThatWasMovedAwayIsMadeAnew) {
@@ -126,7 +127,7 @@ TEST(FilmReader, EveryMatrixAndRangeComesBackAsTheSameColours) {
       Frame frame;
       reader.skip(3);
       ASSERT_TRUE(reader.read(frame));
-      EXPECT_GT(psnr(frame.picture, colours), 45) << matrix << " " << range;
+      EXPECT_GT(psnr_db(frame.picture, colours), 45) << matrix << " " << range;
     }
   }
 }
@@ -138,8 +139,8 @@ TEST(FilmReader, WrongTagsGiveWrongColours) {
   make_film(folder / "a.mp4", 1, {.colour = {.matrix = "bt709"}});
   ffmpeg("-i " + (folder / "a.mp4").string() + " -c copy -bsf:v h264_metadata=matrix_coefficients=6 " +
          (folder / "b.mp4").string());
-  EXPECT_GT(psnr(frames_of(folder / "a.mp4")[0].picture, moving_picture(64, 48, 0)), 36);
-  EXPECT_LT(psnr(frames_of(folder / "b.mp4")[0].picture, moving_picture(64, 48, 0)), 32);
+  EXPECT_GT(psnr_db(frames_of(folder / "a.mp4")[0].picture, moving_picture(64, 48, 0)), 36);
+  EXPECT_LT(psnr_db(frames_of(folder / "b.mp4")[0].picture, moving_picture(64, 48, 0)), 32);
 }
 
 TEST(FilmReader, TurnsFramesUpright) {
@@ -158,8 +159,8 @@ TEST(FilmReader, TurnsFramesUpright) {
     ffmpeg("-i " + (folder / "b.mp4").string() + " -frames:v 1 -c:v ffv1 -pix_fmt yuv420p " +
            (folder / "c.mkv").string());
     // Chroma lies elsewhere once it is turned: not the same bytes.
-    EXPECT_GT(psnr(upright, frames_of(folder / "c.mkv")[0].picture), 33) << degrees;
-    EXPECT_LT(psnr(upright, stored), 20);
+    EXPECT_GT(psnr_db(upright, frames_of(folder / "c.mkv")[0].picture), 33) << degrees;
+    EXPECT_LT(psnr_db(upright, stored), 20);
     EXPECT_EQ(facts.rotation_degrees, 360 - degrees);
   }
 }
@@ -376,7 +377,7 @@ TEST(FilmReader, AnimatedPicturesAreFilms) {
     for (int i = 0; i < 6; ++i) {
       EXPECT_NEAR(frames[i].seconds(), i * 0.04, 1e-9);
       // A GIF has 256 colours.
-      EXPECT_GT(psnr(frames[i].picture, moving_picture(64, 48, i)), name == "a.gif" ? 25 : 60);
+      EXPECT_GT(psnr_db(frames[i].picture, moving_picture(64, 48, i)), name == "a.gif" ? 25 : 60);
     }
     const FilmFacts facts = open_film(folder / name).facts();
     EXPECT_EQ(facts.width, 64);

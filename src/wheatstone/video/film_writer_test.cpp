@@ -5,10 +5,11 @@
 
 #include <csignal>
 
+#include "psnr.h"
+#include "scenes/moving_picture.h"
 #include "throws_error.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/libav_internal.h"
-#include "wheatstone/video/moving_picture_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -71,14 +72,14 @@ TEST(FilmWriter, H264AndHevcAreClose) {
       const std::vector<Frame> frames = frames_of(folder / "a.mp4");
       ASSERT_EQ(frames.size(), 24u);
       double worst = 1000;
-      for (int i = 0; i < 24; ++i) worst = std::min(worst, psnr(frames[i].picture, moving_picture(320, 192, i)));
+      for (int i = 0; i < 24; ++i) worst = std::min(worst, psnr_db(frames[i].picture, moving_picture(320, 192, i)));
       EXPECT_GE(worst, 38) << codec << " " << format;
       RecordProperty(std::string(codec) + "_" + format + "_db", std::to_string(worst));
     }
   }
   // The measure can come out badly.
   make_film(folder / "a.mp4", 24, {.crf = 45}, 320, 192);
-  EXPECT_LT(psnr(frames_of(folder / "a.mp4")[12].picture, moving_picture(320, 192, 12)), 34);
+  EXPECT_LT(psnr_db(frames_of(folder / "a.mp4")[12].picture, moving_picture(320, 192, 12)), 34);
 }
 
 TEST(FilmWriter, UnevenTimesSurvive) {

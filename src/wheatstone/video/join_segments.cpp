@@ -28,7 +28,8 @@ struct Clock {
   }
 };
 
-Clock clock_of(const fs::path& folder, std::int64_t count) {
+Clock clock_of(const Segments& segments) {
+  const auto& [folder, count] = segments;
   Clock clock;
   for (std::int64_t number = 0; number < count; ++number) {
     const std::optional<SegmentTimes> times = segment_times(folder, number);
@@ -61,9 +62,10 @@ OwnedParameters copy_of(const AVCodecParameters& coded) {
 
 }  // namespace
 
-void join_segments(const fs::path& folder, std::int64_t count, const fs::path& film, const FilmWriterOptions& options,
+void join_segments(const Segments& segments, const fs::path& film, const FilmWriterOptions& options,
                    std::vector<std::string>& notes, const Progress& progress) {
-  const Clock clock = clock_of(folder, count);
+  const auto& [folder, count] = segments;
+  const Clock clock = clock_of(segments);
   FilmFile joined(film, options, notes);
   OwnedParameters coded;
   std::size_t before = 0;  // frames of the segments before

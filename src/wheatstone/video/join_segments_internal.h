@@ -10,9 +10,15 @@
 
 namespace wheatstone {
 
-/// Makes one film of the segments 0 .. count − 1 of a folder, without coding again, with the options' layout and side
-/// streams. Throws Error{bad_input} where a segment is damaged or was coded otherwise than the first.
-void join_segments(const std::filesystem::path& folder, std::int64_t count, const std::filesystem::path& film,
-                   const FilmWriterOptions& options, std::vector<std::string>& notes, const Progress& progress);
+/// The segments 0 .. count − 1 of a folder.
+struct Segments {
+  std::filesystem::path folder;
+  std::int64_t count = 0;
+};
+
+/// Makes one film of segments, without coding again, with the options' layout and side streams. Throws
+/// Error{bad_input} where a segment is damaged or was coded otherwise than the first.
+void join_segments(const Segments& segments, const std::filesystem::path& film, const FilmWriterOptions& options,
+                   std::vector<std::string>& notes, const Progress& progress);
 
 }  // namespace wheatstone

@@ -39,10 +39,9 @@ void claim(const fs::path& folder, const std::string& fingerprint, bool resume) 
   std::error_code ignored;
   if (!fs::exists(manifest, ignored)) return write_whole_file(manifest, wanted);
   if (!resume)
-    throw Error(
+    throw UnfinishedFilm(
         ErrorKind::wrong_usage,
-        fmt::format("{}: was left by a run that did not finish; continue it with --resume, or delete this folder",
-                    folder.string()));
+        fmt::format("{}: was left by a run that did not finish, and must be deleted to start again", folder.string()));
   const json found = json::parse(read_whole_file(manifest, most_bytes_of_manifest), nullptr, false);
   if (found.is_object() && found.value("made_of", json()) == json::parse(wanted).at("made_of")) return;
   throw Error(ErrorKind::wrong_usage, fmt::format("{}: was left by a run with other options or sources; use the same "
@@ -157,7 +156,7 @@ void SegmentedFilm::finish(const Progress& progress) {
   if (own.pattern) {
     own.join_as_pictures(progress);
   } else {
-    join_segments(own.folder, own.whole_segments, own.path, own.options, own.notes, progress);
+    join_segments({own.folder, own.whole_segments}, own.path, own.options, own.notes, progress);
   }
   own.held->remove();
 }

@@ -6,10 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/error.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/video/film_writer.h"
 
 namespace wheatstone {
+
+/// The frames of a film that is not finished are kept in a folder: the film may be opened again to go on with them, or
+/// the folder deleted.
+class UnfinishedFilm : public Error {
+ public:
+  using Error::Error;
+};
 
 struct SegmentOptions {
   int frames_per_segment = 48;  ///< what a killed run loses at most
@@ -26,7 +34,7 @@ struct SegmentOptions {
 class SegmentedFilm {
  public:
   /// Throws as FilmWriter, and Error{wrong_usage} where the folder belongs to a run with other options or sources, or
-  /// to one that is still going on, or where there is one and `resume` is false.
+  /// to one that is still going on, UnfinishedFilm{wrong_usage} where there is one and `resume` is false.
   SegmentedFilm(const std::filesystem::path& path, const FilmWriterOptions& options, const SegmentOptions& segments);
   SegmentedFilm(SegmentedFilm&&) noexcept;
   SegmentedFilm& operator=(SegmentedFilm&&) noexcept;

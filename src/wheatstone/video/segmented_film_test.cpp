@@ -9,9 +9,10 @@
 #include <csignal>
 #include <fstream>
 
+#include "psnr.h"
+#include "scenes/moving_picture.h"
 #include "throws_error.h"
 #include "wheatstone/video/fingerprint_internal.h"
-#include "wheatstone/video/moving_picture_internal.h"
 #include "wheatstone/video/work_folder.h"
 
 namespace wheatstone {
@@ -75,7 +76,7 @@ TEST(SegmentedFilm, InterruptedAndResumedIsTheSameFilm) {
       for (int i = 0; i < frame_count; ++i) {
         const Frame truth = source.next();
         EXPECT_EQ(resumed[i].picture, undisturbed[i].picture);
-        EXPECT_GT(psnr(resumed[i].picture, truth.picture), 36) << name << " " << codec << " " << i;
+        EXPECT_GT(psnr_db(resumed[i].picture, truth.picture), 36) << name << " " << codec << " " << i;
         EXPECT_NEAR(resumed[i].seconds(), truth.seconds(), name == std::string("a.mp4") ? 1e-12 : 0.00051);
       }
       EXPECT_EQ(open_film(folder / name).facts().layout, StereoLayout::top_bottom);
@@ -137,7 +138,7 @@ TEST(SegmentedFilm, OneFrameASegmentAndOneFrameInAll) {
     film.finish();
     const std::vector<Frame> frames = frames_of(folder / "a.mp4");
     ASSERT_EQ(frames.size(), static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) EXPECT_GT(psnr(frames[i].picture, moving_picture(64, 48, i)), 36);
+    for (int i = 0; i < count; ++i) EXPECT_GT(psnr_db(frames[i].picture, moving_picture(64, 48, i)), 36);
   }
 }
 

@@ -2,9 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include "psnr.h"
+#include "scenes/moving_picture.h"
 #include "throws_error.h"
 #include "wheatstone/stereo/packed_pair.h"
-#include "wheatstone/video/moving_picture_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -36,13 +37,14 @@ TEST(StereoFilm, EveryLayoutDeliversBothEyes) {
     StereoFrame eyes;
     int count = 3;
     for (; reader.read(eyes); ++count) {
-      EXPECT_GT(psnr(eyes.left, moving_picture(96, 54, count)), traits.half ? 26 : 1000) << traits.name;
+      EXPECT_GT(psnr_db(eyes.left, moving_picture(96, 54, count)), traits.half ? 26 : 1000) << traits.name;
       EXPECT_NEAR(static_cast<double>(eyes.pts) * eyes.time_base.value(), count / 25.0, 1e-9) << traits.name;
       if (traits.layout == StereoLayout::mono) {
         EXPECT_TRUE(eyes.right.empty());
       } else {
-        EXPECT_GT(psnr(eyes.right, moving_picture(96, 54, count, eye_shift)), traits.half ? 26 : 1000) << traits.name;
-        EXPECT_LT(psnr(eyes.right, moving_picture(96, 54, count)), 22) << traits.name;
+        EXPECT_GT(psnr_db(eyes.right, moving_picture(96, 54, count, eye_shift)), traits.half ? 26 : 1000)
+            << traits.name;
+        EXPECT_LT(psnr_db(eyes.right, moving_picture(96, 54, count)), 22) << traits.name;
       }
     }
     EXPECT_EQ(count, 12) << traits.name;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,18 +28,6 @@ inline Image<Rgb8> moving_picture(int width, int height, int frame, double shift
     }
   }
   return picture;
-}
-
-inline double psnr(const Image<Rgb8>& a, const Image<Rgb8>& b) {
-  if (!same_size(a, b)) return 0;
-  double sum = 0;
-  const auto square = [](int difference) { return static_cast<double>(difference) * difference; };
-  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
-    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
-    sum += square(p.r - q.r) + square(p.g - q.g) + square(p.b - q.b);
-  }
-  const double mean = sum / (3.0 * static_cast<double>(a.pixels().size()));
-  return mean == 0 ? std::numeric_limits<double>::infinity() : 10 * std::log10(255.0 * 255.0 / mean);
 }
 
 inline Frame moving_frame(int width, int height, int number, Rational time_base = {1, 25}) {

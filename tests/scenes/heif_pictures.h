@@ -1,0 +1,48 @@
+#pragma once
+
+// HEIC files for tests.
+
+#include <libheif/heif.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+struct PlainPicture {
+  Rgb8 colour;
+  int width = 64, height = 64;
+};
+
+/// Writes plain pictures into one HEIC file; false where no encoder is installed.
+inline bool put_heic(const std::filesystem::path& path, const std::vector<PlainPicture>& pictures) {
+  heif_context* context = heif_context_alloc();
+  heif_encoder* encoder = nullptr;
+  if (heif_context_get_encoder_for_format(context, heif_compression_HEVC, &encoder).code != heif_error_Ok) {
+    heif_context_free(context);
+    return false;
+  }
+  heif_encoder_set_lossy_quality(encoder, 95);
+  for (const auto& [colour, width, height] : pictures) {
+    heif_image* image = nullptr;
+    heif_image_create(width, height, heif_colorspace_RGB, heif_chroma_interleaved_RGB, &image);
+    heif_image_add_plane(image, heif_channel_interleaved, width, height, 8);
+    int stride = 0;
+    std::uint8_t* plane = heif_image_get_plane(image, heif_channel_interleaved, &stride);
+    for (int y = 0; y < height; ++y)
+      std::fill_n(reinterpret_cast<Rgb8*>(plane + static_cast<std::ptrdiff_t>(y) * stride), width, colour);
+    heif_image_handle* handle = nullptr;
+    heif_context_encode_image(context, image, encoder, nullptr, &handle);
+    heif_image_handle_release(handle);
+    heif_image_release(image);
+  }
+  heif_encoder_release(encoder);
+  heif_context_write_to_file(context, path.c_str());
+  heif_context_free(context);
+  return true;
+}
+
+}  // namespace wheatstone
