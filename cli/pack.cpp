@@ -65,6 +65,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   ReadViews read = read_views_argument(arguments.input, views_wanted(packing), command, session);
   if (arguments.max_size > 0) reduce(read.views, arguments.max_size);
   const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), arguments);
+  report(session.progress, "packing", 0);
   const std::string written = write_packed({packing, arguments.packing, views, output, session});
   if (session.json) {
     const nlohmann::ordered_json facts{{"output", written},

@@ -190,10 +190,8 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
 
   const PaintedPhotograph result = paint_photograph(pictures, options, session.progress);
   std::optional<PaintingMeasures> measures;
-  if (arguments.measure) {
-    report(session.progress, "measuring", 0);
-    measures = measure_painting(pictures, result, truth ? *truth : result.geometry.left_disparity);
-  }
+  if (arguments.measure)
+    measures = measure_painting(pictures, result, truth ? *truth : result.geometry.left_disparity, session.progress);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
   const PaintingReport told{result, options.style, &photograph.pair, measured, photograph.whole};
   write_results(*folder, pictures, told, results, session.progress);

@@ -135,10 +135,12 @@ ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity
     throw Error(ErrorKind::wrong_usage,
                 "--rectify changes the pictures, but --disparity belongs to them as they are: choose one");
   const bool one_file = arguments.right.empty();
+  report(session.progress, "reading", 0);
   ReadPhotographs read = one_file ? read_one_file(arguments) : read_two_files(arguments);
   const std::string name = one_file ? fmt::format("{} ({})", arguments.left, read.how)
                                     : fmt::format("{}, {}", arguments.left, arguments.right);
   const PictureSize whole = reduce(read.pair, arguments.max_size);
+  report(session.progress, "comparing the views", 0);
   PreparedPair prepared;
   if (disparity_is_given) {
     if (not_a_pair(read.pair)) throw Error(ErrorKind::bad_input, fmt::format("{}: show different scenes", name));

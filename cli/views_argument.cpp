@@ -38,10 +38,11 @@ std::vector<std::string> pictures_in(const std::string& folder) {
   return files;
 }
 
-ReadViews read_pictures(const std::vector<std::string>& files) {
+ReadViews read_pictures(const std::vector<std::string>& files, const Progress& progress) {
   ReadViews read;
   read.how = "a file each";
   for (const std::string& file : files) {
+    report(progress, "reading", static_cast<double>(read.views.size()) / static_cast<double>(files.size()));
     read.views.push_back(read_image(file));
     const Image<Rgb8>& first = read.views.front();
     const Image<Rgb8>& last = read.views.back();
@@ -84,7 +85,8 @@ ReadViews take_quilt(const ViewsArguments& arguments, const std::string& file) {
 }
 
 /// The views that a picture holds.
-ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::string& file) {
+ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::string& file, const Progress& progress) {
+  report(progress, "reading", 0);
   ReadViewsOptions options;
   if (!arguments.layout.empty()) options.layout = layout_by_name(arguments.layout);
   std::optional<ViewsFile> found = find_views(file, options);
@@ -104,7 +106,7 @@ ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::
   };
   if (fs::is_directory(file)) {
     refuse({"--layout", "--from-quilt", "--views", "--span"}, "on a folder of views");
-    return read_pictures(pictures_in(file));
+    return read_pictures(pictures_in(file), session.progress);
   }
   if (!arguments.quilt.empty()) {
     refuse({"--layout", "--views", "--span"}, "with --from-quilt");
@@ -122,7 +124,7 @@ ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::
     return {read_multiview_exr(file), "a multi-view OpenEXR"};
   }
   refuse({"--views", "--span"}, "on pictures; it works on a painting (.wst) or slices (.exr)");
-  return read_views_in_picture(arguments, file);
+  return read_views_in_picture(arguments, file, session.progress);
 }
 
 }  // namespace
@@ -155,7 +157,8 @@ ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const
   if (!one_file)
     refuse_options(command, {"--layout", "--from-quilt", "--views", "--span"}, "on several files",
                    "it works on one file that holds all views");
-  ReadViews read = one_file ? read_one_file(arguments, wanted, command, session) : read_pictures(arguments.files);
+  ReadViews read =
+      one_file ? read_one_file(arguments, wanted, command, session) : read_pictures(arguments.files, session.progress);
   if (arguments.swap) std::ranges::reverse(read.views);
   return read;
 }

@@ -362,6 +362,22 @@ TEST(SeveralPhotographs, WhatCouldBeLeftAndRightIsNotGuessed) {
   expect_refused(folder, {"paint", "a.mpo", "b.mpo", "c.mpo", "-o", "no/such/folder"}, 4, "no/such/folder");
 }
 
+TEST(Progress, NamesEveryStage) {
+  const TemporaryFolder folder;
+  write_inputs(folder);
+  const auto stages_of = [&](const Line& line) {
+    const ProgramResult result = run_program(line, {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0);
+    return result.errors;
+  };
+  EXPECT_THAT(stages_of({"paint", "left.png", "right.png", "--range", "0:8", "--report", "-o", "out"}),
+              testing::HasSubstr("reading\ncomparing the views\nmatching\npainting\ndrawing\nmeasuring\nwriting\n"));
+  EXPECT_THAT(stages_of({"match", "left.png", "right.png", "--range", "0:8", "-o", "m"}),
+              testing::HasSubstr("reading\ncomparing the views\nmatching\n"));
+  EXPECT_THAT(stages_of({"pack", "left.png", "right.png", "--to", "disparity", "-o", "d.pfm"}),
+              testing::AllOf(testing::StartsWith("reading\npacking\n"), testing::HasSubstr("matching\n")));
+}
+
 TEST(LargestSize, IsThatOfTheReducedCopy) {
   const TemporaryFolder folder;
   write_inputs(folder);

@@ -175,11 +175,11 @@ TEST(PackCommand, RefusesWhatDoesNotFit) {
                  "takes two views, but there are 3");
   expect_refused(folder, {"pack", "left.png", "right.png", "--to", "quilt", "-o", "out.png"}, 2, "--quilt");
   expect_refused(folder, {"pack", "left.png", "right.png", "--to", "lenticular", "-o", "out.png"}, 2, "--screen");
-  expect_refused(folder, {"pack", "left.png", "small.png", "--to", "anaglyph", "-o", "out.png"}, 3,
+  expect_refused(folder, {"pack", "left.png", "small.png", "--to", "anaglyph", "-o", "out.png", "--quiet"}, 3,
                  "small.png: is 20x20");
-  expect_refused(folder, {"pack", "left.png", "--to", "anaglyph", "-o", "out.png"}, 3, "left.png");
+  expect_refused(folder, {"pack", "left.png", "--to", "anaglyph", "-o", "out.png", "--quiet"}, 3, "left.png");
   write_whole_file(folder / "visual.json", R"({"screenW": 100})");
-  expect_refused(folder, {"pack", "left.png", "right.png", "--screen", "visual.json", "-o", "out.png"}, 3,
+  expect_refused(folder, {"pack", "left.png", "right.png", "--screen", "visual.json", "-o", "out.png", "--quiet"}, 3,
                  "visual.json");
 }
 

@@ -45,9 +45,16 @@ double occluded_share(const Image<std::uint8_t>& occlusion) {
 }  // namespace
 
 PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPhotograph& result,
-                                  ImageView<const float> left_disparity) {
-  return {measure_pair(result.painted.pictures, left_disparity), measure_pair(photographs, left_disparity),
-          measure_strokes(result.painted.painting.strokes, result.geometry)};
+                                  ImageView<const float> left_disparity, const Progress& progress) {
+  PaintingMeasures measures;
+  report(progress, "measuring", 0);
+  measures.painting = measure_pair(result.painted.pictures, left_disparity);
+  report(progress, "measuring", 0.45);
+  measures.photographs = measure_pair(photographs, left_disparity);
+  report(progress, "measuring", 0.9);
+  measures.strokes = measure_strokes(result.painted.painting.strokes, result.geometry);
+  report(progress, "measuring", 1);
+  return measures;
 }
 
 std::string pair_measures_json(const PairMeasures& measures) { return to_json(measures).dump(2); }

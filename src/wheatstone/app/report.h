@@ -4,6 +4,7 @@
 
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/calibration/prepare_pair.h"
+#include "wheatstone/progress.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
 namespace wheatstone {
@@ -17,7 +18,7 @@ struct PaintingMeasures {
 
 /// `left_disparity` is the truth, or what is taken for it; NaN where unknown.
 PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPhotograph& result,
-                                  ImageView<const float> left_disparity);
+                                  ImageView<const float> left_disparity, const Progress& progress = {});
 
 /// The measures of one pair as a JSON object, in the words of the command line.
 std::string pair_measures_json(const PairMeasures& measures);

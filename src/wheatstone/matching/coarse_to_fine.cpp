@@ -122,9 +122,12 @@ CheckedMatch match_coarse_to_fine(const cv::Mat& left, const cv::Mat& right, con
                                   const MatchOptions& options, const Progress& progress) {
   const std::vector<Level> levels = levels_of(left, exposed_alike(left, right), coarsest_scale(left.size(), range));
   CheckedMatch match;
+  std::size_t pixels = 0, matched = 0;
+  for (const Level& level : levels) pixels += level.left.total();
   for (std::size_t i = levels.size(); i-- > 0;) {
     const Level& level = levels[i];
-    report(progress, "matching", 1 - static_cast<double>(level.left.total()) / static_cast<double>(left.total()));
+    report(progress, "matching", static_cast<double>(matched) / static_cast<double>(pixels));
+    matched += level.left.total();
     std::optional<Guess> guess;
     SearchBand band;
     if (i + 1 == levels.size()) {

@@ -150,15 +150,17 @@ CheckedMatch match_both_ways(const cv::Mat& left_picture, const cv::Mat& right_p
   return match;
 }
 
-MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options) {
+MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options,
+                               const Progress& progress) {
   const cv::Mat left_picture = as_mat(pair.left), right_picture = as_mat(pair.right);
   CheckedMatch match = options.matcher == Matcher::census
-                           ? match_coarse_to_fine(left_picture, right_picture, range, options)
+                           ? match_coarse_to_fine(left_picture, right_picture, range, options, progress)
                            : match_both_ways(left_picture, right_picture, range, options);
   MatchedPair matched;
   matched.range = range;
   matched.left_found_share = known_share(match.found);
   matched.right_found_share = known_share(match.right);
+  report(progress, "matching", 1);
   if (options.distrust) match.found = distrust(match.left, match.right, pair, range);
   const Image<float> before = match.left;
   // Only our own matcher fills what it does not find over the picture; the others' is filled row by row.
@@ -233,16 +235,20 @@ MatchedPair match(const StereoPair& pair, const MatchOptions& options, const Pro
   check(pair, options);
   report(progress, "matching", 0);
   const DisparityRange range = options.range ? *options.range : find_disparity_range(pair);
-  report(progress, "matching", 0.2);
+  constexpr double range_share = 0.2, levels_share = 0.5;  // of the time, roughly; the rest is refinement
+  report(progress, "matching", range_share);
+  const Progress levels = [&](std::string_view step, double done) {
+    report(progress, step, range_share + levels_share * done);
+  };
   const double scale = std::min(options.size, reduction_for(pair, range));
   MatchedPair matched;
   if (scale == 1) {
-    matched = match_at_this_size(pair, range, options);
+    matched = match_at_this_size(pair, range, options, levels);
   } else {
     const StereoPair small{resized(pair.left, scale), resized(pair.right, scale)};
     const DisparityRange small_range{static_cast<int>(std::floor(range.least * scale)),
                                      static_cast<int>(std::ceil(range.largest * scale))};
-    matched = match_at_this_size(small, small_range, options);
+    matched = match_at_this_size(small, small_range, options, levels);
     matched.range = range;
     matched.geometry =
         geometry_from_left(enlarged(matched.geometry.left_disparity, pair.left.width(), pair.left.height()));

@@ -39,6 +39,7 @@ StrokePainting plan_right_only(const StereoPair& photographs, const StereoGeomet
 /// right eye sees is planned there and carried back, and the next layer is planned against both.
 StrokePainting plan_with_strokes(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
                                  const Progress& progress) {
+  report(progress, "painting", 0);
   const ScaledStyle scaled(style, photographs.left.width());
   LayerPlanner left(photographs.left, geometry.left_disparity, left_eye, style);
   StrokePainting right_only;
@@ -48,15 +49,15 @@ StrokePainting plan_with_strokes(const StereoPair& photographs, const StereoGeom
   StrokePainting painting{photographs.left.width(), photographs.left.height(), style.canvas_colour, {}};
   const int layers = static_cast<int>(scaled.radii_px.size());
   for (int i = 0; i < layers; ++i) {
-    report(progress, "painting", static_cast<double>(i) / layers);
     if (i > 0) planned = plan_on(left, style, scaled, i);
+    report(progress, "painting", (i + 0.7) / layers);
     Layer layer = propagate_to_other_eye(planned, geometry.left_occlusion);
     append_strokes(propagate_to_other_eye(right_only.layers[i], geometry.right_occlusion), layer);
     order_strokes(layer, style, i);
     if (i + 1 < layers) rasterise(layer, left.view, left.canvas);
     painting.layers.push_back(std::move(layer));
+    report(progress, "painting", (i + 1.) / layers);
   }
-  report(progress, "painting", 1);
   return painting;
 }
 
@@ -135,10 +136,10 @@ PaintedPair paint_other_marks(const StereoPair& photographs, const StereoGeometr
     const Stopwatch watch(result.times.planning_s);
     plan_other_marks(photographs, geometry, style, result.painting);
   }
-  report(progress, "painting", 0.5);
+  report(progress, "drawing", 0);
   const Stopwatch watch(result.times.rasterising_s);
   draw_other_marks(result);
-  report(progress, "painting", 1);
+  report(progress, "drawing", 1);
   return result;
 }
 
@@ -169,8 +170,10 @@ PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry,
   }
   result.painting.relief = relief_for(style, result.painting.strokes.width);
   const Stopwatch watch(result.times.rasterising_s);
+  report(progress, "drawing", 0);
   draw_both(photographs, style, result);
   if (style.propagation == Propagation::raster) lay_left_over_right(geometry, result);
+  report(progress, "drawing", 1);
   return result;
 }
 
