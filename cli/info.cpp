@@ -183,8 +183,7 @@ ordered_json facts_of_slices(const fs::path& path) {
 /// Whether a file holds particles by its content; or should, by its name: then what is wrong with it is told.
 bool is_particles(const fs::path& path) {
   constexpr const char* endings[] = {".hdf5", ".h5", ".ply", ".las", ".npy", ".csv", ".txt", ".dat", ".gadget"};
-  return std::ranges::find(endings, path.extension().string()) != std::end(endings) ||
-         particle_format(path).has_value();
+  return std::ranges::find(endings, path.extension().string()) != std::end(endings) || holds_particles(path);
 }
 
 struct Arguments {

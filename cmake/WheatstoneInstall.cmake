@@ -6,12 +6,24 @@ add_library(wheatstone INTERFACE)
 add_library(Wheatstone::wheatstone ALIAS wheatstone)
 target_link_libraries(wheatstone INTERFACE ${rooms})
 
+# wheatstone/wheatstone.h includes all public headers.
+file(GLOB_RECURSE headers RELATIVE ${PROJECT_SOURCE_DIR}/src CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/wheatstone/*.h)
+list(FILTER headers EXCLUDE REGEX "_internal[.]h$")
+list(SORT headers)
+list(TRANSFORM headers REPLACE "(.+)" "#include \"\\1\"")
+list(JOIN headers "\n" includes)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/wheatstone/wheatstone.h
+  CONTENT "#pragma once\n\n// All public headers in one.\n\n@includes@\n" @ONLY)
+target_include_directories(wheatstone INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>)
+
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Wheatstone)
 install(TARGETS wheatstone ${rooms} EXPORT WheatstoneTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT WheatstoneTargets NAMESPACE Wheatstone:: DESTINATION ${package_folder})
 install(TARGETS wheatstone_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wheatstone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
+install(FILES ${PROJECT_BINARY_DIR}/generated/wheatstone/wheatstone.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wheatstone)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # What each module needs, as the package's configuration reads it.

@@ -28,8 +28,6 @@ find . -name '*.h' -o -name '*.cpp' | sort | xargs awk -v rooms="${rooms[*]}" '
     if (depth == 1) return 0
     return parts[1] in floor ? floor[parts[1]] : -1
   }
-  # The header that stands for all includes all of them.
-  FILENAME == "./wheatstone.h" { next }
   FNR == 1 {
     file = substr(FILENAME, 3)
     here = floor_of(file)

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "shared_data.h"
+#include "spilling_share.h"
 #include "wheatstone/app/report.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"

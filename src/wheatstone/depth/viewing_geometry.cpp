@@ -31,18 +31,6 @@ float stereoscopic_resolution(const ViewingGeometry& viewing, float near_mm, flo
   return (screen_parallax_mm(viewing, far_mm) - screen_parallax_mm(viewing, -near_mm)) / viewing.pixel_pitch_mm();
 }
 
-std::vector<DepthPlane> depth_planes(const ViewingGeometry& viewing, float near_mm, float far_mm) {
-  // A limit that is a plane's own depth must not lose that plane to rounding.
-  constexpr float rounding = 1e-3f;
-  const float pitch = viewing.pixel_pitch_mm();
-  const int first = static_cast<int>(std::ceil(screen_parallax_mm(viewing, -near_mm) / pitch - rounding));
-  const int last = static_cast<int>(std::floor(screen_parallax_mm(viewing, far_mm) / pitch + rounding));
-  std::vector<DepthPlane> planes;
-  for (int parallax = first; parallax <= last; ++parallax)
-    planes.push_back({parallax, perceived_depth_mm(viewing, static_cast<float>(parallax) * pitch)});
-  return planes;
-}
-
 float angular_disparity_deg(const ViewingGeometry& viewing, float behind_mm) {
   const double screen = viewing.viewing_distance_mm;
   return static_cast<float>((vergence(viewing, screen + behind_mm) - vergence(viewing, screen)) / degree);

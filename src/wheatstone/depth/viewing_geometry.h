@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 namespace wheatstone {
 
 /// A viewer in front of a display, in millimetres.
@@ -24,16 +22,6 @@ float screen_parallax_mm(const ViewingGeometry& viewing, float behind_mm);
 /// Depth planes that the display can tell apart between `near_mm` in front of the screen and `far_mm` behind it: the
 /// range of parallax in pixels (sec. 5.3.2).
 float stereoscopic_resolution(const ViewingGeometry& viewing, float near_mm, float far_mm);
-
-/// A plane that pixels at whole numbers of parallax make (sec. 5.1).
-struct DepthPlane {
-  int parallax_px;  ///< positive behind the screen
-  float behind_mm;  ///< where it seems to be; negative before the screen
-};
-
-/// All of them between `near_mm` in front of the screen and `far_mm` behind it, nearest first. The screen itself is
-/// one.
-std::vector<DepthPlane> depth_planes(const ViewingGeometry& viewing, float near_mm, float far_mm);
 
 /// Angle between the lines of sight at a point `behind_mm` behind the screen less that on the screen, in degrees:
 /// positive in front (eqs. 2.1.1, 2.1.2, 2.1.5).

@@ -61,27 +61,6 @@ TEST(ViewingGeometry, ResolutionIsTheThesiss) {
   EXPECT_NEAR(stereoscopic_resolution({65, 700, 337, 640}, 100, 100), 36, 0.1);
 }
 
-TEST(ViewingGeometry, PlanesAreOnePixelOfParallaxApart) {
-  const ViewingGeometry viewing{65, 750, 376, 1280};
-  const std::vector<DepthPlane> planes = depth_planes(viewing, 100, 100);
-  EXPECT_EQ(planes.size(), 61u);  // −34 … 26
-  EXPECT_EQ(planes.front().parallax_px, -34);
-  EXPECT_EQ(planes.back().parallax_px, 26);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    EXPECT_EQ(planes[i].parallax_px, static_cast<int>(i) - 34);
-    EXPECT_GE(planes[i].behind_mm, -100);
-    EXPECT_LE(planes[i].behind_mm, 100);
-    EXPECT_NEAR(screen_parallax_mm(viewing, planes[i].behind_mm) / viewing.pixel_pitch_mm(), planes[i].parallax_px,
-                1e-3);
-    // Farther planes are farther apart (fig. 5.2).
-    if (i > 1) {
-      EXPECT_GT(planes[i].behind_mm - planes[i - 1].behind_mm, planes[i - 1].behind_mm - planes[i - 2].behind_mm);
-    }
-  }
-  // A plane on the very limit is in.
-  EXPECT_EQ(depth_planes(viewing, -planes[10].behind_mm, planes[50].behind_mm).size(), 41u);
-}
-
 TEST(Rig, ViewingWindowsReplaceTheEyes) {
   // Hassaine 2010, sec. 4.3.2: with the window's width for E, parallax between neighbours is that of the window.
   const ViewingGeometry eyes{.eye_separation_mm = 65, .viewing_distance_mm = 700};

@@ -1,14 +1,11 @@
 #include "wheatstone/display/anaglyph.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
-#include "wheatstone/error.h"
 #include "wheatstone/image/srgb.h"
 
 namespace wheatstone {
@@ -113,15 +110,6 @@ Image<Rgb8> mixed(const StereoPair& pair, Mix mix) {
 }  // namespace
 
 std::span<const AnaglyphKind> anaglyph_kinds() { return kinds; }
-
-const AnaglyphKind& find_anaglyph(std::string_view name) {
-  std::string names;
-  for (const AnaglyphKind& kind : kinds) {
-    if (name == kind.name || (!kind.ffmpeg.empty() && name == kind.ffmpeg)) return kind;
-    names += fmt::format(" {}", kind.name);
-  }
-  throw Error(ErrorKind::wrong_usage, fmt::format("no anaglyph '{}', expected one of:{}", name, names));
-}
 
 Image<Rgb8> anaglyph(const StereoPair& pair, const AnaglyphKind& kind) {
   const Recipe& recipe = recipe_of(kind);

@@ -19,9 +19,6 @@ struct AnaglyphKind {
 /// amber-blue) and as ffmpeg applies them to encoded values; true, grey, colour, half-colour and optimised.
 std::span<const AnaglyphKind> anaglyph_kinds();
 
-/// By its name or ffmpeg's ("arcd"). Throws Error{wrong_usage} listing the names.
-const AnaglyphKind& find_anaglyph(std::string_view name);
-
 /// One picture for glasses of that kind, the pair's size. Dubois' matrices (ICASSP 2001; his values for sRGB displays)
 /// are applied in linear light, each eye's part clipped before they are added. Kinds that ffmpeg has are equal to its
 /// filter's within rounding.

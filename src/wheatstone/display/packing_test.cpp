@@ -113,12 +113,6 @@ TEST(Packing, LayoutsComeApartAgain) {
   }
 }
 
-TEST(Anaglyph, IsFoundByEitherName) {
-  EXPECT_EQ(find_anaglyph("half-colour").ffmpeg, "arch");
-  EXPECT_EQ(find_anaglyph("arch").name, "half-colour");
-  expect_error(ErrorKind::wrong_usage, "expected one of: red-cyan", [] { find_anaglyph("mauve"); });
-}
-
 TEST(MultiviewExr, GivesTheViewsBack) {
   const TemporaryFolder folder;
   for (const std::size_t count : {2u, 9u}) {

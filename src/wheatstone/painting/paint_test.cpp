@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scenes/two_surfaces.h"
+#include "spilling_share.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "wheatstone/drawing/draw.h"

@@ -1,6 +1,7 @@
 #include "wheatstone/particles/cloud_source.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -23,14 +24,10 @@ std::string some_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-std::optional<ParticleFormat> format_of(std::string_view bytes) {
-  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return ParticleFormat::hdf5;
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return ParticleFormat::ply;
-  if (bytes.starts_with("LASF")) return ParticleFormat::las;
-  if (bytes.starts_with("\x93NUMPY")) return ParticleFormat::npy;
-  if (looks_like_gadget_binary(bytes)) return ParticleFormat::gadget_binary;
-  const bool text = std::ranges::none_of(bytes, [](char c) { return c == '\0' || (c > 0 && c < 9); });
-  return text ? std::optional(ParticleFormat::text) : std::nullopt;
+bool begins_as_ply(std::string_view bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r"); }
+
+bool is_text(std::string_view bytes) {
+  return std::ranges::none_of(bytes, [](char c) { return c == '\0' || (c > 0 && c < 9); });
 }
 
 /// Whether a text's first lines are those of a table with the columns of a position: numbers, or names above numbers.
@@ -48,6 +45,28 @@ bool looks_like_table(std::string_view bytes) {
     names_above = true;
   }
   return false;
+}
+
+/// A format, as it is told by a file's first bytes, and its reader.
+struct Format {
+  std::string_view name;
+  bool (*begins_so)(std::string_view first_bytes);
+  CloudSource (*open)(const std::filesystem::path& path, const CloudChoice& choice);
+};
+
+/// The first that fits counts.
+constexpr std::array formats{
+    Format{"GADGET", looks_like_gadget_binary, open_gadget_binary},
+    Format{"HDF5", [](std::string_view bytes) { return bytes.starts_with("\x89HDF\r\n\x1a\n"); }, open_hdf5_cloud},
+    Format{"PLY", begins_as_ply, open_ply},
+    Format{"LAS", [](std::string_view bytes) { return bytes.starts_with("LASF"); }, open_las},
+    Format{"NumPy", [](std::string_view bytes) { return bytes.starts_with("\x93NUMPY"); }, open_npy},
+    Format{"text", is_text, open_text_table},
+};
+
+const Format* format_of(std::string_view first_bytes) {
+  const auto* found = std::ranges::find_if(formats, [&](const Format& f) { return f.begins_so(first_bytes); });
+  return found == formats.end() ? nullptr : found;
 }
 
 std::string first_bytes(const std::filesystem::path& path) {
@@ -76,36 +95,22 @@ void append(Cloud& to, const Cloud& more) {
 
 /// Opens by what the file holds, whatever its name.
 CloudSource open_by_content(const std::filesystem::path& path, const CloudChoice& choice) {
-  const std::optional<ParticleFormat> format = format_of(first_bytes(path));
-  if (!format)
-    throw Error(
-        ErrorKind::bad_input,
-        fmt::format("{}: is of no known format, expected GADGET, HDF5, PLY, LAS, NumPy or text", path.string()));
-  switch (*format) {
-    case ParticleFormat::hdf5:
-      return open_hdf5_cloud(path, choice);
-    case ParticleFormat::ply:
-      return open_ply(path, choice);
-    case ParticleFormat::las:
-      return open_las(path, choice);
-    case ParticleFormat::npy:
-      return open_npy(path, choice);
-    case ParticleFormat::gadget_binary:
-      return open_gadget_binary(path, choice);
-    default:
-      return open_text_table(path, choice);
-  }
+  const Format* format = format_of(first_bytes(path));
+  if (format != nullptr) return format->open(path, choice);
+  std::vector<std::string_view> names;
+  for (const Format& known : formats) names.push_back(known.name);
+  throw Error(ErrorKind::bad_input,
+              fmt::format("{}: is of no known format, expected one of: {}", path.string(), fmt::join(names, ", ")));
 }
 
 }  // namespace
 
-std::optional<ParticleFormat> particle_format(const std::filesystem::path& path) {
+bool holds_particles(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   const std::string bytes = some_bytes(path);
-  const std::optional<ParticleFormat> format = format_of(bytes);
-  if (format == ParticleFormat::text && !looks_like_table(bytes)) return std::nullopt;
-  return format;
+  const Format* format = format_of(bytes);
+  return format != nullptr && (format->open != open_text_table || looks_like_table(bytes));
 }
 
 CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& choice) {

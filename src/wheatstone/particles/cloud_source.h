@@ -33,12 +33,9 @@ struct CloudSource {
   std::function<Cloud(std::size_t most)> next;
 };
 
-/// Formats of particles that are told apart by a file's first bytes.
-enum class ParticleFormat { gadget_binary, hdf5, ply, las, npy, text };
-
-/// The format of a file's content, whatever its name; nothing where it is none of them or cannot be read. Text counts
-/// only where it begins with a row of three numbers or more, or with names above one.
-std::optional<ParticleFormat> particle_format(const std::filesystem::path& path);
+/// Whether a file holds particles by its content, whatever its name; not where it cannot be read. Text counts only
+/// where it begins with a row of three numbers or more, or with names above one.
+bool holds_particles(const std::filesystem::path& path);
 
 /// Opens a file, the first part of a snapshot in several ("snap_007.0.hdf5"), or a folder of parts. The format is told
 /// by the content. Throws Error{bad_input}, naming the file, what is wrong and

@@ -115,22 +115,22 @@ TEST(TextTable, NamesWhatIsWrongAndWhere) {
   refused("x,y,z,rho\n1,2,3,4\n", "no column 'mass', but x, y, z, rho", {.density = "mass"});
 }
 
-TEST(ParticleFormat, IsToldByContentWhateverTheName) {
+TEST(HoldsParticles, ByContentWhateverTheName) {
   const TemporaryFolder folder;
-  const auto format_of = [&](const std::string& bytes) {
+  const auto holds = [&](const std::string& bytes) {
     write_whole_file(folder / "snap_000", bytes);
-    return particle_format(folder / "snap_000");
+    return holds_particles(folder / "snap_000");
   };
-  EXPECT_EQ(format_of("x,y,z\n1,2,3\n"), ParticleFormat::text);
-  EXPECT_EQ(format_of("# by hand\n\n1 2 3\n"), ParticleFormat::text);
-  EXPECT_EQ(format_of("ply\nformat ascii 1.0\n"), ParticleFormat::ply);
-  EXPECT_EQ(format_of(Bytes().put_record(std::string(256, '\1')).text), ParticleFormat::gadget_binary);
-  EXPECT_EQ(format_of(Bytes(true).put_record(std::string(256, '\1')).text), ParticleFormat::gadget_binary);
+  for (const std::string particles : {"x,y,z\n1,2,3\n", "# by hand\n\n1 2 3\n", "ply\nformat ascii 1.0\n", "ply\r\n",
+                                      "LASF", "\x93NUMPY", "\x89HDF\r\n\x1a\n"})
+    EXPECT_TRUE(holds(particles)) << particles;
+  EXPECT_TRUE(holds(Bytes().put_record(std::string(256, '\1')).text));
+  EXPECT_TRUE(holds(Bytes(true).put_record(std::string(256, '\1')).text));
   for (const std::string other : {"", "one line of words", "<svg width=\"1\" height=\"1\" viewBox=\"0 0 1 1\">\n",
                                   "P3\n2 2\n255\n1 2 3\n", "{\"a\": [1, 2, 3]}\n", "\x89PNG\r\n\x1a\n"})
-    EXPECT_EQ(format_of(other), std::nullopt) << other;
-  EXPECT_EQ(particle_format(folder / "none"), std::nullopt);
-  EXPECT_EQ(particle_format(folder / ""), std::nullopt);
+    EXPECT_FALSE(holds(other)) << other;
+  EXPECT_FALSE(holds_particles(folder / "none"));
+  EXPECT_FALSE(holds_particles(folder / ""));
 }
 
 std::string npy(const std::string& header, const std::string& data) {

@@ -17,9 +17,4 @@ struct StrokeMeasures {
 
 StrokeMeasures measure_strokes(const StrokePainting& painting, const StereoGeometry& geometry);
 
-/// How much paint of one layer runs over depth edges, in the views in which its strokes were planned: the share of its
-/// strokes, 0..1, that jump from one surface to another, by more than `threshold_px` of disparity, or whose centre line
-/// strays onto another surface, and that come farther away from the edge there than their radius.
-double spilling_share(const Layer& layer, const StereoGeometry& geometry, float threshold_px);
-
 }  // namespace wheatstone
