@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -125,21 +126,30 @@ struct FilmFrame {
   FilmFrame& operator=(const FilmFrame&) = delete;
 };
 
-/// Follows the point at every pixel's centre into another frame.
-void find_flow(const FilmFrame& from, const FilmFrame& to, Flow& flow, Image<std::uint8_t>& occlusion) {
+/// A frame into which points are followed, and what comes of it.
+struct Neighbour {
+  const FilmFrame* frame;
+  Flow* flow;
+  Image<std::uint8_t>* occlusion;
+};
+
+/// Follows the point at every pixel's centre into other frames.
+void find_flow(const FilmFrame& from, const std::vector<Neighbour>& neighbours) {
   tbb::parallel_for(0, from.cameras.height, [&](int y) {
     for (int x = 0; x < from.cameras.width; ++x) {
       const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
       const still::Hit hit = from.left.look(px, py);
       if (hit.object < 0) continue;
       const still::Ray ray = from.cameras.ray(px, py, from.left.position());
-      const Pose &before = from.scene.objects[hit.object].pose, &after = to.scene.objects[hit.object].pose;
-      const Vec3 local = before.point_in(ray.origin + ray.direction * hit.distance);
-      const Cameras::Sight sight = to.cameras.sight(after.origin + after.direction_out(local), to.left.position());
-      if (sight.depth <= 0) continue;
-      flow.x(x, y) = sight.x - px;
-      flow.y(x, y) = sight.y - py;
-      occlusion(x, y) = to.left.is_hidden(sight.x, sight.y, sight.depth) ? 255 : 0;
+      const Vec3 local = from.scene.objects[hit.object].pose.point_in(ray.origin + ray.direction * hit.distance);
+      for (const auto& [to, flow, occlusion] : neighbours) {
+        const Pose& after = to->scene.objects[hit.object].pose;
+        const Cameras::Sight sight = to->cameras.sight(after.origin + after.direction_out(local), to->left.position());
+        if (sight.depth <= 0) continue;
+        flow->x(x, y) = sight.x - px;
+        flow->y(x, y) = sight.y - py;
+        (*occlusion)(x, y) = to->left.is_hidden(sight.x, sight.y, sight.depth) ? 255 : 0;
+      }
     }
   });
 }
@@ -209,14 +219,17 @@ SyntheticFilmFrame make_synthetic_film_frame(const SyntheticFilmOptions& options
   result.geometry.right_disparity = std::move(of_right.disparity);
   result.pictures = {std::move(of_left.picture), std::move(of_right.picture)};
 
-  const auto follow = [&](int other, Flow& flow, Image<std::uint8_t>& occlusion) {
+  std::optional<FilmFrame> next, previous;
+  std::vector<Neighbour> neighbours;
+  const auto follow = [&](int other, std::optional<FilmFrame>& in, Flow& flow, Image<std::uint8_t>& occlusion) {
     flow = unknown_flow(width, height);
     occlusion = Image<std::uint8_t>(width, height, 255);
     if (other < first_of_shot || other >= end_of_shot) return;
-    find_flow(now, FilmFrame(shot, options, other - first_of_shot), flow, occlusion);
+    neighbours.push_back({&in.emplace(shot, options, other - first_of_shot), &flow, &occlusion});
   };
-  follow(frame + 1, result.to_next, result.next_occlusion);
-  follow(frame - 1, result.to_previous, result.previous_occlusion);
+  follow(frame + 1, next, result.to_next, result.next_occlusion);
+  follow(frame - 1, previous, result.to_previous, result.previous_occlusion);
+  find_flow(now, neighbours);
 
   if (options.noise > 0) {
     const auto key = [&](std::uint64_t eye) {

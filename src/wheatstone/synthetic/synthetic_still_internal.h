@@ -184,6 +184,18 @@ struct Noise {
   Vec3 slope;
 };
 Noise noise_at(Vec3 p, std::uint32_t seed);
+
+/// The same at four places at once, each with its own seed.
+using FourFloats = float __attribute__((vector_size(16)));
+using FourWords = std::uint32_t __attribute__((vector_size(16)));
+struct FourPlaces {
+  FourFloats x, y, z;
+};
+struct FourNoises {
+  FourFloats value;
+  FourPlaces slope;
+};
+FourNoises four_noises_at(const FourPlaces& places, FourWords seed);
 std::uint32_t lattice_hash(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t seed);
 inline float unit_of(std::uint32_t hashed) { return static_cast<float>(hashed >> 8) * 0x1p-24f; }
 

@@ -145,32 +145,43 @@ std::uint32_t lattice_hash(std::uint32_t x, std::uint32_t y, std::uint32_t z, st
   return h ^ (h >> 15);
 }
 
-Noise noise_at(Vec3 p, std::uint32_t seed) {
-  const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-  const auto x = static_cast<std::uint32_t>(static_cast<int>(fx)), y = static_cast<std::uint32_t>(static_cast<int>(fy)),
-             z = static_cast<std::uint32_t>(static_cast<int>(fz));
-  const Vec3 s{p.x - fx, p.y - fy, p.z - fz};
-  const auto ease = [](float v) { return v * v * v * (v * (v * 6 - 15) + 10); };
-  const auto ease_slope = [](float v) { return 30 * v * v * (v * (v - 2) + 1); };
-  const Vec3 u{ease(s.x), ease(s.y), ease(s.z)}, du{ease_slope(s.x), ease_slope(s.y), ease_slope(s.z)};
-  constexpr std::uint32_t step_x = 0x8da6b343u, step_y = 0xd8163841u, step_z = 0xcb1ab31fu;
-  const std::uint32_t x0 = x * step_x, x1 = x0 + step_x, y0 = (y * step_y) ^ (seed * 0x9e3779b1u),
-                      y1 = (y * step_y + step_y) ^ (seed * 0x9e3779b1u), z0 = z * step_z, z1 = z0 + step_z;
-  const auto corner = [](std::uint32_t hx, std::uint32_t hy, std::uint32_t hz) {
-    std::uint32_t mixed = hx ^ hy ^ hz;
-    mixed = (mixed ^ (mixed >> 15)) * 0x2c1b3c6du;
-    return static_cast<float>(static_cast<std::int32_t>(mixed)) * 0x1p-31f;
+FourNoises four_noises_at(const FourPlaces& p, FourWords seed) {
+  // std::floor is a call where the processor's instruction is not taken for granted.
+  using Whole = std::int32_t __attribute__((vector_size(16)));
+  const auto floor_of = [](FourFloats v) {
+    const Whole cut = __builtin_convertvector(v, Whole);
+    return cut + (__builtin_convertvector(cut, FourFloats) > v);  // a comparison gives −1 where it holds
   };
-  const float a = corner(x0, y0, z0), b = corner(x1, y0, z0), c = corner(x0, y1, z0), d = corner(x1, y1, z0);
-  const float e = corner(x0, y0, z1), f = corner(x1, y0, z1), g = corner(x0, y1, z1), h = corner(x1, y1, z1);
-  const float k1 = b - a, k2 = c - a, k3 = e - a, k4 = a - b - c + d, k5 = a - c - e + g, k6 = a - b - e + f;
-  const float k7 = -a + b + c - d + e - f - g + h;
-  Noise noise;
-  noise.value =
-      a + k1 * u.x + k2 * u.y + k3 * u.z + k4 * u.x * u.y + k5 * u.y * u.z + k6 * u.z * u.x + k7 * u.x * u.y * u.z;
-  noise.slope = du * Vec3{k1 + k4 * u.y + k6 * u.z + k7 * u.y * u.z, k2 + k5 * u.z + k4 * u.x + k7 * u.z * u.x,
-                          k3 + k6 * u.x + k5 * u.y + k7 * u.x * u.y};
-  return noise;
+  const Whole left = floor_of(p.x), bottom = floor_of(p.y), front = floor_of(p.z);
+  const auto within = [](FourFloats v, Whole floor) { return v - __builtin_convertvector(floor, FourFloats); };
+  const FourFloats sx = within(p.x, left), sy = within(p.y, bottom), sz = within(p.z, front);
+  const auto ease = [](FourFloats v) { return v * v * v * (v * (v * 6 - 15) + 10); };
+  const auto ease_slope = [](FourFloats v) { return 30 * v * v * (v * (v - 2) + 1); };
+  const FourFloats ux = ease(sx), uy = ease(sy), uz = ease(sz);
+
+  constexpr std::uint32_t step_x = 0x8da6b343u, step_y = 0xd8163841u, step_z = 0xcb1ab31fu;
+  const auto words = [](Whole v) { return __builtin_convertvector(v, FourWords); };
+  const FourWords salt = seed * 0x9e3779b1u, rows = words(bottom) * step_y;
+  const FourWords x0 = words(left) * step_x, x1 = x0 + step_x, y0 = rows ^ salt, y1 = (rows + step_y) ^ salt,
+                  z0 = words(front) * step_z, z1 = z0 + step_z;
+  const auto corner = [](FourWords hx, FourWords hy, FourWords hz) {
+    FourWords mixed = hx ^ hy ^ hz;
+    mixed = (mixed ^ (mixed >> 15)) * 0x2c1b3c6du;
+    return __builtin_convertvector(__builtin_convertvector(mixed, Whole), FourFloats) * 0x1p-31f;
+  };
+  const FourFloats a = corner(x0, y0, z0), b = corner(x1, y0, z0), c = corner(x0, y1, z0), d = corner(x1, y1, z0);
+  const FourFloats e = corner(x0, y0, z1), f = corner(x1, y0, z1), g = corner(x0, y1, z1), h = corner(x1, y1, z1);
+  const FourFloats k1 = b - a, k2 = c - a, k3 = e - a, k4 = a - b - c + d, k5 = a - c - e + g, k6 = a - b - e + f;
+  const FourFloats k7 = -a + b + c - d + e - f - g + h;
+  return {a + k1 * ux + k2 * uy + k3 * uz + k4 * ux * uy + k5 * uy * uz + k6 * uz * ux + k7 * ux * uy * uz,
+          {ease_slope(sx) * (k1 + k4 * uy + k6 * uz + k7 * uy * uz),
+           ease_slope(sy) * (k2 + k5 * uz + k4 * ux + k7 * uz * ux),
+           ease_slope(sz) * (k3 + k6 * ux + k5 * uy + k7 * ux * uy)}};
+}
+
+Noise noise_at(Vec3 p, std::uint32_t seed) {
+  const FourNoises four = four_noises_at({FourFloats{p.x}, FourFloats{p.y}, FourFloats{p.z}}, FourWords{seed});
+  return {four.value[0], {four.slope.x[0], four.slope.y[0], four.slope.z[0]}};
 }
 
 }  // namespace wheatstone::still

@@ -1,6 +1,7 @@
 // What the still life's things are made of: procedural textures with variation at several scales. Detail finer than a
 // pixel is faded out, so that pictures of any size are free of moiré.
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "wheatstone/synthetic/synthetic_still_internal.h"
@@ -13,18 +14,28 @@ constexpr float pi = std::numbers::pi_v<float>;
 /// How much of a detail of that many waves a metre a picture can show, 1 to 0.
 float shown(float frequency, float footprint) { return clamp01(1.7f - 2.6f * frequency * footprint); }
 
-/// Sum of octaves from `frequency` waves a metre, each half as strong as the one before.
+/// Sum of at most four octaves from `frequency` waves a metre, each half as strong as the one before.
 Noise octaves(Vec3 p, float frequency, int count, float footprint, std::uint32_t seed) {
-  Noise sum;
+  constexpr int at_once = 4;
+  FourFloats frequencies{};
+  std::array<float, at_once> shares;
+  int octaves_shown = 0;
   float strength = 0.5f;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < std::min(count, at_once); ++i) {
     const float share = strength * shown(frequency, footprint);
     if (share <= 0) break;
-    const Noise octave = noise_at(p * frequency, seed + static_cast<std::uint32_t>(i) * 101);
-    sum.value += share * octave.value;
-    sum.slope += share * frequency * octave.slope;
+    frequencies[octaves_shown] = frequency;
+    shares[octaves_shown++] = share;
     strength *= 0.5f;
     frequency *= 2.03f;
+  }
+  Noise sum;
+  if (octaves_shown == 0) return sum;
+  const FourWords seeds = FourWords{0, 101, 202, 303} + seed;
+  const FourNoises all = four_noises_at({p.x * frequencies, p.y * frequencies, p.z * frequencies}, seeds);
+  for (int i = 0; i < octaves_shown; ++i) {
+    sum.value += shares[i] * all.value[i];
+    sum.slope += shares[i] * frequencies[i] * Vec3{all.slope.x[i], all.slope.y[i], all.slope.z[i]};
   }
   return sum;
 }
