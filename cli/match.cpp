@@ -33,7 +33,7 @@ std::vector<std::string> result_names(bool rectified) {
 }
 
 void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry& geometry) {
-  if (pair.rectified) {
+  if (pair.rectification) {
     write_image(output.file("left.png"), pair.pictures.left);
     write_image(output.file("right.png"), pair.pictures.right);
   }
@@ -80,7 +80,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 
 void add_match_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *program.add_subcommand("match", "Estimate disparity and occlusion of a rectified stereo pair");
+  CLI::App& command = *program.add_subcommand("match", "Estimate disparity and occlusion of a stereo pair");
   command
       .add_option("LEFT", arguments->photographs.left,
                   "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other")
@@ -93,8 +93,8 @@ void add_match_command(CLI::App& program, const Session& session) {
   command.footer(
       "Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is "
       "red),\n"
-      "and the occlusion masks (white: the other eye does not see it); with --rectify always also left.png and "
-      "right.png,\nthe rectified pair that they belong to.\n\n"
+      "and the occlusion masks (white: the other eye does not see it); where the pair was rectified also left.png and "
+      "right.png,\nthe rectified pictures that they belong to.\n\n"
       "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched\n"
       "  wheatstone match photograph.mpo -o matched");
   command.callback([arguments, &command, &session] { run(*arguments, command, session); });

@@ -76,12 +76,18 @@ std::string_view name_by_ending(const std::string& output) {
 
 StereoPair pair_of(std::span<const Image<Rgb8>> views) { return {views[0], views[1]}; }
 
-/// The left view's disparity by matching.
-Image<float> disparity_of(const PackingJob& job) {
+/// The left view, rectified where its rows need that, and its disparity by matching.
+struct MatchedView {
+  Image<Rgb8> picture;
+  Image<float> disparity;
+};
+
+MatchedView matched_view(const PackingJob& job) {
   const std::string name = fmt::format("--to {}", job.packing.name);
-  const PreparedPair pair = prepare_named_pair(pair_of(job.views), {}, name, job.session);
-  tell_row_warning(pair, name, job.session);
-  return match(pair.pictures, {}, job.session.progress).geometry.left_disparity;
+  PreparedPair pair = prepare_named_pair(pair_of(job.views), {}, name, job.session);
+  tell_of_rows(pair, name, job.session);
+  Image<float> disparity = match(pair.pictures, {}, job.session.progress).geometry.left_disparity;
+  return {std::move(pair.pictures.left), std::move(disparity)};
 }
 
 /// A format that is one picture of the views.
@@ -147,12 +153,15 @@ void add_many_views(std::vector<PackingFormat>& formats) {
 }
 
 void add_matched(std::vector<PackingFormat>& formats) {
-  formats.push_back({"rgbd", "", "", 2,
-                     one_picture([](const PackingJob& job) { return depth_beside(job.views[0], disparity_of(job)); })});
-  formats.push_back({"disparity", "", "", 2,
-                     one_file([](const PackingJob& job) { write_disparity(job.output.name, disparity_of(job)); })});
+  formats.push_back({"rgbd", "", "", 2, one_picture([](const PackingJob& job) {
+                       const MatchedView view = matched_view(job);
+                       return depth_beside(view.picture, view.disparity);
+                     })});
+  formats.push_back({"disparity", "", "", 2, one_file([](const PackingJob& job) {
+                       write_disparity(job.output.name, matched_view(job).disparity);
+                     })});
   formats.push_back({"depth", "", "", 2, one_file([](const PackingJob& job) {
-                       Image<float> depth = disparity_of(job);
+                       Image<float> depth = matched_view(job).disparity;
                        for (float& d : depth.pixels())
                          d = d > 0 ? depth_from_disparity(d, job.arguments.depth_scale)
                                    : std::numeric_limits<float>::quiet_NaN();

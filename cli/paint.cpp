@@ -167,7 +167,10 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
                   const Session& session) {
   // What cannot be written is said before the work.
   const ViewsOutput output = output_of(arguments, job.output);
-  const ResultOptions results{.html = arguments.html, .svg = arguments.svg, .format = arguments.format};
+  ResultOptions results{.photographs = arguments.photographs.rectify != "never",
+                        .html = arguments.html,
+                        .svg = arguments.svg,
+                        .format = arguments.format};
   std::optional<OutputFolder> folder;
   if (!arguments.display.empty()) {
     check_views_output(output);
@@ -180,6 +183,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   files.right = job.right;
   const ReadPhotograph photograph = read_photographs(files, !arguments.disparity.empty(), session);
   const StereoPair& pictures = photograph.pair.pictures;
+  results.photographs = photograph.pair.rectification.has_value();
   std::optional<Image<float>> truth;
   if (!arguments.disparity.empty()) {
     truth = read_disparity_argument(arguments.disparity);
@@ -279,12 +283,13 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 
 void add_paint_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *program.add_subcommand("paint", "Paint a rectified stereo photograph");
+  CLI::App& command = *program.add_subcommand("paint", "Paint a stereo photograph");
   add_paint_options(command, *arguments);
   command.footer(
       "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, "
       "painting.wst\n"
-      "(the marks), disparity, occlusion, and report.json.\n\n"
+      "(the marks), disparity, occlusion, and report.json; where the pair was rectified also left_photograph.png and\n"
+      "right_photograph.png, the pictures that were painted.\n\n"
       "Examples:\n  wheatstone synth still -o still\n"
       "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
       "  wheatstone paint one.mpo two.mpo three.mpo -o painted\n"

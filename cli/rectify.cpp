@@ -10,6 +10,7 @@
 #include "print_facts.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/app/report.h"
 #include "wheatstone/calibration/rectify.h"
 #include "wheatstone/error.h"
 #include "wheatstone/pictures/write_image.h"
@@ -18,7 +19,7 @@ namespace wheatstone::cli {
 namespace {
 
 struct Arguments {
-  std::string left, right;
+  StereoArguments photographs;
   std::string folder = "rectified";
   std::string format = "png";
   std::string calibration;
@@ -27,16 +28,18 @@ struct Arguments {
 
 /// The library knows pictures, not files; what it says of them gets their names.
 RectifiedPair rectified(const Arguments& arguments, const Session& session) {
-  const StereoPair photographs = read_pair(arguments.left, arguments.right);
+  const NamedPair read = read_named_pair(arguments.photographs);
   const RectifyOptions options{.match_colour = arguments.match_colour};
   std::optional<StereoCalibration> calibration;
   if (!arguments.calibration.empty()) calibration = read_stereo_calibration(arguments.calibration);
   try {
-    return calibration ? rectify(photographs, *calibration, options, session.progress)
-                       : rectify(photographs, options, session.progress);
+    RectifiedPair pair = calibration ? rectify(read.pictures, *calibration, options, session.progress)
+                                     : rectify(read.pictures, options, session.progress);
+    tell_of_layout(read, session);
+    return pair;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_input) throw;
-    throw Error(error.kind(), fmt::format("{}, {}: {}", arguments.left, arguments.right, error.what()));
+    throw Error(error.kind(), fmt::format("{}: {}", read.name, error.what()));
   }
 }
 
@@ -54,10 +57,10 @@ void print_json(const RectifiedPair& pair, const Arguments& arguments, const Ses
                                {"shift_px", pair.shift_px},
                                {"eyes_swapped", pair.eyes_swapped},
                                {"colour", nullptr},
-                               {"homographies", nullptr}};
+                               {"rectification", nullptr}};
   if (pair.colour) facts["colour"] = {{"gain", pair.colour->gain}, {"gamma", pair.colour->gamma}};
-  if (pair.homographies)
-    facts["homographies"] = {{"left", pair.homographies->left}, {"right", pair.homographies->right}};
+  if (pair.rectification)
+    facts["rectification"] = nlohmann::ordered_json::parse(rectification_json(*pair.rectification));
   print_facts(facts, session);
 }
 
@@ -97,7 +100,8 @@ void print_summary(const RectifiedPair& pair, const Arguments& arguments, const 
 
 void run(const Arguments& arguments, const Session& session) {
   // Before the work, so that what cannot be written is known at once.
-  OutputFolder folder(arguments.folder, {arguments.left, arguments.right, arguments.calibration});
+  OutputFolder folder(arguments.folder,
+                      {arguments.photographs.left, arguments.photographs.right, arguments.calibration});
   const std::filesystem::path left = folder.file(fmt::format("left.{}", arguments.format));
   const std::filesystem::path right = folder.file(fmt::format("right.{}", arguments.format));
   const RectifiedPair pair = rectified(arguments, session);
@@ -117,8 +121,12 @@ void add_rectify_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& command =
       *program.add_subcommand("rectify", "Rectify two photographs: matching points come to lie on the same rows");
-  command.add_option("LEFT", arguments->left, "Left photograph")->required();
-  command.add_option("RIGHT", arguments->right, "Right photograph, of the same size")->required();
+  command
+      .add_option("LEFT", arguments->photographs.left,
+                  "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other")
+      ->required();
+  command.add_option("RIGHT", arguments->photographs.right, "Right photograph, of the same size");
+  add_layout_options(command, arguments->photographs);
   add_output_option(command, arguments->folder, "Folder for left.png and right.png");
   add_picture_format(command, arguments->format, "File format of the rectified pictures");
   command.add_option(
@@ -132,7 +140,8 @@ void add_rectify_command(CLI::App& program, const Session& session) {
       "x_right)\n"
       "stay about what they were; where some would be below 0 the right picture is shifted, and the report says by\n"
       "how much.\n\n"
-      "Example:\n  wheatstone rectify left.jpg right.jpg -o rectified\n"
+      "Examples:\n  wheatstone rectify left.jpg right.jpg -o rectified\n"
+      "  wheatstone rectify photograph.mpo -o rectified\n"
       "  wheatstone paint rectified/left.png rectified/right.png -o painted");
   command.callback([arguments, &session] { run(*arguments, session); });
 }

@@ -38,13 +38,7 @@ StereoPair middle_pair(ViewsFile& file) {
   return {std::move(file.views[right - 1]), std::move(file.views[right])};
 }
 
-struct ReadPhotographs {
-  StereoPair pair;
-  std::string how;  ///< how one file was understood
-  bool eyes_known_from_picture = false;
-};
-
-ReadPhotographs read_one_file(const StereoArguments& arguments) {
+NamedPair read_one_file(const StereoArguments& arguments) {
   ReadViewsOptions options;
   if (!arguments.layout.empty()) options.layout = layout_by_name(arguments.layout);
   options.swap = arguments.swap;
@@ -56,15 +50,14 @@ ReadPhotographs read_one_file(const StereoArguments& arguments) {
                     "views of one scene; expected two files, or --layout where it holds both views",
                     arguments.left));
   ViewsFile file = std::move(*found);
-  ReadPhotographs read;
-  read.how = describe_views(file);
+  std::string how = describe_views(file);
   if (file.views.size() > 2)
-    read.how += fmt::format(", of which {} and {} are taken", file.views.size() / 2, file.views.size() / 2 + 1);
-  if (arguments.swap) read.how += ", swapped";
-  if (!file.note.empty()) read.how += "; " + file.note;
-  read.eyes_known_from_picture = file.how_known == HowKnown::halves;
-  read.pair = middle_pair(file);
-  check_sizes(read.pair, arguments.left, arguments.left);
+    how += fmt::format(", of which {} and {} are taken", file.views.size() / 2, file.views.size() / 2 + 1);
+  if (arguments.swap) how += ", swapped";
+  if (!file.note.empty()) how += "; " + file.note;
+  NamedPair read{middle_pair(file), fmt::format("{} ({})", arguments.left, how),
+                 fmt::format("{}: {}", arguments.left, how), file.how_known == HowKnown::halves};
+  check_sizes(read.pictures, arguments.left, arguments.left);
   return read;
 }
 
@@ -77,21 +70,26 @@ PictureSize reduce(StereoPair& pair, int longest_px) {
   return whole;
 }
 
-ReadPhotographs read_two_files(const StereoArguments& arguments) {
+NamedPair read_two_files(const StereoArguments& arguments) {
   if (!arguments.layout.empty())
     throw Error(ErrorKind::wrong_usage, "--layout is for one file that holds both views, but two files are given");
-  ReadPhotographs read{read_pair(arguments.left, arguments.right), {}, false};
-  if (arguments.swap) std::swap(read.pair.left, read.pair.right);
+  NamedPair read{
+      read_pair(arguments.left, arguments.right), fmt::format("{}, {}", arguments.left, arguments.right), {}};
+  if (arguments.swap) std::swap(read.pictures.left, read.pictures.right);
   return read;
 }
 
 }  // namespace
 
-void add_stereo_options(CLI::App& command, StereoArguments& arguments) {
+void add_layout_options(CLI::App& command, StereoArguments& arguments) {
   command.add_option("--layout", arguments.layout,
                      fmt::format("Layout of one file that holds both views: {}; detected by default",
                                  fmt::join(layout_names(), ", ")));
   command.add_flag("--swap", arguments.swap, "Swap the two views");
+}
+
+void add_stereo_options(CLI::App& command, StereoArguments& arguments) {
+  add_layout_options(command, arguments);
   add_number(command, "--max-size", arguments.max_size, {16, 65535},
              "Work on a reduced copy whose longer side has at most this many pixels")
       ->default_str("");
@@ -99,9 +97,11 @@ void add_stereo_options(CLI::App& command, StereoArguments& arguments) {
 
 void add_rectify_option(CLI::App& command, StereoArguments& arguments) {
   command
-      .add_option("--rectify", arguments.rectify,
-                  fmt::format("Whether the pair is rectified first, as 'wheatstone rectify' does: {}",
-                              fmt::join(rectify_policy_names(), ", ")))
+      .add_option(
+          "--rectify", arguments.rectify,
+          fmt::format(
+              "Whether the pair is rectified first, as 'wheatstone rectify' does: {}; auto: where its rows differ",
+              fmt::join(rectify_policy_names(), ", ")))
       ->capture_default_str();
 }
 
@@ -121,9 +121,18 @@ PreparedPair prepare_named_pair(StereoPair pair, const PreparePairOptions& optio
   }
 }
 
-void tell_row_warning(const PreparedPair& pair, const std::string& name, const Session& session) {
+void tell_of_rows(const PreparedPair& pair, const std::string& name, const Session& session) {
+  if (const std::string note = rectified_note(pair); !note.empty()) tell(session, fmt::format("{}: {}", name, note));
   if (const std::string warning = row_warning(pair); !warning.empty())
     tell(session, fmt::format("warning: {}: {}", name, warning));
+}
+
+NamedPair read_named_pair(const StereoArguments& arguments) {
+  return arguments.right.empty() ? read_one_file(arguments) : read_two_files(arguments);
+}
+
+void tell_of_layout(const NamedPair& pair, const Session& session) {
+  if (!pair.note.empty()) tell(session, pair.note);
 }
 
 ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session) {
@@ -131,28 +140,26 @@ ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity
   if (!policy)
     throw Error(ErrorKind::wrong_usage, fmt::format("--rectify: is '{}', expected one of: {}", arguments.rectify,
                                                     fmt::join(rectify_policy_names(), ", ")));
-  if (disparity_is_given && *policy != RectifyPolicy::never)
+  if (disparity_is_given && *policy == RectifyPolicy::always)
     throw Error(ErrorKind::wrong_usage,
                 "--rectify changes the pictures, but --disparity belongs to them as they are: choose one");
-  const bool one_file = arguments.right.empty();
   report(session.progress, "reading", 0);
-  ReadPhotographs read = one_file ? read_one_file(arguments) : read_two_files(arguments);
-  const std::string name = one_file ? fmt::format("{} ({})", arguments.left, read.how)
-                                    : fmt::format("{}, {}", arguments.left, arguments.right);
-  const PictureSize whole = reduce(read.pair, arguments.max_size);
+  NamedPair read = read_named_pair(arguments);
+  const PictureSize whole = reduce(read.pictures, arguments.max_size);
   report(session.progress, "comparing the views", 0);
   PreparedPair prepared;
   if (disparity_is_given) {
-    if (not_a_pair(read.pair)) throw Error(ErrorKind::bad_input, fmt::format("{}: show different scenes", name));
-    prepared.pictures = std::move(read.pair);
+    if (not_a_pair(read.pictures))
+      throw Error(ErrorKind::bad_input, fmt::format("{}: show different scenes", read.name));
+    prepared.pictures = std::move(read.pictures);
   } else {
-    prepared = prepare_named_pair(std::move(read.pair), {.rectify = *policy}, name, session);
+    prepared = prepare_named_pair(std::move(read.pictures), {.rectify = *policy}, read.name, session);
   }
-  if (one_file) tell(session, fmt::format("{}: {}", arguments.left, read.how));
+  tell_of_layout(read, session);
   if (!read.eyes_known_from_picture && eyes_look_swapped(prepared.pictures))
     tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
                               arguments.left, arguments.swap ? "leave out" : "add"));
-  tell_row_warning(prepared, name, session);
+  tell_of_rows(prepared, read.name, session);
   return {std::move(prepared), whole};
 }
 

@@ -15,9 +15,12 @@ struct StereoArguments {
   std::string left, right;  ///< right is empty where left holds both
   std::string layout;       ///< of one picture that holds both; empty: find it
   bool swap = false;
-  std::string rectify = "never";
+  std::string rectify = "auto";
   int max_size = 0;  ///< longer side of what is worked on, in pixels; 0: as large as it is
 };
+
+/// Adds --layout and --swap.
+void add_layout_options(CLI::App& command, StereoArguments& arguments);
 
 /// Adds --layout, --swap and --max-size.
 void add_stereo_options(CLI::App& command, StereoArguments& arguments);
@@ -32,8 +35,22 @@ StereoPair read_pair(const std::string& left, const std::string& right);
 PreparedPair prepare_named_pair(StereoPair pair, const PreparePairOptions& options, const std::string& name,
                                 const Session& session);
 
-/// Says on standard error, under the files' name, where the rows do not fit.
-void tell_row_warning(const PreparedPair& pair, const std::string& name, const Session& session);
+/// Says on standard error, under the files' name, that a pair was rectified, and where its rows do not fit.
+void tell_of_rows(const PreparedPair& pair, const std::string& name, const Session& session);
+
+/// A pair as its files have it.
+struct NamedPair {
+  StereoPair pictures;
+  std::string name;  ///< for messages: of both files, or of one and how it was understood
+  std::string note;  ///< a line that says how one file was understood; empty: two files
+  bool eyes_known_from_picture = false;
+};
+
+/// Reads photographs from two files or one. Throws Error: bad_input, wrong_usage.
+NamedPair read_named_pair(const StereoArguments& arguments);
+
+/// Says on standard error how one file was understood, once nothing is wrong with it.
+void tell_of_layout(const NamedPair& pair, const Session& session);
 
 /// A pair that was read and prepared.
 struct ReadPhotograph {
@@ -43,7 +60,8 @@ struct ReadPhotograph {
 
 /// Reads photographs from two files or one, and says on standard error how one was understood, and where the eyes look
 /// swapped. Where `disparity_is_given` they are taken as they are, and else prepared for matching: what makes them no
-/// pair is refused, rows that do not fit are told on standard error. Throws Error: bad_input, wrong_usage.
+/// pair is refused; that it was rectified, and rows that do not fit, are told on standard error. Throws Error:
+/// bad_input, wrong_usage.
 ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session);
 
 }  // namespace wheatstone::cli

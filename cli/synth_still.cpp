@@ -2,9 +2,12 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "command.h"
 #include "number_arguments.h"
@@ -14,18 +17,24 @@
 #include "typed_options.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/depth/rig.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/motion/flow_file.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/phone_camera.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::cli {
 namespace {
+
+constexpr std::array<std::pair<std::string_view, bool>, 2> cameras{{{"ideal", false}, {"phone", true}}};
 
 struct Arguments {
   std::string folder = "still";
   std::string size = "960x720";
   SyntheticStillOptions still;
   int views = 2;
+  bool phone = false;
   std::optional<float> view;
 };
 
@@ -36,6 +45,13 @@ void write(const OutputFolder& output, const SyntheticStill& still) {
   write_disparity(output.file("right_disparity.pfm"), still.geometry.right_disparity);
   write_image(output.file("left_occlusion.png"), still.geometry.left_occlusion);
   write_image(output.file("right_occlusion.png"), still.geometry.right_occlusion);
+}
+
+void write(const OutputFolder& output, const PhonePair& pair) {
+  constexpr int jpeg_quality = 85;
+  write_whole_file(output.file("left.jpg"), encode_jpeg(pair.pictures.left, jpeg_quality));
+  write_whole_file(output.file("right.jpg"), encode_jpeg(pair.pictures.right, jpeg_quality));
+  write_flow(output.file("left_to_right.flo"), pair.left_to_right);
 }
 
 void write(const OutputFolder& output, const std::string& name, const SyntheticView& view) {
@@ -51,7 +67,10 @@ void run(const Arguments& arguments, const Session& session) {
   options.height = size.height;
 
   OutputFolder output(arguments.folder);
-  if (arguments.view) {
+  if (arguments.phone) {
+    report(session.progress, "casting rays", 0);
+    write(output, make_phone_pair(options));
+  } else if (arguments.view) {
     write(output, "view", make_synthetic_view(options, ViewPosition(*arguments.view)));
   } else if (arguments.views == 2) {
     write(output, make_synthetic_still(options));
@@ -89,13 +108,19 @@ void add_synth_still(CLI::App& synth, const Session& session) {
                    "Put disparity 0 in the middle of the range, so that both signs occur");
   CLI::Option* views =
       add_number(command, "--views", arguments->views, {1, 1000}, "Number of views from the left eye to the right eye");
-  add_number(command, "--view", arguments->view, {-10, 10},
-             "Write one view only, at this position: left eye -0.5, centre 0, right eye 0.5")
-      ->excludes(views);
+  CLI::Option* view = add_number(command, "--view", arguments->view, {-10, 10},
+                                 "Write one view only, at this position: left eye -0.5, centre 0, right eye 0.5")
+                          ->excludes(views);
+  add_choice<bool>(command, "--camera", arguments->phone, cameras, "Cameras that take the two views")
+      ->excludes(views)
+      ->excludes(view);
   command.footer(
       "Two views are written as left.png and right.png with left_disparity.pfm, left_occlusion.png and so on: exact, "
       "in\n"
       "pixels, each in its own view. Other numbers of views are written as view_000.png with view_000_disparity.pfm.\n"
+      "--camera phone takes two views as hand-held cameras do: turned by up to 2 degrees about each axis, with lens\n"
+      "distortion (k1 = -0.05), unlike exposure, noise and JPEG compression. It writes left.jpg, right.jpg, and\n"
+      "left_to_right.flo, the exact way from each left pixel to its partner.\n"
       "--seed changes the positions and colours of the objects on the table.\n\n"
       "Example:\n  wheatstone synth still -o still --size 1280x960 --seed 2");
   command.callback([arguments, &session] { run(*arguments, session); });

@@ -8,6 +8,7 @@
 
 #include "cli/run_program.h"
 #include "wheatstone/photograph/write_views.h"
+#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/synthetic/synthetic_still.h"
@@ -131,39 +132,56 @@ void put_unrectified(const TemporaryFolder& folder) {
 TEST(Photograph, ThatIsNotRectifiedIsMatchedWithAWarning) {
   const TemporaryFolder folder;
   put_unrectified(folder);
-  const ProgramResult result = match_one(folder, {"left.png", "low.png", "--json"});
+  const ProgramResult result = match_one(folder, {"left.png", "low.png", "--rectify", "never", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_THAT(result.errors,
               HasSubstr("warning: left.png, low.png: the pictures are not rectified: their rows differ"));
   EXPECT_THAT(result.errors, HasSubstr("'wheatstone rectify'"));
   const auto pair = nlohmann::json::parse(result.output)["pair"];
-  EXPECT_NEAR(pair["row_difference_px"], 12, 4);
+  EXPECT_NEAR(pair["row_difference"]["median_px"], 12, 4);
   EXPECT_THAT(pair["warning"], HasSubstr("wheatstone rectify"));
+}
+
+TEST(Photograph, ThatIsNotRectifiedIsRectifiedByItself) {
+  const TemporaryFolder folder;
+  put_unrectified(folder);
+  const ProgramResult matched = match_one(folder, {"left.png", "low.png", "--json"});
+  ASSERT_EQ(matched.exit_code, 0) << matched.errors;
+  EXPECT_THAT(matched.errors, HasSubstr("left.png, low.png: the pair was rectified: its rows differed by"));
+  const auto pair = nlohmann::json::parse(matched.output)["pair"];
+  EXPECT_EQ(pair["rectified"], true);
+  EXPECT_NEAR(pair["photographs_row_difference"]["median_px"], 12, 4);
+  EXPECT_LT(pair["row_difference"]["median_px"], 1);
+  EXPECT_EQ(pair["rectification"]["right"]["homography"].size(), 9U);
   const ProgramResult packed =
       run_program({"pack", "left.png", "low.png", "--to", "rgbd", "-o", "a.png"}, {.folder = folder / ""});
   EXPECT_EQ(packed.exit_code, 0);
-  EXPECT_THAT(packed.errors, HasSubstr("not rectified"));
+  EXPECT_THAT(packed.errors, HasSubstr("the pair was rectified"));
+  EXPECT_LT(read_image(folder / "a.png").width(), 640) << "a rectified picture is cropped";
 }
 
-TEST(Photograph, ThatIsNotRectifiedIsPaintedRectifiedOnDemand) {
+TEST(Photograph, ThatIsNotRectifiedIsPaintedRectified) {
   const TemporaryFolder folder;
   put_unrectified(folder);
-  const std::vector<std::string> line{"paint", "left.png", "low.png", "-o", "painted", "--json"};
-  ProgramResult result = run_program(line, {.folder = folder / ""});
+  std::vector<std::string> line{"paint", "left.png", "low.png", "-o", "painted", "--json", "--rectify", "auto"};
+  for (const std::string policy : {"auto", "always"}) {
+    line.back() = policy;
+    const ProgramResult result = run_program(line, {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.errors, testing::Not(HasSubstr("warning")));
+    const auto pair = nlohmann::json::parse(result.output)["pair"];
+    EXPECT_EQ(pair["rectified"], true);
+    EXPECT_TRUE(pair["warning"].is_null());
+    EXPECT_LT(pair["row_difference"]["median_px"], 1);
+    // What was painted stands beside the painting.
+    EXPECT_TRUE(same_size(read_image(folder / "painted/left_photograph.png"), read_image(folder / "painted/left.png")));
+  }
+  line.back() = "never";
+  const ProgramResult result = run_program(line, {.folder = folder / ""});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.errors, HasSubstr("not rectified"));
   EXPECT_THAT(nlohmann::json::parse(result.output)["pair"]["warning"], HasSubstr("rows differ"));
-  std::vector<std::string> rectified = line;
-  rectified.insert(rectified.end(), {"--rectify", "always"});
-  result = run_program(rectified, {.folder = folder / ""});
-  EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_THAT(result.errors, testing::Not(HasSubstr("warning")));
-  const auto pair = nlohmann::json::parse(result.output)["pair"];
-  EXPECT_EQ(pair["rectified"], true);
-  EXPECT_TRUE(pair["warning"].is_null());
-  EXPECT_LT(pair["row_difference_px"], 1);
-  rectified.back() = "perhaps";
-  expect_refused(folder, rectified, 2, "expected one of: never, always");
+  line.back() = "perhaps";
+  expect_refused(folder, line, 2, "expected one of: auto, never, always");
 }
 
 TEST(Photograph, ThatIsUpsideDownMirroredOrBlackIsRefused) {

@@ -71,6 +71,21 @@ TEST(RectifyCommand, WritesTheFormatThatIsAskedFor) {
   expect_refused(folder, {"rectify", "left.png", "right.png", "--format", "bmp"}, 2, "png|jpg|tif|webp");
 }
 
+TEST(RectifyCommand, TakesOneFileWithBothViews) {
+  const TemporaryFolder folder;
+  write_spoiled_pair(folder);
+  const ProgramRun here = {.folder = folder / ""};
+  ASSERT_EQ(run_program({"pack", "left.png", "right.png", "--to", "sbs", "-o", "both_sbs.png"}, here).exit_code, 0);
+  for (const std::vector<std::string>& line :
+       {std::vector<std::string>{"rectify", "both_sbs.png", "-o", "one", "--json"},
+        {"rectify", "both_sbs.png", "--layout", "sbs", "--json", "-o", "one"}}) {
+    const ProgramResult result = run_program(line, here);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_LT(nlohmann::json::parse(result.output)["vertical_disparity_after"]["median_px"], 0.7);
+  }
+  expect_refused(folder, {"rectify", "left.png", "--quiet"}, 3, "left.png: is one picture");
+}
+
 TEST(RectifyCommand, LeavesColoursAloneWhenAsked) {
   const TemporaryFolder folder;
   write_spoiled_pair(folder);

@@ -59,13 +59,28 @@ PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPh
 
 std::string pair_measures_json(const PairMeasures& measures) { return to_json(measures).dump(2); }
 
+std::string rectification_json(const Rectification& how) {
+  const auto map_json = [](const RectifyingMap& map) {
+    return Json{{"straightening", map.straightening},
+                {"homography", map.homography},
+                {"row_correction_px", map.row_correction}};
+  };
+  return Json{{"left", map_json(how.left)}, {"right", map_json(how.right)}}.dump(2);
+}
+
 std::string preparation_json(const PreparedPair& pair) {
   const std::string warning = row_warning(pair);
-  Json facts{{"rectified", pair.rectified},
+  const auto rows_json = [](const std::optional<VerticalDisparity>& rows) -> Json {
+    if (!rows) return nullptr;
+    return {{"median_px", rounded(rows->median_px)}, {"percentile_95_px", rounded(rows->percentile_95_px)}};
+  };
+  Json facts{{"rectified", pair.rectification.has_value()},
              {"compared_features", pair.compared_features},
-             {"row_difference_px", nullptr},
+             {"row_difference", rows_json(pair.rows)},
+             {"photographs_row_difference", rows_json(pair.photographed_rows)},
+             {"rectification", nullptr},
              {"warning", nullptr}};
-  if (pair.row_difference_px) facts["row_difference_px"] = rounded(*pair.row_difference_px);
+  if (pair.rectification) facts["rectification"] = Json::parse(rectification_json(*pair.rectification));
   if (!warning.empty()) facts["warning"] = warning;
   return facts.dump(2);
 }

@@ -23,8 +23,12 @@ PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPh
 /// The measures of one pair as a JSON object, in the words of the command line.
 std::string pair_measures_json(const PairMeasures& measures);
 
-/// How a pair was prepared as a JSON object: `rectified`, `compared_features`, `row_difference_px` and `warning`, the
-/// last two null where there is nothing to tell.
+/// How both pictures are rectified as a JSON object: of `left` and `right` the members of RectifyingMap but the size.
+std::string rectification_json(const Rectification& how);
+
+/// How a pair was prepared as a JSON object: `rectified`, `compared_features`, `row_difference` (median and 95th
+/// percentile), `photographs_row_difference` (before rectification), `rectification` and `warning`; null where there is
+/// nothing to tell.
 std::string preparation_json(const PreparedPair& pair);
 
 /// What a report tells of; borrowed.

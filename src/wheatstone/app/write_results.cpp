@@ -27,7 +27,7 @@ std::vector<std::string> result_names(const ResultOptions& options) {
   names.insert(names.end(), {"disparity.png", "left_disparity.pfm", "right_disparity.pfm", "left_occlusion.png",
                              "right_occlusion.png", "painting.wst", "report.json"});
   if (options.svg) names.insert(names.end(), {"left.svg", "right.svg"});
-  if (options.html) add_pictures({"left_photograph", "right_photograph"});
+  if (options.photographs || options.html) add_pictures({"left_photograph", "right_photograph"});
   if (options.html) names.emplace_back("index.html");
   return names;
 }
@@ -62,9 +62,11 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
     outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }});
     outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }});
   }
-  if (options.html) {
+  if (options.photographs || options.html) {
     outputs.push_back({picture("left_photograph"), [&](const Path& path) { write_image(path, photographs.left); }});
     outputs.push_back({picture("right_photograph"), [&](const Path& path) { write_image(path, photographs.right); }});
+  }
+  if (options.html) {
     outputs.push_back({"index.html", [&](const Path& path) {
                          write_whole_file(path, gallery_html(options.format, report_json(told)));
                        }});

@@ -10,7 +10,8 @@
 namespace wheatstone {
 
 struct ResultOptions {
-  bool html = false;           ///< also an index.html that shows the pictures
+  bool photographs = false;    ///< also left_photograph and right_photograph, the pictures that were painted
+  bool html = false;           ///< also these, and an index.html that shows the pictures
   bool svg = false;            ///< also left.svg and right.svg, the marks as vectors
   std::string format = "png";  ///< of the pictures to look at, as a file's ending
 };

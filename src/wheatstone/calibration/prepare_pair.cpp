@@ -20,7 +20,10 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 2> policy_names{"never", "always"};
+constexpr std::array<std::string_view, 3> policy_names{"auto", "never", "always"};
+
+/// The 95th percentile of row differences may be this many times the tolerated median.
+constexpr double tail_to_median = 3;
 
 /// Enough to tell, and quick.
 constexpr FeatureOptions quick_search{.most_features = 1000, .search_side_px = 960};
@@ -34,11 +37,16 @@ struct CommonFeatures {
 CommonFeatures common_features(ImageView<const Rgb8> left, ImageView<const Rgb8> right) {
   constexpr std::size_t least_inliers = 16;
   const FeatureMatches found = match_features(left, right, quick_search);
-  EpipolarGeometry geometry =
-      find_epipolar_geometry(found.matches, epipolar_tolerance_px(std::max(left.width(), left.height())));
+  const double tolerance = epipolar_tolerance_px(std::max(left.width(), left.height()));
   CommonFeatures common;
-  common.convincing = geometry.inliers.size() >= least_inliers && 2 * geometry.inliers.size() >= found.matches.size();
-  common.inliers = std::move(geometry.inliers);
+  // A lens that bends straight lines leaves few matches close to the lines of straight ones.
+  for (const double poor_lens : {1.0, 4.0}) {
+    EpipolarGeometry geometry = find_epipolar_geometry(found.matches, poor_lens * tolerance);
+    common.convincing = static_cast<double>(geometry.inliers.size()) >= poor_lens * least_inliers &&
+                        2 * geometry.inliers.size() >= found.matches.size();
+    common.inliers = std::move(geometry.inliers);
+    if (common.convincing) break;
+  }
   return common;
 }
 
@@ -109,6 +117,36 @@ void check_dissimilar(const StereoPair& pair) {
     throw Error(ErrorKind::bad_input, "the pictures show different scenes, expected two views of one scene");
 }
 
+bool rows_fit(const VerticalDisparity& rows, double tolerated_px) {
+  return rows.median_px <= tolerated_px && rows.percentile_95_px <= tail_to_median * tolerated_px;
+}
+
+void take(RectifiedPair rectified, PreparedPair& prepared) {
+  prepared.pictures = std::move(rectified.pictures);
+  prepared.rectification = rectified.rectification;
+  prepared.colour = rectified.colour;
+  if (rectified.measured_matches == 0) return;
+  prepared.compared_features = rectified.measured_matches;
+  prepared.photographed_rows = rectified.before;
+  prepared.rows = rectified.after;
+}
+
+/// Rectifies a pair whose rows do not fit, where that makes them fit better.
+void rectify_if_it_helps(PreparedPair& prepared, const RectifyOptions& options, const Progress& progress) {
+  try {
+    RectifiedPair rectified = rectify(prepared.pictures, options, progress);
+    constexpr double clearly = 0.75;
+    if (rectified.measured_matches > 0 && rectified.after.median_px < clearly * prepared.rows->median_px) {
+      take(std::move(rectified), prepared);
+    } else {
+      prepared.why_not_rectified = "no rotation of the cameras makes the rows fit better";
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_input) throw;
+    prepared.why_not_rectified = error.what();
+  }
+}
+
 }  // namespace
 
 std::span<const std::string_view> rectify_policy_names() { return policy_names; }
@@ -131,28 +169,43 @@ PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& opti
   PreparedPair prepared;
   // A place in a reduced copy is known no better than to a quarter of its pixels.
   const int longer_side = std::max(photographs.left.width(), photographs.left.height());
-  prepared.tolerated_row_difference_px = std::max(1.0, 0.25 * longer_side / quick_search.search_side_px);
+  prepared.tolerated_rows_px = std::max(1.0, 0.25 * longer_side / quick_search.search_side_px);
+  prepared.pictures = std::move(photographs);
+  RectifyOptions rectifying{.keep_size = options.keep_size};
   if (options.rectify == RectifyPolicy::always) {
-    RectifiedPair rectified = rectify(photographs, {}, progress);
-    prepared.pictures = std::move(rectified.pictures);
-    prepared.rectified = true;
-    prepared.compared_features = rectified.measured_matches;
-    if (rectified.measured_matches > 0) prepared.row_difference_px = rectified.after.median_px;
+    take(rectify(prepared.pictures, rectifying, progress), prepared);
     return prepared;
   }
-  prepared.pictures = std::move(photographs);
   if (!common.convincing) return prepared;
   prepared.compared_features = static_cast<int>(common.inliers.size());
-  prepared.row_difference_px = vertical_disparity(common.inliers).median_px;
+  prepared.rows = prepared.photographed_rows = vertical_disparity(common.inliers);
+  rectifying.cameras_must_be_decided = false;
+  if (options.rectify == RectifyPolicy::automatic && !rows_fit(*prepared.rows, prepared.tolerated_rows_px))
+    rectify_if_it_helps(prepared, rectifying, progress);
   return prepared;
 }
 
-std::string row_warning(const PreparedPair& pair) {
-  if (!pair.row_difference_px || *pair.row_difference_px <= pair.tolerated_row_difference_px) return {};
+std::string rectified_note(const PreparedPair& pair) {
+  if (!pair.rectification) return {};
+  if (!pair.photographed_rows || !pair.rows) return "the pair was rectified";
   return fmt::format(
-      "the pictures are not rectified: their rows differ by {:.1f} pixels (median), expected at most {:.3g}; rectify "
-      "them first with 'wheatstone rectify'",
-      *pair.row_difference_px, pair.tolerated_row_difference_px);
+      "the pair was rectified: its rows differed by {:.1f} pixels (median; 95th percentile {:.1f}), now by {:.1f} "
+      "({:.1f})",
+      pair.photographed_rows->median_px, pair.photographed_rows->percentile_95_px, pair.rows->median_px,
+      pair.rows->percentile_95_px);
+}
+
+std::string row_warning(const PreparedPair& pair) {
+  if (!pair.rows || rows_fit(*pair.rows, pair.tolerated_rows_px)) return {};
+  const std::string rows =
+      fmt::format("rows differ by {:.1f} pixels (median; 95th percentile {:.1f}), expected at most {:.3g} ({:.3g})",
+                  pair.rows->median_px, pair.rows->percentile_95_px, pair.tolerated_rows_px,
+                  tail_to_median * pair.tolerated_rows_px);
+  if (pair.rectification) return fmt::format("after rectification, {}; disparities may be wrong", rows);
+  if (!pair.why_not_rectified.empty())
+    return fmt::format("the pictures are not rectified: their {}, and rectifying them failed: {}", rows,
+                       pair.why_not_rectified);
+  return fmt::format("the pictures are not rectified: their {}; rectify them with 'wheatstone rectify'", rows);
 }
 
 }  // namespace wheatstone

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "wheatstone/calibration/rectify.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
@@ -12,32 +13,42 @@ namespace wheatstone {
 
 /// Whether a pair is rectified before it is matched.
 enum class RectifyPolicy {
-  never,   ///< the pictures are taken as they are
-  always,  ///< as `rectify` does, from what the pictures have in common
+  automatic,  ///< where their rows do not fit, and rectifying makes them fit better; "auto"
+  never,      ///< the pictures are taken as they are
+  always,     ///< as `rectify` does, from what the pictures have in common
 };
 
 std::span<const std::string_view> rectify_policy_names();
 std::optional<RectifyPolicy> rectify_policy_by_name(std::string_view name);
 
 struct PreparePairOptions {
-  RectifyPolicy rectify = RectifyPolicy::never;
+  RectifyPolicy rectify = RectifyPolicy::automatic;
+  bool keep_size = false;  ///< as RectifyOptions has it
 };
 
 /// A pair that can be matched, and how well its rows fit.
 struct PreparedPair {
-  StereoPair pictures;  ///< upright, of one scene; rectified where that was asked for
-  bool rectified = false;
-  int compared_features = 0;                ///< that both pictures show
-  std::optional<double> row_difference_px;  ///< median |y_left − y_right| of those features; none: too few to tell
-  double tolerated_row_difference_px = 1;   ///< up to which a pair counts as rectified
+  StereoPair pictures;                                 ///< upright, of one scene; rectified where that was wanted
+  int compared_features = 0;                           ///< that both pictures show
+  std::optional<VerticalDisparity> photographed_rows;  ///< of the photographs; none: too few features to tell
+  std::optional<VerticalDisparity> rows;               ///< of `pictures`
+  double tolerated_rows_px = 1;                        ///< median up to which a pair counts as rectified
+  std::optional<Rectification> rectification;          ///< none: the pictures are the photographs
+  std::optional<ColourTransfer> colour;                ///< of a rectified pair, as RectifiedPair has it
+  std::string why_not_rectified;                       ///< where that was tried and failed; empty: it was not
 };
 
 /// Looks for what makes two pictures no pair, and rectifies them where that is wanted. The rows are measured on
-/// features (SIFT) of copies whose longer side is at most 960 pixels, a fifth of the time that matching takes. Throws
+/// features (SIFT) of copies whose longer side is at most 960 pixels, a fifth of the time that matching takes. Rows do
+/// not fit where their differences have a median above `tolerated_rows_px` or a 95th percentile above three times that.
+/// Throws
 /// Error{bad_input}: sizes differ; a picture is blank; one of them is upside down, turned by 90 degrees or mirrored
-/// against the other; they show different scenes; and as `rectify` where the pair is to be rectified.
+/// against the other; they show different scenes; and as `rectify` where the pair is always to be rectified.
 PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& options = {},
                           const Progress& progress = {});
+
+/// One sentence that says from which row difference to which a pair was rectified; empty where it was not.
+std::string rectified_note(const PreparedPair& pair);
 
 /// One sentence that names the row difference and what helps; empty where the rows fit or could not be compared.
 std::string row_warning(const PreparedPair& pair);

@@ -42,12 +42,15 @@ StereoPair turned(double degrees) {
   });
 }
 
+constexpr PreparePairOptions as_they_are{.rectify = RectifyPolicy::never};
+
 TEST(PreparePair, LeavesARectifiedPairAsItIs) {
   const PreparedPair prepared = prepare_pair(still());
   EXPECT_EQ(prepared.pictures.right, still().right);
-  EXPECT_FALSE(prepared.rectified);
+  EXPECT_FALSE(prepared.rectification);
+  EXPECT_EQ(rectified_note(prepared), "");
   EXPECT_GE(prepared.compared_features, 100);
-  EXPECT_LT(prepared.row_difference_px.value(), 0.3);
+  EXPECT_LT(prepared.rows.value().median_px, 0.3);
   EXPECT_EQ(row_warning(prepared), "");
 }
 
@@ -56,29 +59,70 @@ TEST(PreparePair, FindsPhotographsRectifiedThatAre) {
     const auto pair = shared_pair(name);
     if (!pair) GTEST_SKIP() << "no shared data";
     const PreparedPair prepared = prepare_pair(*pair);
-    EXPECT_LT(prepared.row_difference_px.value(), 0.25) << name;
+    EXPECT_LT(prepared.rows.value().median_px, 0.25) << name;
+    EXPECT_FALSE(prepared.rectification) << name;
     EXPECT_EQ(row_warning(prepared), "") << name;
   }
 }
 
 TEST(PreparePair, TellsByHowManyRowsAPairIsOff) {
   for (const int rows : {2, 12}) {
-    const PreparedPair prepared = prepare_pair(lowered(rows));
-    EXPECT_NEAR(prepared.row_difference_px.value(), rows, 0.3);
+    const PreparedPair prepared = prepare_pair(lowered(rows), as_they_are);
+    EXPECT_NEAR(prepared.rows.value().median_px, rows, 0.3);
     EXPECT_THAT(row_warning(prepared), testing::HasSubstr("wheatstone rectify"));
     EXPECT_THAT(row_warning(prepared), testing::HasSubstr(std::to_string(rows) + ".0 pixels"));
   }
-  const PreparedPair prepared = prepare_pair(turned(3));
-  EXPECT_GT(prepared.row_difference_px.value(), 3);
+  const PreparedPair prepared = prepare_pair(turned(3), as_they_are);
+  EXPECT_GT(prepared.rows.value().median_px, 3);
   EXPECT_NE(row_warning(prepared), "");
 }
 
 TEST(PreparePair, RectifiesWhereThatIsWanted) {
   const PreparedPair prepared = prepare_pair(turned(3), {.rectify = RectifyPolicy::always});
-  EXPECT_TRUE(prepared.rectified);
-  EXPECT_LT(prepared.row_difference_px.value(), 0.5);
+  EXPECT_TRUE(prepared.rectification);
+  EXPECT_THAT(rectified_note(prepared), testing::HasSubstr("its rows differed by"));
+  EXPECT_LT(prepared.rows.value().median_px, 0.5);
   EXPECT_EQ(row_warning(prepared), "");
-  EXPECT_LT(prepare_pair(prepared.pictures).row_difference_px.value(), 0.5) << "measured anew";
+  EXPECT_LT(prepare_pair(prepared.pictures).rows.value().median_px, 0.5) << "measured anew";
+}
+
+TEST(PreparePair, RectifiesByItselfWhereRowsDiffer) {
+  for (const int rows : {2, 12}) {
+    const PreparedPair prepared = prepare_pair(lowered(rows));
+    ASSERT_TRUE(prepared.rectification) << rows;
+    EXPECT_NEAR(prepared.photographed_rows.value().median_px, rows, 0.3);
+    EXPECT_LT(prepared.rows.value().median_px, 0.3);
+    EXPECT_EQ(row_warning(prepared), "");
+  }
+  // A shear leaves the median below a pixel, but not the rows at the sides.
+  const PreparedPair sheared = prepare_pair(with_right([](const cv::Mat& from, cv::Mat& to) {
+    const cv::Mat slant = (cv::Mat_<double>(2, 3) << 1, 0, 0, 0.0001, 1, 0.9);
+    cv::warpAffine(from, to, slant, from.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  }));
+  EXPECT_FALSE(sheared.rectification) << "0.9 px everywhere is tolerated";
+}
+
+TEST(PreparePair, KeepsTheSizeWhereThatIsWanted) {
+  const PreparedPair prepared = prepare_pair(turned(3), {.keep_size = true});
+  ASSERT_TRUE(prepared.rectification);
+  EXPECT_TRUE(same_size(prepared.pictures.left, still().left));
+  EXPECT_LT(prepare_pair(prepared.pictures, as_they_are).rows.value().median_px, 0.5) << "measured anew";
+}
+
+TEST(PreparePair, KeepsPicturesThatCannotBeRectifiedAndSaysWhy) {
+  // A part with enough features to see that its rows differ, and too few to estimate cameras from.
+  const StereoPair low = lowered(6);
+  StereoPair part{Image<Rgb8>(110, 80), Image<Rgb8>(110, 80)};
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 110; ++x) {
+      part.left(x, y) = low.left(x + 180, y + 160);
+      part.right(x, y) = low.right(x + 165, y + 160);
+    }
+  const PreparedPair prepared = prepare_pair(part);
+  ASSERT_TRUE(prepared.rows.has_value());
+  EXPECT_FALSE(prepared.rectification);
+  EXPECT_FALSE(prepared.why_not_rectified.empty());
+  EXPECT_THAT(row_warning(prepared), testing::HasSubstr(prepared.why_not_rectified));
 }
 
 TEST(PreparePair, RefusesAPictureThatIsTurnedOrMirrored) {
@@ -122,7 +166,7 @@ TEST(PreparePair, DoesNotJudgeWhereThereIsTooLittleToGoBy) {
   for (int y = 10; y < 30; ++y)
     for (int x = 20; x < 40; ++x) pair.left(x, y) = pair.right(x - 4, y) = {200, 180, 90};
   const PreparedPair prepared = prepare_pair(pair);
-  EXPECT_FALSE(prepared.row_difference_px.has_value());
+  EXPECT_FALSE(prepared.rows.has_value());
   EXPECT_EQ(row_warning(prepared), "");
 }
 

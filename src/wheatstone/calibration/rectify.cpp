@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
-#include "wheatstone/calibration/calibration_internal.h"
-#include "wheatstone/calibration/common_window_internal.h"
+#include "wheatstone/calibration/rectify_internal.h"
+#include "wheatstone/calibration/rectifying_map_internal.h"
 #include "wheatstone/calibration/rectifying_turn_internal.h"
 #include "wheatstone/calibration/vertical_disparity_internal.h"
+#include "wheatstone/calibration/warp_picture_internal.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/matching/match_features.h"
 #include "wheatstone/percentile.h"
 #include "wheatstone/stereo/fitting_pair.h"
 
@@ -22,20 +21,6 @@ namespace wheatstone {
 namespace {
 
 constexpr int least_features = 40;
-constexpr std::size_t least_inliers = 24;
-constexpr int least_side_px = 16;
-
-/// A picture brought to the turned camera, and 255 where the photograph covers it.
-struct TurnedPicture {
-  cv::Mat picture, covered;
-};
-
-void check(const StereoPair& pair) {
-  check_fits(pair);
-  if (pair.left.width() < least_side_px || pair.left.height() < least_side_px)
-    throw Error(ErrorKind::bad_input, fmt::format("the pictures are {}x{} pixels, expected at least {}x{}",
-                                                  pair.left.width(), pair.left.height(), least_side_px, least_side_px));
-}
 
 cv::Size size_of(const StereoPair& pair) { return {pair.left.width(), pair.left.height()}; }
 
@@ -51,11 +36,11 @@ SplitMatches split(std::span<const FeatureMatch> matches) {
   return result;
 }
 
-std::vector<FeatureMatch> fitting(std::span<const FeatureMatch> matches, const std::array<double, 9>& fundamental,
+std::vector<FeatureMatch> fitting(std::span<const FeatureMatch> matches, const RectifyingTurn& turn,
                                   double tolerance_px) {
   std::vector<FeatureMatch> result;
   for (const FeatureMatch& match : matches)
-    if (std::abs(sampson_distance(fundamental, match)) <= tolerance_px) result.push_back(match);
+    if (miss_of(turn, match) <= tolerance_px) result.push_back(match);
   return result;
 }
 
@@ -72,22 +57,14 @@ void check_features(const FeatureMatches& features) {
                                                   left, right, matches.size(), least_inliers));
 }
 
-/// Pictures of different scenes have matches too, and the geometry that most of these happen to agree with has inliers;
-/// but they are few against the features, and of few of the matches.
-bool shows_one_scene(const EpipolarGeometry& geometry, std::size_t matches, const FeatureMatches& features) {
-  constexpr double least_share_of_matches = 0.5, least_share_of_features = 0.02;
-  const auto inliers = static_cast<double>(geometry.inliers.size());
-  const double asked_share = static_cast<double>(matches) / static_cast<double>(features.matches.size());
-  return geometry.inliers.size() >= least_inliers && inliers >= least_share_of_matches * static_cast<double>(matches) &&
-         inliers >= least_share_of_features * asked_share * std::min(features.left_features, features.right_features);
-}
-
-void check_geometry(const EpipolarGeometry& geometry, std::size_t matches, const FeatureMatches& features) {
+void check_geometry(const EpipolarGeometry& geometry, std::size_t matches, const FeatureMatches& features,
+                    bool must_decide_cameras) {
   const std::size_t inliers = geometry.inliers.size();
   if (!shows_one_scene(geometry, matches, features))
     throw Error(ErrorKind::bad_input, fmt::format("only {} of {} matched points (of {} and {} distinct points) fit one "
                                                   "epipolar geometry: the two pictures do not show the same scene",
                                                   inliers, matches, features.left_features, features.right_features));
+  if (!must_decide_cameras) return;
   const int least_off_plane = std::max(12, static_cast<int>(0.02 * static_cast<double>(inliers)));
   if (geometry.off_plane < least_off_plane)
     throw Error(ErrorKind::bad_input,
@@ -95,22 +72,74 @@ void check_geometry(const EpipolarGeometry& geometry, std::size_t matches, const
                 "pictures were taken from the same position: expected a pair with depth, or a calibration");
 }
 
-/// The corners of the picture where they are taken to; refuses what turns a picture beyond recognition.
-std::vector<cv::Point2d> carried_corners(const cv::Matx33d& homography, cv::Size size) {
-  std::vector<cv::Point2d> corners;
-  const double width = size.width, height = size.height;
+/// Points around the outline of a picture, where they are taken to; refuses what turns a picture beyond recognition.
+std::vector<PicturePoint> rectified_outline(const RectifyingMap& map) {
+  const double width = map.width, height = map.height;
+  const std::vector<PicturePoint> outline{{0, 0},          {width / 2, 0},      {width, 0},  {width, height / 2},
+                                          {width, height}, {width / 2, height}, {0, height}, {0, height / 2}};
+  const cv::Matx33d homography(map.homography.data());
+  std::vector<PicturePoint> places;
+  std::vector<cv::Point2f> polygon;
   bool sane = true;
-  for (const PicturePoint& corner : {PicturePoint{0, 0}, {width, 0}, {width, height}, {0, height}}) {
-    sane = sane && homography(2, 0) * corner.x + homography(2, 1) * corner.y + homography(2, 2) > 0.2;
-    corners.push_back(carried(homography, corner));
+  for (const PicturePoint& point : outline) {
+    const PicturePoint straight = straightened_place(map, point);
+    sane = sane && homography(2, 0) * straight.x + homography(2, 1) * straight.y + homography(2, 2) > 0.2;
+    places.push_back(rectified_place(map, point));
+    polygon.emplace_back(static_cast<float>(places.back().x), static_cast<float>(places.back().y));
   }
-  const std::vector<cv::Point2f> outline(corners.begin(), corners.end());
-  const double growth = std::abs(cv::contourArea(outline)) / (width * height);
+  const double growth = cv::contourArea(polygon) / (width * height);
   if (!sane || !(growth > 0.4 && growth < 2.5))
     throw Error(ErrorKind::bad_input,
                 "the cameras' directions differ too much, or the camera moved forwards: expected two cameras side by "
                 "side that look in the same direction");
-  return corners;
+  return places;
+}
+
+/// Whether `better` explains matches that decided neither clearly better than `plain` does; each match is asked by
+/// `miss`. Matches that fit neither are wrong ones.
+template <class Miss>
+bool helps(const RectifyingTurn& better, const RectifyingTurn& plain, std::span<const FeatureMatch> held_out,
+           double tolerance_px, Miss miss) {
+  constexpr double clear_gain = 0.9;
+  const double most_px = 8 * tolerance_px;
+  double with = 0, without = 0;
+  for (const FeatureMatch& match : held_out) {
+    const double after = miss(better, match), before = miss(plain, match);
+    if (std::min(after, before) > most_px) continue;
+    with += std::min(after, most_px);
+    without += std::min(before, most_px);
+  }
+  return with < clear_gain * without;
+}
+
+double row_miss(const RectifyingTurn& turn, const FeatureMatch& match) {
+  return std::abs(rectified_place(turn.left, match.left).y - rectified_place(turn.right, match.right).y);
+}
+
+/// The turn that explains the matches, with a distortion of the lenses where it is not enough and that helps: a
+/// distortion that explains next to nothing would be bought with a needless turn.
+RectifyingTurn find_turn(const EpipolarGeometry& geometry, const SplitMatches& matches, cv::Size size,
+                         double tolerance_px) {
+  RectifyingTurn plain = find_rectifying_turn(geometry.inliers, size);
+  const std::vector<FeatureMatch> near = fitting(matches.deciding, plain, 8 * tolerance_px);
+  const std::vector<FeatureMatch> close = fitting(near, plain, 1.5 * tolerance_px);
+  if (close.size() >= least_inliers) plain = find_rectifying_turn(close, size);
+  const VerticalDisparity left_over =
+      vertical_disparity(rectified_matches(plain, fitting(matches.measuring, plain, 8 * tolerance_px)));
+  if (left_over.percentile_95_px <= 0.5 * tolerance_px) return plain;
+  RectifyingTurn radial = find_rectifying_turn(near, size, LensModel::radial);
+  const std::vector<FeatureMatch> close_to_radial = fitting(near, radial, 1.5 * tolerance_px);
+  if (close_to_radial.size() < least_inliers) return plain;
+  radial = find_rectifying_turn(close_to_radial, size, LensModel::radial);
+  return helps(radial, plain, matches.measuring, tolerance_px, miss_of) ? radial : plain;
+}
+
+/// Settles what is left of the rows, with a smooth field where that helps.
+void settle(RectifyingTurn& turn, const SplitMatches& matches, double tolerance_px) {
+  settle_rows(turn, fitting(matches.deciding, turn, 1.5 * tolerance_px));
+  RectifyingTurn smooth = turn;
+  settle_rows_smoothly(smooth, fitting(matches.deciding, turn, 4 * tolerance_px));
+  if (helps(smooth, turn, matches.measuring, tolerance_px, row_miss)) turn = smooth;
 }
 
 struct Estimate {
@@ -118,7 +147,7 @@ struct Estimate {
   std::vector<FeatureMatch> deciding, measuring;
 };
 
-Estimate estimate(const StereoPair& pair, const Progress& progress) {
+Estimate estimate(const StereoPair& pair, const RectifyOptions& options, const Progress& progress) {
   const cv::Size size = size_of(pair);
   const double tolerance = epipolar_tolerance_px(std::max(size.width, size.height));
   report(progress, "matching features", 0);
@@ -126,30 +155,24 @@ Estimate estimate(const StereoPair& pair, const Progress& progress) {
   check_features(features);
   report(progress, "estimating the cameras", 0.5);
   const SplitMatches matches = split(features.matches);
-  const EpipolarGeometry geometry = find_epipolar_geometry(matches.deciding, tolerance);
-  check_geometry(geometry, matches.deciding.size(), features);
+  EpipolarGeometry geometry = find_epipolar_geometry(matches.deciding, tolerance);
+  // A lens that bends straight lines leaves few matches close to the lines of straight ones.
+  constexpr double poor_lens = 4;
+  if (!shows_one_scene(geometry, matches.deciding.size(), features))
+    geometry = find_epipolar_geometry(matches.deciding, poor_lens * tolerance);
+  check_geometry(geometry, matches.deciding.size(), features, options.cameras_must_be_decided);
 
   Estimate found;
-  found.turn = find_rectifying_turn(geometry.inliers, size);
-  found.deciding = fitting(matches.deciding, found.turn.fundamental, 1.5 * tolerance);
+  found.turn = find_turn(geometry, matches, size, tolerance);
+  found.deciding = fitting(matches.deciding, found.turn, 1.5 * tolerance);
   if (found.deciding.size() < std::max<std::size_t>(least_inliers, geometry.inliers.size() / 2))
     throw Error(ErrorKind::bad_input,
                 "no camera rotation brings matching points to the same rows: expected two cameras side by side that "
                 "look in the same direction");
-  found.turn = find_rectifying_turn(found.deciding, size);
-  settle_rows(found.turn, found.deciding, size);
   // Wider than what decided, so that what fits badly is seen; without a limit wrong matches would be all that is seen.
-  found.measuring = fitting(matches.measuring, found.turn.fundamental, 4 * tolerance);
+  found.measuring = fitting(matches.measuring, found.turn, 4 * tolerance);
+  settle(found.turn, {matches.deciding, found.measuring}, tolerance);
   return found;
-}
-
-std::vector<FeatureMatch> carried_matches(const RectifyingTurn& turn, std::span<const FeatureMatch> matches) {
-  std::vector<FeatureMatch> result;
-  for (const FeatureMatch& match : matches) {
-    const cv::Point2d left = carried(turn.left, match.left), right = carried(turn.right, match.right);
-    result.push_back({{left.x, left.y}, {right.x, right.y}});
-  }
-  return result;
 }
 
 /// What must be added to all disparities so that the farthest match's is not below 0, with some room for what is
@@ -163,152 +186,91 @@ double shift_for(std::span<const FeatureMatch> matches, cv::Size size) {
 }
 
 /// Moves both turned pictures so that all that may be common to them begins at (0, 0); returns its size.
-cv::Size fit_canvas(RectifyingTurn& turn, cv::Size size) {
-  const std::vector<cv::Point2d> left = carried_corners(turn.left, size), right = carried_corners(turn.right, size);
-  const auto extent = [](const std::vector<cv::Point2d>& corners, double cv::Point2d::*axis) {
-    const auto [low, high] = std::ranges::minmax(corners, {}, axis);
-    return std::pair{low.*axis, high.*axis};
+cv::Size fit_canvas(RectifyingTurn& turn) {
+  const std::vector<PicturePoint> left = rectified_outline(turn.left), right = rectified_outline(turn.right);
+  const auto common = [&](double PicturePoint::*axis) {
+    const auto [left_low, left_high] = std::ranges::minmax(left, {}, axis);
+    const auto [right_low, right_high] = std::ranges::minmax(right, {}, axis);
+    return std::pair{std::floor(std::max(left_low.*axis, right_low.*axis)),
+                     std::ceil(std::min(left_high.*axis, right_high.*axis))};
   };
-  const auto common = [&](double cv::Point2d::*axis) {
-    const auto [left_low, left_high] = extent(left, axis);
-    const auto [right_low, right_high] = extent(right, axis);
-    return std::pair{std::floor(std::max(left_low, right_low)), std::ceil(std::min(left_high, right_high))};
-  };
-  const auto [x_low, x_high] = common(&cv::Point2d::x);
-  const auto [y_low, y_high] = common(&cv::Point2d::y);
+  const auto [x_low, x_high] = common(&PicturePoint::x);
+  const auto [y_low, y_high] = common(&PicturePoint::y);
   const cv::Matx33d move(1, 0, -x_low, 0, 1, -y_low, 0, 0, 1);
-  turn.left = move * turn.left;
-  turn.right = move * turn.right;
+  follow_with(turn.left, move);
+  follow_with(turn.right, move);
   return {std::max(static_cast<int>(x_high - x_low), 0), std::max(static_cast<int>(y_high - y_low), 0)};
 }
 
-TurnedPicture turned(const Image<Rgb8>& picture, const cv::Matx33d& homography, cv::Size canvas) {
-  // OpenCV counts from the centre of the first pixel.
-  const cv::Matx33d half(1, 0, 0.5, 0, 1, 0.5, 0, 0, 1), back(1, 0, -0.5, 0, 1, -0.5, 0, 0, 1);
-  const cv::Matx33d in_opencv = back * homography * half;
-  TurnedPicture result;
-  cv::warpPerspective(as_mat(picture), result.picture, in_opencv, canvas, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
-  const cv::Mat all(picture.height(), picture.width(), CV_8UC1, cv::Scalar(255));
-  cv::warpPerspective(all, result.covered, in_opencv, canvas, cv::INTER_NEAREST, cv::BORDER_CONSTANT);
-  return result;
+/// The largest rectangle within `window` of the shape of `size`, around its middle.
+cv::Rect2d of_shape(const cv::Rect& window, cv::Size size) {
+  const double scale =
+      std::min(static_cast<double>(window.width) / size.width, static_cast<double>(window.height) / size.height);
+  const double width = scale * size.width, height = scale * size.height;
+  return {window.x + (window.width - width) / 2, window.y + (window.height - height) / 2, width, height};
 }
 
-Image<Rgb8> cut(const cv::Mat& picture, const cv::Rect& window) {
-  Image<Rgb8> result(window.width, window.height);
-  picture(window).copyTo(as_mat(result));
-  return result;
-}
-
-cv::Rect common_window(const TurnedPicture& left, const TurnedPicture& right) {
-  const cv::Rect window = largest_rectangle_within(left.covered & right.covered);
-  if (std::min(window.width, window.height) < least_side_px)
+/// Crops both pictures to what both show.
+Rectification cropped(RectifyingTurn turn, const RectifyOptions& options) {
+  const cv::Size size(turn.left.width, turn.left.height);
+  const cv::Rect window = covered_window(turn.left, turn.right, fit_canvas(turn));
+  if (std::min(window.width, window.height) < least_rectified_side_px)
     throw Error(ErrorKind::bad_input, "the two rectified pictures have no common area");
-  return window;
-}
-
-void match_colours(RectifiedPair& result, std::span<const FeatureMatch> matches) {
-  result.colour = find_colour_transfer(result.pictures.left, result.pictures.right, matches);
-  if (result.colour) apply_colour_transfer(*result.colour, result.pictures.right);
-}
-
-TurnedPicture undistorted(const Image<Rgb8>& picture, const CameraModel& camera, const std::array<double, 9>& rotation,
-                          const std::array<double, 12>& projection) {
-  cv::Mat from_x, from_y;
-  const cv::Size size(picture.width(), picture.height());
-  cv::initUndistortRectifyMap(as_matrix(camera.matrix, 3), camera.distortion, as_matrix(rotation, 3),
-                              as_matrix(projection, 3), size, CV_32FC1, from_x, from_y);
-  TurnedPicture result;
-  cv::remap(as_mat(picture), result.picture, from_x, from_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
-  const cv::Mat all(size, CV_8UC1, cv::Scalar(255));
-  cv::remap(all, result.covered, from_x, from_y, cv::INTER_NEAREST, cv::BORDER_CONSTANT);
-  return result;
-}
-
-PicturePoint undistorted(const PicturePoint& point, const CameraModel& camera, const std::array<double, 9>& rotation,
-                         const std::array<double, 12>& projection, const cv::Rect& window) {
-  const std::vector<cv::Point2d> from{{point.x - 0.5, point.y - 0.5}};
-  std::vector<cv::Point2d> to;
-  cv::undistortPoints(from, to, as_matrix(camera.matrix, 3), camera.distortion, as_matrix(rotation, 3),
-                      as_matrix(projection, 3));
-  return {to[0].x + 0.5 - window.x, to[0].y + 0.5 - window.y};
-}
-
-/// Measures a calibrated pair by its features, where it has enough of them, and returns those in the new picture.
-std::vector<FeatureMatch> measure(const StereoPair& photographs, const StereoCalibration& calibration,
-                                  const cv::Rect& window, RectifiedPair& result) {
-  const FeatureMatches features = match_features(photographs.left, photographs.right);
-  const double tolerance = 2 * epipolar_tolerance_px(std::max(photographs.left.width(), photographs.left.height()));
-  const EpipolarGeometry geometry = find_epipolar_geometry(features.matches, tolerance);
-  if (features.matches.empty() || !shows_one_scene(geometry, features.matches.size(), features)) return {};
-  std::vector<FeatureMatch> after;
-  for (const FeatureMatch& match : geometry.inliers)
-    after.push_back(
-        {undistorted(match.left, calibration.left, calibration.left_rotation, calibration.left_projection, window),
-         undistorted(match.right, calibration.right, calibration.right_rotation, calibration.right_projection,
-                     window)});
-  result.measured_matches = static_cast<int>(after.size());
-  result.before = vertical_disparity(geometry.inliers);
-  result.after = vertical_disparity(after);
-  const double most_px = 4 * tolerance;
-  if (result.after.median_px > most_px)
-    throw Error(ErrorKind::bad_input, fmt::format("rows still differ by {:.1f} px after rectification: the calibration "
-                                                  "belongs to another rig, or the rig was moved after calibration",
-                                                  result.after.median_px));
-  return after;
+  const cv::Rect2d kept = options.keep_size ? of_shape(window, size) : cv::Rect2d(window);
+  const double scale = options.keep_size ? size.width / kept.width : 1;
+  const cv::Matx33d move(scale, 0, -scale * kept.x, 0, scale, -scale * kept.y, 0, 0, 1);
+  follow_with(turn.left, move);
+  follow_with(turn.right, move);
+  return {turn.left, turn.right, options.keep_size ? size.width : window.width,
+          options.keep_size ? size.height : window.height};
 }
 
 }  // namespace
 
-RectifiedPair rectify(const StereoPair& photographs, const RectifyOptions& options, const Progress& progress) {
-  check(photographs);
-  const cv::Size size = size_of(photographs);
-  Estimate found = estimate(photographs, progress);
-  report(progress, "rectifying", 0.8);
-  RectifiedPair result;
-  result.shift_px = shift_for(carried_matches(found.turn, found.deciding), size);
-  found.turn.right = cv::Matx33d(1, 0, -result.shift_px, 0, 1, 0, 0, 0, 1) * found.turn.right;
-
-  const cv::Size canvas = fit_canvas(found.turn, size);
-  if (canvas.empty()) throw Error(ErrorKind::bad_input, "the two rectified pictures have no common area");
-  const TurnedPicture left = turned(photographs.left, found.turn.left, canvas);
-  const TurnedPicture right = turned(photographs.right, found.turn.right, canvas);
-  const cv::Rect window = common_window(left, right);
-  result.pictures = {cut(left.picture, window), cut(right.picture, window)};
-
-  const cv::Matx33d move(1, 0, -window.x, 0, 1, -window.y, 0, 0, 1);
-  found.turn.left = move * found.turn.left;
-  found.turn.right = move * found.turn.right;
-  result.homographies.emplace();
-  std::copy_n(found.turn.left.val, 9, result.homographies->left.begin());
-  std::copy_n(found.turn.right.val, 9, result.homographies->right.begin());
-  result.measured_matches = static_cast<int>(found.measuring.size());
-  result.before = vertical_disparity(found.measuring);
-  result.after = vertical_disparity(carried_matches(found.turn, found.measuring));
-  if (options.match_colour) match_colours(result, carried_matches(found.turn, found.deciding));
-  report(progress, "rectifying", 1);
-  return result;
+void check_rectifiable(const StereoPair& pair) {
+  check_fits(pair);
+  if (pair.left.width() < least_rectified_side_px || pair.left.height() < least_rectified_side_px)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the pictures are {}x{} pixels, expected at least {}x{}", pair.left.width(),
+                            pair.left.height(), least_rectified_side_px, least_rectified_side_px));
 }
 
-RectifiedPair rectify(const StereoPair& photographs, const StereoCalibration& calibration,
-                      const RectifyOptions& options, const Progress& progress) {
-  check(photographs);
-  if (photographs.left.width() != calibration.width || photographs.left.height() != calibration.height)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("the pictures are {}x{} pixels, expected the calibration's {}x{}", photographs.left.width(),
-                            photographs.left.height(), calibration.width, calibration.height));
-  report(progress, "rectifying", 0);
-  const TurnedPicture left =
-      undistorted(photographs.left, calibration.left, calibration.left_rotation, calibration.left_projection);
-  const TurnedPicture right =
-      undistorted(photographs.right, calibration.right, calibration.right_rotation, calibration.right_projection);
-  const cv::Rect window = common_window(left, right);
+bool shows_one_scene(const EpipolarGeometry& geometry, std::size_t matches, const FeatureMatches& features) {
+  constexpr double least_share_of_matches = 0.5, least_share_of_features = 0.02;
+  const auto inliers = static_cast<double>(geometry.inliers.size());
+  const double asked_share = static_cast<double>(matches) / static_cast<double>(features.matches.size());
+  return geometry.inliers.size() >= least_inliers && inliers >= least_share_of_matches * static_cast<double>(matches) &&
+         inliers >= least_share_of_features * asked_share * std::min(features.left_features, features.right_features);
+}
+
+void match_colours(RectifiedPair& pair, std::span<const FeatureMatch> matches) {
+  pair.colour = find_colour_transfer(pair.pictures.left, pair.pictures.right, matches);
+  if (pair.colour) apply_colour_transfer(*pair.colour, pair.pictures.right);
+}
+
+StereoPair rectified(const StereoPair& photographs, const Rectification& how) {
+  const cv::Size size(how.width, how.height);
+  return {warped(photographs.left, how.left, size), warped(photographs.right, how.right, size)};
+}
+
+RectifiedPair rectify(const StereoPair& photographs, const RectifyOptions& options, const Progress& progress) {
+  check_rectifiable(photographs);
+  Estimate found = estimate(photographs, options, progress);
+  report(progress, "rectifying", 0.8);
   RectifiedPair result;
-  result.eyes_swapped = eyes_swapped(calibration);
-  result.pictures = {cut(left.picture, window), cut(right.picture, window)};
-  report(progress, "measuring", 0.3);
-  const std::vector<FeatureMatch> matches = measure(photographs, calibration, window, result);
-  if (options.match_colour) match_colours(result, matches);
-  report(progress, "measuring", 1);
+  result.shift_px = shift_for(rectified_matches(found.turn, found.deciding), size_of(photographs));
+  follow_with(found.turn.right, cv::Matx33d(1, 0, -result.shift_px, 0, 1, 0, 0, 0, 1));
+  const Rectification how = cropped(found.turn, options);
+  result.pictures = rectified(photographs, how);
+  result.rectification = how;
+  const auto after = [&](std::span<const FeatureMatch> matches) {
+    return rectified_matches({how.left, how.right, {}}, matches);
+  };
+  result.measured_matches = static_cast<int>(found.measuring.size());
+  result.before = vertical_disparity(found.measuring);
+  result.after = vertical_disparity(after(found.measuring));
+  if (options.match_colour) match_colours(result, after(found.deciding));
+  report(progress, "rectifying", 1);
   return result;
 }
 

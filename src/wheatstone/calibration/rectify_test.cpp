@@ -10,7 +10,7 @@
 #include "shared_data.h"
 #include "throws_error.h"
 #include "wheatstone/calibration/common_window_internal.h"
-#include "wheatstone/calibration/rectifying_turn_internal.h"
+#include "wheatstone/calibration/rectifying_map_internal.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/match_features.h"
@@ -60,9 +60,8 @@ std::vector<FeatureMatch> true_matches(const Image<float>& disparity) {
   for (int y = 0; y < size.height; y += 3) {
     for (int x = 0; x < size.width; x += 3) {
       if (visible(x, y) == 0) continue;
-      const cv::Point2d in_left = carried(left, {x + 0.5, y + 0.5});
-      const cv::Point2d in_right = carried(right, {x + 0.5 - static_cast<double>(disparity(x, y)), y + 0.5});
-      matches.push_back({{in_left.x, in_left.y}, {in_right.x, in_right.y}});
+      matches.push_back({carried(left, {x + 0.5, y + 0.5}),
+                         carried(right, {x + 0.5 - static_cast<double>(disparity(x, y)), y + 0.5})});
     }
   }
   return matches;
@@ -70,12 +69,10 @@ std::vector<FeatureMatch> true_matches(const Image<float>& disparity) {
 
 /// Where a rectification takes them.
 std::vector<FeatureMatch> rectified(const std::vector<FeatureMatch>& matches, const RectifiedPair& pair) {
-  const cv::Matx33d left(pair.homographies->left.data()), right(pair.homographies->right.data());
+  const auto& [left, right, width, height] = pair.rectification.value();
   std::vector<FeatureMatch> result;
-  for (const FeatureMatch& match : matches) {
-    const cv::Point2d in_left = carried(left, match.left), in_right = carried(right, match.right);
-    result.push_back({{in_left.x, in_left.y}, {in_right.x, in_right.y}});
-  }
+  for (const FeatureMatch& match : matches)
+    result.push_back({rectified_place(left, match.left), rectified_place(right, match.right)});
   return result;
 }
 
@@ -125,7 +122,9 @@ void expect_rows_agree(const StereoPair& photographs, const Image<float>& dispar
   EXPECT_TRUE(same_size(pair.pictures.left, pair.pictures.right));
   EXPECT_GT(found_by_matching(pair, truth), 0.87);
   RectifiedPair untouched{spoiled};
-  untouched.homographies = RectifyingHomographies{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  const int width = photographs.left.width(), height = photographs.left.height();
+  const RectifyingMap as_it_is{.width = width, .height = height};
+  untouched.rectification = Rectification{as_it_is, as_it_is, width, height};
   EXPECT_LT(found_by_matching(untouched, truth), 0.6);
 }
 
@@ -241,7 +240,7 @@ TEST(RectifyLong, FollowsACalibration) {
   const RectifiedPair pair = rectify(photographs, rig);
   EXPECT_LE(rows_differ(pair.pictures).median_px, 0.3);
   EXPECT_GT(pair.pictures.left.width(), photographs.left.width() / 2);
-  EXPECT_FALSE(pair.homographies);
+  EXPECT_FALSE(pair.rectification);
   expect_error(ErrorKind::bad_input, "expected the calibration's 1024x576", [&] { rectify(still().pictures, rig); });
 }
 

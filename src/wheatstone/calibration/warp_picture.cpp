@@ -1,0 +1,62 @@
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "wheatstone/calibration/common_window_internal.h"
+#include "wheatstone/calibration/rectifying_map_internal.h"
+#include "wheatstone/calibration/warp_picture_internal.h"
+#include "wheatstone/image/opencv_internal.h"
+
+namespace wheatstone {
+namespace {
+
+bool covers(const RectifyingMap& map, const cv::Matx33d& back, PicturePoint place) {
+  const PicturePoint there = photograph_place(map, back, place);
+  return there.x >= 0 && there.y >= 0 && there.x <= map.width && there.y <= map.height;
+}
+
+}  // namespace
+
+Image<Rgb8> warped(ImageView<const Rgb8> photograph, const RectifyingMap& map, cv::Size size) {
+  Image<Rgb8> result(size.width, size.height);
+  const cv::Mat from = as_mat(photograph);
+  cv::Mat to = as_mat(result);
+  const cv::Matx33d back = cv::Matx33d(map.homography.data()).inv();
+  constexpr int band_rows = 32;
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, size.height, band_rows), [&](const auto& rows) {
+    cv::Mat places(rows.end() - rows.begin(), size.width, CV_32FC2);
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      auto* row = places.ptr<cv::Vec2f>(y - rows.begin());
+      for (int x = 0; x < size.width; ++x) {
+        const PicturePoint there = photograph_place(map, back, {x + 0.5, y + 0.5});
+        // OpenCV counts from the centre of the first pixel.
+        row[x] = {static_cast<float>(there.x - 0.5), static_cast<float>(there.y - 0.5)};
+      }
+    }
+    cv::Mat band = to.rowRange(rows.begin(), rows.end());
+    cv::remap(from, band, places, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  });
+  return result;
+}
+
+cv::Rect covered_window(const RectifyingMap& left, const RectifyingMap& right, cv::Size size) {
+  // Looked at in cells, which count where their corners are covered: a photograph's outline is nearly straight.
+  const int cell = std::max(1, std::max(size.width, size.height) / 1000);
+  const cv::Matx33d left_back = cv::Matx33d(left.homography.data()).inv();
+  const cv::Matx33d right_back = cv::Matx33d(right.homography.data()).inv();
+  cv::Mat corners(size.height / cell + 1, size.width / cell + 1, CV_8UC1);
+  for (int y = 0; y < corners.rows; ++y)
+    for (int x = 0; x < corners.cols; ++x) {
+      const PicturePoint place{static_cast<double>(x * cell), static_cast<double>(y * cell)};
+      corners.at<std::uint8_t>(y, x) = covers(left, left_back, place) && covers(right, right_back, place) ? 255 : 0;
+    }
+  if (corners.rows < 2 || corners.cols < 2) return {};
+  const auto part = [&](int x, int y) { return corners(cv::Rect(x, y, corners.cols - 1, corners.rows - 1)); };
+  const cv::Mat cells = part(0, 0) & part(1, 0) & part(0, 1) & part(1, 1);
+  const cv::Rect found = largest_rectangle_within(cells);
+  return {found.x * cell, found.y * cell, found.width * cell, found.height * cell};
+}
+
+}  // namespace wheatstone
