@@ -15,6 +15,7 @@ namespace {
 constexpr auto redraw_interval = std::chrono::milliseconds(100);
 constexpr auto line_interval = std::chrono::seconds(10);
 constexpr auto time_is_shown_after = std::chrono::seconds(2);
+constexpr auto lines_begin_after = std::chrono::seconds(2);
 constexpr int bar_width = 30;
 
 /// "1:05" or "2:00:00".
@@ -52,10 +53,14 @@ void ProgressDisplay::show(std::string_view step, double done, Clock::time_point
   const double share = std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0.0;
   if (new_kind) begin(share, now);
   step_ = std::string(step);
-  if (style_ == Style::lines) {
-    if (!new_kind && now - drawn_ < line_interval) return;
+  if (style_ == Style::lines || style_ == Style::every_step) {
+    if (!first_) first_ = now;
+    if (style_ == Style::lines && now - *first_ < lines_begin_after) return;
+    const bool first_told = !told_step_ || first_word(*told_step_) != first_word(step);
+    if (!first_told && now - drawn_ < line_interval) return;
+    told_step_ = std::string(step);
     drawn_ = now;
-    put(new_kind ? fmt::format("{}\n", step) : fmt::format("{}: {:.0f} %{}\n", step, 100 * share, times(share, now)));
+    put(first_told ? fmt::format("{}\n", step) : fmt::format("{}: {:.0f} %{}\n", step, 100 * share, times(share, now)));
     return;
   }
   if (!new_kind && done < 1 && now - drawn_ < redraw_interval) return;

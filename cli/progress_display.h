@@ -8,12 +8,18 @@
 
 namespace wheatstone::cli {
 
-/// Shows how far a run is: a bar that redraws itself on a terminal; elsewhere a line a step, and one every ten seconds.
+/// Shows how far a run is: a bar that redraws itself on a terminal; elsewhere a line a step, and one every ten seconds,
+/// but nothing in a run's first two seconds.
 /// A step that takes longer than two seconds shows how long it has taken and how long it will still take.
 class ProgressDisplay {
  public:
   using Clock = std::chrono::steady_clock;
-  enum class Style { bar, lines, none };
+  enum class Style {
+    bar,
+    lines,
+    every_step,  ///< lines, also of the first two seconds
+    none
+  };
 
   /// `errors` must outlive the display.
   ProgressDisplay(Style style, std::ostream& errors) : style_(style), errors_(errors) {}
@@ -35,6 +41,8 @@ class ProgressDisplay {
   Style style_;
   std::ostream& errors_;
   std::optional<std::string> step_;
+  std::optional<Clock::time_point> first_;
+  std::optional<std::string> told_step_;
   Clock::time_point drawn_;
   Clock::time_point begun_;  ///< this kind of step
   double done_at_begin_ = 0;

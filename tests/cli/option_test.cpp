@@ -366,7 +366,7 @@ TEST(Progress, NamesEveryStage) {
   const TemporaryFolder folder;
   write_inputs(folder);
   const auto stages_of = [&](const Line& line) {
-    const ProgramResult result = run_program(line, {.folder = folder / ""});
+    const ProgramResult result = run_program(line, {.folder = folder / "", .every_step = true});
     EXPECT_EQ(result.exit_code, 0);
     return result.errors;
   };

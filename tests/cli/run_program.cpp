@@ -71,7 +71,8 @@ class CurrentFolder {
   fs::path before_;
 };
 
-ProgramResult run_here(const std::vector<std::string>& arguments, const fs::path& folder) {
+ProgramResult run_here(const std::vector<std::string>& arguments, const fs::path& folder,
+                       cli::ProgressDisplay::Style progress) {
   const TemporaryFolder scratch;
   ProgramResult result;
   std::ostringstream output;
@@ -82,7 +83,7 @@ ProgramResult run_here(const std::vector<std::string>& arguments, const fs::path
     const RedirectedDescriptor direct_output(STDOUT_FILENO, scratch / "output");
     const RedirectedDescriptor direct_errors(STDERR_FILENO, scratch / "errors");
     const CurrentFolder inside(folder);
-    result.exit_code = cli::run_command_line(arguments, output, errors);
+    result.exit_code = cli::run_command_line(arguments, output, errors, progress);
     std::fflush(nullptr);
   }
   result.output = bytes_of(scratch / "output") + output.str();
@@ -115,7 +116,9 @@ ProgramResult run_in_own_process(const std::vector<std::string>& arguments, cons
 
 ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramRun& run) {
   const bool here = !run.own_process && run.standard_output.empty() && run.largest_file == 0 && !run.while_running;
-  return here ? run_here(arguments, run.folder) : run_in_own_process(arguments, run);
+  using Style = cli::ProgressDisplay::Style;
+  return here ? run_here(arguments, run.folder, run.every_step ? Style::every_step : Style::lines)
+              : run_in_own_process(arguments, run);
 }
 
 std::set<std::string> files_in(const fs::path& folder) {

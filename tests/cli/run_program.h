@@ -20,6 +20,7 @@ struct ProgramResult {
 
 struct ProgramRun {
   std::filesystem::path folder = ".";
+  bool every_step = false;  ///< standard error names each step, also of a short run; in this process only
   // What needs a process of its own:
   bool own_process = false;
   std::filesystem::path standard_output;           ///< takes the output instead of the result, where it is given
