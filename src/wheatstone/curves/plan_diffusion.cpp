@@ -53,7 +53,8 @@ DiffusionPainting plan_diffusion(std::span<const SceneView> views, const Style& 
   return lines_beside_edges(scene, nullptr).painting;
 }
 
-DiffusionPainting plan_diffusion(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
+DiffusionPainting plan_diffusion(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                                 const Style& style) {
   check_style(style);
   check_fits(photographs, geometry);
   return plan_diffusion(scene_from_left(photographs, geometry), style);

@@ -18,6 +18,7 @@ namespace wheatstone {
 DiffusionPainting plan_diffusion(std::span<const SceneView> views, const Style& style);
 
 /// The same of a pair, with the left eye as reference view.
-DiffusionPainting plan_diffusion(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style);
+DiffusionPainting plan_diffusion(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                                 const Style& style);
 
 }  // namespace wheatstone

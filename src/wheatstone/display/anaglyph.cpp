@@ -98,7 +98,7 @@ Rgb8 mixed_as_encoded(const Recipe& recipe, Rgb8 left, Rgb8 right) {
 }
 
 template <class Mix>
-Image<Rgb8> mixed(const StereoPair& pair, Mix mix) {
+Image<Rgb8> mixed(const StereoPairView& pair, Mix mix) {
   Image<Rgb8> result(pair.left.width(), pair.left.height());
   tbb::parallel_for(0, result.height(), [&](int y) {
     const auto left = pair.left.row(y), right = pair.right.row(y);
@@ -111,13 +111,13 @@ Image<Rgb8> mixed(const StereoPair& pair, Mix mix) {
 
 std::span<const AnaglyphKind> anaglyph_kinds() { return kinds; }
 
-Image<Rgb8> anaglyph(const StereoPair& pair, const AnaglyphKind& kind) {
+Image<Rgb8> anaglyph(const StereoPairView& pair, const AnaglyphKind& kind) {
   const Recipe& recipe = recipe_of(kind);
   if (kind.linear_light)
     return mixed(pair, [&](Rgb8 left, Rgb8 right) { return mixed_in_linear_light(recipe, left, right); });
   return mixed(pair, [&](Rgb8 left, Rgb8 right) { return mixed_as_encoded(recipe, left, right); });
 }
 
-Image<Rgb8> anaglyph(const StereoPair& pair) { return anaglyph(pair, kinds.front()); }
+Image<Rgb8> anaglyph(const StereoPairView& pair) { return anaglyph(pair, kinds.front()); }
 
 }  // namespace wheatstone

@@ -22,9 +22,9 @@ std::span<const AnaglyphKind> anaglyph_kinds();
 /// One picture for glasses of that kind, the pair's size. Dubois' matrices (ICASSP 2001; his values for sRGB displays)
 /// are applied in linear light, each eye's part clipped before they are added. Kinds that ffmpeg has are equal to its
 /// filter's within rounding.
-Image<Rgb8> anaglyph(const StereoPair& pair, const AnaglyphKind& kind);
+Image<Rgb8> anaglyph(const StereoPairView& pair, const AnaglyphKind& kind);
 
 /// For red-cyan glasses.
-Image<Rgb8> anaglyph(const StereoPair& pair);
+Image<Rgb8> anaglyph(const StereoPairView& pair);
 
 }  // namespace wheatstone

@@ -8,7 +8,7 @@
 namespace wheatstone {
 namespace {
 
-Image<Rgb8> columns_of(const Image<Rgb8>& picture, int first, int count) {
+Image<Rgb8> columns_of(ImageView<const Rgb8> picture, int first, int count) {
   Image<Rgb8> part(count, picture.height());
   for (int y = 0; y < picture.height(); ++y)
     std::ranges::copy(picture.row(y).subspan(first, count), part.row(y).begin());
@@ -17,7 +17,7 @@ Image<Rgb8> columns_of(const Image<Rgb8>& picture, int first, int count) {
 
 }  // namespace
 
-Image<Rgb8> side_by_side(const StereoPair& pair) {
+Image<Rgb8> side_by_side(const StereoPairView& pair) {
   const int width = pair.left.width();
   Image<Rgb8> both(width + pair.right.width(), pair.left.height());
   for (int y = 0; y < both.height(); ++y) {
@@ -27,7 +27,7 @@ Image<Rgb8> side_by_side(const StereoPair& pair) {
   return both;
 }
 
-StereoPair set_convergence(const StereoPair& pair, float zero_parallax_px) {
+StereoPair set_convergence(const StereoPairView& pair, float zero_parallax_px) {
   const int width = pair.left.width();
   const int shift = std::clamp(static_cast<int>(std::lround(zero_parallax_px)), 1 - width, width - 1);
   const int common = width - std::abs(shift);

@@ -7,12 +7,12 @@
 namespace wheatstone {
 
 /// Left and right next to each other at full size, left on the left.
-Image<Rgb8> side_by_side(const StereoPair& pair);
+Image<Rgb8> side_by_side(const StereoPairView& pair);
 
 /// Moves the zero-parallax plane to where the disparity is `zero_parallax_px` (Stavrakis & Gelautz 2004, sec. 3.4): the
 /// pictures are shifted against each other by that many whole pixels and cropped to what both show, the same height and
 /// at least one column. Points nearer than the plane then stand in front of the screen.
-StereoPair set_convergence(const StereoPair& pair, float zero_parallax_px);
+StereoPair set_convergence(const StereoPairView& pair, float zero_parallax_px);
 
 /// The same for any number of views: each is moved by `disparity_px` to the left against the one on its left, in whole
 /// pixels from the middle view, and all are cropped to what all show, at least one column.

@@ -14,7 +14,7 @@
 
 namespace wheatstone {
 
-void check_one_size(const StereoPair& pair, ImageView<const float> left_disparity) {
+void check_one_size(const StereoPairView& pair, ImageView<const float> left_disparity) {
   if (same_size(pair.left, pair.right) && same_size(pair.left, left_disparity)) return;
   throw Error(ErrorKind::bad_input,
               fmt::format("measured pictures of {}x{} and {}x{} pixels with a disparity of {}x{}, expected one size",
@@ -42,7 +42,7 @@ Image<std::uint8_t> visible_in_both(ImageView<const float> left_disparity) {
   return visible;
 }
 
-LeftRightDifference measure_left_right_difference(const StereoPair& pair, ImageView<const float> left_disparity) {
+LeftRightDifference measure_left_right_difference(const StereoPairView& pair, ImageView<const float> left_disparity) {
   check_one_size(pair, left_disparity);
   const int width = pair.left.width(), height = pair.left.height();
   const Image<std::uint8_t> visible = visible_in_both(left_disparity);

@@ -19,7 +19,7 @@ struct LeftRightDifference {
 
 /// `left_disparity` is the truth, or what is taken for it; NaN where it is unknown. Throws Error{bad_input} where sizes
 /// differ.
-LeftRightDifference measure_left_right_difference(const StereoPair& pair, ImageView<const float> left_disparity);
+LeftRightDifference measure_left_right_difference(const StereoPairView& pair, ImageView<const float> left_disparity);
 
 /// Mean squared length of the luminance gradient (Sobel, in steps of 0..255 a pixel): what blurring takes away.
 double gradient_energy(ImageView<const Rgb8> picture);

@@ -31,14 +31,15 @@ StrokePainting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const 
   return plan_alone(planner, style, ScaledStyle(style, photograph.width()), {}, progress);
 }
 
-StrokePainting plan_right_only(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
+StrokePainting plan_right_only(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                               const Style& style) {
   return plan_occluded_part(photographs.right, geometry.right_disparity, geometry.right_occlusion, right_eye, style);
 }
 
 /// Stavrakis & Gelautz 2005, sec. 3.2: each layer is planned in the left eye and carried to the right; what only the
 /// right eye sees is planned there and carried back, and the next layer is planned against both.
-StrokePainting plan_with_strokes(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
-                                 const Progress& progress) {
+StrokePainting plan_with_strokes(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                                 const Style& style, const Progress& progress) {
   report(progress, "painting", 0);
   const ScaledStyle scaled(style, photographs.left.width());
   LayerPlanner left(photographs.left, geometry.left_disparity, left_eye, style);
@@ -68,7 +69,7 @@ StrokePainting joined(StrokePainting left, const StrokePainting& right) {
 }
 
 /// Draws both eyes of a planned painting.
-void draw_both(const StereoPair& photographs, const Style& style, PaintedPair& result) {
+void draw_both(const StereoPairView& photographs, const Style& style, PaintedPair& result) {
   DrawnView left, right;
   tbb::parallel_invoke([&] { left = draw_in_style(photographs.left, result.painting.strokes, left_eye, style); },
                        [&] { right = draw_in_style(photographs.right, result.painting.strokes, right_eye, style); });
@@ -79,12 +80,12 @@ void draw_both(const StereoPair& photographs, const Style& style, PaintedPair& r
 
 /// Stavrakis & Gelautz 2004, sec. 3.2: the left picture, warped, covers the right eye's paint. The few pixels that
 /// neither reaches show the photograph.
-void lay_left_over_right(const StereoGeometry& geometry, PaintedPair& result) {
+void lay_left_over_right(const StereoGeometryView& geometry, PaintedPair& result) {
   lay_over(warp_picture(result.pictures.left, geometry.left_disparity, left_eye, right_eye), result.pictures.right);
   result.right_bare_share = 0;
 }
 
-StrokePainting plan(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+StrokePainting plan(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                     const Progress& progress) {
   if (style.propagation == Propagation::strokes) return plan_with_strokes(photographs, geometry, style, progress);
   StrokePainting left, right;
@@ -109,7 +110,7 @@ StrokePainting plan(const StereoPair& photographs, const StereoGeometry& geometr
 }
 
 /// Plans the kinds of marks that are not strokes.
-void plan_other_marks(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+void plan_other_marks(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                       Painting& painting) {
   if (style.marks == Marks::regions) painting.regions = plan_posterised(photographs, geometry, style);
   if (style.marks == Marks::tiles) painting.regions = plan_mosaic(photographs, geometry, style);
@@ -126,7 +127,7 @@ void draw_other_marks(PaintedPair& result) {
   result.right_bare_share = right.bare_share;
 }
 
-PaintedPair paint_other_marks(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+PaintedPair paint_other_marks(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                               const Progress& progress) {
   PaintedPair result;
   result.painting.strokes.width = photographs.left.width();
@@ -152,7 +153,7 @@ void check_is_of_strokes(const Style& style) {
 
 }  // namespace
 
-StrokePainting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+StrokePainting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                              const Progress& progress) {
   check_style(style);
   check_is_of_strokes(style);
@@ -160,7 +161,7 @@ StrokePainting plan_painting(const StereoPair& photographs, const StereoGeometry
   return plan(photographs, geometry, style, progress);
 }
 
-PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                   const Progress& progress) {
   if (style.marks != Marks::strokes) return paint_other_marks(photographs, geometry, style, progress);
   PaintedPair result;

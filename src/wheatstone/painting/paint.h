@@ -26,13 +26,13 @@ struct PaintedPair {
 
 /// The strokes of a rectified pair's painting, not drawn. What it takes and throws is as for `paint`, but a style whose
 /// marks are not strokes is Error{wrong_usage}.
-StrokePainting plan_painting(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+StrokePainting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                              const Progress& progress = {});
 
 /// Paints a rectified pair so that its marks fuse. The geometry must have the pair's size and no unknown disparity.
 /// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not
 /// fit.
-PaintedPair paint(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                   const Progress& progress = {});
 
 /// One eye, painted alone.

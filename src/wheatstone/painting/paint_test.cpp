@@ -71,6 +71,39 @@ TEST(Paint, PaintingOfEveryKindOfMarksIsWrittenAndReadBackEqual) {
   }
 }
 
+/// A copy of an image in memory with a gap after each row.
+template <class Pixel>
+struct Lent {
+  static constexpr int gap = 5;
+  Image<Pixel> memory;
+
+  explicit Lent(const Image<Pixel>& image, Pixel in_gap) : memory(image.width() + gap, image.height(), in_gap) {
+    for (int y = 0; y < image.height(); ++y) std::ranges::copy(image.row(y), memory.row(y).begin());
+  }
+  operator ImageView<const Pixel>() const {
+    return {memory.pixels().data(), memory.width() - gap, memory.height(), memory.width()};
+  }
+};
+
+TEST(Paint, OfLentMemoryIsThatOfPairs) {
+  const StereoPair pair = test_scene::photographs();
+  const StereoGeometry geometry = test_scene::geometry();
+  const Lent left(pair.left, {255, 0, 255}), right(pair.right, {255, 0, 255});
+  const float unknown = std::numeric_limits<float>::quiet_NaN();
+  const Lent left_disparity(geometry.left_disparity, unknown), right_disparity(geometry.right_disparity, unknown);
+  const Lent<std::uint8_t> left_occlusion(geometry.left_occlusion, 255), right_occlusion(geometry.right_occlusion, 255);
+  for (const std::string_view name : {"impressionist", "colorist-wash", "posterise", "mosaic", "diffusion"}) {
+    Style style = style_by_name(name);
+    style.absolute_radii = true;
+    const PaintedPair own = paint(pair, geometry, style);
+    const PaintedPair lent =
+        paint({left, right}, {left_disparity, right_disparity, left_occlusion, right_occlusion}, style);
+    EXPECT_EQ(lent.painting, own.painting) << name;
+    EXPECT_EQ(lent.pictures.left, own.pictures.left) << name;
+    EXPECT_EQ(lent.pictures.right, own.pictures.right) << name;
+  }
+}
+
 /// The first frame of a film.
 PaintedFrame paint_first_frame(const Style& style, const Progress& progress) {
   const StereoPair eyes = test_scene::photographs();

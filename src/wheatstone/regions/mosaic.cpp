@@ -126,7 +126,7 @@ void carry(std::vector<MosaicTile>& tiles, const Flow& forward) {
 
 }  // namespace
 
-RegionPainting plan_mosaic(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
+RegionPainting plan_mosaic(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style) {
   return plan_regions(photographs, geometry, style, cut_tiles);
 }
 

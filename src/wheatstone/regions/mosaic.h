@@ -12,7 +12,7 @@ namespace wheatstone {
 /// of. A tile shows the mean colour of what it covers, lies on one surface and is bordered by a darker joint. Both eyes
 /// show the tiles of the left one; what only the right eye sees is tiled there. Throws Error: bad_input where the
 /// geometry does not fit, wrong_usage for a style that cannot be painted with.
-RegionPainting plan_mosaic(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style);
+RegionPainting plan_mosaic(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style);
 
 /// A tile of a mosaic in time.
 struct MosaicTile {

@@ -58,7 +58,7 @@ RegionPainting plan_regions(std::span<const SceneView> views, const Style& style
   return painting;
 }
 
-RegionPainting plan_regions(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+RegionPainting plan_regions(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                             const CutView& cut) {
   check_style(style);
   check_fits(photographs, geometry);

@@ -33,7 +33,7 @@ using CutView = std::function<void(const ViewToCut&, const Style&, RegionPaintin
 RegionPainting plan_regions(std::span<const SceneView> views, const Style& style, const CutView& cut);
 
 /// The same for a pair, with its left view as the reference.
-RegionPainting plan_regions(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style,
+RegionPainting plan_regions(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                             const CutView& cut);
 
 }  // namespace wheatstone

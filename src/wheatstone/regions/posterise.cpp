@@ -197,7 +197,8 @@ void cut_next(const ViewToCut& view, const FlowPair& flow, PosterisedMemory& mem
 
 }  // namespace
 
-RegionPainting plan_posterised(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style) {
+RegionPainting plan_posterised(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                               const Style& style) {
   std::vector<Rgb8> palette;
   const auto cut = [&](const ViewToCut& view, const Style&, RegionPainting& painting) {
     const Image<Rgb8> picture = without_grain(view.photograph, view.scale);

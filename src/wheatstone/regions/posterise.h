@@ -12,7 +12,8 @@ namespace wheatstone {
 /// into `style.colours` colours, connected pixels of one colour and one surface become a region. Both eyes show the
 /// regions of the left one; what only the right eye sees is cut there, into the same colours. Throws Error: bad_input
 /// where the geometry does not fit, wrong_usage for a style that cannot be painted with.
-RegionPainting plan_posterised(const StereoPair& photographs, const StereoGeometry& geometry, const Style& style);
+RegionPainting plan_posterised(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                               const Style& style);
 
 /// One colour of a palette, 0..255 a channel, finer than pixels have it.
 struct PaletteColour {

@@ -71,7 +71,7 @@ class LanczosRow {
   std::array<std::array<float, taps>, phases + 1> weights_{};
 };
 
-MappedEye map_forward(const Image<Rgb8>& picture, const Image<float>& disparity, ViewPosition eye) {
+MappedEye map_forward(ImageView<const Rgb8> picture, ImageView<const float> disparity, ViewPosition eye) {
   static const LanczosRow lanczos;
   WarpedColumns warped = warp_columns(disparity, eye, central_view);
   MappedEye mapped{Image<Rgb8>(picture.width(), picture.height()), std::move(warped.disparity)};
@@ -153,7 +153,7 @@ void merge_average(const MappedEye& right, MappedEye& left) {
 }
 
 /// The pixels of an eye whose points the central view hides or leaves out.
-Image<std::uint8_t> hidden_from_centre(const Image<float>& disparity, ViewPosition eye, const Image<float>& centre) {
+Image<std::uint8_t> hidden_from_centre(ImageView<const float> disparity, ViewPosition eye, const Image<float>& centre) {
   const float separation = central_view - eye;
   Image<std::uint8_t> hidden(disparity.width(), disparity.height());
   tbb::parallel_for(0, disparity.height(), [&](int y) {
@@ -171,7 +171,7 @@ Image<std::uint8_t> hidden_from_centre(const Image<float>& disparity, ViewPositi
 
 }  // namespace
 
-CentralView make_central_view(const StereoPair& pair, const StereoGeometry& geometry, CentralMerge merge) {
+CentralView make_central_view(const StereoPairView& pair, const StereoGeometryView& geometry, CentralMerge merge) {
   check_fits(pair);
   check_same_size("the left disparity", geometry.left_disparity, "the pictures'", pair.left);
   check_same_size("the right disparity", geometry.right_disparity, "the pictures'", pair.left);

@@ -22,7 +22,7 @@ struct CentralView {
 /// along the scan line; what neither eye maps to gets the smaller disparity of its neighbours and the colour there
 /// (Bukenberger et al. 2015, sec. 2.2). The geometry has no unknown disparities. Throws Error{bad_input} where it does
 /// not fit the pair.
-CentralView make_central_view(const StereoPair& pair, const StereoGeometry& geometry,
+CentralView make_central_view(const StereoPairView& pair, const StereoGeometryView& geometry,
                               CentralMerge merge = CentralMerge::visible);
 
 }  // namespace wheatstone

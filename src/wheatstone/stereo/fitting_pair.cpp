@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "wheatstone/error.h"
@@ -13,11 +14,11 @@ void check_sizes(std::string_view name, ImageSize found, std::string_view owner,
                                                   found.height, owner, expected.width, expected.height));
 }
 
-void check_fits(const StereoPair& pair) {
+void check_fits(const StereoPairView& pair) {
   check_same_size("the right picture", pair.right, "the left one's", pair.left);
 }
 
-void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {
+void check_fits(const StereoPairView& photographs, const StereoGeometryView& geometry) {
   if (photographs.left.empty()) throw Error(ErrorKind::bad_input, "the left picture has no pixels");
   check_fits(photographs);
   const auto check = [&](const auto& image, std::string_view name) {
@@ -27,9 +28,10 @@ void check_fits(const StereoPair& photographs, const StereoGeometry& geometry) {
   check(geometry.right_disparity, "the right disparity");
   check(geometry.left_occlusion, "the left occlusion mask");
   check(geometry.right_occlusion, "the right occlusion mask");
-  for (const Image<float>* disparity : {&geometry.left_disparity, &geometry.right_disparity})
-    for (const float value : disparity->pixels())
-      if (!std::isfinite(value)) throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
+  for (const ImageView<const float>& disparity : {geometry.left_disparity, geometry.right_disparity})
+    for (int y = 0; y < disparity.height(); ++y)
+      if (!std::ranges::all_of(disparity.row(y), [](float value) { return std::isfinite(value); }))
+        throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
 }
 
 }  // namespace wheatstone

@@ -21,9 +21,9 @@ void check_same_size(std::string_view name, const A& image, std::string_view own
 }
 
 /// Throws Error{bad_input} unless two pictures are of one size.
-void check_fits(const StereoPair& pair);
+void check_fits(const StereoPairView& pair);
 
 /// Throws Error{bad_input} unless photographs and geometry are of one size, not empty, and every disparity is known.
-void check_fits(const StereoPair& photographs, const StereoGeometry& geometry);
+void check_fits(const StereoPairView& photographs, const StereoGeometryView& geometry);
 
 }  // namespace wheatstone

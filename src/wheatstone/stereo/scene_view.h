@@ -18,10 +18,10 @@ struct SceneView {
 };
 
 /// The left eye as reference view, and what only the right one sees.
-std::vector<SceneView> scene_from_left(const StereoPair& pair, const StereoGeometry& geometry);
+std::vector<SceneView> scene_from_left(const StereoPairView& pair, const StereoGeometryView& geometry);
 
 /// The central view as reference, and what only the left and only the right eye sees.
-std::vector<SceneView> scene_from_centre(const CentralView& centre, const StereoPair& pair,
-                                         const StereoGeometry& geometry);
+std::vector<SceneView> scene_from_centre(const CentralView& centre, const StereoPairView& pair,
+                                         const StereoGeometryView& geometry);
 
 }  // namespace wheatstone

@@ -8,8 +8,8 @@
 #include "wheatstone/strokes/layer_planner.h"
 
 namespace wheatstone {
-StrokePainting plan_occluded_part(const Image<Rgb8>& photograph, const Image<float>& disparity,
-                                  const Image<std::uint8_t>& occlusion, ViewPosition view, const Style& style) {
+StrokePainting plan_occluded_part(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
+                                  ImageView<const std::uint8_t> occlusion, ViewPosition view, const Style& style) {
   const int width = photograph.width(), height = photograph.height();
   const float largest_radius_px = ScaledStyle(style, width).radii_px.front();
   const Image<std::uint8_t> seeds =

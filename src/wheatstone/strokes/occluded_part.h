@@ -9,7 +9,7 @@ namespace wheatstone {
 /// 2005, sec. 3.2). They are planned against a canvas that holds nothing else, from the photograph reduced to half its
 /// size: the part is small, and its cost is mostly that of looking at pictures. The layers are in full-size pixels,
 /// each in drawing order, their strokes not yet propagated. Photograph, disparity and mask are of one size.
-StrokePainting plan_occluded_part(const Image<Rgb8>& photograph, const Image<float>& disparity,
-                                  const Image<std::uint8_t>& occlusion, ViewPosition view, const Style& style);
+StrokePainting plan_occluded_part(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
+                                  ImageView<const std::uint8_t> occlusion, ViewPosition view, const Style& style);
 
 }  // namespace wheatstone
