@@ -8,9 +8,12 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <exception>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <thread>
 
+#include "print_facts.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
 
@@ -27,7 +30,11 @@ constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 enum class Ending { none, by_itself, from_outside };
 std::atomic<Ending> ending = Ending::none;
 std::atomic<bool> interrupted = false;
-std::atomic<bool> only_by_itself = false;
+// Never destroyed: the thread that ends the program may come after the end of main.
+std::function<std::string()>& what_is_kept() {
+  static auto* const kept = new std::function<std::string()>;
+  return *kept;
+}
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
 bool json_wanted = false;
 sem_t noted;
@@ -35,6 +42,17 @@ sem_t noted;
 /// Without the streams, which may be held by the run that does not react.
 void put(int descriptor, std::string_view text) {
   [[maybe_unused]] const auto written = ::write(descriptor, text.data(), text.size());
+}
+
+/// What the user is told of a run that another thread ends.
+std::string last_words() {
+  try {
+    if (const std::string kept = what_is_kept() ? what_is_kept()() : std::string(); !kept.empty())
+      return fmt::format("interrupted; {}", kept);
+  } catch (const std::exception&) {
+    return "interrupted";
+  }
+  return std::string(message);
 }
 
 /// Ends the program unless the run has ended itself, or has finished its outputs and only says so.
@@ -48,16 +66,17 @@ void end_from_outside() {
   remove_unfinished_outputs();
   constexpr int code = static_cast<int>(ErrorKind::interrupted);
   if (::isatty(STDERR_FILENO) != 0) put(STDERR_FILENO, "\r\033[K");  // the progress bar
-  put(STDERR_FILENO, fmt::format("wheatstone: {}\n", message));
+  const std::string words = last_words();
+  put(STDERR_FILENO, fmt::format("wheatstone: {}\n", words));
   if (json_wanted)
-    put(STDOUT_FILENO, fmt::format("{{\n  \"error\": \"{}\",\n  \"exit_code\": {}\n}}\n", message, code));
+    put(STDOUT_FILENO, json_text(nlohmann::ordered_json{{"error", words}, {"exit_code", code}}, 2) + "\n");
   ::_exit(code);
 }
 
 void wait_for_signal() {
   while (::sem_wait(&noted) != 0 && errno == EINTR) continue;
   std::this_thread::sleep_for(patience);
-  while (ending == Ending::none && !only_by_itself) {
+  while (ending == Ending::none) {
     end_from_outside();
     std::this_thread::sleep_for(50ms);
   }
@@ -93,7 +112,10 @@ void throw_if_interrupted() {
   if (interrupted) throw Error(ErrorKind::interrupted, std::string(message));
 }
 
-void end_only_by_itself() { only_by_itself = true; }
+void tell_what_is_kept(std::function<std::string()> kept) {
+  const auto hold = hold_outputs();
+  what_is_kept() = std::move(kept);
+}
 
 void run_is_over() {
   Ending before = Ending::none;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <string>
+
 namespace wheatstone::cli {
 
 /// From here on Ctrl-C, TERM and HUP are noted instead of ending the program at once. A run that reports progress ends
@@ -11,9 +14,9 @@ void watch_signals(bool json);
 /// Throws Error{interrupted} where a signal was noted.
 void throw_if_interrupted();
 
-/// This run is not ended from outside, because it has more to do then than to remove its unfinished outputs: it must
-/// report progress often enough.
-void end_only_by_itself();
+/// What a run that is ended says of what it leaves, instead of "nothing half-written is left"; asked when it ends.
+/// Empty: as usual.
+void tell_what_is_kept(std::function<std::string()> kept);
 
 /// The run is over, one way or the other, and only says so now: from here on a signal ends the program at once. Does
 /// not return where another thread already ends the run.

@@ -166,12 +166,14 @@ void refuse_options_without_effect(const CLI::App& command, const Arguments& arg
   if (known) refuse({"--flow"}, "with --truth", "the exact flow is read");
 }
 
+constexpr std::string_view how_to_continue = "use --resume to continue that run";
+
 RotoscopedFilm begin_or_resume(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
                                const Progress& progress) {
   try {
     return rotoscope_film(source, output, options, progress);
   } catch (const UnfinishedFilm& error) {
-    throw Error(error.kind(), fmt::format("{}; use --resume to continue that run", error.what()));
+    throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_to_continue));
   }
 }
 
@@ -179,7 +181,10 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.style = style_from(arguments.style, session.seed);
   arguments.options.frames.matching = match_options_from(arguments.matching);
   refuse_options_without_effect(command, arguments);
-  end_only_by_itself();  // what is painted is kept for --resume
+  tell_what_is_kept([output = fs::path(arguments.output), marks = arguments.options.marks] {
+    const std::optional<std::string> kept = unfinished_film(output, marks);
+    return kept ? fmt::format("{}; {}", *kept, how_to_continue) : std::string();
+  });
   RotoscopeFilmOptions options = arguments.options;
   if (!arguments.truth.empty()) {
     if (!arguments.from.empty() || arguments.frame_step != 1)

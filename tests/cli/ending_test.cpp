@@ -69,6 +69,7 @@ std::vector<std::vector<std::string>> long_stages() {
           {"match", left, right, "-o", "results", "--range", "0:600"},
           {"paint", left, right, "-o", "results"},
           {"rectify", left, right, "-o", "results"},
+          {"rotoscope", "frame_%04d.bmp", "-o", "results.mp4", "--style", "mosaic", "--layout", "mono"},
           {"pack", left, right, "--to", "wiggle", "-o", "results.webp"},
           {"calibrate", "--left", left, left, left, "--right", right, right, right, "-o", "results.yml"},
           {"render", "cloud.npy", "--views", "500", "--size", "1920x1080", "--save-slices", "s.exr", "-o", "results"},
@@ -86,6 +87,7 @@ TEST(Ending, OfALongStageTakesLessThanASecondAndLeavesNothing) {
     for (int x = 0; x < noise.width(); ++x)
       noise(x, y) = {static_cast<std::uint8_t>(blocks(x / block_px, y / block_px).r + random() % 50), 0, 0};
   for (const char* name : {"left.bmp", "right.bmp"}) write_image(folder / name, noise);
+  std::filesystem::create_symlink("left.bmp", folder / "frame_0001.bmp");
   write_particles(folder / "cloud.npy", 3'000'000);
   const std::set<std::string> before = files_in(folder / "");
   for (const std::vector<std::string>& line : long_stages()) {

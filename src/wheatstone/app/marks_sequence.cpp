@@ -13,6 +13,7 @@ namespace fs = std::filesystem;
 MarksSequence::MarksSequence(const fs::path& path, std::int64_t kept)
     : pattern_(frame_pattern(path).value()), hidden_(pattern_), held_(path) {
   hidden_.folder = work_folder_of(path);
+  held_.keep(kept > 0);
   std::error_code ignored;
   for (const std::int64_t number : numbers_of(hidden_))
     if (number > kept) fs::remove(hidden_.file(number), ignored);

@@ -18,6 +18,9 @@ class MarksSequence {
 
   void write(std::int64_t frame, const Painting& marks);
 
+  /// A program that ends at once leaves them: the frames of another output are kept, too.
+  void keep() { held_.keep(true); }
+
   /// Throws Error{bad_input} where the marks of one of the first `frames` frames are missing.
   void check(std::int64_t frames) const;
 
@@ -26,8 +29,6 @@ class MarksSequence {
 
   /// Nothing remains.
   void discard() { held_.remove(); }
-
-  std::filesystem::path folder() const { return hidden_.folder; }
 
  private:
   FramePattern pattern_;

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <mutex>
 #include <system_error>
 
 #include "wheatstone/app/marks_sequence_internal.h"
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/unfinished_outputs.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/struct_fields_internal.h"
 #include "wheatstone/video/frame_sequence.h"
@@ -67,15 +69,21 @@ class Output {
     const bool at_checkpoint = state.frames % frames_between_checkpoints_ == 0;
     // Before the segment of these frames is closed: each closed segment has its state.
     if (at_checkpoint) write_rotoscope_state(state_file(state.frames), state);
+    // The film's frames and their marks are kept together.
+    std::unique_lock<std::recursive_mutex> hold;
+    if (at_checkpoint) hold = hold_outputs();
     const Image<Rgb8>&left = painted.pictures.left, &right = painted.pictures.right;
     film_->write(
         {right.empty() ? left : put_together(left, right, layout_), source.pts, source.time_base, source.duration});
     if (!at_checkpoint) return;
+    if (marks_) marks_->keep();
     std::error_code ignored;
     fs::remove(state_file(state.frames - frames_between_checkpoints_), ignored);
   }
 
   std::vector<std::string> finish(const RotoscopeState& state, const Progress& progress) {
+    // From the film's name to those of the marks nothing may end the program.
+    const auto hold = hold_outputs();
     if (film_) {
       // Joining closes the last segment, and may be stopped, too.
       if (state.frames > frames_done()) write_rotoscope_state(state_file(state.frames), state);
@@ -90,13 +98,6 @@ class Output {
   void discard() {
     if (marks_) marks_->discard();
     if (film_) film_->discard();
-  }
-
-  /// The folders that hold what is done, for the user.
-  std::string folders() const {
-    std::string names = work_folder_of(path_).string();
-    if (marks_) names += " and " + marks_->folder().string();
-    return names;
   }
 
  private:
@@ -195,6 +196,14 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
                      options.marks.string(), static_cast<bool>(options.known));
 }
 
+std::optional<std::string> unfinished_film(const fs::path& output, const fs::path& marks) {
+  const std::int64_t frames = frames_kept(output);
+  if (frames == 0) return std::nullopt;
+  std::string folders = work_folder_of(output).string();
+  if (!marks.empty()) folders += " and " + work_folder_of(marks).string();
+  return fmt::format("the first {} frames are kept in {}", frames, folders);
+}
+
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
                               const Progress& progress) {
   Output out(output, options);
@@ -213,8 +222,9 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     const std::int64_t kept = out.frames_done();
     if (!can_go_on || kept == 0) out.discard();
     if (error.kind() == ErrorKind::interrupted && kept > 0)
-      throw UnfinishedFilm(ErrorKind::interrupted,
-                           fmt::format("interrupted; the first {} frames are kept in {}", kept, out.folders()));
+      throw UnfinishedFilm(
+          ErrorKind::interrupted,
+          fmt::format("interrupted; {}", unfinished_film(output, options.marks).value_or("nothing is kept")));
     throw;
   }
   film.loss = source.loss();

@@ -43,6 +43,10 @@ struct RotoscopedFilm {
 /// Everything in the options that decides a byte of the painted frames and marks, as text. `writing` is not in it.
 std::string recipe_of(const RotoscopeFilmOptions& options);
 
+/// What a run that was stopped has left to go on with, as "the first 8 frames are kept in a.mp4.part"; none where it
+/// has left nothing.
+std::optional<std::string> unfinished_film(const std::filesystem::path& output, const std::filesystem::path& marks);
+
 /// Paints a film (Bukenberger et al. 2015) into another, frame by frame, in memory that does not grow with its length.
 /// Every `frames_between_checkpoints` frames all that the rest depends on is saved beside the output, in
 /// "OUTPUT.part"; a run that is killed and resumed gives the same film. Marks get their names when the film is whole;
@@ -51,6 +55,7 @@ std::string recipe_of(const RotoscopeFilmOptions& options);
 /// output of the form "marks_%04d.wst" keeps marks and no pictures, and cannot be resumed: stopped, it leaves nothing.
 /// Throws as the reader, the writer and rotoscope_frame do, Error{wrong_usage} where marks of such names exist, and
 /// Error{bad_input} after the film is written where the source is damaged, unless `keep_going`.
+/// A program that must end at once leaves as little (remove_unfinished_outputs).
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const std::filesystem::path& output,
                               const RotoscopeFilmOptions& options, const Progress& progress = {});
 

@@ -12,6 +12,7 @@ namespace fs = std::filesystem;
 struct Outputs {
   std::recursive_mutex mutex;
   std::set<fs::path> unfinished;
+  std::set<fs::path> kept;
   bool some_finished = false;
 };
 
@@ -25,6 +26,7 @@ Outputs& outputs() {
 
 UnfinishedOutput::~UnfinishedOutput() {
   if (temporary_.empty()) return;
+  if (const auto hold = hold_outputs(); outputs().kept.erase(temporary_) > 0) return;
   // Not under the lock: a large folder takes its time, and may be removed by two threads at once.
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);
@@ -39,21 +41,30 @@ void UnfinishedOutput::begin(fs::path temporary, const std::function<void()>& ma
   outputs().unfinished.insert(temporary_);
 }
 
+void UnfinishedOutput::keep(bool kept) {
+  if (temporary_.empty()) return;
+  const auto hold = hold_outputs();
+  outputs().unfinished.erase(temporary_);
+  outputs().kept.erase(temporary_);
+  (kept ? outputs().kept : outputs().unfinished).insert(temporary_);
+}
+
 void UnfinishedOutput::finish(const std::function<void()>& rename) {
   if (temporary_.empty()) return;
   const auto hold = hold_outputs();
   rename();
   outputs().unfinished.erase(temporary_);
+  outputs().kept.erase(temporary_);
   temporary_.clear();
   // What is written inside an unfinished folder is no result yet.
-  if (outputs().unfinished.empty()) outputs().some_finished = true;
+  if (outputs().unfinished.empty() && outputs().kept.empty()) outputs().some_finished = true;
 }
 
 std::unique_lock<std::recursive_mutex> hold_outputs() { return std::unique_lock(outputs().mutex); }
 
 bool outputs_are_finished() {
   const auto hold = hold_outputs();
-  return outputs().some_finished && outputs().unfinished.empty();
+  return outputs().some_finished && outputs().unfinished.empty() && outputs().kept.empty();
 }
 
 void remove_unfinished_outputs() {

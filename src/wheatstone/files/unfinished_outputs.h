@@ -19,6 +19,10 @@ class UnfinishedOutput {
   /// Calls `make`, which creates what has this temporary name. What `make` throws is passed on; then nothing is begun.
   void begin(std::filesystem::path temporary, const std::function<void()>& make);
 
+  /// Whether it stays under its temporary name when it is not finished, because another run goes on with it. What is
+  /// finished inside it is no result yet. Nothing to do where nothing was begun.
+  void keep(bool kept);
+
   /// Calls `rename`, which gives the output its real name, and is done with it. What `rename` throws is passed on; then
   /// the output remains unfinished. Nothing to do where nothing was begun.
   void finish(const std::function<void()>& rename);
@@ -33,7 +37,7 @@ class UnfinishedOutput {
 /// Whether outputs were finished and none is unfinished: what remains of a run is to say so.
 bool outputs_are_finished();
 
-/// Removes all unfinished outputs of this process.
+/// Removes all unfinished outputs of this process but those that are kept.
 void remove_unfinished_outputs();
 
 }  // namespace wheatstone

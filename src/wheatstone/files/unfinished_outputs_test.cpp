@@ -36,6 +36,23 @@ TEST(UnfinishedOutputs, AreFinishedWhenTheLastHasItsName) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / ""), {}), 2);
 }
 
+TEST(UnfinishedOutputs, ThatAreKeptStay) {
+  const TemporaryFolder folder;
+  {
+    UnfinishedOutput kept, other;
+    kept.begin(folder / "kept", [&] { put_bytes(folder / "kept", "1"); });
+    other.begin(folder / "other", [&] { put_bytes(folder / "other", "1"); });
+    kept.keep(true);
+    other.keep(true);
+    other.keep(false);
+    remove_unfinished_outputs();
+    EXPECT_TRUE(std::filesystem::exists(folder / "kept"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "other"));
+    EXPECT_FALSE(outputs_are_finished());
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "kept"));
+}
+
 TEST(UnfinishedOutputs, AreNotBegunWhereTheyCannotBeMade) {
   const TemporaryFolder folder;
   put_bytes(folder / "foreign", "not ours");

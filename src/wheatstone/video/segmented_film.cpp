@@ -70,6 +70,13 @@ FilmWriterOptions options_of_segments(const FilmWriterOptions& options, bool is_
 
 }  // namespace
 
+std::int64_t frames_kept(const fs::path& film) {
+  std::int64_t frames = 0;
+  for (std::int64_t number = 0; const auto times = segment_times(work_folder_of(film), number); ++number)
+    frames += static_cast<std::int64_t>(times->size());
+  return frames;
+}
+
 struct SegmentedFilm::Implementation {
   Implementation(const fs::path& name, const FilmWriterOptions& wanted, const SegmentOptions& segments)
       : path(name),
@@ -96,6 +103,7 @@ struct SegmentedFilm::Implementation {
       frames_done += static_cast<std::int64_t>(times->size());
       ++whole_segments;
     }
+    held->keep(frames_done > 0);
   }
 
   void close_segment() {
@@ -104,6 +112,7 @@ struct SegmentedFilm::Implementation {
     frames_done += static_cast<std::int64_t>(segment->size());
     segment.reset();
     ++whole_segments;
+    held->keep(true);
   }
 
   void join_as_pictures(const Progress& progress) {

@@ -26,6 +26,9 @@ struct SegmentOptions {
   bool resume = true;                            ///< false: what an earlier run has left is refused
 };
 
+/// How many frames a film that is not finished has in closed files; 0 where there is none.
+std::int64_t frames_kept(const std::filesystem::path& film);
+
 /// A film that takes long to make and may be killed at any moment. Beside `out.mp4` lies a folder `out.mp4.part` with a
 /// manifest and closed files of `frames_per_segment` frames each, every one coded afresh. `finish` joins them, without
 /// coding again, into the film, copies the side streams, and removes the folder. Destroyed before, it leaves the

@@ -47,19 +47,25 @@ WorkFolder::WorkFolder(fs::path output) : folder_(work_folder_of(output)) {
                   fmt::format("{}: another run is painting it; expected another name, or wait until that run has ended",
                               output.string()));
     }
-    if (is_there(lock_, file)) return;
+    if (is_there(lock_, file)) break;
     ::close(lock_);
   }
+  const auto hold = hold_outputs();
+  unfinished_.begin(folder_, [] {});
+  unfinished_.keep(true);
 }
 
 WorkFolder::~WorkFolder() {
+  unfinished_.keep(true);
   if (lock_ >= 0) ::close(lock_);
 }
 
 void WorkFolder::remove() {
+  const auto hold = hold_outputs();
   // While it is held: another run must not begin in a folder that is going away.
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
+  unfinished_.finish([] {});
   if (lock_ >= 0) ::close(std::exchange(lock_, -1));
 }
 

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "wheatstone/files/unfinished_outputs.h"
+
 namespace wheatstone {
 
 /// The folder beside an output that takes long to make: "out.mp4.part" of "out.mp4".
@@ -20,12 +22,16 @@ class WorkFolder {
 
   std::filesystem::path file(const std::filesystem::path& name) const { return folder_ / name; }
 
+  /// Whether it stays where the program ends at once (UnfinishedOutput); it does unless this says otherwise.
+  void keep(bool kept) { unfinished_.keep(kept); }
+
   /// Removes the folder with all that is in it.
   void remove();
 
  private:
   std::filesystem::path folder_;
   int lock_ = -1;
+  UnfinishedOutput unfinished_;
 };
 
 }  // namespace wheatstone
