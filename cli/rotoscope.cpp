@@ -163,7 +163,7 @@ void refuse_options_without_effect(const CLI::App& command, const Arguments& arg
            "it works with strokes");
   if (arguments.options.frames.anew)
     refuse({"--flow", "--fade-in", "--fade-out"}, "with --frame-by-frame", "nothing is carried from frame to frame");
-  if (known) refuse({"--flow"}, "with --truth", "the exact flow is read");
+  if (known) refuse({"--flow", "--rectify"}, "with --truth", "the exact flow and disparity are read");
 }
 
 constexpr std::string_view how_to_continue = "use --resume to continue that run";
@@ -212,7 +212,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   StereoFilmReader source = open_film(film, reading);
   if (source.layout() == StereoLayout::mono && film.right.empty()) {
     refuse_group(command, match_options_group, {}, "on a film of one eye", {});
-    refuse_options(command, {"--central"}, "on a film of one eye", {});
+    refuse_options(command, {"--central", "--rectify"}, "on a film of one eye", {});
   }
   if (session.verbose && film.right.empty())
     fmt::print(session.errors, "layout: {} ({})\n", layout_name(source.layout()), source.layout_how());
@@ -277,6 +277,12 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
 void add_time_options(CLI::App& command, Arguments& arguments) {
   constexpr auto group = "Time and depth";
   RotoscopeOptions& frames = arguments.options.frames;
+  static constexpr std::array policies{std::pair{std::string_view("auto"), RectifyPolicy::automatic},
+                                       std::pair{std::string_view("never"), RectifyPolicy::never},
+                                       std::pair{std::string_view("always"), RectifyPolicy::always}};
+  add_choice<RectifyPolicy>(command, "--rectify", frames.rectify, policies,
+                            "Whether the eyes are rectified, once a scene; auto: where their rows differ")
+      ->group(group);
   static constexpr std::array flows{std::pair{std::string_view("farneback"), FlowMethod::farneback},
                                     std::pair{std::string_view("dis"), FlowMethod::dis}};
   add_choice<FlowMethod>(command, "--flow", frames.flow, flows,

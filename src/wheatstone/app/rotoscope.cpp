@@ -68,6 +68,37 @@ StereoGeometry find_geometry(const FrameTask& task, RotoscopeState& state) {
   return match(task.eyes, matching, task.progress).geometry;
 }
 
+bool scene_begins(const StereoPair& eyes, const RotoscopeState& state, const KnownFrame* known) {
+  if (state.left_before.empty()) return true;
+  if (known != nullptr && known->flow) return tells_cut(*known->flow);
+  return find_cut(state.left_before, eyes.left).cut;
+}
+
+/// The frame as its scene is rectified. Until a scene has shown whether its rows fit, later frames are measured too.
+StereoPair rectify_frame(const FrameTask& photographed, RotoscopeState& state, RotoscopedFrame& result) {
+  constexpr std::int64_t frames_between_looks = 24;
+  const StereoPair& eyes = photographed.eyes;
+  const KnownFrame* known = photographed.known;
+  if (eyes.right.empty() || known != nullptr) {
+    result.scene_begins = scene_begins(eyes, state, known);
+    return eyes;
+  }
+  StereoPair frame = rectified(eyes, state.rectification);
+  result.scene_begins = scene_begins(frame, state, known);
+  const bool look_again = !state.rectification.measured && state.frames_of_scene % frames_between_looks == 0;
+  if (!result.scene_begins && !look_again) return frame;
+  MeasuredScene scene = measure_scene(eyes, photographed.options.rectify, photographed.progress);
+  // A scene that says nothing is taken as the one before was: it is the same rig.
+  if (!scene.rectification.measured) {
+    state.rectification.measured = false;
+    return frame;
+  }
+  result.rows_note = std::move(scene.note);
+  result.scene_begins = result.scene_begins || scene.rectification.how;
+  state.rectification = std::move(scene.rectification);
+  return rectified(eyes, state.rectification);
+}
+
 /// A film of one eye: all on the screen.
 FrameAtWork single_view(const StereoPair& eyes) {
   FrameAtWork frame;
@@ -75,12 +106,6 @@ FrameAtWork single_view(const StereoPair& eyes) {
   frame.centre.picture = eyes.left;
   frame.geometry.left_disparity = frame.centre.disparity;
   return frame;
-}
-
-bool scene_begins(const StereoPair& eyes, const RotoscopeState& state, const KnownFrame* known) {
-  if (state.left_before.empty()) return true;
-  if (known != nullptr && known->flow) return tells_cut(*known->flow);
-  return find_cut(state.left_before, eyes.left).cut;
 }
 
 FlowPair find_flow(const FrameAtWork& frame, const FrameTask& task, const RotoscopeState& state) {
@@ -126,11 +151,11 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
 
 }  // namespace
 
-RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
+RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known, const Progress& progress) {
-  check_sizes(eyes, state);
+  check_sizes(photographed, state);
   RotoscopedFrame result;
-  result.scene_begins = scene_begins(eyes, state, known);
+  const StereoPair eyes = rectify_frame({photographed, options, known, progress}, state, result);
   if (result.scene_begins) {
     state.frames_of_scene = 0;
     state.flow_before = {};

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "wheatstone/app/scene_rectification.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/motion/flow.h"
 #include "wheatstone/painting/paint_frame.h"
@@ -17,6 +19,8 @@ struct RotoscopeOptions {
   Style style;
   /// Where it has no range, one is found for each scene.
   MatchOptions matching{.matcher = Matcher::sgbm};
+  /// Asked once a scene, and of no effect where a frame's geometry is known.
+  RectifyPolicy rectify = RectifyPolicy::automatic;
   int widest_matched_px = 1280;  ///< wider frames are matched in copies of this width
   int widest_flow_px = 960;      ///< and their flow is found in copies of this one
   FlowMethod flow = FlowMethod::farneback;
@@ -47,11 +51,12 @@ struct RotoscopeTotals {
 struct RotoscopeState {
   std::int64_t frames = 0;
   std::int64_t frames_of_scene = 0;
-  Image<Rgb8> left_before;     ///< the left eye's picture
+  Image<Rgb8> left_before;     ///< the left eye's picture, as all of these of the rectified frame
   Image<Rgb8> central_before;  ///< the central view's
   Image<float> left_disparity_before, central_disparity_before;
   FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
   std::optional<DisparityRange> range;
+  SceneRectification rectification;
   PaintingMemory memory;
   std::vector<Layer> layers_before;  ///< the strokes as they were drawn, to tell what became of them
   RotoscopeTotals totals;
@@ -68,10 +73,12 @@ struct RotoscopedFrame {
   StrokeCounts counts;
   StrokeChanges changes;  ///< from the frame before; nothing where a scene begins
   bool scene_begins = false;
-  RotoscopeTimes times;  ///< beside those of painting
+  std::string rows_note;  ///< as MeasuredScene has it, where the frame was measured
+  RotoscopeTimes times;   ///< beside those of painting
 };
 
-/// Paints the next frame of a film (Bukenberger et al. 2015): finds its disparity, merges the eyes into the central
+/// Paints the next frame of a film (Bukenberger et al. 2015): rectifies it as its scene's first frame asks for, finds
+/// its disparity, merges the eyes into the central
 /// view, finds the flow there from the frame before, and paints what that flow carries on. `eyes.right` is empty for a
 /// film of one eye. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size, wrong_usage for
 /// options that make no sense. What `progress` throws, between its steps and while it matches, ends it: then `state` is

@@ -171,6 +171,8 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const Roto
     const RotoscopedFrame painted = rotoscope_frame(eyes, options.frames, state, known ? &*known : nullptr, within);
     output.write(painted, frame, state);
     add(painted, film);
+    if (!painted.rows_note.empty())
+      film.notes.push_back(fmt::format("from frame {} on, {}", film.frames, painted.rows_note));
     frame.left = std::move(eyes.left);
     frame.right = std::move(eyes.right);
   }
@@ -215,7 +217,7 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     film = paint_frames(source, out, options, progress, state);
     painted = true;
     report(progress, "joining", 0);
-    film.notes = out.finish(state, progress);
+    for (std::string& note : out.finish(state, progress)) film.notes.push_back(std::move(note));
   } catch (const Error& error) {
     const bool can_go_on =
         painted || error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;

@@ -11,6 +11,7 @@
 #include "rotoscope-state_generated.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/stereo/reduced_pair.h"
 #include "wheatstone/struct_fields_internal.h"
 
 namespace wheatstone {
@@ -20,7 +21,9 @@ using flatbuffers::Offset;
 using Builder = flatbuffers::FlatBufferBuilder;
 
 // Whoever adds a member to one of these adds it to the schema, to `encode` and to `decode`.
-static_assert(field_count<RotoscopeState>() == 11 && field_count<RotoscopeTotals>() == 6 &&
+static_assert(field_count<RotoscopeState>() == 12 && field_count<SceneRectification>() == 3 &&
+              field_count<Rectification>() == 4 && field_count<RectifyingMap>() == 5 &&
+              field_count<ColourTransfer>() == 2 && field_count<RotoscopeTotals>() == 6 &&
               field_count<PaintingMemory>() == 4 && field_count<StrokeMemory>() == 3 &&
               field_count<TrackedLayer>() == 2 && field_count<StrokeTrack>() == 5 && field_count<Layer>() == 3 &&
               field_count<Stroke>() == 9 && field_count<PosterisedMemory>() == 3 && field_count<MosaicTile>() == 8 &&
@@ -78,6 +81,13 @@ state::Edge stored(const CarriedEdge& e) {
           e.view};
 }
 
+state::RectifyingMap stored(const RectifyingMap& map) {
+  return {map.straightening, flatbuffers::make_span(map.homography), flatbuffers::make_span(map.row_correction)};
+}
+state::ColourTransfer stored(const ColourTransfer& c) {
+  return {flatbuffers::make_span(c.gain), flatbuffers::make_span(c.gamma)};
+}
+
 Rgb8 taken(const state::Rgb& c) { return {c.r(), c.g(), c.b()}; }
 SampledColour taken(const state::Sample& c) { return {c.r(), c.g(), c.b()}; }
 ControlPoint taken(const state::Point& p) { return {p.x(), p.y(), p.disparity()}; }
@@ -107,6 +117,19 @@ CarriedEdge taken(const state::Edge& e) {
           .colours = {taken(e.first()), taken(e.second())},
           .disparities = {e.first_disparity(), e.second_disparity()},
           .view = e.view()};
+}
+
+RectifyingMap taken(const state::RectifyingMap& from, PictureSize size) {
+  RectifyingMap map{.width = size.width, .height = size.height, .straightening = from.straightening()};
+  std::copy_n(from.homography()->begin(), map.homography.size(), map.homography.begin());
+  std::copy_n(from.row_correction()->begin(), map.row_correction.size(), map.row_correction.begin());
+  return map;
+}
+ColourTransfer taken(const state::ColourTransfer& from) {
+  ColourTransfer transfer;
+  std::copy_n(from.gain()->begin(), 3, transfer.gain.begin());
+  std::copy_n(from.gamma()->begin(), 3, transfer.gamma.begin());
+  return transfer;
 }
 
 template <class Value>
@@ -142,6 +165,14 @@ auto encode(const Image<std::uint8_t>& image, Builder& builder) {
 auto encode(const Flow& flow, Builder& builder) {
   const auto x = encode(flow.x, builder), y = encode(flow.y, builder);
   return state::CreateFlow(builder, x, y);
+}
+
+auto encode(const SceneRectification& scene, Builder& builder) {
+  state::RectifyingMap left, right;
+  if (scene.how) left = stored(scene.how->left), right = stored(scene.how->right);
+  const state::ColourTransfer colour = stored(scene.colour.value_or(ColourTransfer{}));
+  return state::CreateRectification(builder, scene.measured, scene.how ? &left : nullptr, scene.how ? &right : nullptr,
+                                    scene.colour ? &colour : nullptr);
 }
 
 auto encode(const Layer& layer, Builder& builder) {
@@ -240,6 +271,16 @@ class Decoder {
     return result;
   }
 
+  SceneRectification rectification(const state::Rectification& from, const Image<Rgb8>& frame) const {
+    SceneRectification scene{.measured = from.measured()};
+    expect((from.left() == nullptr) == (from.right() == nullptr));
+    const PictureSize size{frame.width(), frame.height()};
+    if (from.left() != nullptr)
+      scene.how = Rectification{taken(*from.left(), size), taken(*from.right(), size), size.width, size.height};
+    if (from.colour() != nullptr) scene.colour = taken(*from.colour());
+    return scene;
+  }
+
   PaintingMemory memory(const state::RotoscopeState& from, const Image<Rgb8>& frame) const;
   RotoscopeState state(const state::RotoscopeState& from) const;
 
@@ -286,6 +327,7 @@ RotoscopeState Decoder::state(const state::RotoscopeState& from) const {
   if (from.range() != nullptr) state.range = DisparityRange{from.range()->least(), from.range()->largest()};
   state.left_before = image<Rgb8>(*from.left_before());
   const Image<Rgb8>& frame = state.left_before;
+  state.rectification = rectification(*from.rectification(), frame);
   state.central_before = frame_image<Rgb8>(*from.central_before(), frame);
   state.left_disparity_before = frame_image<float>(*from.left_disparity_before(), frame);
   state.central_disparity_before = frame_image<float>(*from.central_disparity_before(), frame);
@@ -324,14 +366,15 @@ std::string encode_rotoscope_state(const RotoscopeState& state) {
   const auto diffusion_disparity = encode(memory.diffusion.disparity, builder);
   const auto diffusion_edges = encode(memory.diffusion.edges, builder);
   const auto edges = encode_all(memory.diffusion.points, builder);
+  const auto rectification = encode(state.rectification, builder);
   const RotoscopeTotals& t = state.totals;
   const state::Totals totals(t.scenes, t.whole_strokes, t.survived_strokes, t.popped_strokes, t.strokes,
                              t.worst_bare_share);
   const DisparityRange found = state.range.value_or(DisparityRange{});
   const state::Range range(found.least, found.largest);
   builder.Finish(state::CreateRotoscopeState(
-      builder, state.frames, state.frames_of_scene, &totals, state.range ? &range : nullptr, left, central,
-      left_disparity, central_disparity, forward, backward, layers_before, views, reference_disparity,
+      builder, state.frames, state.frames_of_scene, &totals, state.range ? &range : nullptr, rectification, left,
+      central, left_disparity, central_disparity, forward, backward, layers_before, views, reference_disparity,
       memory.strokes.last_number, palette, colour_of, posterised_mean, posterised_frames, tiles, diffusion_mean,
       diffusion_frames, diffusion_disparity, diffusion_edges, edges));
   return rotoscope_state_with_checksum(
