@@ -49,6 +49,7 @@ struct PaintingGuards {
 struct Measured {
   PairMeasures stylised;
   std::optional<PairMeasures> photographs;
+  std::optional<WrongSpots> wrong_spots;  ///< against the photographs
   std::optional<PaintingGuards> painting;
 };
 
@@ -101,6 +102,7 @@ Json to_json(const Measured& measured) {
     facts["right_gradient_energy_of_photograph"] =
         ratio(stylised.right_gradient_energy, measured.photographs->right_gradient_energy);
   }
+  if (measured.wrong_spots) facts["wrong_spots"] = Json::parse(wrong_spots_json(*measured.wrong_spots));
   facts["right_gradient_energy_of_left"] = ratio(stylised.right_gradient_energy, stylised.left_gradient_energy);
   if (measured.painting) {
     const PaintingGuards& guards = *measured.painting;
@@ -148,10 +150,14 @@ void print_table(const Measured& measured, const Session& session) {
     fmt::print(session.output, "{:<30}{:>12}\n", "  right of its photograph",
                kept(measured.stylised.right_gradient_energy, measured.photographs->right_gradient_energy));
   }
-  if (!measured.painting) return;
   const auto line = [&session](const char* name, const std::string& value) {
     fmt::print(session.output, "{:<30}{:>12}\n", name, value);
   };
+  if (measured.wrong_spots) {
+    line("wrong spots per 100 000 px", fmt::format("{:.1f}", measured.wrong_spots->spots_per_100000_px));
+    line("  share of the pixels", fmt::format("{:.3f} %", 100 * measured.wrong_spots->share));
+  }
+  if (!measured.painting) return;
   const PaintingGuards& guards = *measured.painting;
   line("strokes", fmt::format("{}", guards.strokes.strokes));
   line("  in both eyes, of visible", fmt::format("{:.1f} %", 100 * guards.strokes.paired_share));
@@ -181,7 +187,10 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 
   Measured measured;
   measured.stylised = measure_pair(stylised, truth.left_disparity);
-  if (photographs) measured.photographs = measure_pair(*photographs, truth.left_disparity);
+  if (photographs) {
+    measured.photographs = measure_pair(*photographs, truth.left_disparity);
+    measured.wrong_spots = measure_wrong_spots(stylised, *photographs);
+  }
   if (!arguments.painting.empty()) measured.painting = measure_guards(arguments, stylised, truth.geometry);
   if (session.json) {
     print_facts(to_json(measured), session);

@@ -30,6 +30,10 @@ Json to_json(const StrokeMeasures& m) {
           {"shape_differs_share", rounded(m.shape_differs_share)}};
 }
 
+Json to_json(const WrongSpots& spots) {
+  return {{"spots_per_100000_px", rounded(spots.spots_per_100000_px)}, {"share", rounded(spots.share)}};
+}
+
 Json layers_json(const StrokePainting& painting) {
   Json layers = Json::array();
   for (const Layer& layer : painting.layers)
@@ -53,9 +57,12 @@ PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPh
   measures.photographs = measure_pair(photographs, left_disparity);
   report(progress, "measuring", 0.9);
   measures.strokes = measure_strokes(result.painted.painting.strokes, result.geometry);
+  measures.wrong_spots = measure_wrong_spots(result.painted.pictures, photographs);
   report(progress, "measuring", 1);
   return measures;
 }
+
+std::string wrong_spots_json(const WrongSpots& spots) { return to_json(spots).dump(2); }
 
 std::string pair_measures_json(const PairMeasures& measures) { return to_json(measures).dump(2); }
 
@@ -114,7 +121,8 @@ std::string report_json(const PaintingReport& told) {
   if (measures != nullptr) {
     report["measures"] = {{"painting", to_json(measures->painting)},
                           {"photographs", to_json(measures->photographs)},
-                          {"strokes", to_json(measures->strokes)}};
+                          {"strokes", to_json(measures->strokes)},
+                          {"wrong_spots", to_json(measures->wrong_spots)}};
   }
   return report.dump(2) + "\n";
 }

@@ -4,6 +4,7 @@
 
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/calibration/prepare_pair.h"
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
@@ -14,11 +15,15 @@ struct PaintingMeasures {
   PairMeasures painting;
   PairMeasures photographs;
   StrokeMeasures strokes;
+  WrongSpots wrong_spots;
 };
 
 /// `left_disparity` is the truth, or what is taken for it; NaN where unknown.
 PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPhotograph& result,
                                   ImageView<const float> left_disparity, const Progress& progress = {});
+
+/// Wrong spots as a JSON object.
+std::string wrong_spots_json(const WrongSpots& spots);
 
 /// The measures of one pair as a JSON object, in the words of the command line.
 std::string pair_measures_json(const PairMeasures& measures);

@@ -1,0 +1,59 @@
+#include "wheatstone/measures/wrong_spots.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "throws_error.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr Rgb8 grey{100, 100, 100}, white{255, 255, 255};
+
+Image<Rgb8> with_square(int x, int y, int side, Rgb8 colour) {
+  Image<Rgb8> picture(640, 100, grey);
+  for (int row = y; row < y + side; ++row)
+    for (int column = x; column < x + side; ++column) picture(column, row) = colour;
+  return picture;
+}
+
+TEST(WrongSpots, AreNoneInThePhotographItself) {
+  const Image<Rgb8> photograph = with_square(300, 40, 10, white);
+  EXPECT_EQ(measure_wrong_spots(photograph, photograph).spots_per_100000_px, 0);
+}
+
+TEST(WrongSpots, AreColoursThatAreNowhereNear) {
+  const Image<Rgb8> photograph(640, 100, grey);
+  const WrongSpots spots = measure_wrong_spots(with_square(300, 40, 10, white), photograph);
+  EXPECT_DOUBLE_EQ(spots.spots_per_100000_px, 1e5 / 64000);
+  EXPECT_DOUBLE_EQ(spots.share, 100.0 / 64000);
+}
+
+TEST(WrongSpots, AreNotWhatOnlyMovedAFewPixels) {
+  const Image<Rgb8> photograph = with_square(300, 40, 10, white);
+  EXPECT_EQ(measure_wrong_spots(with_square(304, 40, 10, white), photograph).share, 0);
+  EXPECT_GT(measure_wrong_spots(with_square(305, 40, 10, white), photograph).share, 0);
+}
+
+TEST(WrongSpots, CountFromFourPixelsOnAndByDistance) {
+  const Image<Rgb8> photograph(640, 100, grey);
+  EXPECT_EQ(measure_wrong_spots(with_square(300, 40, 1, white), photograph).share, 0);
+  EXPECT_GT(measure_wrong_spots(with_square(300, 40, 2, white), photograph).share, 0);
+  EXPECT_EQ(measure_wrong_spots(with_square(300, 40, 9, {134, 134, 134}), photograph).share, 0) << "58.9 away";
+  EXPECT_GT(measure_wrong_spots(with_square(300, 40, 9, {135, 135, 135}), photograph).share, 0) << "60.6 away";
+}
+
+TEST(WrongSpots, OfAPairAreThoseOfBothEyes) {
+  const Image<Rgb8> photograph(640, 100, grey);
+  const StereoPair painted{with_square(300, 40, 10, white), photograph}, photographs{photograph, photograph};
+  EXPECT_DOUBLE_EQ(measure_wrong_spots(painted, photographs).spots_per_100000_px, 1e5 / 128000);
+}
+
+TEST(WrongSpots, NeedOneSize) {
+  expect_error(ErrorKind::bad_input, "expected the photograph's 10x10",
+               [] { measure_wrong_spots(Image<Rgb8>(10, 9), Image<Rgb8>(10, 10)); });
+}
+
+}  // namespace
+}  // namespace wheatstone
