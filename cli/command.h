@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 
 #include "wheatstone/progress.h"
@@ -17,7 +18,8 @@ struct Session {
   bool quiet = false;  ///< no progress and no remarks, only errors
   int threads = 0;     ///< 0: as many as the machine has
   std::uint64_t seed = 1;
-  Progress progress;  ///< draws the bar and throws Error{interrupted} after Ctrl-C
+  Progress progress;                     ///< draws the bar and throws Error{interrupted} after Ctrl-C
+  std::function<void()> clear_progress;  ///< takes the bar away, before something else is said on `errors`
 };
 
 /// Ends a command that has said itself what went wrong.

@@ -133,13 +133,14 @@ void put_depth(ordered_json& facts, const StereoPair& pair, const std::string& d
 
 /// Where a picture's views are and how that is known; nothing of an ordinary picture.
 void put_views(ordered_json& facts, const fs::path& path, const std::string& layout, const std::string& display) {
-  ReadViewsOptions options;
-  if (!layout.empty()) options.layout = layout_by_name(layout);
+  const ReadViewsOptions options = layout.empty() ? ReadViewsOptions() : options_for_layout(layout);
   try {
     const std::optional<ViewsFile> file = find_views(path, options);
     if (!file) return;
     facts["stereo"] = describe_views(*file);
-    facts["layout"] = file->layout ? std::string(layout_name(*file->layout)) : file->kind;
+    facts["layout"] = file->scan     ? std::string(traits_of(*file->scan).name)
+                      : file->layout ? std::string(layout_name(*file->layout))
+                                     : file->kind;
     facts["layout_known"] = how_known_words(file->how_known);
     facts["views"] = file->views.size();
     facts["view_width"] = file->views.front().width();

@@ -85,6 +85,7 @@ int run_program(std::span<const std::string> arguments, Session& session, Progre
       throw_if_interrupted();
       display->show(step, done);
     };
+    session.clear_progress = [&display] { display->clear(); };
     if (session.threads > 0) thread_limit.emplace(session.threads);
   });
 

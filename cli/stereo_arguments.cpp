@@ -29,7 +29,9 @@ void check_sizes(const StereoPair& pair, const std::string& left, const std::str
 }
 
 void tell(const Session& session, std::string_view line) {
-  if (!session.quiet) fmt::print(session.errors, "{}\n", line);
+  if (session.quiet) return;
+  session.clear_progress();
+  fmt::print(session.errors, "{}\n", line);
 }
 
 /// The two views that are painted or matched: neighbours in the middle where there are more.
@@ -39,8 +41,7 @@ StereoPair middle_pair(ViewsFile& file) {
 }
 
 NamedPair read_one_file(const StereoArguments& arguments) {
-  ReadViewsOptions options;
-  if (!arguments.layout.empty()) options.layout = layout_by_name(arguments.layout);
+  ReadViewsOptions options = arguments.layout.empty() ? ReadViewsOptions() : options_for_layout(arguments.layout);
   options.swap = arguments.swap;
   std::optional<ViewsFile> found = find_views(arguments.left, options);
   if (!found)
@@ -84,7 +85,7 @@ NamedPair read_two_files(const StereoArguments& arguments) {
 void add_layout_options(CLI::App& command, StereoArguments& arguments) {
   command.add_option("--layout", arguments.layout,
                      fmt::format("Layout of one file that holds both views: {}; detected by default",
-                                 fmt::join(layout_names(), ", ")));
+                                 fmt::join(photograph_layout_names(), ", ")));
   command.add_flag("--swap", arguments.swap, "Swap the two views");
 }
 

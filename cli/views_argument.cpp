@@ -87,8 +87,7 @@ ReadViews take_quilt(const ViewsArguments& arguments, const std::string& file) {
 /// The views that a picture holds.
 ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::string& file, const Progress& progress) {
   report(progress, "reading", 0);
-  ReadViewsOptions options;
-  if (!arguments.layout.empty()) options.layout = layout_by_name(arguments.layout);
+  const ReadViewsOptions options = arguments.layout.empty() ? ReadViewsOptions() : options_for_layout(arguments.layout);
   std::optional<ViewsFile> found = find_views(file, options);
   if (!found)
     throw Error(ErrorKind::bad_input,
@@ -96,6 +95,7 @@ ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::stri
                             "two views of one scene; expected more files, or --layout where it holds both views",
                             file));
   std::string how = describe_views(*found);
+  if (!found->note.empty()) how += "; " + found->note;
   return {std::move(found->views), std::move(how)};
 }
 
@@ -137,7 +137,7 @@ void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
       ->required();
   command.add_option("--layout", arguments.layout,
                      fmt::format("Layout of one picture that holds both views: {}; detected by default",
-                                 fmt::join(layout_names(), ", ")));
+                                 fmt::join(photograph_layout_names(), ", ")));
   command.add_option("--from-quilt", arguments.quilt, "Read the picture as a quilt of COLUMNSxROWS views");
   command.add_flag("--swap", arguments.swap, "Reverse the order of the views: they are stored from right to left");
   add_number(command, "--views", arguments.views, {1, 1000}, "Number of views to make from slices")->default_str("");

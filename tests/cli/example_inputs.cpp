@@ -9,6 +9,7 @@
 
 #include "cli/run_program.h"
 #include "scenes/checkerboard_picture.h"
+#include "scenes/stereograph_card.h"
 #include "scenes/test_photographs.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/write_image.h"
@@ -100,6 +101,12 @@ const std::map<std::string, Maker>& makers() {
       {"right.png", right},
       {"right.jpg", right},
       {"photograph.mpo", make_multi_picture},
+      {"card.png", [](const fs::path& path) { write_image(path, make_card(photographs(), {.width = 600}).picture); }},
+      {"glasses.png",
+       [](const fs::path& path) {
+         make_with_program(
+             {"pack", example_input("left.png"), example_input("right.png"), "--to", "colour", "-o", path});
+       }},
       {"one.mpo", make_multi_picture},
       {"two.mpo", make_multi_picture},
       {"three.mpo", make_multi_picture},

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "scenes/stereograph_card.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
@@ -74,6 +75,35 @@ TEST(Photograph, OfEachKindSaysHowItWasUnderstood) {
   }
 }
 
+TEST(Photograph, OfAScanSaysWhatItIs) {
+  const TemporaryFolder folder;
+  const ProgramRun here{.folder = folder / ""};
+  write_image(folder / "left.png", still().left);
+  write_image(folder / "right.png", still().right);
+  write_image(folder / "card.png", make_card(still(), {.width = 800, .turn_deg = 0.6}).picture);
+  for (const char* output : {"glasses.png", "two.gif", "two.webp"}) {
+    const bool is_anaglyph = std::string(output) == "glasses.png";
+    const ProgramResult packed = run_program(
+        {"pack", "left.png", "right.png", "--to", is_anaglyph ? "colour" : "wiggle", "-o", output, "--quiet"}, here);
+    ASSERT_EQ(packed.exit_code, 0) << packed.errors;
+  }
+  using Words = std::vector<std::string>;
+  const std::pair<Words, std::string> cases[] = {
+      {{"card.png", "--layout", "card"}, "card.png: two photographs on a mount (given); windows of 33"},
+      {{"glasses.png", "--layout", "anaglyph-red-cyan"}, "both are grey"},
+      {{"two.gif"}, "two.gif: GIF, 2 pictures (from its metadata); the first frame is used for the left eye"},
+      {{"two.webp"}, "two.webp: WEBP, 2 pictures"}};
+  for (const auto& [words, line] : cases) {
+    const ProgramResult result = match_one(folder, words);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr(line));
+    Words pack{"pack"};
+    pack.insert(pack.end(), words.begin(), words.end());
+    pack.insert(pack.end(), {"--to", "left-right", "-o", "packed.png", "--quiet"});
+    EXPECT_EQ(run_program(pack, here).exit_code, 0);
+  }
+}
+
 TEST(Photograph, IsPaintedFromOneFile) {
   const TemporaryFolder folder;
   put_mpo(folder / "a.mpo", still().left, still().right);
@@ -108,7 +138,8 @@ TEST(Photograph, ThatIsNoPairIsRefused) {
     expect_refused(folder, {command, "mixed_sbs.png", "-o", "results"}, 3,
                    "mixed_sbs.png (side by side, left eye left (from its name)): the pictures show different scenes");
     expect_refused(folder, {command, "left.png", "-o", "results"}, 3, "left.png: is one picture");
-    expect_refused(folder, {command, "left.png", "--layout", "anaglyph", "-o", "results"}, 2, "cannot be separated");
+    expect_refused(folder, {command, "left.png", "--layout", "anaglyph", "-o", "results"}, 2, "anaglyph-red-cyan");
+    expect_refused(folder, {command, "left.png", "--layout", "card", "-o", "results"}, 3, "no two windows");
     expect_refused(folder, {command, "left.png", "--layout", "woven", "-o", "results"}, 2, "left-right-half");
     // With a layout, each file that `paint` takes is a photograph of its own.
     expect_refused(folder, {command, "left.png", "left.png", "--layout", "tb", "-o", "results"}, 2,

@@ -92,8 +92,9 @@ std::optional<StereoLayout> layout_from_halves(ImageView<const Rgb8> picture) {
 
   const StereoLayout layout = with_likely_size(side_by_side ? StereoLayout::left_right : StereoLayout::top_bottom,
                                                picture.width(), picture.height());
-  const bool even = (side_by_side ? picture.width() : picture.height()) % 2 == 0;
-  return even && eyes_look_swapped(cut_apart(picture, layout, "")) ? with_eyes_swapped(layout) : layout;
+  const std::optional<Image<Rgb8>> even = without_middle(picture, layout);
+  const StereoPair halves = cut_apart(even ? ImageView<const Rgb8>(*even) : picture, layout, "");
+  return eyes_look_swapped(halves) ? with_eyes_swapped(layout) : layout;
 }
 
 bool looks_half_size(bool side_by_side, int width, int height) {

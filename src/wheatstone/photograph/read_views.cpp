@@ -1,6 +1,7 @@
 #include "wheatstone/photograph/read_views.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/photograph/card_windows_internal.h"
 #include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/jpeg_segments_internal.h"
 #include "wheatstone/photograph/multi_picture_internal.h"
@@ -40,6 +42,7 @@ std::string kind_of(std::string_view bytes, const fs::path& path) {
   if (is_jpeg(bytes)) return "JPEG";
   if (bytes.starts_with("\x89PNG")) return "PNG";
   if (is_heif(bytes)) return "HEIC";
+  if (bytes.starts_with("GIF8")) return "GIF";
   std::string ending = ending_of(path);
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::toupper(c); });
   return ending.empty() ? "picture" : ending.substr(1);
@@ -53,6 +56,14 @@ void check_one_size(const std::vector<Image<Rgb8>>& views, const fs::path& path)
 }
 
 // ---- a picture a view
+
+bool is_layout_given(const ReadViewsOptions& options) { return options.layout || options.scan; }
+
+[[noreturn]] void refuse_layout(const fs::path& path, std::string_view contents) {
+  throw Error(ErrorKind::wrong_usage,
+              fmt::format("{}: {}, one per view, expected one picture with both views for a given layout",
+                          path.string(), contents));
+}
 
 bool is_view(const MultiPictureEntry& entry) {
   return entry.type == multi_picture_disparity || entry.type == multi_picture_primary ||
@@ -87,7 +98,7 @@ std::optional<ViewsFile> multi_picture_views(std::string_view bytes, const fs::p
                                              const ReadViewsOptions& options) {
   const bool is_mpo = ending_of(path) == ".mpo";
   // A program that changed a photograph may have left an index that no longer fits: who says what is in it is believed.
-  if (options.layout && !is_mpo) {
+  if (is_layout_given(options) && !is_mpo) {
     try {
       if (views_among(read_multi_picture_index(bytes, path), bytes).size() < 2) return {};
     } catch (const Error&) {
@@ -102,11 +113,7 @@ std::optional<ViewsFile> multi_picture_views(std::string_view bytes, const fs::p
     refuse(path, fmt::format("holds {} view{}, expected two or more", entries.empty() ? "no" : "one",
                              entries.empty() ? "s" : ""));
   }
-  if (options.layout)
-    throw Error(
-        ErrorKind::wrong_usage,
-        fmt::format("{}: contains {} pictures, one per view, expected one picture with both views for a given layout",
-                    path.string(), entries.size()));
+  if (is_layout_given(options)) refuse_layout(path, fmt::format("contains {} pictures", entries.size()));
   ViewsFile file;
   file.kind = "MPO";
   for (const MultiPictureEntry& entry : entries)
@@ -122,16 +129,27 @@ std::optional<ViewsFile> heif_views(const fs::path& path, const ReadViewsOptions
     refuse(path, fmt::format("holds {} pictures, and the installed libheif {} does not report which are a stereo pair; "
                              "expected two of one size",
                              pictures.size(), heif_version()));
-  if (options.layout)
-    throw Error(
-        ErrorKind::wrong_usage,
-        fmt::format("{}: contains 2 pictures, one per view, expected one picture with both views for a given layout",
-                    path.string()));
+  if (is_layout_given(options)) refuse_layout(path, "contains 2 pictures");
   ViewsFile file;
   file.kind = "HEIC";
   file.views = std::move(pictures);
   file.note = fmt::format(
       "libheif {} does not report which eye a picture belongs to: the first is used for the left eye", heif_version());
+  return file;
+}
+
+/// The views of an animation of two frames; none where it has one.
+std::optional<ViewsFile> views_in_time(const fs::path& path, std::string_view kind, const ReadViewsOptions& options) {
+  constexpr int two = 2;
+  std::vector<Image<Rgb8>> frames = read_picture_frames(path, two + 1);
+  if (frames.size() < two) return {};
+  if (frames.size() > two) refuse(path, "has more than two frames, expected two: the left view, then the right view");
+  if (is_layout_given(options)) refuse_layout(path, "contains 2 frames");
+  check_one_size(frames, path);
+  ViewsFile file;
+  file.kind = kind;
+  file.views = std::move(frames);
+  file.note = "the first frame is used for the left eye";
   return file;
 }
 
@@ -186,14 +204,41 @@ Image<Rgb8> without_gap(Image<Rgb8> picture) {
   return joined;
 }
 
+ViewsFile views_of_scan(ImageView<const Rgb8> picture, const fs::path& path, ScanLayout layout) {
+  ViewsFile file;
+  file.scan = layout;
+  file.how_known = HowKnown::given;
+  StereoPair pair;
+  if (layout == ScanLayout::card) {
+    const std::optional<CardWindows> windows = find_card_windows(picture);
+    if (!windows)
+      refuse(path,
+             "no two windows of a stereograph card are found, expected two pictures of one size, side by side, "
+             "on a mount of one colour");
+    pair = cut_card(picture, *windows);
+    file.note = describe_card(*windows);
+  } else {
+    pair = separate_anaglyph(picture, layout);
+    file.note = "each view kept only some of its colours: both are grey";
+  }
+  file.views.push_back(std::move(pair.left));
+  file.views.push_back(std::move(pair.right));
+  return file;
+}
+
 std::optional<ViewsFile> views_in_one_picture(std::string_view bytes, const fs::path& path,
                                               const ReadViewsOptions& options) {
   Image<Rgb8> picture = read_image(path);
+  if (options.scan) return views_of_scan(picture, path, *options.scan);
   const std::optional<KnownLayout> known = known_layout(bytes, path, picture, options);
   if (!known) return {};
   if (known->how == HowKnown::metadata && read_stereo_chunk(bytes)) picture = without_gap(std::move(picture));
-  StereoPair pair = cut_apart(picture, known->layout, path.string());
   ViewsFile file;
+  if (std::optional<Image<Rgb8>> even = without_middle(picture, known->layout)) {
+    picture = std::move(*even);
+    file.note = fmt::format("the middle {} belongs to neither view", is_side_by_side(known->layout) ? "column" : "row");
+  }
+  StereoPair pair = cut_apart(picture, known->layout, path.string());
   file.views.push_back(std::move(pair.left));
   file.views.push_back(std::move(pair.right));
   file.kind = ending_of(path) == ".jps" && is_jpeg(bytes) ? "JPS" : kind_of(bytes, path);
@@ -218,7 +263,31 @@ std::string_view how_known_words(HowKnown how) {
   return "from comparing its halves";
 }
 
+ReadViewsOptions options_for_layout(std::string_view name) {
+  ReadViewsOptions options;
+  options.scan = find_scan_layout(name);
+  if (options.scan) return options;
+  options.layout = find_stereo_layout(name);
+  if (options.layout) return options;
+  const auto anaglyphs = scan_layouts().subspan(1);
+  std::vector<std::string_view> names;
+  for (const ScanTraits& traits : anaglyphs) names.push_back(traits.name);
+  if (name == "anaglyph")
+    throw Error(ErrorKind::wrong_usage, fmt::format("layout: is 'anaglyph', expected one that names the colours of its "
+                                                    "glasses, the left eye's first: {}",
+                                                    fmt::join(names, ", ")));
+  throw Error(ErrorKind::wrong_usage, fmt::format("layout: is '{}', expected one of {}, card, {}", name,
+                                                  stereo_layout_names(), fmt::join(names, ", ")));
+}
+
+std::vector<std::string_view> photograph_layout_names() {
+  std::vector<std::string_view> names(layout_names().begin(), layout_names().end());
+  for (const ScanTraits& traits : scan_layouts()) names.push_back(traits.name);
+  return names;
+}
+
 std::string describe_views(const ViewsFile& file) {
+  if (file.scan) return fmt::format("{} ({})", traits_of(*file.scan).words, how_known_words(file.how_known));
   if (file.layout) return fmt::format("{} ({})", traits_of(*file.layout).words, how_known_words(file.how_known));
   return fmt::format("{}, {} pictures ({})", file.kind, file.views.size(), how_known_words(file.how_known));
 }
@@ -228,6 +297,7 @@ std::optional<ViewsFile> find_views(const fs::path& path, const ReadViewsOptions
   std::optional<ViewsFile> file;
   if (is_jpeg(bytes)) file = multi_picture_views(bytes, path, options);
   if (is_heif(bytes)) file = heif_views(path, options);
+  if (may_be_animated(bytes)) file = views_in_time(path, kind_of(bytes, path), options);
   if (!file) file = views_in_one_picture(bytes, path, options);
   if (file && options.swap) std::reverse(file->views.begin(), file->views.end());
   return file;

@@ -5,12 +5,16 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenes/heif_pictures.h"
 #include "scenes/test_photographs.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
+#include "wheatstone/matching/match.h"
 #include "wheatstone/photograph/multi_picture_internal.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/read_image.h"
@@ -204,17 +208,135 @@ TEST(ReadViews, AreFoundByLayoutNameAndHalvesInThisOrder) {
   }
 }
 
+/// Of the left view's pixels that both eyes see, the share whose disparity is off by more than `most_px`.
+double share_off_by(const Image<float>& found, const StereoGeometry& truth, float most_px) {
+  std::size_t seen = 0, off = 0;
+  for (std::size_t i = 0; i < found.pixels().size(); ++i) {
+    if (truth.left_occlusion.pixels()[i] != 0) continue;
+    ++seen;
+    off += !(std::abs(found.pixels()[i] - truth.left_disparity.pixels()[i]) <= most_px);
+  }
+  return static_cast<double>(off) / static_cast<double>(seen);
+}
+
 TEST(ReadViews, OfOneOrdinaryPictureAreRefused) {
   const TemporaryFolder folder;
   write_image(folder / "mono.png", still_for_test().left);
   EXPECT_FALSE(find_views(folder / "mono.png"));
   expect_error(ErrorKind::bad_input, "mono.png: is one picture", [&] { read_views(folder / "mono.png"); });
   expect_error(ErrorKind::bad_input, "missing.png: no such file", [&] { read_views(folder / "missing.png"); });
-  write_image(folder / "odd_sbs.png", Image<Rgb8>(41, 21));
-  expect_error(ErrorKind::bad_input, "odd_sbs.png: is 41x21 pixels, expected an even width",
-               [&] { read_views(folder / "odd_sbs.png"); });
-  expect_error(ErrorKind::bad_input, "even height",
-               [&] { read_views(folder / "odd_sbs.png", {.layout = StereoLayout::top_bottom}); });
+  write_image(folder / "line_sbs.png", Image<Rgb8>(1, 21));
+  expect_error(ErrorKind::bad_input, "line_sbs.png: is 1x21 pixels, expected an even width",
+               [&] { read_views(folder / "line_sbs.png"); });
+  expect_error(ErrorKind::bad_input, "mono.png: no two windows of a stereograph card",
+               [&] { read_views(folder / "mono.png", options_for_layout("card")); });
+}
+
+TEST(ReadViews, OfAnOddNumberOfColumnsOrRowsLeaveOutTheMiddleOne) {
+  const StereoPair pair = still_for_test();
+  const Image<Rgb8> both = joined(pair.left, pair.right, true), above = joined(pair.left, pair.right, false);
+  Image<Rgb8> wide(both.width() + 1, both.height(), {255, 0, 255}),
+      high(above.width(), above.height() + 1, {255, 0, 0});
+  for (int y = 0; y < both.height(); ++y)
+    for (int x = 0; x < both.width(); ++x) wide(x < pair.left.width() ? x : x + 1, y) = both(x, y);
+  for (int y = 0; y < above.height(); ++y)
+    std::ranges::copy(above.row(y), high.row(y < pair.left.height() ? y : y + 1).begin());
+  const TemporaryFolder folder;
+  write_image(folder / "wide.png", wide);
+  write_image(folder / "high_tbf.png", high);
+  for (const auto& [name, middle] : {std::pair{"wide.png", "column"}, std::pair{"high_tbf.png", "row"}}) {
+    const ViewsFile file = read_views(folder / name);
+    EXPECT_EQ(file.views[0], pair.left) << name;
+    EXPECT_EQ(file.views[1], pair.right) << name;
+    EXPECT_EQ(file.note, std::string("the middle ") + middle + " belongs to neither view");
+  }
+}
+
+TEST(ReadViews, OfAnAnimationAreItsTwoFrames) {
+  const TemporaryFolder folder;
+  const auto put = [&](const std::string& name, const std::vector<Rgb8>& colours) {
+    const auto output = OIIO::ImageOutput::create(name);
+    const OIIO::ImageSpec spec(40, 32, 3, OIIO::TypeDesc::UINT8);
+    const std::vector<OIIO::ImageSpec> specs(colours.size(), spec);
+    ASSERT_TRUE(output->open(folder / name, static_cast<int>(specs.size()), specs.data()));
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+      ASSERT_TRUE(i == 0 || output->open(folder / name, spec, OIIO::ImageOutput::AppendSubimage));
+      const Image<Rgb8> picture(40, 32, colours[i]);
+      ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, picture.pixels().data()));
+    }
+    ASSERT_TRUE(output->close());
+  };
+  put("two.gif", {{255, 0, 0}, {0, 0, 255}});
+  const ViewsFile file = read_views(folder / "two.gif");
+  ASSERT_EQ(file.views.size(), 2u);
+  EXPECT_TRUE(is_like(file.views[0], {255, 0, 0}));
+  EXPECT_TRUE(is_like(file.views[1], {0, 0, 255}));
+  EXPECT_EQ(describe_views(file), "GIF, 2 pictures (from its metadata)");
+  EXPECT_EQ(file.note, "the first frame is used for the left eye");
+  expect_error(ErrorKind::wrong_usage, "two.gif: contains 2 frames",
+               [&] { read_views(folder / "two.gif", {.layout = StereoLayout::left_right}); });
+  put("three.gif", {red, blue, red});
+  expect_error(ErrorKind::bad_input, "three.gif: has more than two frames, expected two",
+               [&] { read_views(folder / "three.gif"); });
+  put("one.gif", {red});
+  expect_error(ErrorKind::bad_input, "one.gif: is one picture", [&] { read_views(folder / "one.gif"); });
+}
+
+/// For red-cyan glasses: the red of the left view and the rest of the right one.
+Image<Rgb8> red_cyan_anaglyph(const StereoPair& pair) {
+  Image<Rgb8> anaglyph(pair.left.width(), pair.left.height());
+  std::ranges::transform(pair.left.pixels(), pair.right.pixels(), anaglyph.pixels().begin(), [](Rgb8 left, Rgb8 right) {
+    return Rgb8{left.r, right.g, right.b};
+  });
+  return anaglyph;
+}
+
+Image<Rgb8> grey_of(const Image<Rgb8>& picture) {
+  Image<Rgb8> grey(picture.width(), picture.height());
+  std::ranges::transform(picture.pixels(), grey.pixels().begin(), [](Rgb8 c) {
+    const auto level = static_cast<std::uint8_t>((30 * c.r + 59 * c.g + 11 * c.b) / 100);
+    return Rgb8{level, level, level};
+  });
+  return grey;
+}
+
+TEST(ReadViews, OfAnAnaglyphAreGrey) {
+  const TemporaryFolder folder;
+  const Image<Rgb8> anaglyph = red_cyan_anaglyph(still_for_test());
+  write_image(folder / "glasses.png", anaglyph);
+  const ViewsFile file = read_views(folder / "glasses.png", options_for_layout("anaglyph-red-cyan"));
+  EXPECT_EQ(describe_views(file), "an anaglyph for red-cyan glasses (given)");
+  EXPECT_NE(file.note.find("both are grey"), std::string::npos);
+  const Rgb8 source = anaglyph(100, 100);
+  const auto mean = static_cast<std::uint8_t>((source.g + source.b + 1) / 2);
+  EXPECT_EQ(file.views[0](100, 100), (Rgb8{source.r, source.r, source.r}));
+  EXPECT_EQ(file.views[1](100, 100), (Rgb8{mean, mean, mean}));
+  const ViewsFile other = read_views(folder / "glasses.png", options_for_layout("anaglyph-amber-blue"));
+  EXPECT_EQ(other.views[1](100, 100), (Rgb8{source.b, source.b, source.b}));
+}
+
+TEST(ReadViews, OfAnAnaglyphCanBeMatched) {
+  const SyntheticStill still = make_synthetic_still({.width = 480, .height = 360, .samples_a_side = 1});
+  const TemporaryFolder folder;
+  // As printed in black and white, and in colour, where what is red is bright for one eye and dark for the other.
+  const StereoPair grey{grey_of(still.pictures.left), grey_of(still.pictures.right)};
+  for (const auto& [pair, most] : {std::pair{grey, 0.05}, std::pair{still.pictures, 0.31}}) {
+    write_image(folder / "glasses.png", red_cyan_anaglyph(pair));
+    const ViewsFile file = read_views(folder / "glasses.png", options_for_layout("anaglyph-red-cyan"));
+    const Image<float> found = match({file.views[0], file.views[1]}, {}).geometry.left_disparity;
+    EXPECT_LT(share_off_by(found, still.geometry, 2), most);
+  }
+}
+
+TEST(ReadViews, KnowTheirLayoutsByName) {
+  for (const std::string_view name : photograph_layout_names()) {
+    const ReadViewsOptions options = options_for_layout(name);
+    EXPECT_NE(options.layout.has_value(), options.scan.has_value()) << name;
+  }
+  expect_error(ErrorKind::wrong_usage, "expected one that names the colours of its glasses",
+               [] { options_for_layout("anaglyph"); });
+  expect_error(ErrorKind::wrong_usage, "left-right (sbsl), left-right-half (sbs2l)",
+               [] { options_for_layout("checkers"); });
 }
 
 TEST(ReadViews, AreTurnedUpright) {

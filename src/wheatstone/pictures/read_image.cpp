@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
@@ -27,7 +28,8 @@ struct ShownChannels {
 
 ShownChannels shown_channels(const OIIO::ImageSpec& spec) {
   ShownChannels shown;
-  shown.alpha = spec.alpha_channel;
+  // Of GIFs, OpenImageIO 2.4 gives the number of a channel that they do not have.
+  shown.alpha = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : spec.channelindex("A");
   if (spec.nchannels < 3) return shown;
   // EXR may hold its channels in any order.
   const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
@@ -82,13 +84,13 @@ Image<Rgb8> read_converted(const fs::path& path, OIIO::ImageInput& input, const 
   const std::size_t row_values = static_cast<std::size_t>(spec.width) * spec.nchannels;
   const bool plain = spec.nchannels == 3 && spec.format == OIIO::TypeDesc::UINT8 && spec.alpha_channel < 0;
   if (plain) {
-    if (!input.read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, picture.pixels().data())) {
+    if (!input.read_image(input.current_subimage(), 0, 0, 3, OIIO::TypeDesc::UINT8, picture.pixels().data())) {
       refuse_damaged(path, input.geterror());
     }
     return picture;
   }
   const auto values = std::make_unique_for_overwrite<float[]>(row_values * spec.height);
-  if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.get())) {
+  if (!input.read_image(input.current_subimage(), 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.get())) {
     refuse_damaged(path, input.geterror());
   }
   const Conversion how = conversion_of(spec);
@@ -131,6 +133,24 @@ Image<Rgb8> read_opened(const fs::path& path, const OpenPicture& open) {
 }  // namespace
 
 Image<Rgb8> read_image(const fs::path& path) { return read_opened(path, open_picture(path)); }
+
+bool may_be_animated(std::string_view bytes) {
+  if (bytes.starts_with("GIF8")) return true;
+  // RIFF, its length, WEBP; the first chunk of an animation is VP8X with a bit that says so.
+  constexpr std::size_t flags_at = 20;
+  constexpr unsigned char is_animated = 2;
+  return bytes.size() > flags_at && bytes.starts_with("RIFF") && bytes.substr(8, 8) == "WEBPVP8X" &&
+         (static_cast<unsigned char>(bytes[flags_at]) & is_animated) != 0;
+}
+
+std::vector<Image<Rgb8>> read_picture_frames(const fs::path& path, int most_frames) {
+  const OpenPicture open = open_picture(path);
+  std::vector<Image<Rgb8>> frames;
+  while (static_cast<int>(frames.size()) < most_frames &&
+         open.decoder->seek_subimage(static_cast<int>(frames.size()), 0))
+    frames.push_back(read_opened(path, open));
+  return frames;
+}
 
 Image<Rgb8> decode_jpeg(std::string_view bytes, const fs::path& path) {
   return read_opened(path, open_jpeg(bytes, path));

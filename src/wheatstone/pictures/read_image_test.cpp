@@ -45,6 +45,17 @@ void expect_near(Rgb8 found, Rgb8 expected, int tolerance) {
   EXPECT_LE(std::abs(found.b - expected.b), tolerance) << int(found.b);
 }
 
+TEST(ReadImage, OfAGifHasItsColours) {
+  const TemporaryFolder folder;
+  const auto output = OIIO::ImageOutput::create("a.gif");
+  ASSERT_TRUE(output->open(folder / "a.gif", OIIO::ImageSpec(16, 16, 3, OIIO::TypeDesc::UINT8)));
+  const Image<Rgb8> blue(16, 16, {0, 0, 255});
+  ASSERT_TRUE(output->write_image(OIIO::TypeDesc::UINT8, blue.pixels().data()) && output->close());
+  const Rgb8 found = read_image(folder / "a.gif")(8, 8);
+  EXPECT_LT(found.r, 8);
+  EXPECT_GT(found.b, 247);
+}
+
 TEST(ReadImage, TurnsGreyIntoThreeEqualChannels) {
   const TemporaryFolder folder;
   put_picture<std::uint8_t>(folder / "grey.png", layout(2, 1, 1, OIIO::TypeDesc::UINT8), {10, 200});

@@ -106,6 +106,23 @@ StereoPair cut_apart(ImageView<const Rgb8> picture, StereoLayout layout, const s
   return pair;
 }
 
+std::optional<Image<Rgb8>> without_middle(ImageView<const Rgb8> picture, StereoLayout layout) {
+  const Arrangement arrangement = traits_of(layout).arrangement;
+  const bool side_by_side = arrangement == Arrangement::side_by_side;
+  if (!side_by_side && arrangement != Arrangement::over_under) return {};
+  const int width = picture.width(), height = picture.height();
+  const int half = (side_by_side ? width : height) / 2;
+  if (2 * half == (side_by_side ? width : height) || half == 0) return {};
+  Image<Rgb8> even(side_by_side ? 2 * half : width, side_by_side ? height : 2 * half);
+  const cv::Mat from = as_mat(picture), to = as_mat(even);
+  const cv::Size each(side_by_side ? half : width, side_by_side ? height : half);
+  const cv::Point second(side_by_side ? half : 0, side_by_side ? 0 : half),
+      step(side_by_side ? 1 : 0, side_by_side ? 0 : 1);
+  from({{0, 0}, each}).copyTo(to({{0, 0}, each}));
+  from({second + step, each}).copyTo(to({second, each}));
+  return even;
+}
+
 Image<Rgb8> put_together(ImageView<const Rgb8> left, ImageView<const Rgb8> right, StereoLayout layout) {
   const LayoutTraits& of = traits_of(layout);
   if (of.arrangement == Arrangement::in_time) refuse_unpacked(of);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "wheatstone/stereo/stereo_layout.h"
@@ -12,6 +13,10 @@ namespace wheatstone {
 /// neighbours. Throws Error{bad_input} that names the picture as `name` where it cannot be halved evenly,
 /// Error{wrong_usage} where the layout does not hold both eyes in one picture.
 StereoPair cut_apart(ImageView<const Rgb8> picture, StereoLayout layout, const std::string& name);
+
+/// The picture without its middle column where it is to be cut between columns and has an odd number of them; the same
+/// for rows. Nothing where it can be halved evenly as it is, or is not halved.
+std::optional<Image<Rgb8>> without_middle(ImageView<const Rgb8> picture, StereoLayout layout);
 
 /// Both pictures, of one size, in one: what cut_apart takes apart, exactly where nothing is squeezed. Squeezing
 /// averages the pixels that become one; of an odd number the last stays alone. Rows, columns and checkerboards show of

@@ -6,8 +6,6 @@
 #include <array>
 #include <iterator>
 
-#include "wheatstone/error.h"
-
 namespace wheatstone {
 namespace {
 
@@ -99,15 +97,6 @@ std::optional<StereoLayout> find_stereo_layout(std::string_view name) {
     if (is_among(traits.aliases, word) || is_among(traits.full_aliases, word)) return traits.layout;
   }
   return {};
-}
-
-StereoLayout layout_by_name(std::string_view name) {
-  if (const std::optional<StereoLayout> found = find_stereo_layout(name)) return *found;
-  if (name == "anaglyph")
-    throw Error(ErrorKind::wrong_usage,
-                "layout: an anaglyph cannot be separated, because each view kept only some of its colours; expected "
-                "the original pictures");
-  throw Error(ErrorKind::wrong_usage, fmt::format("layout: is '{}', expected one of {}", name, stereo_layout_names()));
 }
 
 std::string stereo_layout_names() {

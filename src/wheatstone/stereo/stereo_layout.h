@@ -62,10 +62,6 @@ std::string_view layout_name(StereoLayout layout);
 /// "cross-eyed", "tb-half"); hyphens in aliases do not count. Nothing where there is none.
 std::optional<StereoLayout> find_stereo_layout(std::string_view name);
 
-/// As find_stereo_layout. Throws Error{wrong_usage} that lists the names, and for an anaglyph says why it cannot be
-/// taken apart.
-StereoLayout layout_by_name(std::string_view name);
-
 /// All names with ffmpeg's, for help and error messages: "mono (ml), left-right (sbsl), …".
 std::string stereo_layout_names();
 

@@ -1,0 +1,67 @@
+#include "wheatstone/photograph/card_windows_internal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "scenes/stereograph_card.h"
+#include "scenes/test_photographs.h"
+
+namespace wheatstone {
+namespace {
+
+void expect_near(const CardWindow& found, const CardWindow& truth, int card_width) {
+  const double most = 0.01 * card_width;
+  EXPECT_NEAR(found.left, truth.left, most);
+  EXPECT_NEAR(found.top, truth.top, most);
+  EXPECT_NEAR(found.left + found.width, truth.left + truth.width, most);
+  EXPECT_NEAR(found.top + found.height, truth.top + truth.height, most);
+}
+
+TEST(CardWindows, AreFoundToAHundredthOfTheCardsWidth) {
+  const StereoPair pair = still_for_test();
+  int seed = 0;
+  for (const Rgb8 mount : {Rgb8{214, 188, 140}, Rgb8{118, 116, 108}, Rgb8{196, 92, 60}, Rgb8{240, 236, 224}}) {
+    for (const double turn_deg : {-1.0, -0.4, 0.0, 0.7, 1.0}) {
+      CardOptions options{.mount = mount, .turn_deg = turn_deg, .seed = ++seed};
+      options.rounding = 0.12 * (seed % 5);
+      options.width = seed % 2 == 0 ? 1000 : 1731;
+      options.gutter_share = seed % 3 == 0 ? 0.012 : 0.03;
+      SCOPED_TRACE(testing::Message() << "card " << seed << " turned by " << turn_deg);
+      const TestCard card = make_card(pair, options);
+      const std::optional<CardWindows> found = find_card_windows(card.picture);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(found->turn_deg, turn_deg, 0.25);
+      EXPECT_EQ(found->left.width, found->right.width);
+      EXPECT_EQ(found->left.height, found->right.height);
+      expect_near(found->left, card.left, options.width);
+      expect_near(found->right, card.right, options.width);
+    }
+  }
+}
+
+TEST(CardWindows, AreCutOutStraight) {
+  const StereoPair pair = still_for_test();
+  const TestCard card = make_card(pair, {.turn_deg = 1, .seed = 3});
+  const std::optional<CardWindows> found = find_card_windows(card.picture);
+  ASSERT_TRUE(found);
+  const StereoPair cut = cut_card(card.picture, *found);
+  ASSERT_EQ(cut.left.width(), found->left.width);
+  ASSERT_TRUE(same_size(cut.left, cut.right));
+  EXPECT_EQ(describe_card(*found).find("windows of "), 0u);
+  EXPECT_NE(describe_card(*found).find("; the card is turned by 1.0 degrees"), std::string::npos);
+}
+
+TEST(CardWindows, AreNotSeenWhereThereAreNone) {
+  const StereoPair pair = still_for_test();
+  EXPECT_FALSE(find_card_windows(pair.left));
+  EXPECT_FALSE(find_card_windows(joined(pair.left, pair.right, true)));
+  EXPECT_FALSE(find_card_windows(Image<Rgb8>(500, 300, {200, 180, 140})));
+  EXPECT_FALSE(find_card_windows(Image<Rgb8>(20, 20)));
+  EXPECT_FALSE(find_card_windows(make_card(pair, {.photographs = 0}).picture));
+  EXPECT_FALSE(find_card_windows(make_card(pair, {.photographs = 1}).picture));
+}
+
+}  // namespace
+}  // namespace wheatstone
