@@ -81,7 +81,7 @@ void print_many_views() {
       median_seconds([&] { paint_view(still.pictures.left, still.geometry.left_disparity, central_view, {}); });
   const Rig rig = evenly_spaced(560, 420, 48, 2);
   const double many = median_seconds([&] {
-    draw_views(widen(plan_painting(still.pictures, still.geometry, {}), still.pictures, still.geometry, {},
+    draw_views(widen(plan_painting(still.pictures, still.geometry, {}).strokes, still.pictures, still.geometry, {},
                      {ViewPosition(-1.f), ViewPosition(1.f)}),
                rig.positions);
   });

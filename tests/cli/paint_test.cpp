@@ -79,8 +79,19 @@ TEST(PaintCommand, PaintsWithOtherMarksThanStrokes) {
   }
   expect_refused(folder, paint_line({"--style", "mosaic", "--propagation", "raster"}), 2, "raster");
   expect_refused(folder, paint_line({"--style", "mosaic", "--texture"}), 2, "texture");
-  expect_refused(folder, paint_line({"--style", "mosaic", "--display", "looking-glass-go"}), 2, "strokes");
   expect_refused(folder, paint_line({"--style", "posterise", "--colours", "1"}), 2, "colours is 1");
+}
+
+TEST(PaintCommand, PaintsEveryKindOfMarksForADisplay) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  for (const std::string style : {"impressionist", "posterise", "mosaic", "diffusion"}) {
+    const ProgramResult result = run_program({"paint", "left.png", "right.png", "--style", style, "--display",
+                                              "looking-glass-go", "--size", "66x100", "-o", style},
+                                             {.folder = folder / ""});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_TRUE(std::filesystem::exists(folder / (style + "_qs11x6a0.5625.png"))) << style;
+  }
 }
 
 TEST(PaintCommand, SaysTheSameForTheSameSeedOnAnyNumberOfThreads) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/error.h"
+#include "wheatstone/painting/other_views.h"
 #include "wheatstone/stereo/framed_pair.h"
 #include "wheatstone/strokes/wide_painting.h"
 
@@ -61,15 +63,21 @@ PaintedViews paint_views(const StereoPair& photographs, const PaintViewsOptions&
                                   .height = options.height,
                                   .margin_px = static_cast<int>(std::ceil(std::max(farthest_moved, 0.f)))});
   const Style& style = options.painting.style;
-  const WidePainting wide = widen(plan_painting(pair.photographs, pair.geometry, style, progress), pair.photographs,
-                                  pair.geometry, style, {std::min(first, left_eye), std::max(last, right_eye)});
+  Painting painting = plan_painting(pair.photographs, pair.geometry, style, progress);
+  std::vector<DrawnView> views;
   report(progress, "views", 0);
-  for (DrawnView& view : draw_views(wide, result.rig.positions)) {
+  if (style.marks == Marks::strokes) {
+    const WidePainting wide = widen(std::move(painting.strokes), pair.photographs, pair.geometry, style,
+                                    {std::min(first, left_eye), std::max(last, right_eye)});
+    views = draw_views(wide, result.rig.positions);
+  } else {
+    views = draw_other_views(painting, result.rig.positions);
+  }
+  for (DrawnView& view : views) {
     result.worst_bare_share = std::max(result.worst_bare_share, view.bare_share);
     result.views.push_back(middle_of(view.picture, pair.margin_px));
   }
   report(progress, "views", 1);
-  result.painting = wide.painting;
   return result;
 }
 

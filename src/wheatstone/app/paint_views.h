@@ -21,10 +21,9 @@ struct PaintViewsOptions {
 struct PaintedViews {
   std::vector<Image<Rgb8>> views;  ///< left to right
   Rig rig;
-  StrokePainting painting;      ///< that they are views of
   float span = 0;               ///< as chosen
   float zero_parallax_px = 0;   ///< in pixels of the photographs
-  double worst_bare_share = 0;  ///< of a view's pixels that no stroke covered, which took their neighbours' colours
+  double worst_bare_share = 0;  ///< of a view's pixels that no mark covered, which took their neighbours' colours
 };
 
 /// One stereo photograph, painted once, for every view of a display. Throws as paint_photograph does.

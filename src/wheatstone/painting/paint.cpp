@@ -117,7 +117,7 @@ void plan_other_marks(const StereoPairView& photographs, const StereoGeometryVie
   if (style.marks == Marks::curves) painting.curves = plan_diffusion(photographs, geometry, style);
 }
 
-/// Draws both eyes of what was planned.
+/// Draws both eyes of regions or curves.
 void draw_other_marks(PaintedPair& result) {
   DrawnView left, right;
   tbb::parallel_invoke([&] { left = draw(result.painting, left_eye); },
@@ -127,53 +127,47 @@ void draw_other_marks(PaintedPair& result) {
   result.right_bare_share = right.bare_share;
 }
 
-PaintedPair paint_other_marks(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                              const Progress& progress) {
-  PaintedPair result;
-  result.painting.strokes.width = photographs.left.width();
-  result.painting.strokes.height = photographs.left.height();
-  report(progress, "painting", 0);
-  {
-    const Stopwatch watch(result.times.planning_s);
-    plan_other_marks(photographs, geometry, style, result.painting);
-  }
-  report(progress, "drawing", 0);
-  const Stopwatch watch(result.times.rasterising_s);
-  draw_other_marks(result);
-  report(progress, "drawing", 1);
-  return result;
-}
-
 void check_is_of_strokes(const Style& style) {
   if (style.marks != Marks::strokes)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("style: {} cannot be painted for views other than the two eyes, expected brush strokes",
-                            name_of(style.marks)));
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("style: {} cannot be painted for one view alone, expected brush strokes", name_of(style.marks)));
 }
 
 }  // namespace
 
-StrokePainting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                             const Progress& progress) {
+Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
+                       const Progress& progress) {
   check_style(style);
-  check_is_of_strokes(style);
   check_fits(photographs, geometry);
-  return plan(photographs, geometry, style, progress);
+  Painting painting;
+  if (style.marks == Marks::strokes) {
+    painting.strokes = plan(photographs, geometry, style, progress);
+    painting.relief = relief_for(style, painting.strokes.width);
+    return painting;
+  }
+  report(progress, "painting", 0);
+  painting.strokes.width = photographs.left.width();
+  painting.strokes.height = photographs.left.height();
+  plan_other_marks(photographs, geometry, style, painting);
+  return painting;
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                   const Progress& progress) {
-  if (style.marks != Marks::strokes) return paint_other_marks(photographs, geometry, style, progress);
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);
-    result.painting.strokes = plan_painting(photographs, geometry, style, progress);
+    result.painting = plan_painting(photographs, geometry, style, progress);
   }
-  result.painting.relief = relief_for(style, result.painting.strokes.width);
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);
-  draw_both(photographs, style, result);
-  if (style.propagation == Propagation::raster) lay_left_over_right(geometry, result);
+  if (style.marks == Marks::strokes) {
+    draw_both(photographs, style, result);
+    if (style.propagation == Propagation::raster) lay_left_over_right(geometry, result);
+  } else {
+    draw_other_marks(result);
+  }
   report(progress, "drawing", 1);
   return result;
 }

@@ -24,10 +24,9 @@ struct PaintedPair {
   PaintingTimes times;
 };
 
-/// The strokes of a rectified pair's painting, not drawn. What it takes and throws is as for `paint`, but a style whose
-/// marks are not strokes is Error{wrong_usage}.
-StrokePainting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                             const Progress& progress = {});
+/// A rectified pair's painting, not drawn. What it takes and throws is as for `paint`.
+Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
+                       const Progress& progress = {});
 
 /// Paints a rectified pair so that its marks fuse. The geometry must have the pair's size and no unknown disparity.
 /// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not

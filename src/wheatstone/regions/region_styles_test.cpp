@@ -105,8 +105,10 @@ TEST_P(RegionStyle, RefusesWhatDoesNotFit) {
   expect_error(ErrorKind::bad_input, "3x3",
                [&] { paint(test_scene::photographs(), geometry, small_style(GetParam())); });
   expect_error(ErrorKind::wrong_usage, "raster", [&] { paint_scene(small_style(GetParam(), Propagation::raster)); });
-  expect_error(ErrorKind::wrong_usage, "expected brush strokes",
-               [&] { plan_painting(test_scene::photographs(), test_scene::geometry(), small_style(GetParam())); });
+  expect_error(ErrorKind::wrong_usage, "expected brush strokes", [&] {
+    paint_view(test_scene::photographs().left, test_scene::geometry().left_disparity, left_eye,
+               small_style(GetParam()));
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, RegionStyle, testing::Values("posterise", "mosaic"));

@@ -27,7 +27,7 @@ const SyntheticStill& still() {
   return made;
 }
 
-StrokePainting planned() { return plan_painting(still().pictures, still().geometry, {}); }
+StrokePainting planned() { return plan_painting(still().pictures, still().geometry, {}).strokes; }
 
 const WidePainting& wide() {
   static const WidePainting made = widen(planned(), still().pictures, still().geometry, {}, range);
