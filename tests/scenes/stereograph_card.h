@@ -18,6 +18,7 @@ struct CardOptions {
   double gutter_share = 0.03;  ///< between the prints, of the card's width
   int seed = 1;
   int photographs = 2;
+  double ground_share = 0;  ///< of the card's width: black ground of the scanner on all sides
 };
 
 /// `left` and `right` are where the prints lie before the card is turned about the picture's centre.
@@ -75,6 +76,13 @@ inline TestCard make_card(const StereoPair& pair, const CardOptions& options) {
   const cv::Point2f centre(static_cast<float>(card.cols - 1) / 2, static_cast<float>(card.rows - 1) / 2);
   cv::warpAffine(sum, card, cv::getRotationMatrix2D(centre, -options.turn_deg, 1), card.size(), cv::INTER_LINEAR,
                  cv::BORDER_REPLICATE);
+  if (const int ground = share(options.ground_share); ground > 0) {
+    Image<Rgb8> scan(card.cols + 2 * ground, card.rows + 2 * ground, {9, 9, 11});
+    cv::Mat whole = as_mat(scan);
+    card.copyTo(whole(cv::Rect(ground, ground, card.cols, card.rows)));
+    made.picture = std::move(scan);
+    for (CardWindow* window : {&made.left, &made.right}) window->left += ground, window->top += ground;
+  }
   return made;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/block_agreement.h"
 #include "wheatstone/photograph/card_windows_internal.h"
 
 namespace wheatstone {
@@ -193,18 +195,44 @@ bool are_on_a_mount(const cv::Mat& mask, const Box& left, const Box& right) {
   return within >= least_covered * windows && beside <= most_written * rest;
 }
 
-std::optional<std::pair<Box, Box>> find_boxes(const cv::Mat& mask) {
+/// Both photographs of a card that lies straight.
+struct Boxes {
+  Box left, right;
+};
+
+/// `touch`: there is no mount between them; they are taken to be equally wide.
+std::optional<Boxes> find_boxes(const cv::Mat& mask, bool touch) {
   if (mask.empty()) return {};
   const Box all{{0, mask.cols}, {0, mask.rows}};
   constexpr float photograph_share = 0.25f;  // of a row through both; writing covers less
   const Span rows = longest_block(profile_of(mask, all, 1), photograph_share, mask.cols / 30);
   if (rows.size() <= 0) return {};
-  const Span gutter = gutter_of(profile_of(mask, {all.columns, rows}, 0), bare_share);
-  if (gutter.size() <= 0) return {};
-  const Box left = window_among(mask, {0, gutter.begin}, rows),
-            right = window_among(mask, {gutter.end, mask.cols}, rows);
-  if (!are_alike(left, right, mask.size()) || !are_on_a_mount(mask, left, right)) return {};
-  return std::pair{left, right};
+  const std::vector<float> profile = profile_of(mask, {all.columns, rows}, 0);
+  Span gutter = gutter_of(profile, bare_share);
+  if (touch != (gutter.size() <= 0)) return {};
+  if (touch) {
+    const Span both = longest_block(profile, 2 * bare_share, mask.cols * 15 / 1000);
+    gutter.begin = gutter.end = (both.begin + both.end) / 2;
+  }
+  const Boxes boxes{window_among(mask, {0, gutter.begin}, rows), window_among(mask, {gutter.end, mask.cols}, rows)};
+  if (!are_alike(boxes.left, boxes.right, mask.size()) || !are_on_a_mount(mask, boxes.left, boxes.right)) return {};
+  return boxes;
+}
+
+/// Of a picture that shows more than the card, before a ground of one colour, the part that is card for certain.
+Box card_within(const cv::Mat& picture) {
+  const cv::Mat mask = unlike_mount(picture);
+  if (mask.empty()) return {};
+  const Box all{{0, mask.cols}, {0, mask.rows}};
+  const auto span = [&](int along) {
+    const std::vector<float> profile = profile_of(mask, all, along);
+    const Span found = longest_block(profile, 0.8f * std::ranges::max(profile), mask.cols / 100);
+    const int inset = mask.cols / 100;
+    return Span{found.begin + inset, found.end - inset};
+  };
+  const Box card{span(0), span(1)};
+  constexpr int least_side_px = 64;
+  return card.columns.size() < least_side_px || card.rows.size() < least_side_px ? Box{} : card;
 }
 
 // ---- how far the card is turned
@@ -254,7 +282,7 @@ double turn_of(const cv::Mat& mask) {
 
 /// Both windows cut to one size, about their middles, in pixels of the whole picture. The blurred edges of the
 /// photographs, which reach out over the mount, are left out.
-CardWindows of_one_size(const std::pair<Box, Box>& boxes, double turn_deg, double scale) {
+CardWindows of_one_size(const Boxes& boxes, double turn_deg, double scale) {
   const auto& [left, right] = boxes;
   constexpr int edge_px = 2;
   const auto side = [&](const Span& a, const Span& b) {
@@ -267,32 +295,74 @@ CardWindows of_one_size(const std::pair<Box, Box>& boxes, double turn_deg, doubl
     };
     return CardWindow{begin(box.columns, width), begin(box.rows, height), width, height};
   };
-  return {turn_deg, place(left), place(right)};
+  return {{}, turn_deg, place(left), place(right)};
+}
+
+/// A part of the small copy in pixels of the whole picture.
+CardWindow whole_pixels(const Box& part, double scale, const cv::Size& most) {
+  const auto whole = [&](int length, int most_length) {
+    return std::min(static_cast<int>(std::lround(length * scale)), most_length);
+  };
+  const int left = whole(part.columns.begin, most.width), top = whole(part.rows.begin, most.height);
+  return {left, top, whole(part.columns.end, most.width) - left, whole(part.rows.end, most.height) - top};
+}
+
+struct Straightened {
+  Boxes boxes;
+  double turn_deg;
+};
+
+std::optional<Straightened> find_straightened(const cv::Mat& card, bool touch) {
+  const cv::Mat as_it_lies = unlike_mount(card);
+  if (as_it_lies.empty()) return {};
+  const double turn_deg = turn_of(as_it_lies);
+  const auto boxes = find_boxes(unlike_mount(straightened(card, turn_deg, cv::INTER_LINEAR)), touch);
+  if (!boxes) return {};
+  return Straightened{*boxes, turn_deg};
+}
+
+/// What is one photograph on a mount has two halves, too.
+bool shows_one_scene_twice(ImageView<const Rgb8> picture, const CardWindows& windows) {
+  constexpr double least_share = 0.25;
+  const StereoPair halves = cut_card(picture, windows);
+  return block_agreement(halves.left, halves.right).share >= least_share;
 }
 
 }  // namespace
 
-std::optional<CardWindows> find_card_windows(ImageView<const Rgb8> card) {
+std::optional<CardWindows> find_card_windows(ImageView<const Rgb8> picture) {
   constexpr int least_side_px = 64;
-  if (card.width() < least_side_px || card.height() < least_side_px) return {};
-  const double scale = std::max(static_cast<double>(card.width()) / searched_width_px, 1.0);
+  if (picture.width() < least_side_px || picture.height() < least_side_px) return {};
+  const double scale = std::max(static_cast<double>(picture.width()) / searched_width_px, 1.0);
   cv::Mat small;
-  as_mat(card).convertTo(small, CV_32FC3);
-  cv::resize(small, small, {static_cast<int>(card.width() / scale), static_cast<int>(card.height() / scale)}, 0, 0,
+  cv::resize(as_mat(picture), small,
+             {static_cast<int>(picture.width() / scale), static_cast<int>(picture.height() / scale)}, 0, 0,
              cv::INTER_AREA);
+  small.convertTo(small, CV_32FC3);
   constexpr double grain_px = 1.2;
   cv::GaussianBlur(small, small, {}, grain_px);
 
-  const cv::Mat as_it_lies = unlike_mount(small);
-  if (as_it_lies.empty()) return {};
-  const double turn_deg = turn_of(as_it_lies);
-  const auto boxes = find_boxes(unlike_mount(straightened(small, turn_deg, cv::INTER_LINEAR)));
-  if (!boxes) return {};
-  return of_one_size(*boxes, turn_deg, scale);
+  // The whole picture may be card, or a part of it. That the photographs touch is believed last: the halves of a whole
+  // card before its ground look alike, too.
+  const Box all{{0, small.cols}, {0, small.rows}}, within = card_within(small);
+  for (const bool touch : {false, true}) {
+    for (const Box& part : touch ? std::array{within, all} : std::array{all, within}) {
+      if (part.columns.size() <= 0) continue;
+      const auto found = find_straightened(
+          small(cv::Range(part.rows.begin, part.rows.end), cv::Range(part.columns.begin, part.columns.end)), touch);
+      if (!found) continue;
+      CardWindows windows = of_one_size(found->boxes, found->turn_deg, scale);
+      windows.card = whole_pixels(part, scale, {picture.width(), picture.height()});
+      if (!touch || shows_one_scene_twice(picture, windows)) return windows;
+    }
+  }
+  return {};
 }
 
-StereoPair cut_card(ImageView<const Rgb8> card, const CardWindows& windows) {
-  const cv::Mat straight = straightened(as_mat(card), windows.turn_deg, cv::INTER_CUBIC);
+StereoPair cut_card(ImageView<const Rgb8> picture, const CardWindows& windows) {
+  const CardWindow& card = windows.card;
+  const cv::Mat straight = straightened(as_mat(picture)(cv::Rect(card.left, card.top, card.width, card.height)),
+                                        windows.turn_deg, cv::INTER_CUBIC);
   const auto part = [&](const CardWindow& window) {
     Image<Rgb8> view(window.width, window.height);
     cv::Mat target = as_mat(view);
@@ -303,8 +373,10 @@ StereoPair cut_card(ImageView<const Rgb8> card, const CardWindows& windows) {
 }
 
 std::string describe_card(const CardWindows& windows) {
+  const CardWindow& card = windows.card;
   std::string text = fmt::format("windows of {}x{} pixels at {},{} and {},{}", windows.left.width, windows.left.height,
-                                 windows.left.left, windows.left.top, windows.right.left, windows.right.top);
+                                 card.left + windows.left.left, card.top + windows.left.top,
+                                 card.left + windows.right.left, card.top + windows.right.top);
   if (windows.turn_deg != 0) text += fmt::format("; the card is turned by {:.1f} degrees", windows.turn_deg);
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -39,6 +40,30 @@ TEST(CardWindows, AreFoundToAHundredthOfTheCardsWidth) {
       expect_near(found->right, card.right, options.width);
     }
   }
+}
+
+CardWindow in_picture(const CardWindows& found, CardWindow window) {
+  window.left += found.card.left;
+  window.top += found.card.top;
+  return window;
+}
+
+TEST(CardWindows, AreFoundOnAScannersGroundAndWithoutAGap) {
+  const StereoPair pair = still_for_test();
+  for (const CardOptions& options : {CardOptions{.turn_deg = 0.6, .ground_share = 0.05},
+                                     CardOptions{.mount = {118, 116, 108}, .turn_deg = -1, .gutter_share = 0},
+                                     CardOptions{.rounding = 0.1, .gutter_share = 0, .ground_share = 0.1}}) {
+    SCOPED_TRACE(testing::Message() << "ground " << options.ground_share << ", gap " << options.gutter_share);
+    const TestCard card = make_card(pair, options);
+    const std::optional<CardWindows> found = find_card_windows(card.picture);
+    ASSERT_TRUE(found);
+    expect_near(in_picture(*found, found->left), card.left, options.width);
+    expect_near(in_picture(*found, found->right), card.right, options.width);
+  }
+  // One wide photograph on a mount.
+  StereoPair other = pair;
+  std::ranges::reverse(other.right.pixels());
+  EXPECT_FALSE(find_card_windows(make_card(other, {.gutter_share = 0}).picture));
 }
 
 TEST(CardWindows, AreCutOutStraight) {
