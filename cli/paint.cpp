@@ -81,6 +81,7 @@ std::string summary_of(const PaintedPhotograph& result, const PaintingMeasures* 
 ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
   ViewsOutput output{name, {arguments.style.style, arguments.matching.model}, arguments.format};
   output.inputs.insert(output.inputs.end(), arguments.files.begin(), arguments.files.end());
+  output.inputs.emplace_back(arguments.depth.file);
   for (const std::string& disparity : {arguments.disparity, arguments.right_disparity}) {
     output.inputs.emplace_back(disparity);
     output.inputs.emplace_back(disparity.substr(0, disparity.rfind(':')));  // FILE:SCALE
@@ -116,6 +117,34 @@ std::string write_views(const DisplayPreset& display, const ViewsOutput& output,
   return output.name;
 }
 
+/// What is painted: a photograph of two views, or a pair that was made of one picture and its depth.
+struct Subject {
+  ReadPhotograph photograph;
+  std::optional<float> strength;  ///< of the depth, in widths; none: there are two views
+  Json told() const {
+    if (strength) return {{"strength", *strength}};
+    return Json::parse(preparation_json(photograph.pair));
+  }
+};
+
+/// Reads what is to be painted; what is known of its geometry goes into the options.
+Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions& options,
+                     const Session& session) {
+  if (!arguments.depth.file.empty()) {
+    SinglePicture single = read_single_picture(job.left, arguments.depth, arguments.photographs.max_size, session);
+    options.left_disparity = std::move(single.pair.geometry.left_disparity);
+    options.right_disparity = std::move(single.pair.geometry.right_disparity);
+    return {{{.pictures = std::move(single.pair.pictures)}, single.whole}, single.strength};
+  }
+  StereoArguments files = arguments.photographs;
+  files.left = job.left;
+  files.right = job.right;
+  Subject subject{read_photographs(files, !arguments.disparity.empty(), session), {}};
+  if (!arguments.disparity.empty()) options.left_disparity = read_disparity_argument(arguments.disparity);
+  if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
+  return subject;
+}
+
 /// What is told of a photograph that was painted.
 struct Painted {
   Json facts;
@@ -123,8 +152,9 @@ struct Painted {
   std::string written;
 };
 
-Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const ReadPhotograph& photograph,
+Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const Subject& subject,
                           const PaintPhotographOptions& painting, const Session& session) {
+  const ReadPhotograph& photograph = subject.photograph;
   const DisplayPreset& display = find_display(arguments.display);
   const PaintViewsOptions options = views_options(arguments, display, painting);
   const PaintedViews result = paint_views(photograph.pair.pictures, options, session.progress);
@@ -136,7 +166,7 @@ Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const
              {"span", result.span},
              {"zero_parallax_px", result.zero_parallax_px},
              {"worst_bare_share", result.worst_bare_share},
-             {"pair", Json::parse(preparation_json(photograph.pair))}};
+             {subject.strength ? "depth" : "pair", subject.told()}};
   if (photograph.whole.width > 0)
     facts["reduced_from"] = {{"width", photograph.whole.width}, {"height", photograph.whole.height}};
   std::string text =
@@ -167,7 +197,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
                   const Session& session) {
   // What cannot be written is said before the work.
   const ViewsOutput output = output_of(arguments, job.output);
-  ResultOptions results{.photographs = arguments.photographs.rectify != "never",
+  ResultOptions results{.photographs = arguments.photographs.rectify != "never" || !arguments.depth.file.empty(),
                         .html = arguments.html,
                         .svg = arguments.svg,
                         .format = arguments.format};
@@ -178,26 +208,20 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
     folder.emplace(output.name, output.inputs);
     for (const std::string& name : result_names(results)) folder->file(name);
   }
-  StereoArguments files = arguments.photographs;
-  files.left = job.left;
-  files.right = job.right;
-  const ReadPhotograph photograph = read_photographs(files, !arguments.disparity.empty(), session);
+  const Subject subject = read_subject(arguments, job, options, session);
+  const ReadPhotograph& photograph = subject.photograph;
   const StereoPair& pictures = photograph.pair.pictures;
-  results.photographs = photograph.pair.rectification.has_value();
-  std::optional<Image<float>> truth;
-  if (!arguments.disparity.empty()) {
-    truth = read_disparity_argument(arguments.disparity);
-    options.left_disparity = truth;
-  }
-  if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
-  if (!arguments.display.empty()) return paint_for_display(arguments, job, photograph, options, session);
+  results.photographs = subject.strength || photograph.pair.rectification;
+  if (!arguments.display.empty()) return paint_for_display(arguments, job, subject, options, session);
 
   const PaintedPhotograph result = paint_photograph(pictures, options, session.progress);
   std::optional<PaintingMeasures> measures;
   if (arguments.measure)
-    measures = measure_painting(pictures, result, truth ? *truth : result.geometry.left_disparity, session.progress);
+    measures = measure_painting(pictures, result, options.left_disparity.value_or(result.geometry.left_disparity),
+                                session.progress);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
-  const PaintingReport told{result, options.style, &photograph.pair, measured, photograph.whole};
+  const PaintingReport told{result, options.style, subject.strength ? nullptr : &photograph.pair, measured,
+                            photograph.whole};
   write_results(*folder, pictures, told, results, session.progress);
   return {Json::parse(report_json(told)), summary_of(result, measured, photograph.whole), job.output};
 }
@@ -283,17 +307,19 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 
 void add_paint_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *program.add_subcommand("paint", "Paint a stereo photograph");
+  CLI::App& command = *program.add_subcommand("paint", "Paint a stereo photograph, or one picture and its depth");
   add_paint_options(command, *arguments);
   command.footer(
       "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, "
       "painting.wst\n"
-      "(the marks), disparity, occlusion, and report.json; where the pair was rectified also left_photograph.png and\n"
-      "right_photograph.png, the pictures that were painted.\n\n"
+      "(the marks), disparity, occlusion, and report.json; where the pair was rectified, or made of one picture and "
+      "its\n"
+      "depth, also left_photograph.png and right_photograph.png, the pictures that were painted.\n\n"
       "Examples:\n  wheatstone synth still -o still\n"
       "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
       "  wheatstone paint one.mpo two.mpo three.mpo -o painted\n"
-      "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph");
+      "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph\n"
+      "  wheatstone paint photo.jpg --depth depth.png -o painted");
   command.callback([arguments, &command, &session] { run(*arguments, command, session); });
 }
 

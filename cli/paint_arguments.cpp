@@ -62,7 +62,7 @@ void add_display_options(CLI::App& command, PaintArguments& arguments) {
 void add_paint_options(CLI::App& command, PaintArguments& arguments) {
   command.add_option("PHOTOGRAPHS", arguments.files,
                      "LEFT and RIGHT photograph; or files that hold both views each: MPO, JPS, side by side, one above "
-                     "the other; or one painting.wst, which is drawn again");
+                     "the other; or one picture with --depth; or one painting.wst, which is drawn again");
   add_output_option(command, arguments.folder, "Folder for the results");
   add_picture_format(command, arguments.format, "File format of the painted pictures; masks and disparities are PNG");
   command.add_option("--print-style", arguments.print_style, "Print a style as a style file (.toml) and exit");
@@ -84,6 +84,7 @@ void add_paint_options(CLI::App& command, PaintArguments& arguments) {
   command.add_flag("--html", arguments.html, "Also write index.html, which shows the pictures");
   add_stereo_options(command, arguments.photographs);
   add_rectify_option(command, arguments.photographs);
+  add_depth_options(command, arguments.depth);
   add_style_options(command, arguments.style);
   add_match_options(command, arguments.matching);
 }
@@ -103,8 +104,28 @@ void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arg
                  "it works on photographs");
 }
 
+namespace {
+
+void refuse_for_depth(const CLI::App& command, const PaintArguments& arguments) {
+  if (arguments.depth.file.empty()) {
+    refuse_group(command, depth_options_group, {}, "without --depth", "");
+    return;
+  }
+  if (arguments.files.size() > 1)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--depth: belongs to one picture, but {} files are given; where there are two views, "
+                            "--disparity gives that of the left one",
+                            arguments.files.size()));
+  refuse_options(command, {"--disparity", "--right-disparity", "--layout", "--swap", "--rectify"}, "with --depth",
+                 "it works where there are two views");
+  refuse_match_options_without_effect(command, arguments.matching, "with --depth");
+}
+
+}  // namespace
+
 void refuse_for_photographs(const CLI::App& command, const PaintArguments& arguments, bool several) {
   refuse_options(command, {"--scale"}, "on photographs", "it works on a painting (.wst)");
+  refuse_for_depth(command, arguments);
   if (several)
     refuse_options(command, {"--disparity", "--right-disparity", "--zero-parallax-at"}, "on several photographs",
                    "it belongs to one");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "depth_argument.h"
 #include "match_options.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
@@ -19,6 +20,7 @@ struct PaintArguments {
   std::string format = "png";
   std::string print_style;
   std::string disparity, right_disparity;
+  DepthArguments depth;
   std::string zero_parallax = "nearest";
   std::string zero_parallax_at;
   double scale = 1;
@@ -39,9 +41,9 @@ void refuse_for_printing(const CLI::App& command);
 void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments);
 void refuse_for_photographs(const CLI::App& command, const PaintArguments& arguments, bool several);
 
-/// One stereo photograph and where its painting goes.
+/// One photograph and where its painting goes.
 struct PaintJob {
-  std::string left, right;  ///< right is empty where left holds both views
+  std::string left, right;  ///< right is empty where left holds both views, or is one picture with its depth
   std::string output;
 };
 

@@ -12,6 +12,7 @@
 #include "scenes/stereograph_card.h"
 #include "scenes/test_photographs.h"
 #include "wheatstone/photograph/write_views.h"
+#include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/film_writer.h"
@@ -85,6 +86,14 @@ void make_still(const fs::path& folder) {
                      "1", "-o", folder});
 }
 
+/// The left picture of `photographs`, and its depth as networks give it: nearer is brighter.
+void make_depth(const fs::path& path) {
+  const Image<float> disparity =
+      make_synthetic_view({.width = photograph_width, .height = photograph_height, .samples_a_side = 1}, left_eye)
+          .disparity;
+  write_disparity(path, disparity);
+}
+
 void make_painting(const fs::path& path) {
   const fs::path folder = path.parent_path() / "made for its painting";
   make_with_program({"paint", example_input("left.png"), example_input("right.png"), "-o", folder});
@@ -112,6 +121,8 @@ const std::map<std::string, Maker>& makers() {
       {"three.mpo", make_multi_picture},
       {"photograph.jpg",
        [](const fs::path& path) { write_image(path, joined(photographs().left, photographs().right, true)); }},
+      {"photo.jpg", left},
+      {"depth.png", make_depth},
       {"still", make_still},
       {"painted",
        [](const fs::path& path) {

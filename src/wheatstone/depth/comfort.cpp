@@ -13,6 +13,7 @@ constexpr float desk_limit_mm = 100;
 constexpr float degrees = 1;
 constexpr float broadcast_before_percent = 1;
 constexpr float broadcast_behind_percent = 2;
+static_assert(broadcast_before_percent + broadcast_behind_percent == 100 * comfortable_parallax_share);
 constexpr float adults_mm = 65;
 /// Limits hold to the last digit that a user types, not to the last bit.
 constexpr float tolerance = 1.0001f;

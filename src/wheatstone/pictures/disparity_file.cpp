@@ -12,6 +12,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/portable_float_map.h"
+#include "wheatstone/pictures/stored_channel_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -30,35 +31,6 @@ std::string ending(const std::filesystem::path& path) {
   std::string text = path.extension().string();
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
-}
-
-/// The first channel of a picture file, as stored: integers as their values, floats as they are.
-struct StoredChannel {
-  Image<float> values;
-  OIIO::TypeDesc type;
-};
-
-StoredChannel read_first_channel(const std::filesystem::path& path) {
-  const auto input = OIIO::ImageInput::open(path.string());
-  if (!input) {
-    OIIO::geterror();
-    refuse(path, "is not a disparity map, expected PNG, PFM or EXR");
-  }
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.image_bytes() > most_bytes)
-    refuse(path,
-           fmt::format("is {}x{} pixels, which is not a valid size for a disparity map", spec.width, spec.height));
-  if (spec.nchannels >= 3) refuse(path, fmt::format("has {} channels, expected one", spec.nchannels));
-  StoredChannel stored{Image<float>(spec.width, spec.height), spec.format};
-  if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data()))
-    refuse(path, "is damaged or truncated");
-  // OpenImageIO brings integers to 0..1.
-  const float full = spec.format == OIIO::TypeDesc::UINT8    ? 255.f
-                     : spec.format == OIIO::TypeDesc::UINT16 ? 65535.f
-                                                             : 1.f;
-  if (full > 1)
-    for (float& value : stored.values.pixels()) value = std::round(value * full);
-  return stored;
 }
 
 void invalidate(Image<float>& disparity, float scale, bool zero_is_unknown) {
@@ -123,7 +95,7 @@ Image<float> read_disparity(const std::filesystem::path& path, std::optional<flo
     invalidate(disparity, scale.value_or(1), false);
     return disparity;
   }
-  StoredChannel stored = read_first_channel(path);
+  StoredChannel stored = read_stored_channel(path, "a disparity map", GreyInColours::refused);
   const bool integer = stored.type == OIIO::TypeDesc::UINT8 || stored.type == OIIO::TypeDesc::UINT16;
   const float usual_scale = stored.type == OIIO::TypeDesc::UINT16 ? kitti_scale : 1.f;
   invalidate(stored.values, scale.value_or(usual_scale), integer);

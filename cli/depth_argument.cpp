@@ -1,0 +1,79 @@
+#include "depth_argument.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "typed_options.h"
+#include "wheatstone/error.h"
+#include "wheatstone/pictures/depth_file.h"
+#include "wheatstone/pictures/read_image.h"
+
+namespace wheatstone::cli {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, DepthKind>, 2> depth_kinds{
+    {{"inverse", DepthKind::inverse}, {"metric", DepthKind::metric}}};
+
+void check_size(ImageView<const Rgb8> picture, const std::string& name) {
+  constexpr int least_side_px = 16;
+  if (picture.width() < least_side_px || picture.height() < least_side_px)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: is {}x{} pixels, expected at least {}x{}", name, picture.width(),
+                                                  picture.height(), least_side_px, least_side_px));
+}
+
+}  // namespace
+
+void add_depth_options(CLI::App& command, DepthArguments& arguments) {
+  command
+      .add_option("--depth", arguments.file,
+                  "Depth of the one picture that is given: PNG with 8 or 16 bits, PFM or EXR")
+      ->group(depth_options_group);
+  add_choice<DepthKind>(command, "--depth-is", arguments.kind, depth_kinds,
+                        "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger")
+      ->group(depth_options_group);
+  command
+      .add_option(
+          "--strength", arguments.strength,
+          "Disparity from the farthest point to the nearest, in % of the width; 3% is comfortable on any screen")
+      ->type_name("SHARE")
+      ->capture_default_str()
+      ->group(depth_options_group);
+}
+
+float parse_strength(const std::string& text) {
+  constexpr NumberRange percent{0.1, 30};
+  const bool is_percent = text.ends_with('%');
+  const std::string number = is_percent ? text.substr(0, text.size() - 1) : text;
+  const double factor = is_percent ? 0.01 : 1;
+  return static_cast<float>(
+      factor * parse_number(is_percent ? "--strength, in %" : "--strength, a share of the width; with '%' in percent",
+                            number, {percent.least * 0.01 / factor, percent.most * 0.01 / factor}));
+}
+
+SinglePicture read_single_picture(const std::string& picture, const DepthArguments& arguments, int max_size,
+                                  const Session& session) {
+  report(session.progress, "reading", 0);
+  SinglePicture read;
+  read.strength = parse_strength(arguments.strength);
+  read.depth_source = arguments.file;
+  Image<Rgb8> photograph = read_image(picture);
+  check_size(photograph, picture);
+  const Image<float> depth = read_depth(arguments.file);
+  if (max_size > 0 && std::max(photograph.width(), photograph.height()) > max_size) {
+    read.whole = {photograph.width(), photograph.height()};
+    photograph = reduced(photograph, reduced_size(read.whole, max_size));
+  }
+  try {
+    Image<float> disparity =
+        disparity_from_depth(depth, photograph, {.kind = arguments.kind, .strength = read.strength});
+    read.pair = make_pair_from_single_view(std::move(photograph), std::move(disparity));
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", read.depth_source, error.what()));
+  }
+  return read;
+}
+
+}  // namespace wheatstone::cli

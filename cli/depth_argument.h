@@ -1,0 +1,41 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "command.h"
+#include "stereo_arguments.h"
+#include "wheatstone/stereo/disparity_from_depth.h"
+#include "wheatstone/stereo/single_view.h"
+
+namespace wheatstone::cli {
+
+/// The heading of these options in the help.
+inline constexpr auto depth_options_group = "One picture and its depth";
+
+/// One picture's depth as it is typed.
+struct DepthArguments {
+  std::string file;  ///< empty: there is none
+  DepthKind kind = DepthKind::inverse;
+  std::string strength = "3%";
+};
+
+/// Adds --depth, --depth-is and --strength.
+void add_depth_options(CLI::App& command, DepthArguments& arguments);
+
+/// "3%" or ".03" as a share. Throws Error{wrong_usage}.
+float parse_strength(const std::string& text);
+
+/// A pair that was made of one picture.
+struct SinglePicture {
+  MadePair pair;
+  PictureSize whole;         ///< before it was reduced; 0: it was not
+  float strength = 0;        ///< disparity from far to near, in widths
+  std::string depth_source;  ///< where the depth comes from, for messages
+};
+
+/// Reads one picture and its depth, and makes a pair of them. Throws Error: bad_input that names the files.
+SinglePicture read_single_picture(const std::string& picture, const DepthArguments& arguments, int max_size,
+                                  const Session& session);
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// Reads a picture of depth: the numbers as they are stored, whatever they stand for; NaN where they are not finite.
+/// PNG and other pictures of 8 or 16 bits (grey, or colours that are equal), PFM of either byte order, EXR.
+/// Throws Error{bad_input} where the file is missing, damaged, in colour, or holds no finite number.
+Image<float> read_depth(const std::filesystem::path& path);
+
+}  // namespace wheatstone

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "wheatstone/depth/comfort.h"
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// What the numbers of a picture of depth stand for.
+enum class DepthKind {
+  inverse,  ///< a disparity up to scale and offset, larger is nearer: monocular networks, most pictures of depth
+  metric    ///< a length along the line of sight in any unit, larger is farther; 0 and below are unknown
+};
+
+struct DisparityFromDepthOptions {
+  DepthKind kind = DepthKind::inverse;
+  float strength = comfortable_parallax_share;  ///< disparity from the farthest point to the nearest, in widths
+};
+
+/// The disparity of one picture from its depth, in pixels of the picture: 0 at the farthest point, `strength` of the
+/// width at the nearest, but for half a percent of outliers on either side, which get the same. Unknown depths (not
+/// finite) take the farther one of their neighbours on the scan line. Depth of another size is resampled: between
+/// pixels of one surface linearly, and at a depth edge by the pixel whose colour is nearest. Ramps across a depth edge
+/// that are too steep for a surface become steps.
+/// Throws Error{bad_input} where the depth's shape differs from the picture's by more than 1 %, nothing is known, or
+/// the depth is the same everywhere; Error{wrong_usage} for a strength that is not in (0, 1).
+Image<float> disparity_from_depth(ImageView<const float> depth, ImageView<const Rgb8> picture,
+                                  const DisparityFromDepthOptions& options = {});
+
+}  // namespace wheatstone
