@@ -53,7 +53,7 @@ std::string describe_views(const ViewsFile& file);
 ///   A JPEG whose index lists anything else than views of one size (a gain map, a panorama) is an ordinary picture.
 /// - JPS: by its descriptor; without one the right eye's picture is on the left. PNS is the same as PNG.
 /// - HEIC with exactly two pictures of one size: left, right.
-/// - GIF and animated WebP of exactly two frames: left, right.
+/// - GIF, animated WebP and animated PNG of exactly two frames: left, right.
 /// - any other picture: by the layout that is given, else its metadata, its name, its halves, in this order.
 /// EXIF orientation and ICC profiles are applied to each; squeezed halves are brought back to full size. The middle
 /// column or row of an odd number belongs to neither view.

@@ -138,6 +138,15 @@ OpenPicture open_picture(const fs::path& path) {
   return open;
 }
 
+OpenPicture open_png(std::string_view bytes, std::string_view colour_profile, const fs::path& path) {
+  OpenPicture open;
+  open.bytes = bytes;
+  open.colour_profile = colour_profile;
+  open_in_memory(path, "png", open);
+  check_opened(path, open);
+  return open;
+}
+
 OpenPicture open_jpeg(std::string_view bytes, const fs::path& path) {
   if (!bytes.starts_with("\xFF\xD8") || !jpeg_is_whole(bytes))
     refuse_damaged(path, "one of its pictures is no whole JPEG");

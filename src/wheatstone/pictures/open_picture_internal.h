@@ -28,6 +28,9 @@ OpenPicture open_picture(const std::filesystem::path& path);
 /// The same of a JPEG in memory, as it stands among others in a file; `path` stands for it in messages.
 OpenPicture open_jpeg(std::string_view bytes, const std::filesystem::path& path);
 
+/// The same of a PNG in memory, with the ICC profile that belongs to it.
+OpenPicture open_png(std::string_view bytes, std::string_view colour_profile, const std::filesystem::path& path);
+
 /// All bytes of what is to be a picture. Throws Error as read_image for what is missing, empty or no file.
 std::string read_picture_bytes(const std::filesystem::path& path);
 

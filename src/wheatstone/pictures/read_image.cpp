@@ -13,7 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "wheatstone/pictures/animated_png_internal.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
+#include "wheatstone/pictures/embedded_profile_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 
 namespace wheatstone {
@@ -130,12 +132,21 @@ Image<Rgb8> read_opened(const fs::path& path, const OpenPicture& open) {
   return upright(std::move(picture), spec.get_int_attribute("Orientation", 1));
 }
 
+std::vector<Image<Rgb8>> read_png_frames(std::string_view bytes, const fs::path& path, int most_frames) {
+  const auto pngs = frames_of_png(bytes, most_frames);
+  if (!pngs) refuse_damaged(path, "its frames do not each replace the whole picture, or it ends too early");
+  std::vector<Image<Rgb8>> frames;
+  for (const std::string& png : *pngs)
+    frames.push_back(read_opened(path, open_png(png, embedded_profile(bytes), path)));
+  return frames;
+}
+
 }  // namespace
 
 Image<Rgb8> read_image(const fs::path& path) { return read_opened(path, open_picture(path)); }
 
 bool may_be_animated(std::string_view bytes) {
-  if (bytes.starts_with("GIF8")) return true;
+  if (bytes.starts_with("GIF8") || is_animated_png(bytes)) return true;
   // RIFF, its length, WEBP; the first chunk of an animation is VP8X with a bit that says so.
   constexpr std::size_t flags_at = 20;
   constexpr unsigned char is_animated = 2;
@@ -144,6 +155,8 @@ bool may_be_animated(std::string_view bytes) {
 }
 
 std::vector<Image<Rgb8>> read_picture_frames(const fs::path& path, int most_frames) {
+  const std::string bytes = read_picture_bytes(path);
+  if (is_animated_png(bytes)) return read_png_frames(bytes, path, most_frames);
   const OpenPicture open = open_picture(path);
   std::vector<Image<Rgb8>> frames;
   while (static_cast<int>(frames.size()) < most_frames &&

@@ -17,10 +17,11 @@ Image<Rgb8> read_image(const std::filesystem::path& path);
 /// The same of a JPEG in memory; `path` stands for it in messages.
 Image<Rgb8> decode_jpeg(std::string_view bytes, const std::filesystem::path& path);
 
-/// Whether these are the bytes of a GIF or an animated WebP, which hold one frame or more.
+/// Whether these are the bytes of a GIF, an animated WebP or an animated PNG, which hold one frame or more.
 bool may_be_animated(std::string_view bytes);
 
-/// The frames of a GIF or an animated WebP as they are shown, but at most `most_frames`. Throws Error as read_image.
+/// The frames of such a picture as they are shown, but at most `most_frames`. Throws Error as read_image, also where a
+/// frame of a PNG is only a part of the picture.
 std::vector<Image<Rgb8>> read_picture_frames(const std::filesystem::path& path, int most_frames);
 
 }  // namespace wheatstone
