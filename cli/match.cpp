@@ -51,7 +51,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   // What cannot be written is said before the work.
   const StereoArguments& photographs = arguments.photographs;
   OutputFolder folder(arguments.folder, {photographs.left, photographs.right, arguments.matching.model});
-  for (const std::string& name : result_names(photographs.rectify != "never")) folder.file(name);
+  for (const std::string& name : result_names(photographs.rectify != RectifyPolicy::never)) folder.file(name);
   const ReadPhotograph read = read_photographs(photographs, false, session);
   const PreparedPair& pair = read.pair;
   const MatchedPair matched = match(pair.pictures, match_options_from(arguments.matching), session.progress);
@@ -88,7 +88,7 @@ void add_match_command(CLI::App& program, const Session& session) {
   command.add_option("RIGHT", arguments->photographs.right, "Right photograph, of the same size");
   add_output_option(command, arguments->folder, "Folder for the results");
   add_stereo_options(command, arguments->photographs);
-  add_rectify_option(command, arguments->photographs);
+  add_rectify_option(command, arguments->photographs.rectify);
   add_match_options(command, arguments->matching);
   command.footer(
       "Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is "

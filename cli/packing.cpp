@@ -84,7 +84,7 @@ struct MatchedView {
 
 MatchedView matched_view(const PackingJob& job) {
   const std::string name = fmt::format("--to {}", job.packing.name);
-  PreparedPair pair = prepare_named_pair(pair_of(job.views), {}, name, job.session);
+  PreparedPair pair = prepare_named_pair(pair_of(job.views), {.rectify = job.arguments.rectify}, name, job.session);
   tell_of_rows(pair, name, job.session);
   Image<float> disparity = match(pair.pictures, {}, job.session.progress).geometry.left_disparity;
   return {std::move(pair.pictures.left), std::move(disparity)};
@@ -227,6 +227,7 @@ void add_packing_options(CLI::App& command, PackingArguments& arguments) {
   command.add_option("--display", arguments.display, "Quilt or lenticular picture for this display")->excludes(quilt);
   add_picture_format(command, arguments.format, "File format of views, or of a quilt without an ending");
   add_number(command, "--quality", arguments.quality, {1, 100}, "JPEG quality of MPO and JPS");
+  add_rectify_option(command, arguments.rectify);
   add_number(command, "--depth-scale", arguments.depth_scale, {1e-9, 1e9},
              "Depth times disparity: camera separation times focal length in pixels");
   add_number(command, "--seconds", arguments.seconds, {0.05, 60}, "Period of a wiggle animation, in seconds");
@@ -264,7 +265,8 @@ void check_packing(const CLI::App& command, const Packing& packing, const std::s
   only(name == "depth", "--depth-scale", "it works with depth");
   only(name == "wiggle", "--seconds", "it works with wiggle");
   only(name == "views" || (name == "quilt" && !has_ending), "--format", "the ending of the output says the format");
-  only(is_matched(packing), "--max-size", "it works with disparity, depth and rgbd, which match the views");
+  for (const char* option : {"--max-size", "--rectify"})
+    only(is_matched(packing), option, "it works with disparity, depth and rgbd, which match the views");
   const bool is_picture = !is_one_of(name, {"mpo", "jps", "views", "wiggle", "exr", "disparity", "depth"});
   if (is_picture && (has_ending || name != "quilt")) check_picture_ending("--output", output);
 }

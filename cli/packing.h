@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "command.h"
+#include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/image.h"
@@ -17,14 +18,15 @@ namespace wheatstone::cli {
 
 /// A packing as it is typed.
 struct PackingArguments {
-  std::string to;              ///< empty: by the output's ending
-  std::string screen;          ///< of lenticular: a display, or a calibration file
-  std::string quilt;           ///< COLUMNSxROWS
-  std::string display;         ///< a preset, whose format is taken
-  std::string format = "png";  ///< of views, and of a quilt without an ending
-  int quality = 95;            ///< of JPEG, MPO, JPS
-  double seconds = 0.5;        ///< of a wiggle, there and back
-  float depth_scale = 1;       ///< of depth: camera separation times focal length in pixels
+  std::string to;                                    ///< empty: by the output's ending
+  std::string screen;                                ///< of lenticular: a display, or a calibration file
+  std::string quilt;                                 ///< COLUMNSxROWS
+  std::string display;                               ///< a preset, whose format is taken
+  std::string format = "png";                        ///< of views, and of a quilt without an ending
+  int quality = 95;                                  ///< of JPEG, MPO, JPS
+  double seconds = 0.5;                              ///< of a wiggle, there and back
+  RectifyPolicy rectify = RectifyPolicy::automatic;  ///< of views that are matched
+  float depth_scale = 1;                             ///< of depth: camera separation times focal length in pixels
 };
 
 struct PackingFormat;

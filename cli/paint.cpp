@@ -197,10 +197,11 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
                   const Session& session) {
   // What cannot be written is said before the work.
   const ViewsOutput output = output_of(arguments, job.output);
-  ResultOptions results{.photographs = arguments.photographs.rectify != "never" || !arguments.depth.file.empty(),
-                        .html = arguments.html,
-                        .svg = arguments.svg,
-                        .format = arguments.format};
+  ResultOptions results{
+      .photographs = arguments.photographs.rectify != RectifyPolicy::never || !arguments.depth.file.empty(),
+      .html = arguments.html,
+      .svg = arguments.svg,
+      .format = arguments.format};
   std::optional<OutputFolder> folder;
   if (!arguments.display.empty()) {
     check_views_output(output);

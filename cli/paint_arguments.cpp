@@ -83,7 +83,7 @@ void add_paint_options(CLI::App& command, PaintArguments& arguments) {
   command.add_flag("--svg", arguments.svg, "Also write left.svg and right.svg, the marks as vector graphics");
   command.add_flag("--html", arguments.html, "Also write index.html, which shows the pictures");
   add_stereo_options(command, arguments.photographs);
-  add_rectify_option(command, arguments.photographs);
+  add_rectify_option(command, arguments.photographs.rectify);
   add_depth_options(command, arguments.depth);
   add_style_options(command, arguments.style);
   add_match_options(command, arguments.matching);

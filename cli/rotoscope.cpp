@@ -22,6 +22,7 @@
 #include "option_use.h"
 #include "output_option.h"
 #include "print_facts.h"
+#include "stereo_arguments.h"
 #include "style_options.h"
 #include "typed_options.h"
 #include "wheatstone/app/rotoscope_film.h"
@@ -277,12 +278,7 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
 void add_time_options(CLI::App& command, Arguments& arguments) {
   constexpr auto group = "Time and depth";
   RotoscopeOptions& frames = arguments.options.frames;
-  static constexpr std::array policies{std::pair{std::string_view("auto"), RectifyPolicy::automatic},
-                                       std::pair{std::string_view("never"), RectifyPolicy::never},
-                                       std::pair{std::string_view("always"), RectifyPolicy::always}};
-  add_choice<RectifyPolicy>(command, "--rectify", frames.rectify, policies,
-                            "Whether the eyes are rectified, once a scene; auto: where their rows differ")
-      ->group(group);
+  add_rectify_option(command, frames.rectify)->group(group);
   static constexpr std::array flows{std::pair{std::string_view("farneback"), FlowMethod::farneback},
                                     std::pair{std::string_view("dis"), FlowMethod::dis}};
   add_choice<FlowMethod>(command, "--flow", frames.flow, flows,

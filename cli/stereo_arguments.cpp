@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string_view>
 #include <utility>
@@ -96,14 +97,13 @@ void add_stereo_options(CLI::App& command, StereoArguments& arguments) {
       ->default_str("");
 }
 
-void add_rectify_option(CLI::App& command, StereoArguments& arguments) {
-  command
-      .add_option(
-          "--rectify", arguments.rectify,
-          fmt::format(
-              "Whether the pair is rectified first, as 'wheatstone rectify' does: {}; auto: where its rows differ",
-              fmt::join(rectify_policy_names(), ", ")))
-      ->capture_default_str();
+CLI::Option* add_rectify_option(CLI::App& command, RectifyPolicy& policy) {
+  static constexpr std::array policies{std::pair{std::string_view("auto"), RectifyPolicy::automatic},
+                                       std::pair{std::string_view("never"), RectifyPolicy::never},
+                                       std::pair{std::string_view("always"), RectifyPolicy::always}};
+  return add_choice<RectifyPolicy>(
+      command, "--rectify", policy, policies,
+      "Whether the views are rectified first, as 'wheatstone rectify' does; auto: where their rows differ");
 }
 
 StereoPair read_pair(const std::string& left, const std::string& right) {
@@ -137,11 +137,7 @@ void tell_of_layout(const NamedPair& pair, const Session& session) {
 }
 
 ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session) {
-  const std::optional<RectifyPolicy> policy = rectify_policy_by_name(arguments.rectify);
-  if (!policy)
-    throw Error(ErrorKind::wrong_usage, fmt::format("--rectify: is '{}', expected one of: {}", arguments.rectify,
-                                                    fmt::join(rectify_policy_names(), ", ")));
-  if (disparity_is_given && *policy == RectifyPolicy::always)
+  if (disparity_is_given && arguments.rectify == RectifyPolicy::always)
     throw Error(ErrorKind::wrong_usage,
                 "--rectify changes the pictures, but --disparity belongs to them as they are: choose one");
   report(session.progress, "reading", 0);
@@ -154,13 +150,13 @@ ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity
       throw Error(ErrorKind::bad_input, fmt::format("{}: show different scenes", read.name));
     prepared.pictures = std::move(read.pictures);
   } else {
-    prepared = prepare_named_pair(std::move(read.pictures), {.rectify = *policy}, read.name, session);
+    prepared = prepare_named_pair(std::move(read.pictures), {.rectify = arguments.rectify}, read.name, session);
   }
   tell_of_layout(read, session);
   if (!read.eyes_known_from_picture && eyes_look_swapped(prepared.pictures))
     tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
                               arguments.left, arguments.swap ? "leave out" : "add"));
-  tell_of_rows(prepared, read.name, session);
+  tell_of_rows(prepared, read.note.empty() ? read.name : arguments.left, session);
   return {std::move(prepared), whole};
 }
 

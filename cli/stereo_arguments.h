@@ -15,7 +15,7 @@ struct StereoArguments {
   std::string left, right;  ///< right is empty where left holds both
   std::string layout;       ///< of one picture that holds both; empty: find it
   bool swap = false;
-  std::string rectify = "auto";
+  RectifyPolicy rectify = RectifyPolicy::automatic;
   int max_size = 0;  ///< longer side of what is worked on, in pixels; 0: as large as it is
 };
 
@@ -26,7 +26,7 @@ void add_layout_options(CLI::App& command, StereoArguments& arguments);
 void add_stereo_options(CLI::App& command, StereoArguments& arguments);
 
 /// Adds --rectify.
-void add_rectify_option(CLI::App& command, StereoArguments& arguments);
+CLI::Option* add_rectify_option(CLI::App& command, RectifyPolicy& policy);
 
 /// Reads two photographs. Throws Error{bad_input} that names both where their sizes differ.
 StereoPair read_pair(const std::string& left, const std::string& right);

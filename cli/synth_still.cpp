@@ -68,12 +68,11 @@ void run(const Arguments& arguments, const Session& session) {
 
   OutputFolder output(arguments.folder);
   if (arguments.phone) {
-    report(session.progress, "casting rays", 0);
-    write(output, make_phone_pair(options));
+    write(output, make_phone_pair(options, {}, session.progress));
   } else if (arguments.view) {
-    write(output, "view", make_synthetic_view(options, ViewPosition(*arguments.view)));
+    write(output, "view", make_synthetic_view(options, ViewPosition(*arguments.view), session.progress));
   } else if (arguments.views == 2) {
-    write(output, make_synthetic_still(options));
+    write(output, make_synthetic_still(options, session.progress));
   } else {
     const Rig rig = evenly_spaced(options.width, options.height, arguments.views);
     for (int i = 0; i < arguments.views; ++i) {

@@ -212,7 +212,7 @@ TEST(Photograph, ThatIsNotRectifiedIsPaintedRectified) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(nlohmann::json::parse(result.output)["pair"]["warning"], HasSubstr("rows differ"));
   line.back() = "perhaps";
-  expect_refused(folder, line, 2, "expected one of: auto, never, always");
+  expect_refused(folder, line, 2, "expected auto|never|always");
 }
 
 TEST(Photograph, ThatIsUpsideDownMirroredOrBlackIsRefused) {

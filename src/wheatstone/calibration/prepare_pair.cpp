@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -19,8 +18,6 @@
 
 namespace wheatstone {
 namespace {
-
-constexpr std::array<std::string_view, 3> policy_names{"auto", "never", "always"};
 
 /// The 95th percentile of row differences may be this many times the tolerated median.
 constexpr double tail_to_median = 3;
@@ -148,14 +145,6 @@ void rectify_if_it_helps(PreparedPair& prepared, const RectifyOptions& options, 
 }
 
 }  // namespace
-
-std::span<const std::string_view> rectify_policy_names() { return policy_names; }
-
-std::optional<RectifyPolicy> rectify_policy_by_name(std::string_view name) {
-  const auto found = std::ranges::find(policy_names, name);
-  if (found == policy_names.end()) return std::nullopt;
-  return static_cast<RectifyPolicy>(found - policy_names.begin());
-}
 
 PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& options, const Progress& progress) {
   check_pictures(photographs);

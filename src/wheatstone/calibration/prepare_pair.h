@@ -1,9 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "wheatstone/calibration/rectify.h"
 #include "wheatstone/progress.h"
@@ -13,13 +11,10 @@ namespace wheatstone {
 
 /// Whether a pair is rectified before it is matched.
 enum class RectifyPolicy {
-  automatic,  ///< where their rows do not fit, and rectifying makes them fit better; "auto"
+  automatic,  ///< where their rows do not fit, and rectifying makes them fit better
   never,      ///< the pictures are taken as they are
   always,     ///< as `rectify` does, from what the pictures have in common
 };
-
-std::span<const std::string_view> rectify_policy_names();
-std::optional<RectifyPolicy> rectify_policy_by_name(std::string_view name);
 
 struct PreparePairOptions {
   RectifyPolicy rectify = RectifyPolicy::automatic;

@@ -170,11 +170,5 @@ TEST(PreparePair, DoesNotJudgeWhereThereIsTooLittleToGoBy) {
   EXPECT_EQ(row_warning(prepared), "");
 }
 
-TEST(PreparePair, IsToldByName) {
-  for (std::size_t i = 0; i < rectify_policy_names().size(); ++i)
-    EXPECT_EQ(rectify_policy_by_name(rectify_policy_names()[i]), static_cast<RectifyPolicy>(i));
-  EXPECT_FALSE(rectify_policy_by_name("sometimes"));
-}
-
 }  // namespace
 }  // namespace wheatstone

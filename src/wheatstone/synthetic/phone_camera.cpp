@@ -133,7 +133,8 @@ Flow partners(const StereoGeometry& geometry, const PhoneCamera& left, const Pho
 
 }  // namespace
 
-PhonePair make_phone_pair(const SyntheticStillOptions& pictures, const PhoneCameraOptions& camera) {
+PhonePair make_phone_pair(const SyntheticStillOptions& pictures, const PhoneCameraOptions& camera,
+                          const Progress& progress) {
   SyntheticStillOptions wider = pictures;
   const cv::Size size(pictures.width, pictures.height);
   // Disparities by default belong to the pictures, not to what is cast around them.
@@ -142,7 +143,8 @@ PhonePair make_phone_pair(const SyntheticStillOptions& pictures, const PhoneCame
   wider.height += 2 * static_cast<int>(margin * size.height);
   if (!wider.largest_disparity_px) wider.largest_disparity_px = 45 * unit;
   if (!wider.least_disparity_px) wider.least_disparity_px = 6 * unit;
-  const SyntheticStill scene = make_synthetic_still(wider);
+  const SyntheticStill scene = make_synthetic_still(wider, progress);
+  report(progress, "taking photographs", 0);
   // The still life's cameras have shifted sensors; these have not, and look straight ahead.
   const double half_shift = static_cast<double>(still::make_cameras(wider).shift_px) / 2;
   const cv::Point2d middle(wider.width / 2.0, wider.height / 2.0), aside(half_shift, 0);

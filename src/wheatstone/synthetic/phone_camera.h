@@ -23,6 +23,7 @@ struct PhonePair {
 /// The synthetic still life as two hand-held cameras side by side take it. The width and height of `pictures` are those
 /// of the photographs; a margin around them is cast too, so that turned cameras see the scene everywhere. Throws as
 /// make_synthetic_still does.
-PhonePair make_phone_pair(const SyntheticStillOptions& pictures, const PhoneCameraOptions& camera = {});
+PhonePair make_phone_pair(const SyntheticStillOptions& pictures, const PhoneCameraOptions& camera = {},
+                          const Progress& progress = {});
 
 }  // namespace wheatstone

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "wheatstone/error.h"
@@ -56,13 +57,18 @@ Cameras make_cameras(const SyntheticStillOptions& options) {
 
 }  // namespace still
 
-SyntheticStill make_synthetic_still(const SyntheticStillOptions& options) {
+SyntheticStill make_synthetic_still(const SyntheticStillOptions& options, const Progress& progress) {
   const still::Cameras cameras = still::make_cameras(options);
   const still::Scene scene = still::compose_still(options.seed);
   const still::View left(scene, cameras, left_eye), right(scene, cameras, right_eye);
   SyntheticStill result;
-  SyntheticView of_left = still::render(left, options.samples_a_side);
-  SyntheticView of_right = still::render(right, options.samples_a_side);
+  const auto half = [&progress](double done_before) -> Progress {
+    return [&progress, done_before](std::string_view step, double done) {
+      report(progress, step, done_before + done / 2);
+    };
+  };
+  SyntheticView of_left = still::render(left, options.samples_a_side, half(0));
+  SyntheticView of_right = still::render(right, options.samples_a_side, half(0.5));
   result.pictures = {std::move(of_left.picture), std::move(of_right.picture)};
   result.geometry.left_disparity = std::move(of_left.disparity);
   result.geometry.right_disparity = std::move(of_right.disparity);
@@ -71,10 +77,10 @@ SyntheticStill make_synthetic_still(const SyntheticStillOptions& options) {
   return result;
 }
 
-SyntheticView make_synthetic_view(const SyntheticStillOptions& options, ViewPosition view) {
+SyntheticView make_synthetic_view(const SyntheticStillOptions& options, ViewPosition view, const Progress& progress) {
   const still::Cameras cameras = still::make_cameras(options);
   const still::Scene scene = still::compose_still(options.seed);
-  return still::render(still::View(scene, cameras, view), options.samples_a_side);
+  return still::render(still::View(scene, cameras, view), options.samples_a_side, progress);
 }
 
 }  // namespace wheatstone

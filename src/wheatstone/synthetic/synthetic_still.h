@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "wheatstone/depth/view_position.h"
+#include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
@@ -34,9 +35,10 @@ struct SyntheticView {
 /// A still life of fruit, flowers and pottery on a table by a window, ray-cast by two parallel cameras whose pictures
 /// are shifted. All light is that which the cyclopean eye sees: a point has one colour in every view. The same options
 /// give the same bytes on any number of threads. Throws Error{wrong_usage} for sizes or ranges that make no sense.
-SyntheticStill make_synthetic_still(const SyntheticStillOptions& options = {});
+SyntheticStill make_synthetic_still(const SyntheticStillOptions& options = {}, const Progress& progress = {});
 
 /// The same still life from any view position.
-SyntheticView make_synthetic_view(const SyntheticStillOptions& options, ViewPosition view);
+SyntheticView make_synthetic_view(const SyntheticStillOptions& options, ViewPosition view,
+                                  const Progress& progress = {});
 
 }  // namespace wheatstone

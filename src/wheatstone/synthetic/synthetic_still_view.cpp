@@ -115,17 +115,22 @@ void View::enter(int object) {
       tiles_[static_cast<std::size_t>(row) * columns_ + column].push_back(object);
 }
 
-SyntheticView render(const View& view, int samples_a_side) {
+SyntheticView render(const View& view, int samples_a_side, const Progress& progress) {
   const Cameras& cameras = view.cameras();
   SyntheticView result{Image<Rgb8>(cameras.width, cameras.height), Image<float>(cameras.width, cameras.height)};
-  tbb::parallel_for(0, cameras.height, [&](int y) {
+  const auto cast_row = [&](int y) {
     for (int x = 0; x < cameras.width; ++x) {
       result.picture(x, y) = render_pixel(view, x, y, samples_a_side);
       const Hit hit = view.look(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       result.disparity(x, y) =
           hit.object < 0 ? std::numeric_limits<float>::quiet_NaN() : cameras.disparity(hit.distance);
     }
-  });
+  };
+  const int rows_at_once = std::max(64, cameras.height / 32);
+  for (int first = 0; first < cameras.height; first += rows_at_once) {
+    report(progress, "casting rays", static_cast<double>(first) / cameras.height);
+    tbb::parallel_for(first, std::min(first + rows_at_once, cameras.height), cast_row);
+  }
   return result;
 }
 

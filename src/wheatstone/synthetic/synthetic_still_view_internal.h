@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/progress.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 #include "wheatstone/synthetic/synthetic_still_internal.h"
 
@@ -70,7 +71,7 @@ class View {
 };
 
 /// A view's picture, each pixel the mean of samples_a_side² samples, and its exact disparity; NaN where nothing is.
-SyntheticView render(const View& view, int samples_a_side);
+SyntheticView render(const View& view, int samples_a_side, const Progress& progress = {});
 
 /// 255 where the point at a pixel's centre is hidden from another view of the same frame or outside its picture.
 Image<std::uint8_t> occlusion_of(const Cameras& cameras, const View& from, const View& to,
