@@ -1,21 +1,23 @@
 #include "wheatstone/matching/coarse_to_fine_internal.h"
 
-#include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
+
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/enlarge_internal.h"
 #include "wheatstone/matching/fill_in_picture_internal.h"
 #include "wheatstone/matching/semi_global_internal.h"
+#include "wheatstone/matching/trusted_places_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -25,6 +27,7 @@ constexpr int coarsest_width_px = 900;
 constexpr double most_coarse_costs = 80e6;
 /// Disparities looked at around what the coarser copy had.
 constexpr int fine_count = 16;
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 struct Level {
   cv::Mat left, right;
@@ -33,6 +36,7 @@ struct Level {
 /// What one size leaves to the next.
 struct Guess {
   Image<float> left, found;
+  cv::Mat confirmed;
 };
 
 double coarsest_scale(cv::Size size, const DisparityRange& range) {
@@ -94,25 +98,32 @@ SearchBand band_around(const Image<float>& disparity) {
 
 /// Checks and completes what was found at one size. `guess`, none at the coarsest, is what the coarser copy had: it
 /// stays where this size finds nothing.
-CheckedMatch checked(BandMatch match, const Level& level, std::optional<Guess> guess, const MatchOptions& options) {
+CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<Guess> guess,
+                     const MatchOptions& options) {
   CheckedMatch result;
   result.found = options.left_right_check ? confirmed_disparity(match.left, match.right, -1, options.check_tolerance_px)
                                           : match.left;
   result.right = options.left_right_check ? confirmed_disparity(match.right, match.left, 1, options.check_tolerance_px)
                                           : match.right;
   remove_speckles(result.found, options.least_surface_px);
+  cv::Mat found = as_mat(result.found);
+  result.confirmed = found == found;
+  result.plain = plain_places(level.left, match);
+  found.setTo(unknown, result.plain | ~distinct_places(match));
   if (guess) {
     result.left = std::move(guess->left);
-    for (std::size_t i = 0; i < result.left.pixels().size(); ++i) {
-      float& found = result.found.pixels()[i];
-      if (!std::isfinite(found)) found = guess->found.pixels()[i];
-      if (std::isfinite(found)) result.left.pixels()[i] = found;
-    }
-  } else {
-    if (known_share(result.found) == 0) throw Error(ErrorKind::bad_input, "no pixel of the two pictures matches");
-    result.left = result.found;
-    fill_in_picture(result.left, match.right, level.left);
+    cv::Mat left = as_mat(result.left);
+    as_mat(guess->found).copyTo(found, found != found);
+    found.copyTo(left, found == found);
+    cv::Mat confirmed_before;
+    cv::resize(guess->confirmed, confirmed_before, found.size(), 0, 0, cv::INTER_NEAREST);
+    result.confirmed |= confirmed_before;
+    return result;
   }
+  // Nothing but plain places is no reason to refuse: whatever was found there is as good as anything.
+  if (known_share(result.found) == 0) result.found = match.left;
+  result.left = result.found;
+  fill_in_picture(result.left, match.right, {level.left, result.plain});
   return result;
 }
 
@@ -136,13 +147,39 @@ CheckedMatch match_coarse_to_fine(const cv::Mat& left, const cv::Mat& right, con
                                              static_cast<int>(std::ceil(range.largest * scale))});
     } else {
       const Image<std::uint8_t> alike = most_alike_neighbours(levels[i + 1].left, level.left);
-      guess = {enlarged(match.left, alike), enlarged(match.found, alike)};
+      guess = {enlarged(match.left, alike), enlarged(match.found, alike), match.confirmed};
       match = {};
       band = band_around(guess->left);
     }
     match = checked(match_semi_global(level.left, level.right, band), level, std::move(guess), options);
   }
   return match;
+}
+
+void refine_at_double_size(const cv::Mat& left, const cv::Mat& right, Image<float>& disparity) {
+  cv::Mat large_left, large_right;
+  cv::resize(left, large_left, {}, 2, 2, cv::INTER_CUBIC);
+  cv::resize(exposed_alike(left, right), large_right, {}, 2, 2, cv::INTER_CUBIC);
+  Image<float> guess(large_left.cols, large_left.rows);
+  cv::Mat large_guess = as_mat(guess);
+  cv::resize(as_mat(disparity), large_guess, large_guess.size(), 0, 0, cv::INTER_NEAREST);
+  large_guess *= 2;
+  const BandMatch match = match_semi_global(large_left, large_right, band_around(guess));
+  const Image<float> confirmed = confirmed_disparity(match.left, match.right, -1, 1);
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    for (int x = 0; x < disparity.width(); ++x) {
+      float sum = 0;
+      int count = 0;
+      for (int i = 0; i < 4; ++i) {
+        const float found = confirmed(2 * x + i % 2, 2 * y + i / 2) / 2;
+        // NaN is not within a pixel.
+        if (!(std::abs(found - disparity(x, y)) <= 0.5f)) continue;
+        sum += found;
+        ++count;
+      }
+      if (count > 0) disparity(x, y) = sum / static_cast<float>(count);
+    }
+  });
 }
 
 }  // namespace wheatstone

@@ -117,7 +117,7 @@ TEST(FillInPicture, ThePlainGoesOnAndTheHiddenIsFar) {
   }
   for (int y = 30; y < 50; ++y)
     for (int x = 25; x < 50; ++x) disparity(x, y) = unknown;
-  fill_in_picture(disparity, right, picture);
+  fill_in_picture(disparity, right, {picture, cv::Mat::zeros(picture.size(), CV_8U)});
   for (int y = 30; y < 50; ++y)
     for (int x = 25; x < 50; ++x) ASSERT_NEAR(disparity(x, y), ground(y), 0.5) << x << " " << y;
   for (int y = box.y; y < box.br().y; ++y)

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/matching/match_internal.h"
+#include "wheatstone/matching/confirm_internal.h"
+#include "wheatstone/matching/match.h"
+#include "wheatstone/matching/trusted_places_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -15,18 +18,26 @@ namespace {
 constexpr int search_width_px = 1000;
 constexpr std::size_t least_matches = 12;
 
-/// Dense disparities of a small copy of the pair, over all that a picture could hold: it also sees the plain surfaces
-/// on which there are no corners. In pixels of the full picture.
+/// Dense disparities of a small copy of the pair, over all that a picture could hold: it also sees surfaces on which
+/// there are no corners. What is plain tells nothing, what is small may be chance. In pixels of the full picture; none
+/// where too little is sure.
 std::vector<float> coarse_disparities(const StereoPair& pair) {
-  constexpr int small_width_px = 320;
+  constexpr int small_width_px = 320, least_surface_px = 60;
+  constexpr double least_share = 0.01;
   const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());
   cv::Mat left, right;
   cv::resize(as_mat(pair.left), left, {}, scale, scale, cv::INTER_AREA);
   cv::resize(as_mat(pair.right), right, {}, scale, scale, cv::INTER_AREA);
-  const Image<float> disparity = match_plain_sgbm(left, right, {-left.cols / 6, left.cols / 3});
-  const float least = disparity_percentile(disparity, 0.01), largest = disparity_percentile(disparity, 0.995);
-  if (!std::isfinite(least)) return {};
-  return {least / static_cast<float>(scale), largest / static_cast<float>(scale)};
+  const SearchBand band{Image<std::int16_t>(left.cols, left.rows, static_cast<std::int16_t>(-left.cols / 6)),
+                        left.cols / 6 + left.cols / 3 + 1};
+  const BandMatch match = match_semi_global(left, right, band);
+  Image<float> sure = confirmed_disparity(match.left, match.right, -1, 1);
+  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+  as_mat(sure).setTo(unknown, plain_places(left, match) | ~distinct_places(match));
+  remove_speckles(sure, least_surface_px);
+  if (known_share(sure) < least_share) return {};
+  return {disparity_percentile(sure, 0.01) / static_cast<float>(scale),
+          disparity_percentile(sure, 0.995) / static_cast<float>(scale)};
 }
 
 cv::Mat reduced_luminance(const Image<Rgb8>& picture, double scale) {

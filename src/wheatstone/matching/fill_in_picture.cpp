@@ -28,20 +28,20 @@ Ends ends_of(const Image<float>& disparity) {
   return range;
 }
 
-/// Pixels whose partners would lie beside the right picture have one known neighbour only, to their right, and what it
-/// tells varies from row to row: they take the median of the rows around.
-void steady_border(const Image<float>& known, Image<float>& filled) {
+/// What one row's neighbours tell varies from row to row: unknown pixels take the median of those above and below that
+/// are unknown too.
+void steady_rows(const Image<float>& known, Image<float>& filled) {
   constexpr int rows_around = 9;
   const Image<float> before = filled;
-  const auto outside = [&](int x, int y) {
-    return !std::isfinite(known(x, y)) && static_cast<float>(x) < before(x, y);
-  };
-  tbb::parallel_for(0, known.height(), [&](int y) {
+  const int height = known.height();
+  tbb::parallel_for(0, known.width(), [&](int x) {
     std::vector<float> around;
-    for (int x = 0; x < known.width() && !std::isfinite(known(x, y)); ++x) {
-      if (!outside(x, y)) continue;
+    for (int y = 0; y < height; ++y) {
+      if (std::isfinite(known(x, y))) continue;
       around.clear();
-      for (int j = std::max(y - rows_around, 0); j <= std::min(y + rows_around, known.height() - 1); ++j)
+      for (int j = y; j >= std::max(y - rows_around, 0) && !std::isfinite(known(x, j)); --j)
+        around.push_back(before(x, j));
+      for (int j = y + 1; j <= std::min(y + rows_around, height - 1) && !std::isfinite(known(x, j)); ++j)
         around.push_back(before(x, j));
       const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
       std::ranges::nth_element(around, middle);
@@ -50,42 +50,74 @@ void steady_border(const Image<float>& known, Image<float>& filled) {
   });
 }
 
+/// Values with confidences, and both multiplied.
+struct Weighted {
+  cv::Mat product, confidence;
+};
+
+Weighted spread(const cv::Mat& picture, const Weighted& from, double smoothness, double colour_sigma) {
+  Weighted result;
+  cv::ximgproc::fastGlobalSmootherFilter(picture, from.product, result.product, smoothness, colour_sigma);
+  cv::ximgproc::fastGlobalSmootherFilter(picture, from.confidence, result.confidence, smoothness, colour_sigma);
+  return result;
+}
+
+/// The farther of the surfaces around each pixel, from far and wide: what is nearer counts less.
+cv::Mat farther_around(const cv::Mat& picture, const Weighted& known, double range) {
+  constexpr double smoothness = 1e5, colour_sigma = 40, least = 1e-20;
+  const double near_share = 0.1 * std::max(range, 1.0);
+  cv::Mat value, weight;
+  cv::divide(known.product, cv::max(known.confidence, least), value);
+  cv::exp(value * (-1 / near_share), weight);
+  Weighted biased;
+  biased.confidence = weight.mul(known.confidence);
+  biased.product = value.mul(biased.confidence);
+  const Weighted around = spread(picture, biased, smoothness, colour_sigma);
+  return around.product / cv::max(around.confidence, least);
+}
+
 }  // namespace
 
-void fill_in_picture(Image<float>& disparity, const Image<float>& other, const cv::Mat& picture) {
+void fill_in_picture(Image<float>& disparity, const Image<float>& other, const PictureToFill& by) {
   const int width = disparity.width(), height = disparity.height();
   Image<float> farther = disparity;
   fill_from_farther_side(farther);
-  steady_border(disparity, farther);
+  steady_rows(disparity, farther);
   const Ends ends = ends_of(disparity);
   const DisparityRange range{static_cast<int>(std::floor(ends.least)), static_cast<int>(std::ceil(ends.largest))};
 
   // The solver's data: what is known, and what is hidden with less confidence.
   constexpr float hidden_confidence = 0.5f;
-  cv::Mat weighted(height, width, CV_32F), confidence(height, width, CV_32F);
+  Weighted data{cv::Mat(height, width, CV_32F), cv::Mat(height, width, CV_32F)};
   tbb::parallel_for(0, height, [&](int y) {
-    auto* value = weighted.ptr<float>(y);
-    auto* weight = confidence.ptr<float>(y);
+    auto* product = data.product.ptr<float>(y);
+    auto* weight = data.confidence.ptr<float>(y);
+    const auto* plain = by.plain.ptr<std::uint8_t>(y);
     for (int x = 0; x < width; ++x) {
       const bool known = std::isfinite(disparity(x, y));
-      weight[x] = known ? 1.f : is_hidden_from(other.row(y), x, range) ? hidden_confidence : 0.f;
-      value[x] = weight[x] * (farther(x, y) - ends.least);
+      const bool hidden = !known && plain[x] == 0 && is_hidden_from(other.row(y), x, range);
+      weight[x] = known ? 1.f : hidden ? hidden_confidence : 0.f;
+      product[x] = weight[x] * (farther(x, y) - ends.least);
     }
   });
   constexpr double smoothness = 4000, colour_sigma = 4;
-  cv::Mat spread_values, spread_confidence;
-  cv::ximgproc::fastGlobalSmootherFilter(picture, weighted, spread_values, smoothness, colour_sigma);
-  cv::ximgproc::fastGlobalSmootherFilter(picture, confidence, spread_confidence, smoothness, colour_sigma);
+  const Weighted around = spread(by.picture, data, smoothness, colour_sigma);
+  const cv::Mat far = farther_around(by.picture, data, ends.largest - ends.least);
   tbb::parallel_for(0, height, [&](int y) {
-    const auto* value = spread_values.ptr<float>(y);
-    const auto* weight = spread_confidence.ptr<float>(y);
-    const auto* given = confidence.ptr<float>(y);
-    constexpr float least_confidence = 1e-4f;
+    const auto* product = around.product.ptr<float>(y);
+    const auto* weight = around.confidence.ptr<float>(y);
+    const auto* given = data.confidence.ptr<float>(y);
+    const auto* plain = by.plain.ptr<std::uint8_t>(y);
+    const auto* far_value = far.ptr<float>(y);
+    constexpr float least_confidence = 1e-4f, far_confidence = 1;
     for (int x = 0; x < width; ++x) {
       if (std::isfinite(disparity(x, y))) continue;
-      const bool spread = given[x] == 0 && weight[x] > least_confidence;
+      const float prior = plain[x] != 0 ? far_confidence : 0.f;
+      const float confidence = weight[x] + prior;
       disparity(x, y) =
-          spread ? std::clamp(ends.least + value[x] / weight[x], ends.least, ends.largest) : farther(x, y);
+          given[x] > 0 || confidence <= least_confidence
+              ? farther(x, y)
+              : std::clamp(ends.least + (product[x] + prior * far_value[x]) / confidence, ends.least, ends.largest);
     }
   });
 }

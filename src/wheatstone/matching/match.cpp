@@ -17,6 +17,7 @@
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/match_reliability_internal.h"
+#include "wheatstone/matching/weighted_median_internal.h"
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
@@ -147,32 +148,61 @@ CheckedMatch match_both_ways(const cv::Mat& left_picture, const cv::Mat& right_p
     throw Error(ErrorKind::bad_input, fmt::format("no pixel of the two pictures matches between disparities {} and {}",
                                                   range.least, range.largest));
   match.left = match.found;
+  match.confirmed = as_mat(match.found) == as_mat(match.found);
   return match;
+}
+
+/// The share of a mask's pixels that are set; 0 where there is no mask.
+double share_of(const cv::Mat& mask) {
+  return mask.empty() ? 0 : static_cast<double>(cv::countNonZero(mask)) / static_cast<double>(mask.total());
+}
+
+/// What was found over the picture is smoothed where colours are alike, and found to parts of a pixel where wanted.
+void refine_ours(CheckedMatch& match, const cv::Mat& left, const cv::Mat& right, const MatchOptions& options) {
+  cv::Mat matrix = as_mat(match.left);
+  cv::medianBlur(matrix, matrix, 5);
+  match.left =
+      weighted_median(match.left, left, options.double_size ? WeightedMedianOptions{4, 2} : WeightedMedianOptions{});
+  constexpr std::size_t most_doubled = 4'000'000;
+  if (options.double_size && left.total() <= most_doubled) refine_at_double_size(left, right, match.left);
+}
+
+/// What other matchers do not find is filled row by row; a median across the rows takes the streaks out.
+void complete_others(CheckedMatch& match, const StereoPair& pair, const DisparityRange& range,
+                     const MatchOptions& options) {
+  if (options.distrust) match.found = distrust(match.left, match.right, pair, range);
+  const Image<float> before = match.left;
+  fill_from_farther_side(match.left);
+  if (options.wls) {
+    fill_from_farther_side(match.right);
+    match.left = refined(match.left, match.right, as_mat(pair.left), range, options);
+    if (options.wls_keeps_confirmed) keep_confirmed(before, match.found, match.left);
+  }
+  cv::Mat matrix = as_mat(match.left);
+  cv::medianBlur(matrix, matrix, 5);
 }
 
 MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options,
                                const Progress& progress) {
-  const cv::Mat left_picture = as_mat(pair.left), right_picture = as_mat(pair.right);
-  CheckedMatch match = options.matcher == Matcher::census
-                           ? match_coarse_to_fine(left_picture, right_picture, range, options, progress)
-                           : match_both_ways(left_picture, right_picture, range, options);
+  const cv::Mat left = as_mat(pair.left), right = as_mat(pair.right);
+  const bool ours = options.matcher == Matcher::census;
+  CheckedMatch match =
+      ours ? match_coarse_to_fine(left, right, range, options, progress) : match_both_ways(left, right, range, options);
   MatchedPair matched;
   matched.range = range;
-  matched.left_found_share = known_share(match.found);
+  matched.left_found_share = share_of(match.confirmed);
+  matched.plain_share = share_of(match.plain);
   matched.right_found_share = known_share(match.right);
   report(progress, "matching", 1);
-  if (options.distrust) match.found = distrust(match.left, match.right, pair, range);
-  const Image<float> before = match.left;
-  // Only our own matcher fills what it does not find over the picture; the others' is filled row by row.
-  if (options.matcher != Matcher::census) fill_from_farther_side(match.left);
-  if (options.wls) {
-    fill_from_farther_side(match.right);
-    match.left = refined(match.left, match.right, left_picture, range, options);
-    if (options.wls_keeps_confirmed) keep_confirmed(before, match.found, match.left);
+  if (ours) {
+    refine_ours(match, left, right, options);
+    if (options.wls && !options.wls_keeps_confirmed) {
+      fill_from_farther_side(match.right);
+      match.left = refined(match.left, match.right, left, range, options);
+    }
+  } else {
+    complete_others(match, pair, range, options);
   }
-  // Filling goes scan line by scan line; a median across them takes the streaks out and keeps the edges.
-  cv::Mat matrix = as_mat(match.left);
-  cv::medianBlur(matrix, matrix, 5);
   matched.geometry = geometry_from_left(std::move(match.left));
   return matched;
 }
@@ -224,6 +254,7 @@ MatchOptions match_options_for(MatchQuality quality) {
   MatchOptions options;
   if (quality == MatchQuality::fast) options.size = 0.5;
   if (quality == MatchQuality::best) {
+    options.double_size = true;
     options.distrust = true;
     options.wls = true;
     options.wls_keeps_confirmed = true;

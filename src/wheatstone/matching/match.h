@@ -43,7 +43,8 @@ struct DisparityRange {
 enum class MatchQuality {
   fast,  ///< at half the pictures' size
   good,  ///< the defaults
-  best,  ///< doubtful places replaced by their surroundings, edges refined: for plain walls and repeated patterns
+  best,  ///< parts of a pixel found in copies of twice the size; with other matchers than census doubtful places are
+         ///< replaced by their surroundings and edges refined
 };
 
 std::span<const std::string_view> match_quality_names();
@@ -62,21 +63,24 @@ struct MatchOptions {
   float check_tolerance_px = 1;
   int least_surface_px = 100;  ///< smaller connected patches of like disparity are dropped as speckles
   double size = 1;             ///< matched in copies of this share of the pictures' width, above 0 and up to 1
-  bool distrust = false;       ///< replace what is on plain surfaces and in repeated patterns from its surroundings
+  bool double_size = false;    ///< census only: parts of a pixel are found in copies of twice the size
+  bool distrust = false;       ///< replace what is on plain surfaces and in repeated patterns; census does so by itself
   bool wls = false;            ///< edge-aware refinement (OpenCV ximgproc, weighted least squares)
-  bool wls_keeps_confirmed = false;  ///< ... but for what it would move by no more than a pixel
+  bool wls_keeps_confirmed = false;  ///< ... but for what it would move by no more than a pixel; not with census
   double wls_lambda = 2000;
   double wls_sigma = 1;
 };
 
 MatchOptions match_options_for(MatchQuality quality);
 
-/// A matched pair. The shares are of the pixels, 0..1, whose disparity was found and not filled.
+/// A matched pair. The shares are of the pixels, 0..1; found is what was not filled, and what the other view confirms
+/// to a pixel, at the pictures' own size or in the copy in which noise does not hide it.
 struct MatchedPair {
   StereoGeometry geometry;
   DisparityRange range;
   double left_found_share = 0;
   double right_found_share = 0;
+  double plain_share = 0;  ///< of the left picture: large parts that show nothing but noise; census only
 };
 
 /// Finds the disparity of every pixel of a rectified pair, in both geometries, and both occlusion masks. Unknown places

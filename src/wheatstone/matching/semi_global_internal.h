@@ -17,6 +17,8 @@ struct SearchBand {
 /// picture where no pixel of the left one could lead.
 struct BandMatch {
   Image<float> left, right;
+  /// Of the left picture's pixels: the cost at the disparity that was chosen, and the mean of its band.
+  Image<std::uint8_t> own_cost, mean_cost;
 };
 
 /// Semi-global matching along eight paths (Hirschmüller 2008) of two 8-bit RGB pictures of one size. What is compared

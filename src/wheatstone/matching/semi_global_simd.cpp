@@ -299,6 +299,12 @@ class StripMatcher {
     return 0;
   }
 
+  std::uint8_t mean_of(const std::uint8_t* costs) const {
+    int sum = 0;
+    for (int k = 0; k < band_.count; ++k) sum += costs[k];
+    return static_cast<std::uint8_t>(sum / band_.count);
+  }
+
   /// The offset of the lowest point of two lines of opposite slope through three sums, the middle one the least.
   float between_pixels(const std::uint16_t* sums, int k) const {
     if (k == 0 || k == band_.count - 1) return 0;
@@ -314,9 +320,13 @@ class StripMatcher {
     const auto left = result.left.row(y), right = result.right.row(y);
     std::vector<std::uint16_t> least(static_cast<std::size_t>(width_) + 2 * row_margin, no_sum), chosen(least.size());
     std::uint16_t* sums = &memory_.sums[at(y)];
+    const std::uint8_t* costs = &memory_.costs[at(y)];
     for (int x = 0; x < width_; ++x, sums += rounded_) {
       std::fill(sums + band_.count, sums + rounded_, no_sum);
       const int first = band_.first(x, y), best = least_of(sums);
+      result.own_cost(x, y) = costs[best];
+      result.mean_cost(x, y) = mean_of(costs);
+      costs += rounded_;
       left[x] = static_cast<float>(first + best) + between_pixels(sums, best);
       for (int k = 0; k < rounded_; k += lanes) {
         const int there = width_ - 1 - x + first + k;

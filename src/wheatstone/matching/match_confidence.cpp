@@ -1,0 +1,152 @@
+#include "wheatstone/matching/match_confidence.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/image/opencv_internal.h"
+
+namespace wheatstone {
+namespace {
+
+template <class Value>
+Value middle_of(std::vector<Value>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+constexpr int taps = 15;
+
+/// The median of the pixels along a line through a pixel; lines end in a mirror.
+float median_along(const cv::Mat& map, int x, int y, cv::Point step) {
+  std::array<float, taps> values{};
+  for (int i = 0; i < taps; ++i) {
+    const int j = cv::borderInterpolate(y + (i - taps / 2) * step.y, map.rows, cv::BORDER_REFLECT);
+    const int k = cv::borderInterpolate(x + (i - taps / 2) * step.x, map.cols, cv::BORDER_REFLECT);
+    values[i] = map.at<float>(j, k);
+  }
+  std::ranges::nth_element(values, values.begin() + taps / 2);
+  return values[taps / 2];
+}
+
+/// Fine detail of a picture as it is matched: the mean magnitude of its Laplacian, above what noise makes of it.
+double detail_of(const Image<Rgb8>& picture) {
+  constexpr int side_px = 640;
+  const double scale = std::min(1.0, static_cast<double>(side_px) / picture.width());
+  cv::Mat small, edges;
+  cv::resize(as_mat(picture), small, {}, scale, scale, cv::INTER_AREA);
+  cv::cvtColor(small, small, cv::COLOR_RGB2GRAY);
+  cv::Laplacian(small, edges, CV_32F);
+  return cv::mean(cv::abs(edges))[0] / std::max(cv::mean(small)[0], 1.0);
+}
+
+/// Looks at partners in both pictures.
+void compare_partners(const StereoPair& pair, const StereoGeometry& geometry, MatchConfidence& confidence) {
+  const Image<float>& disparity = geometry.left_disparity;
+  // A million pixels tell as much as all.
+  constexpr double enough = 1e6;
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(disparity.pixels().size()) / enough)));
+  std::size_t asked = 0, inside = 0;
+  std::vector<int> differences;
+  for (int y = 0; y < disparity.height(); y += step) {
+    for (int x = 0; x < disparity.width(); x += step) {
+      ++asked;
+      const float there = std::floor(static_cast<float>(x) + 0.5f - disparity(x, y));
+      if (!(there >= 0 && there < static_cast<float>(disparity.width()))) continue;
+      ++inside;
+      if (geometry.left_occlusion(x, y) != 0) continue;
+      const Rgb8 a = pair.left(x, y), b = pair.right(static_cast<int>(there), y);
+      differences.push_back(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b));
+    }
+  }
+  confidence.overlap_share = static_cast<double>(inside) / static_cast<double>(asked);
+  if (!differences.empty()) confidence.colour_difference = middle_of(differences) / 3.0;
+}
+
+}  // namespace
+
+double streak_share(ImageView<const float> disparity) {
+  constexpr int columns = 640;
+  constexpr double share_of_range = 0.03;
+  const int rows =
+      std::max(1, static_cast<int>(std::lround(static_cast<double>(disparity.height()) * columns / disparity.width())));
+  Image<float> reduced(columns, rows);
+  const cv::Mat map = as_mat(reduced);
+  cv::resize(as_mat(disparity), map, map.size(), 0, 0, cv::INTER_NEAREST);
+  const double range = static_cast<double>(disparity_percentile(reduced, 0.98)) - disparity_percentile(reduced, 0.02);
+  const auto tolerance = static_cast<float>(share_of_range * range);
+  std::vector<int> streaks(rows, 0);
+  tbb::parallel_for(0, rows, [&](int y) {
+    for (int x = 0; x < columns; ++x) {
+      const float d = map.at<float>(y, x);
+      const bool unlike_column = std::abs(d - median_along(map, x, y, {0, 1})) > tolerance;
+      if (unlike_column && std::abs(d - median_along(map, x, y, {1, 0})) < tolerance) ++streaks[y];
+    }
+  });
+  int all = 0;
+  for (const int count : streaks) all += count;
+  return static_cast<double>(all) / (static_cast<double>(columns) * rows);
+}
+
+MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched) {
+  const Image<float>& disparity = matched.geometry.left_disparity;
+  MatchConfidence confidence;
+  confidence.found_share = matched.left_found_share;
+  confidence.plain_share = matched.plain_share;
+  confidence.streak_share = streak_share(disparity);
+  confidence.depth_px =
+      static_cast<double>(disparity_percentile(disparity, 0.98)) - disparity_percentile(disparity, 0.02);
+  confidence.middle_px = disparity_percentile(disparity, 0.5);
+  const double left_detail = detail_of(pair.left), right_detail = detail_of(pair.right);
+  confidence.left_is_blurrier = left_detail < right_detail;
+  const double sharper = std::max(left_detail, right_detail);
+  confidence.sharper_share = sharper > 0 ? std::min(left_detail, right_detail) / sharper : 1;
+  compare_partners(pair, matched.geometry, confidence);
+  return confidence;
+}
+
+std::string match_warning(const MatchConfidence& confidence) {
+  constexpr double least_found = 0.7, most_streaks = 0.03, least_depth_px = 1;
+  constexpr double least_overlap = 0.6, least_sharpness = 0.5, most_plain = 0.2;
+  const bool much_is_plain = confidence.plain_share > most_plain && confidence.found_share < least_found;
+  if (confidence.depth_px < least_depth_px && !much_is_plain)
+    return std::abs(confidence.middle_px) < least_depth_px
+               ? "the pictures show no depth: all disparities are about 0, as of one picture twice or of two taken "
+                 "from "
+                 "one place; move the camera sideways between the pictures"
+               : fmt::format(
+                     "the pictures show no depth: all disparities are about {:.0f} pixels, as of a flat or distant "
+                     "scene",
+                     confidence.middle_px);
+  if (confidence.sharper_share < least_sharpness)
+    return fmt::format(
+        "the {} picture is blurred relative to the other one, so that details have no partners; use a "
+        "sharper picture, or match reduced copies (--max-size 800)",
+        confidence.left_is_blurrier ? "left" : "right");
+  if (confidence.overlap_share < least_overlap)
+    return fmt::format(
+        "the views overlap by only {:.0f} % of the width; the rest has no depth of its own; crop both "
+        "pictures to what they have in common, or move the camera less between them",
+        100 * confidence.overlap_share);
+  if (confidence.found_share >= least_found && confidence.streak_share <= most_streaks) return {};
+  const std::string found = fmt::format("only {:.0f} % of the disparity is certain", 100 * confidence.found_share);
+  if (much_is_plain)
+    return fmt::format(
+        "{}: {:.0f} % of the picture is plain, and its depth is guessed from its surroundings; a "
+        "background with texture helps",
+        found, 100 * confidence.plain_share);
+  return fmt::format(
+      "{}: parts of the pictures do not correspond, as when things moved between two exposures; take both "
+      "at one moment, or widen --range if near things are missing",
+      found);
+}
+
+}  // namespace wheatstone

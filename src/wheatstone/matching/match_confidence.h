@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "wheatstone/matching/match.h"
+
+namespace wheatstone {
+
+/// How sure a pair's disparity is, told from the pictures and the disparity alone. All but the difference are shares,
+/// 0..1.
+struct MatchConfidence {
+  double found_share = 0;   ///< of the left view: found before anything was filled, and confirmed by the right view
+  double streak_share = 0;  ///< of a copy of 640 columns: as its row is, but not as its column is (`streak_share`)
+  double colour_difference = 0;  ///< median of |left − right| of partners, mean of the channels, 0..255
+  double plain_share = 0;        ///< of the left view: nothing but noise
+  double overlap_share = 0;      ///< of the left view: its partner lies within the right picture
+  double sharper_share = 0;      ///< of fine detail in the blurrier picture against the other; 1: alike
+  bool left_is_blurrier = false;
+  double depth_px = 0;   ///< between the 2nd and the 98th percentile of the disparity
+  double middle_px = 0;  ///< its median
+};
+
+MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched);
+
+/// Streaks of a disparity map reduced to 640 columns: the share of pixels that differ from the median of the 15 in
+/// their column by more than 3 % of the map's range (2nd to 98th percentile), and from that of the 15 in their row by
+/// less. Every disparity is known.
+double streak_share(ImageView<const float> disparity);
+
+/// One sentence that names the likeliest reason why a match is poor, and what helps; empty where it is good: at least
+/// 70 % found, at most 3 % streaks, some depth. Rows that differ are told by row_warning.
+std::string match_warning(const MatchConfidence& confidence);
+
+}  // namespace wheatstone
