@@ -55,13 +55,16 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   const ReadPhotograph read = read_photographs(photographs, false, session);
   const PreparedPair& pair = read.pair;
   const MatchedPair matched = match(pair.pictures, match_options_from(arguments.matching), session.progress);
+  const MatchConfidence confidence = measure_match(pair.pictures, matched);
   write(folder, pair, matched.geometry);
+  tell_of_match(read, confidence, session);
   if (session.json) {
     nlohmann::ordered_json facts{{"folder", arguments.folder},
                                  {"least_disparity_px", matched.range.least},
                                  {"largest_disparity_px", matched.range.largest},
                                  {"left_found_share", matched.left_found_share},
                                  {"right_found_share", matched.right_found_share},
+                                 {"confidence", nlohmann::ordered_json::parse(confidence_json(confidence))},
                                  {"pair", nlohmann::ordered_json::parse(preparation_json(pair))}};
     if (read.whole.width > 0) facts["reduced_from"] = {{"width", read.whole.width}, {"height", read.whole.height}};
     print_facts(facts, session);
@@ -73,6 +76,8 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   fmt::print(session.output, "disparities looked for   {} to {} px\n", matched.range.least, matched.range.largest);
   fmt::print(session.output, "found, not filled        {:.1f} % of the left view, {:.1f} % of the right\n",
              100 * matched.left_found_share, 100 * matched.right_found_share);
+  fmt::print(session.output, "streaks                  {:.1f} % of the disparity map\n", 100 * confidence.streak_share);
+  fmt::print(session.output, "partners differ by       {:.1f} of 255 (median)\n", confidence.colour_difference);
   fmt::print(session.output, "written to               {}\n", arguments.folder);
 }
 

@@ -25,7 +25,8 @@ DisparityRange parse_range(const std::string& text) {
 void add_match_options(CLI::App& command, MatchArguments& arguments) {
   constexpr auto group = match_options_group;
   add_name(command, "--quality", arguments.quality, match_quality_names(),
-           "Matching quality: fast matches at half the size; best replaces unreliable places and refines edges")
+           "Matching quality: fast matches at half the size; best finds parts of a pixel at twice the size, and with "
+           "other matchers than census replaces unreliable places")
       ->group(group);
   CLI::Option* matcher = add_name(command, "--matcher", arguments.matcher, matcher_names(),
                                   "Matching method: semi-global matching of census transforms from coarse to fine, "

@@ -159,6 +159,7 @@ Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const
   const PaintViewsOptions options = views_options(arguments, display, painting);
   const PaintedViews result = paint_views(photograph.pair.pictures, options, session.progress);
   const std::string written = write_views(display, output_of(arguments, job.output), result, session.progress);
+  if (result.confidence) tell_of_match(photograph, *result.confidence, session);
   Json facts{{"output", written},
              {"views", result.views.size()},
              {"width", options.width},
@@ -167,6 +168,7 @@ Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const
              {"zero_parallax_px", result.zero_parallax_px},
              {"worst_bare_share", result.worst_bare_share},
              {subject.strength ? "depth" : "pair", subject.told()}};
+  if (result.confidence) facts["confidence"] = Json::parse(confidence_json(*result.confidence));
   if (photograph.whole.width > 0)
     facts["reduced_from"] = {{"width", photograph.whole.width}, {"height", photograph.whole.height}};
   std::string text =
@@ -216,6 +218,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   if (!arguments.display.empty()) return paint_for_display(arguments, job, subject, options, session);
 
   const PaintedPhotograph result = paint_photograph(pictures, options, session.progress);
+  if (result.confidence) tell_of_match(photograph, *result.confidence, session);
   std::optional<PaintingMeasures> measures;
   if (arguments.measure)
     measures = measure_painting(pictures, result, options.left_disparity.value_or(result.geometry.left_disparity),

@@ -128,6 +128,12 @@ void tell_of_rows(const PreparedPair& pair, const std::string& name, const Sessi
     tell(session, fmt::format("warning: {}: {}", name, warning));
 }
 
+void tell_of_match(const ReadPhotograph& photograph, const MatchConfidence& confidence, const Session& session) {
+  const std::string warning = match_warning(confidence);
+  if (warning.empty() || !row_warning(photograph.pair).empty()) return;
+  tell(session, fmt::format("warning: {}: {}", photograph.name, warning));
+}
+
 NamedPair read_named_pair(const StereoArguments& arguments) {
   return arguments.right.empty() ? read_one_file(arguments) : read_two_files(arguments);
 }
@@ -156,8 +162,9 @@ ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity
   if (!read.eyes_known_from_picture && eyes_look_swapped(prepared.pictures))
     tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
                               arguments.left, arguments.swap ? "leave out" : "add"));
-  tell_of_rows(prepared, read.note.empty() ? read.name : arguments.left, session);
-  return {std::move(prepared), whole};
+  std::string name = read.note.empty() ? std::move(read.name) : arguments.left;
+  tell_of_rows(prepared, name, session);
+  return {std::move(prepared), whole, std::move(name)};
 }
 
 }  // namespace wheatstone::cli

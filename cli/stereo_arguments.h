@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "wheatstone/calibration/prepare_pair.h"
+#include "wheatstone/matching/match_confidence.h"
 #include "wheatstone/stereo/reduced_pair.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
@@ -56,7 +57,11 @@ void tell_of_layout(const NamedPair& pair, const Session& session);
 struct ReadPhotograph {
   PreparedPair pair;
   PictureSize whole;  ///< before it was reduced; 0: it was not
+  std::string name;   ///< for messages
 };
+
+/// Says on standard error, under the files' name, why a match is poor, where the rows do not tell it already.
+void tell_of_match(const ReadPhotograph& photograph, const MatchConfidence& confidence, const Session& session);
 
 /// Reads photographs from two files or one, and says on standard error how one was understood, and where the eyes look
 /// swapped. Where `disparity_is_given` they are taken as they are, and else prepared for matching: what makes them no

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "cli/run_program.h"
 #include "scenes/stereograph_card.h"
+#include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
@@ -189,6 +191,23 @@ TEST(Photograph, ThatIsNotRectifiedIsRectifiedByItself) {
   EXPECT_EQ(packed.exit_code, 0);
   EXPECT_THAT(packed.errors, HasSubstr("the pair was rectified"));
   EXPECT_LT(read_image(folder / "a.png").width(), 640) << "a rectified picture is cropped";
+}
+
+TEST(Photograph, ThatMatchesPoorlyHasOneWarningWithItsReason) {
+  const TemporaryFolder folder;
+  const StereoPair& pair = still();
+  Image<Rgb8> blurred(pair.right.width(), pair.right.height());
+  cv::Mat target = as_mat(blurred);
+  cv::GaussianBlur(as_mat(pair.right), target, {}, 4);
+  write_image(folder / "left.png", pair.left);
+  write_image(folder / "blurred.png", blurred);
+  for (const auto& [right, reason] : {std::pair{"blurred.png", "blurred"}, {"left.png", "one place"}}) {
+    const ProgramResult result = match_one(folder, {"left.png", right, "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr(reason));
+    EXPECT_EQ(result.errors.find("warning:"), result.errors.rfind("warning:")) << result.errors;
+    EXPECT_THAT(nlohmann::json::parse(result.output)["confidence"]["warning"], HasSubstr(reason));
+  }
 }
 
 TEST(Photograph, ThatIsNotRectifiedIsPaintedRectified) {

@@ -39,10 +39,11 @@ float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometr
 FoundGeometry find_geometry(const StereoPair& photographs, const PaintPhotographOptions& options,
                             const Progress& progress) {
   check_fits(photographs);
-  if (options.left_disparity) return {given_geometry(photographs, options), std::nullopt};
+  if (options.left_disparity) return {given_geometry(photographs, options), {}, {}};
   MatchedPair matched = match(photographs, options.matching, progress);
+  const MatchConfidence confidence = measure_match(photographs, matched);
   StereoGeometry geometry = std::exchange(matched.geometry, {});
-  return {std::move(geometry), std::move(matched)};
+  return {std::move(geometry), std::move(matched), confidence};
 }
 
 PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
@@ -52,6 +53,7 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   FoundGeometry found = find_geometry(photographs, options, progress);
   result.geometry = std::move(found.geometry);
   result.matched = std::move(found.matched);
+  result.confidence = found.confidence;
   result.painted = paint(photographs, result.geometry, options.style, progress);
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
   return result;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "wheatstone/matching/match.h"
+#include "wheatstone/matching/match_confidence.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/painting/paint.h"
@@ -29,7 +30,8 @@ struct PaintPhotographOptions {
 /// A stereo photograph painted, and what it was painted from.
 struct PaintedPhotograph {
   StereoGeometry geometry;
-  std::optional<MatchedPair> matched;  ///< without its geometry, which is above; none where disparity was given
+  std::optional<MatchedPair> matched;         ///< without its geometry, which is above; none where disparity was given
+  std::optional<MatchConfidence> confidence;  ///< of what was matched
   PaintedPair painted;
   float zero_parallax_px = 0;
 };
@@ -42,7 +44,8 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
 /// What there is to paint from, and how it was found.
 struct FoundGeometry {
   StereoGeometry geometry;
-  std::optional<MatchedPair> matched;  ///< without its geometry; none where disparity was given
+  std::optional<MatchedPair> matched;         ///< without its geometry; none where disparity was given
+  std::optional<MatchConfidence> confidence;  ///< of what was matched
 };
 
 /// Matches the photographs, or takes the disparity that is given. Throws as paint_photograph does.

@@ -42,11 +42,13 @@ Image<Rgb8> middle_of(const Image<Rgb8>& picture, int margin) {
 PaintedViews paint_views(const StereoPair& photographs, const PaintViewsOptions& options, const Progress& progress) {
   if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
   check_style(options.painting.style);
-  const StereoGeometry geometry = find_geometry(photographs, options.painting, progress).geometry;
+  const FoundGeometry found = find_geometry(photographs, options.painting, progress);
+  const StereoGeometry& geometry = found.geometry;
   const DepthEnds range = range_of(geometry.left_disparity);
   const ZeroParallax& wanted = options.painting.zero_parallax;
 
   PaintedViews result;
+  result.confidence = found.confidence;
   result.zero_parallax_px =
       wanted.disparity_px || wanted.at ? screen_disparity(wanted, geometry) : (range.nearest + range.farthest) / 2;
   const float fill = std::max(static_cast<float>(options.width) / static_cast<float>(photographs.left.width()),

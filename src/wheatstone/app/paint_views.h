@@ -24,6 +24,7 @@ struct PaintedViews {
   float span = 0;               ///< as chosen
   float zero_parallax_px = 0;   ///< in pixels of the photographs
   double worst_bare_share = 0;  ///< of a view's pixels that no mark covered, which took their neighbours' colours
+  std::optional<MatchConfidence> confidence;  ///< of what was matched; none where disparity was given
 };
 
 /// One stereo photograph, painted once, for every view of a display. Throws as paint_photograph does.

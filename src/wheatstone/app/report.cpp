@@ -92,6 +92,20 @@ std::string preparation_json(const PreparedPair& pair) {
   return facts.dump(2);
 }
 
+std::string confidence_json(const MatchConfidence& confidence) {
+  const std::string warning = match_warning(confidence);
+  Json facts{{"found_share", rounded(confidence.found_share)},
+             {"streak_share", rounded(confidence.streak_share)},
+             {"colour_difference", rounded(confidence.colour_difference)},
+             {"plain_share", rounded(confidence.plain_share)},
+             {"overlap_share", rounded(confidence.overlap_share)},
+             {"sharper_share", rounded(confidence.sharper_share)},
+             {"depth_px", rounded(confidence.depth_px)},
+             {"warning", nullptr}};
+  if (!warning.empty()) facts["warning"] = warning;
+  return facts.dump(2);
+}
+
 std::string report_json(const PaintingReport& told) {
   const auto& [result, style, pair, measures, whole] = told;
   const auto& [strokes, regions, curves, relief] = result.painted.painting;
@@ -116,6 +130,7 @@ std::string report_json(const PaintingReport& told) {
                          {"left_found_share", rounded(result.matched->left_found_share)},
                          {"right_found_share", rounded(result.matched->right_found_share)}};
   }
+  if (result.confidence) report["confidence"] = Json::parse(confidence_json(*result.confidence));
   if (whole.width > 0) report["reduced_from"] = {{"width", whole.width}, {"height", whole.height}};
   if (pair != nullptr) report["pair"] = Json::parse(preparation_json(*pair));
   if (measures != nullptr) {

@@ -36,6 +36,9 @@ std::string rectification_json(const Rectification& how);
 /// nothing to tell.
 std::string preparation_json(const PreparedPair& pair);
 
+/// How sure a match is as a JSON object: the members of MatchConfidence, and `warning`, null where there is none.
+std::string confidence_json(const MatchConfidence& confidence);
+
 /// What a report tells of; borrowed.
 struct PaintingReport {
   const PaintedPhotograph& painted;
