@@ -95,16 +95,19 @@ std::vector<PicturePoint> rectified_outline(const RectifyingMap& map) {
   return places;
 }
 
-/// Whether `better` explains matches that decided neither clearly better than `plain` does; each match is asked by
-/// `miss`. Matches that fit neither are wrong ones.
-template <class Miss>
+double row_miss(const RectifyingTurn& turn, const FeatureMatch& match) {
+  return std::abs(rectified_place(turn.left, match.left).y - rectified_place(turn.right, match.right).y);
+}
+
+/// Whether `better` brings matches that decided neither clearly closer to the same rows than `plain` does. Matches that
+/// fit neither are wrong ones.
 bool helps(const RectifyingTurn& better, const RectifyingTurn& plain, std::span<const FeatureMatch> held_out,
-           double tolerance_px, Miss miss) {
+           double tolerance_px) {
   constexpr double clear_gain = 0.9;
   const double most_px = 8 * tolerance_px;
   double with = 0, without = 0;
   for (const FeatureMatch& match : held_out) {
-    const double after = miss(better, match), before = miss(plain, match);
+    const double after = row_miss(better, match), before = row_miss(plain, match);
     if (std::min(after, before) > most_px) continue;
     with += std::min(after, most_px);
     without += std::min(before, most_px);
@@ -112,34 +115,33 @@ bool helps(const RectifyingTurn& better, const RectifyingTurn& plain, std::span<
   return with < clear_gain * without;
 }
 
-double row_miss(const RectifyingTurn& turn, const FeatureMatch& match) {
-  return std::abs(rectified_place(turn.left, match.left).y - rectified_place(turn.right, match.right).y);
+/// Settles what is left of the rows, with a smooth field where that helps.
+RectifyingTurn settled(RectifyingTurn turn, const SplitMatches& matches, double tolerance_px) {
+  settle_rows(turn, fitting(matches.deciding, turn, 1.5 * tolerance_px));
+  RectifyingTurn smooth = turn;
+  settle_rows_smoothly(smooth, fitting(matches.deciding, turn, 4 * tolerance_px));
+  return helps(smooth, turn, matches.measuring, tolerance_px) ? smooth : turn;
 }
 
 /// The turn that explains the matches, with a distortion of the lenses where it is not enough and that helps: a
 /// distortion that explains next to nothing would be bought with a needless turn.
 RectifyingTurn find_turn(const EpipolarGeometry& geometry, const SplitMatches& matches, cv::Size size,
                          double tolerance_px) {
-  RectifyingTurn plain = find_rectifying_turn(geometry.inliers, size);
-  const std::vector<FeatureMatch> near = fitting(matches.deciding, plain, 8 * tolerance_px);
-  const std::vector<FeatureMatch> close = fitting(near, plain, 1.5 * tolerance_px);
-  if (close.size() >= least_inliers) plain = find_rectifying_turn(close, size);
+  const auto found = [&](LensModel lens, std::span<const FeatureMatch> from, double reach_px) {
+    const RectifyingTurn first = find_rectifying_turn(from, size, lens);
+    const std::vector<FeatureMatch> near = fitting(matches.deciding, first, reach_px);
+    return near.size() < least_inliers ? first : find_rectifying_turn(near, size, lens);
+  };
+  const RectifyingTurn plain = found(LensModel::straight, geometry.inliers, 1.5 * tolerance_px);
+  const RectifyingTurn plain_settled = settled(plain, matches, tolerance_px);
   const VerticalDisparity left_over =
       vertical_disparity(rectified_matches(plain, fitting(matches.measuring, plain, 8 * tolerance_px)));
-  if (left_over.percentile_95_px <= 0.5 * tolerance_px) return plain;
-  RectifyingTurn radial = find_rectifying_turn(near, size, LensModel::radial);
-  const std::vector<FeatureMatch> close_to_radial = fitting(near, radial, 1.5 * tolerance_px);
-  if (close_to_radial.size() < least_inliers) return plain;
-  radial = find_rectifying_turn(close_to_radial, size, LensModel::radial);
-  return helps(radial, plain, matches.measuring, tolerance_px, miss_of) ? radial : plain;
-}
-
-/// Settles what is left of the rows, with a smooth field where that helps.
-void settle(RectifyingTurn& turn, const SplitMatches& matches, double tolerance_px) {
-  settle_rows(turn, fitting(matches.deciding, turn, 1.5 * tolerance_px));
-  RectifyingTurn smooth = turn;
-  settle_rows_smoothly(smooth, fitting(matches.deciding, turn, 4 * tolerance_px));
-  if (helps(smooth, turn, matches.measuring, tolerance_px, row_miss)) turn = smooth;
+  if (left_over.percentile_95_px <= 0.5 * tolerance_px) return plain_settled;
+  // What straight lenses leave far off may be what a bent one explains.
+  const RectifyingTurn radial =
+      found(LensModel::radial, fitting(matches.deciding, plain, 24 * tolerance_px), 3 * tolerance_px);
+  const RectifyingTurn radial_settled = settled(radial, matches, tolerance_px);
+  return helps(radial_settled, plain_settled, matches.measuring, tolerance_px) ? radial_settled : plain_settled;
 }
 
 struct Estimate {
@@ -171,7 +173,6 @@ Estimate estimate(const StereoPair& pair, const RectifyOptions& options, const P
                 "look in the same direction");
   // Wider than what decided, so that what fits badly is seen; without a limit wrong matches would be all that is seen.
   found.measuring = fitting(matches.measuring, found.turn, 4 * tolerance);
-  settle(found.turn, {matches.deciding, found.measuring}, tolerance);
   return found;
 }
 

@@ -17,13 +17,9 @@ PicturePoint distorted_place(const RectifyingMap& map, PicturePoint straightened
   const PicturePoint middle = middle_of(map);
   const double scale = half_diagonal(map);
   const double x = straightened.x - middle.x, y = straightened.y - middle.y;
-  const double target = std::hypot(x, y) / scale;
-  // Newton's method on r (1 + s r²) = target.
-  constexpr int rounds = 6;
-  double r = target;
-  for (int round = 0; round < rounds; ++round)
-    r -= (r * (1 + map.straightening * r * r) - target) / (1 + 3 * map.straightening * r * r);
-  const double ratio = target > 0 ? r / target : 1;
+  const double target = std::hypot(x, y) / scale;  // r / (1 − s r²), solved for r
+  const double root = std::sqrt(std::max(1 + 4 * map.straightening * target * target, 0.0));
+  const double ratio = 2 / (1 + root);
   return {middle.x + ratio * x, middle.y + ratio * y};
 }
 
@@ -44,7 +40,8 @@ PicturePoint straightened_place(const RectifyingMap& map, PicturePoint in_photog
   const PicturePoint middle = middle_of(map);
   const double x = in_photograph.x - middle.x, y = in_photograph.y - middle.y;
   const double scale = half_diagonal(map);
-  const double grown = 1 + map.straightening * (x * x + y * y) / (scale * scale);
+  constexpr double most_grown = 10;  // beyond, the model folds the picture over
+  const double grown = 1 / std::max(1 - map.straightening * (x * x + y * y) / (scale * scale), 1 / most_grown);
   return {middle.x + grown * x, middle.y + grown * y};
 }
 

@@ -11,7 +11,8 @@ namespace wheatstone {
 struct RectifyingMap {
   int width = 0;  ///< of the photograph
   int height = 0;
-  /// s: a place at distance r from the middle, in half diagonals, comes to (1 + s r²) r.
+  /// s: a place at distance r from the middle, in half diagonals, comes to r / (1 − s r²), the division model of
+  /// Fitzgibbon 2001, which fits wide lenses with one number. Above 0 where the lens draws the corners in.
   double straightening = 0;
   std::array<double, 9> homography{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row by row, from straightened pixels
   /// Pixels added to the row: times 1, x, y, x², xy, y², x³, x²y, xy², y³ of the straightened place, with x and y from
