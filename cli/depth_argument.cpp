@@ -1,13 +1,16 @@
 #include "depth_argument.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "typed_options.h"
 #include "wheatstone/error.h"
+#include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/pictures/depth_file.h"
 #include "wheatstone/pictures/read_image.h"
 
@@ -24,12 +27,23 @@ void check_size(ImageView<const Rgb8> picture, const std::string& name) {
                                                   picture.height(), least_side_px, least_side_px));
 }
 
+CarriedDepth read_both(const StereoArguments& photograph, const DepthArguments& arguments) {
+  if (!arguments.file.empty())
+    return {read_image(photograph.left), read_depth(arguments.file), arguments.kind, arguments.file};
+  if (photograph.layout == depth_layout) return read_depth_beside(photograph.left);
+  std::optional<CarriedDepth> found = find_carried_depth(photograph.left);
+  if (!found) throw Error(ErrorKind::bad_input, fmt::format("{}: has no depth of its own", photograph.left));
+  return std::move(*found);
+}
+
 }  // namespace
 
 void add_depth_options(CLI::App& command, DepthArguments& arguments) {
   command
       .add_option("--depth", arguments.file,
-                  "Depth of the one picture that is given: PNG with 8 or 16 bits, PFM or EXR")
+                  "Depth of the one picture that is given: PNG with 8 or 16 bits, PFM or EXR. A picture's own depth "
+                  "(HEIC portraits, Google's depth maps) is used without it, and with --layout rgbd the depth beside "
+                  "the picture")
       ->group(depth_options_group);
   add_choice<DepthKind>(command, "--depth-is", arguments.kind, depth_kinds,
                         "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger")
@@ -53,26 +67,27 @@ float parse_strength(const std::string& text) {
                             number, {percent.least * 0.01 / factor, percent.most * 0.01 / factor}));
 }
 
-SinglePicture read_single_picture(const std::string& picture, const DepthArguments& arguments, int max_size,
+SinglePicture read_single_picture(const StereoArguments& photograph, const DepthArguments& arguments,
                                   const Session& session) {
   report(session.progress, "reading", 0);
   SinglePicture read;
   read.strength = parse_strength(arguments.strength);
-  read.depth_source = arguments.file;
-  Image<Rgb8> photograph = read_image(picture);
-  check_size(photograph, picture);
-  const Image<float> depth = read_depth(arguments.file);
-  if (max_size > 0 && std::max(photograph.width(), photograph.height()) > max_size) {
-    read.whole = {photograph.width(), photograph.height()};
-    photograph = reduced(photograph, reduced_size(read.whole, max_size));
+  CarriedDepth found = read_both(photograph, arguments);
+  check_size(found.picture, photograph.left);
+  if (photograph.max_size > 0 && std::max(found.picture.width(), found.picture.height()) > photograph.max_size) {
+    read.whole = {found.picture.width(), found.picture.height()};
+    found.picture = reduced(found.picture, reduced_size(read.whole, photograph.max_size));
   }
   try {
     Image<float> disparity =
-        disparity_from_depth(depth, photograph, {.kind = arguments.kind, .strength = read.strength});
-    read.pair = make_pair_from_single_view(std::move(photograph), std::move(disparity));
+        disparity_from_depth(found.depth, found.picture, {.kind = found.kind, .strength = read.strength});
+    read.pair = make_pair_from_single_view(std::move(found.picture), std::move(disparity));
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", read.depth_source, error.what()));
+    throw Error(error.kind(),
+                fmt::format("{}: {}", arguments.file.empty() ? photograph.left : arguments.file, error.what()));
   }
+  if (arguments.file.empty() && !session.quiet)
+    fmt::print(session.errors, "{}: one picture, with the depth of {}\n", photograph.left, found.how);
   return read;
 }
 

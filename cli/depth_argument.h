@@ -15,10 +15,14 @@ inline constexpr auto depth_options_group = "One picture and its depth";
 
 /// One picture's depth as it is typed.
 struct DepthArguments {
-  std::string file;  ///< empty: there is none
+  std::string file;      ///< empty: there is none
+  bool carried = false;  ///< the picture's file has it: `file` is empty
   DepthKind kind = DepthKind::inverse;
   std::string strength = "3%";
 };
+
+/// The name for --layout of a picture with its depth beside it.
+inline constexpr auto depth_layout = "rgbd";
 
 /// Adds --depth, --depth-is and --strength.
 void add_depth_options(CLI::App& command, DepthArguments& arguments);
@@ -29,13 +33,14 @@ float parse_strength(const std::string& text);
 /// A pair that was made of one picture.
 struct SinglePicture {
   MadePair pair;
-  PictureSize whole;         ///< before it was reduced; 0: it was not
-  float strength = 0;        ///< disparity from far to near, in widths
-  std::string depth_source;  ///< where the depth comes from, for messages
+  PictureSize whole;   ///< before it was reduced; 0: it was not
+  float strength = 0;  ///< disparity from far to near, in widths
 };
 
-/// Reads one picture and its depth, and makes a pair of them. Throws Error: bad_input that names the files.
-SinglePicture read_single_picture(const std::string& picture, const DepthArguments& arguments, int max_size,
+/// Reads one picture and its depth, which its own file may have, and makes a pair of them; says on standard error which
+/// depth a file has. `photograph` tells the picture, its layout and the longest side. Throws Error: bad_input that
+/// names the files.
+SinglePicture read_single_picture(const StereoArguments& photograph, const DepthArguments& arguments,
                                   const Session& session);
 
 }  // namespace wheatstone::cli

@@ -127,18 +127,20 @@ struct Subject {
   }
 };
 
+bool is_single_picture(const Arguments& arguments) { return !arguments.depth.file.empty() || arguments.depth.carried; }
+
 /// Reads what is to be painted; what is known of its geometry goes into the options.
 Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions& options,
                      const Session& session) {
-  if (!arguments.depth.file.empty()) {
-    SinglePicture single = read_single_picture(job.left, arguments.depth, arguments.photographs.max_size, session);
+  StereoArguments files = arguments.photographs;
+  files.left = job.left;
+  files.right = job.right;
+  if (is_single_picture(arguments)) {
+    SinglePicture single = read_single_picture(files, arguments.depth, session);
     options.left_disparity = std::move(single.pair.geometry.left_disparity);
     options.right_disparity = std::move(single.pair.geometry.right_disparity);
     return {{{.pictures = std::move(single.pair.pictures)}, single.whole}, single.strength};
   }
-  StereoArguments files = arguments.photographs;
-  files.left = job.left;
-  files.right = job.right;
   Subject subject{read_photographs(files, !arguments.disparity.empty(), session), {}};
   if (!arguments.disparity.empty()) options.left_disparity = read_disparity_argument(arguments.disparity);
   if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
@@ -200,7 +202,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   // What cannot be written is said before the work.
   const ViewsOutput output = output_of(arguments, job.output);
   ResultOptions results{
-      .photographs = arguments.photographs.rectify != RectifyPolicy::never || !arguments.depth.file.empty(),
+      .photographs = arguments.photographs.rectify != RectifyPolicy::never || is_single_picture(arguments),
       .html = arguments.html,
       .svg = arguments.svg,
       .format = arguments.format};
@@ -285,7 +287,7 @@ void draw_painting_again(const Arguments& arguments, const CLI::App& command, co
   }
 }
 
-void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
+void run(Arguments& arguments, const CLI::App& command, const Session& session) {
   if (!arguments.print_style.empty()) {
     refuse_for_printing(command);
     StyleArguments style = arguments.style;
@@ -296,6 +298,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   if (arguments.files.size() == 1 && arguments.files.front().ends_with(".wst"))
     return draw_painting_again(arguments, command, session);
   const std::vector<PaintJob> jobs = paint_jobs(arguments);
+  arguments.depth.carried = finds_depth_in_file(command, arguments);
   refuse_for_photographs(command, arguments, jobs.size() > 1);
   const PaintPhotographOptions options = options_from(arguments, session);
   if (jobs.size() > 1) return paint_all(arguments, jobs, options, session);

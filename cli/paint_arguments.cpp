@@ -14,6 +14,7 @@
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/photograph/carried_depth.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -107,18 +108,20 @@ void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arg
 namespace {
 
 void refuse_for_depth(const CLI::App& command, const PaintArguments& arguments) {
-  if (arguments.depth.file.empty()) {
-    refuse_group(command, depth_options_group, {}, "without --depth", "");
-    return;
-  }
-  if (arguments.files.size() > 1)
+  const bool is_given = !arguments.depth.file.empty();
+  if (!is_given)
+    refuse_group(command, depth_options_group, {arguments.depth.carried ? "--strength" : ""}, "without --depth", "");
+  if (!is_given && !arguments.depth.carried) return;
+  if (is_given && arguments.files.size() > 1)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("--depth: belongs to one picture, but {} files are given; where there are two views, "
                             "--disparity gives that of the left one",
                             arguments.files.size()));
-  refuse_options(command, {"--disparity", "--right-disparity", "--layout", "--swap", "--rectify"}, "with --depth",
+  const std::string situation = is_given ? "with --depth" : "on a picture that has its own depth";
+  refuse_options(command, {"--disparity", "--right-disparity", "--swap", "--rectify"}, situation,
                  "it works where there are two views");
-  refuse_match_options_without_effect(command, arguments.matching, "with --depth");
+  if (is_given) refuse_options(command, {"--layout"}, situation, "it works where one file holds both");
+  refuse_match_options_without_effect(command, arguments.matching, situation);
 }
 
 }  // namespace
@@ -137,6 +140,15 @@ void refuse_for_photographs(const CLI::App& command, const PaintArguments& argum
   refuse_options(command, {"--report", "--html", "--svg"}, "with --display", "it works where two eyes are painted");
   if (arguments.zero_parallax == "nearest")
     refuse_options(command, {"--zero-parallax"}, "as 'nearest' with --display", "it works with a disparity in pixels");
+}
+
+bool finds_depth_in_file(const CLI::App& command, const PaintArguments& arguments) {
+  if (arguments.files.size() != 1 || !arguments.depth.file.empty()) return false;
+  if (arguments.photographs.layout == depth_layout) return true;
+  // Whoever says where two views lie, or what disparity they have, is believed.
+  for (const char* option : {"--layout", "--swap", "--disparity"})
+    if (was_given(command, option)) return false;
+  return !is_stereo_name(arguments.files.front()) && carries_depth(arguments.files.front());
 }
 
 std::vector<PaintJob> paint_jobs(const PaintArguments& arguments) {

@@ -41,6 +41,9 @@ void refuse_for_printing(const CLI::App& command);
 void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments);
 void refuse_for_photographs(const CLI::App& command, const PaintArguments& arguments, bool several);
 
+/// Whether the one file that is given is one picture that has its own depth, which is painted.
+bool finds_depth_in_file(const CLI::App& command, const PaintArguments& arguments);
+
 /// One photograph and where its painting goes.
 struct PaintJob {
   std::string left, right;  ///< right is empty where left holds both views, or is one picture with its depth

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "scenes/xmp_pictures.h"
+#include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
@@ -98,6 +100,39 @@ TEST(PaintSinglePicture, ReducesThePictureAndFitsTheDepthToIt) {
   const auto report = nlohmann::json::parse(result.output);
   EXPECT_EQ(report["width"], 48);
   EXPECT_EQ(report["reduced_from"]["width"], width);
+}
+
+TEST(PaintSinglePicture, UsesTheDepthThatItsFileHas) {
+  const TemporaryFolder folder;
+  const SyntheticView view = make_synthetic_view({.width = width, .height = height, .samples_a_side = 1}, left_eye);
+  const float nearest = std::ranges::max(view.disparity.pixels());
+  Image<Rgb8> map(width, height), both(2 * width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto level = static_cast<std::uint8_t>(255 * view.disparity(x, y) / nearest);
+      map(x, y) = Rgb8{static_cast<std::uint8_t>(255 - level), static_cast<std::uint8_t>(255 - level),
+                       static_cast<std::uint8_t>(255 - level)};
+      both(x, y) = view.picture(x, y);
+      both(x + width, y) = Rgb8{level, level, level};
+    }
+  put_bytes(folder / "portrait.jpg", with_extended_data(encode_jpeg(view.picture, 95), "GDepth:Format=\"RangeInverse\"",
+                                                        "GDepth:Data", encode_jpeg(map, 95)));
+  write_image(folder / "rgbd.png", both);
+  for (const std::vector<std::string>& line :
+       {std::vector<std::string>{"paint", "portrait.jpg", "--strength", "5%", "-o", "painted"},
+        {"paint", "rgbd.png", "--layout", "rgbd", "--strength", "5%", "-o", "painted"}}) {
+    const ProgramResult result = run_program(line, {.folder = folder / ""});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.errors, testing::HasSubstr(line[1] + ": one picture, with the depth of "));
+    const Image<float> disparity = read_disparity(folder / "painted/left_disparity.pfm");
+    EXPECT_EQ(disparity.width(), width);
+    EXPECT_NEAR(std::ranges::max(disparity.pixels()), 0.05 * width, 1e-3);
+    // The flowers at the top are nearer than the wall beside them, and the table's edge nearer than both.
+    EXPECT_GT(disparity(width / 2, height - 2), disparity(width - 4, 4) + 1);
+  }
+  expect_refused(folder, {"paint", "portrait.jpg", "--quality", "fast"}, 2, "on a picture that has its own depth");
+  expect_refused(folder, {"paint", "portrait.jpg", "--depth-is", "metric"}, 2, "--depth-is");
+  expect_refused(folder, {"paint", "portrait.jpg", "--layout", "rgbd"}, 3, "in colour");
 }
 
 TEST(PaintSinglePicture, RefusesDepthThatDoesNotFitOrHasNone) {

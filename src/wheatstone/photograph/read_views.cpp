@@ -14,6 +14,7 @@
 #include "wheatstone/photograph/jpeg_segments_internal.h"
 #include "wheatstone/photograph/multi_picture_internal.h"
 #include "wheatstone/photograph/stereo_marks_internal.h"
+#include "wheatstone/photograph/xmp_internal.h"
 #include "wheatstone/pictures/heif_pictures.h"
 #include "wheatstone/pictures/heif_pictures_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
@@ -118,6 +119,23 @@ std::optional<ViewsFile> multi_picture_views(std::string_view bytes, const fs::p
   file.kind = "MPO";
   for (const MultiPictureEntry& entry : entries)
     file.views.push_back(decode_jpeg(bytes.substr(entry.begin, entry.length), path));
+  check_one_size(file.views, path);
+  return file;
+}
+
+/// Google's VR photographs (VR180, Cardboard): the picture is the left eye's, and its XMP holds the right eye's.
+/// https://developers.google.com/vr/reference/cardboard-camera-vr-photo-format
+std::optional<ViewsFile> views_with_xmp(std::string_view bytes, const fs::path& path, const ReadViewsOptions& options) {
+  if (is_layout_given(options) || bytes.find("GImage:Mime") == bytes.npos) return {};
+  const Xmp xmp = read_xmp(bytes, path);
+  const auto data = xmp_property(xmp, "GImage:Data");
+  if (!data) return {};
+  const std::optional<std::string> right = decode_base64(*data);
+  if (!right || !is_jpeg(*right)) refuse(path, "the right eye's picture in its XMP is not a JPEG");
+  ViewsFile file;
+  file.kind = "VR photograph";
+  file.views.push_back(read_image(path));
+  file.views.push_back(decode_jpeg(*right, path));
   check_one_size(file.views, path);
   return file;
 }
@@ -296,6 +314,7 @@ std::optional<ViewsFile> find_views(const fs::path& path, const ReadViewsOptions
   const std::string bytes = read_picture_bytes(path);
   std::optional<ViewsFile> file;
   if (is_jpeg(bytes)) file = multi_picture_views(bytes, path, options);
+  if (is_jpeg(bytes) && !file) file = views_with_xmp(bytes, path, options);
   if (is_heif(bytes)) file = heif_views(path, options);
   if (may_be_animated(bytes)) file = views_in_time(path, kind_of(bytes, path), options);
   if (!file) file = views_in_one_picture(bytes, path, options);

@@ -52,6 +52,7 @@ std::string describe_views(const ViewsFile& file);
 /// - MPO (CIPA DC-007): the JPEGs that its index calls views, ordered by their numbers; large thumbnails are left out.
 ///   A JPEG whose index lists anything else than views of one size (a gain map, a panorama) is an ordinary picture.
 /// - JPS: by its descriptor; without one the right eye's picture is on the left. PNS is the same as PNG.
+/// - JPEG of Google's VR photographs (VR180): the picture, and the right eye's in its XMP.
 /// - HEIC with exactly two pictures of one size: left, right.
 /// - GIF, animated WebP and animated PNG of exactly two frames: left, right.
 /// - any other picture: by the layout that is given, else its metadata, its name, its halves, in this order.

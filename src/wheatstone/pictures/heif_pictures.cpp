@@ -4,9 +4,11 @@
 #include <libheif/heif.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
@@ -65,6 +67,49 @@ Image<Rgb8> decoded(const fs::path& path, const Context& context, heif_item_id i
   return picture;
 }
 
+/// The grey levels of an image, 0..1.
+Image<float> grey_levels(const fs::path& path, const Handle& handle) {
+  heif_image* pixels = nullptr;
+  const heif_error error =
+      heif_decode_image(handle.get(), &pixels, heif_colorspace_undefined, heif_chroma_undefined, nullptr);
+  const Decoded image(pixels);
+  if (error.code != heif_error_Ok) refuse_damaged(path, error.message);
+  // What is stored without colours may be decoded as equal ones.
+  const heif_channel channel =
+      heif_image_has_channel(image.get(), heif_channel_Y) != 0 ? heif_channel_Y : heif_channel_G;
+  int stride = 0;
+  const std::uint8_t* plane = heif_image_get_plane_readonly(image.get(), channel, &stride);
+  const int bits = heif_image_get_bits_per_pixel_range(image.get(), channel);
+  if (plane == nullptr || bits < 1 || bits > 16) refuse_damaged(path, "its depth image has no grey levels");
+  Image<float> levels(heif_image_get_width(image.get(), channel), heif_image_get_height(image.get(), channel));
+  for (int y = 0; y < levels.height(); ++y) {
+    const std::uint8_t* row = plane + static_cast<std::ptrdiff_t>(y) * stride;
+    for (int x = 0; x < levels.width(); ++x) {
+      std::uint16_t level = row[x];
+      if (bits > 8) std::memcpy(&level, row + 2 * static_cast<std::ptrdiff_t>(x), sizeof(level));
+      levels(x, y) = static_cast<float>(level) / static_cast<float>((1 << bits) - 1);
+    }
+  }
+  return levels;
+}
+
+struct FreeInfo {
+  void operator()(const heif_depth_representation_info* info) const { heif_depth_representation_info_free(info); }
+};
+
+/// Brings levels of 0..1 to what they stand for.
+HeifDepth interpreted(Image<float> levels, const heif_depth_representation_info* info) {
+  HeifDepth found{std::move(levels), HeifDepthKind::inverse};
+  if (info == nullptr || info->depth_representation_type != heif_depth_representation_type_uniform_Z) return found;
+  found.kind = HeifDepthKind::distance;
+  const bool has_range = info->has_z_near != 0 && info->has_z_far != 0 && info->z_near >= 0 &&
+                         info->z_far > info->z_near && std::isfinite(info->z_far);
+  if (!has_range) return found;
+  const auto near = static_cast<float>(info->z_near), far = static_cast<float>(info->z_far);
+  for (float& level : found.depth.pixels()) level = near + level * (far - near);
+  return found;
+}
+
 }  // namespace
 
 // ISO/IEC 14496-12, sec. 4.3: the first box names what the file is.
@@ -93,6 +138,25 @@ std::vector<Image<Rgb8>> read_heif_pictures(const fs::path& path) {
   pictures.reserve(ids.size());
   for (const heif_item_id id : ids) pictures.push_back(decoded(path, context, id));
   return pictures;
+}
+
+std::optional<HeifDepth> read_heif_depth(const fs::path& path) {
+  const std::string bytes = read_picture_bytes(path);
+  const Context context = open_context(bytes);
+  heif_image_handle* found = nullptr;
+  if (!is_heif(bytes) || !context || heif_context_get_primary_image_handle(context.get(), &found).code != heif_error_Ok)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: not a HEIC file, or a damaged one", path.string()));
+  const Handle picture(found);
+  heif_item_id id = 0;
+  if (heif_image_handle_get_list_of_depth_image_IDs(picture.get(), &id, 1) < 1) return {};
+  heif_image_handle* found_depth = nullptr;
+  const heif_error error = heif_image_handle_get_depth_image_handle(picture.get(), id, &found_depth);
+  const Handle depth(found_depth);
+  if (error.code != heif_error_Ok) refuse_damaged(path, error.message);
+  const heif_depth_representation_info* found_info = nullptr;
+  heif_image_handle_get_depth_image_representation_info(picture.get(), id, &found_info);
+  const std::unique_ptr<const heif_depth_representation_info, FreeInfo> info(found_info);
+  return interpreted(grey_levels(path, depth), info.get());
 }
 
 std::string heif_version() { return heif_get_version(); }

@@ -17,6 +17,7 @@
 #include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/embedded_profile_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/upright_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -100,26 +101,6 @@ Image<Rgb8> read_converted(const fs::path& path, OIIO::ImageInput& input, const 
     convert_row({values.get() + y * row_values, row_values}, spec.nchannels, how, picture.row(y));
   }
   return picture;
-}
-
-// EXIF 2.3, tag Orientation: 1 to 4 turn and mirror, 5 to 8 also swap rows and columns. Our own, because
-// ImageBufAlgo::reorient confuses 5 and 7 (OpenImageIO 2.4.7).
-Image<Rgb8> upright(Image<Rgb8> stored, int orientation) {
-  if (orientation <= 1 || orientation > 8) return stored;
-  const bool swapped = orientation >= 5;
-  const bool from_right = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
-  const bool from_below = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
-  Image<Rgb8> shown(swapped ? stored.height() : stored.width(), swapped ? stored.width() : stored.height());
-  for (int y = 0; y < shown.height(); ++y) {
-    const std::span<Rgb8> row = shown.row(y);
-    for (int x = 0; x < shown.width(); ++x) {
-      const int column = swapped ? y : x;
-      const int line = swapped ? x : y;
-      row[x] =
-          stored(from_right ? stored.width() - 1 - column : column, from_below ? stored.height() - 1 - line : line);
-    }
-  }
-  return shown;
 }
 
 Image<Rgb8> read_opened(const fs::path& path, const OpenPicture& open) {

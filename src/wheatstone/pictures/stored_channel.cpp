@@ -34,27 +34,35 @@ void read_grey(const fs::path& path, OIIO::ImageInput& input, std::string_view w
 
 }  // namespace
 
+float full_scale(OIIO::TypeDesc type) {
+  if (type == OIIO::TypeDesc::UINT8) return 255;
+  return type == OIIO::TypeDesc::UINT16 ? 65535.f : 1.f;
+}
+
 StoredChannel read_stored_channel(const fs::path& path, std::string_view what, GreyInColours colours) {
   const auto input = OIIO::ImageInput::open(path.string());
   if (!input) {
     OIIO::geterror();
     refuse(path, fmt::format("is not {}, expected PNG, PFM or EXR", what));
   }
-  const OIIO::ImageSpec& spec = input->spec();
+  return read_stored_channel(*input, path, what, colours);
+}
+
+StoredChannel read_stored_channel(OIIO::ImageInput& input, const fs::path& path, std::string_view what,
+                                  GreyInColours colours) {
+  const OIIO::ImageSpec& spec = input.spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.image_bytes() > most_bytes)
     refuse(path, fmt::format("is {}x{} pixels, which is not a valid size for {}", spec.width, spec.height, what));
   if (spec.nchannels >= 3 && colours == GreyInColours::refused)
     refuse(path, fmt::format("has {} channels, expected one", spec.nchannels));
   StoredChannel stored{Image<float>(spec.width, spec.height), spec.format};
   if (spec.nchannels >= 3) {
-    read_grey(path, *input, what, stored.values);
-  } else if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data())) {
+    read_grey(path, input, what, stored.values);
+  } else if (!input.read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data())) {
     refuse(path, "is damaged or truncated");
   }
   // OpenImageIO brings integers to 0..1.
-  const float full = spec.format == OIIO::TypeDesc::UINT8    ? 255.f
-                     : spec.format == OIIO::TypeDesc::UINT16 ? 65535.f
-                                                             : 1.f;
+  const float full = full_scale(spec.format);
   if (full > 1)
     for (float& value : stored.values.pixels()) value = std::round(value * full);
   return stored;

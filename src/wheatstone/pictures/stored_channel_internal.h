@@ -25,4 +25,11 @@ enum class GreyInColours {
 /// Throws Error{bad_input} where the file is no picture, damaged, or holds more than one channel of numbers.
 StoredChannel read_stored_channel(const std::filesystem::path& path, std::string_view what, GreyInColours colours);
 
+/// The same of a decoder that is open; `path` stands for it in messages.
+StoredChannel read_stored_channel(OIIO::ImageInput& input, const std::filesystem::path& path, std::string_view what,
+                                  GreyInColours colours);
+
+/// The largest number that a stored type has: 255 and 65535; 1 for all others.
+float full_scale(OIIO::TypeDesc type);
+
 }  // namespace wheatstone
