@@ -10,6 +10,7 @@
 
 #include "typed_options.h"
 #include "wheatstone/error.h"
+#include "wheatstone/matching/monocular_network.h"
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/pictures/depth_file.h"
 #include "wheatstone/pictures/read_image.h"
@@ -27,9 +28,15 @@ void check_size(ImageView<const Rgb8> picture, const std::string& name) {
                                                   picture.height(), least_side_px, least_side_px));
 }
 
-CarriedDepth read_both(const StereoArguments& photograph, const DepthArguments& arguments) {
+CarriedDepth read_both(const StereoArguments& photograph, const DepthArguments& arguments, const Session& session) {
   if (!arguments.file.empty())
     return {read_image(photograph.left), read_depth(arguments.file), arguments.kind, arguments.file};
+  if (!arguments.model.empty()) {
+    Image<Rgb8> picture = read_image(photograph.left);
+    report(session.progress, "finding the depth", 0);
+    Image<float> depth = depth_by_network(picture, arguments.model);
+    return {std::move(picture), std::move(depth), DepthKind::inverse, arguments.model};
+  }
   if (photograph.layout == depth_layout) return read_depth_beside(photograph.left);
   std::optional<CarriedDepth> found = find_carried_depth(photograph.left);
   if (!found) throw Error(ErrorKind::bad_input, fmt::format("{}: has no depth of its own", photograph.left));
@@ -44,6 +51,12 @@ void add_depth_options(CLI::App& command, DepthArguments& arguments) {
                   "Depth of the one picture that is given: PNG with 8 or 16 bits, PFM or EXR. A picture's own depth "
                   "(HEIC portraits, Google's depth maps) is used without it, and with --layout rgbd the depth beside "
                   "the picture")
+      ->group(depth_options_group);
+  command
+      .add_option(
+          "--depth-model", arguments.model,
+          "Network (.onnx) that finds the depth of the one picture that is given, as MiDaS and Depth Anything do")
+      ->excludes("--depth")
       ->group(depth_options_group);
   add_choice<DepthKind>(command, "--depth-is", arguments.kind, depth_kinds,
                         "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger")
@@ -72,7 +85,7 @@ SinglePicture read_single_picture(const StereoArguments& photograph, const Depth
   report(session.progress, "reading", 0);
   SinglePicture read;
   read.strength = parse_strength(arguments.strength);
-  CarriedDepth found = read_both(photograph, arguments);
+  CarriedDepth found = read_both(photograph, arguments, session);
   check_size(found.picture, photograph.left);
   if (photograph.max_size > 0 && std::max(found.picture.width(), found.picture.height()) > photograph.max_size) {
     read.whole = {found.picture.width(), found.picture.height()};
@@ -83,10 +96,9 @@ SinglePicture read_single_picture(const StereoArguments& photograph, const Depth
         disparity_from_depth(found.depth, found.picture, {.kind = found.kind, .strength = read.strength});
     read.pair = make_pair_from_single_view(std::move(found.picture), std::move(disparity));
   } catch (const Error& error) {
-    throw Error(error.kind(),
-                fmt::format("{}: {}", arguments.file.empty() ? photograph.left : arguments.file, error.what()));
+    throw Error(error.kind(), fmt::format("{}: {}", arguments.carried ? photograph.left : found.how, error.what()));
   }
-  if (arguments.file.empty() && !session.quiet)
+  if (arguments.carried && !session.quiet)
     fmt::print(session.errors, "{}: one picture, with the depth of {}\n", photograph.left, found.how);
   return read;
 }

@@ -16,6 +16,7 @@ inline constexpr auto depth_options_group = "One picture and its depth";
 /// One picture's depth as it is typed.
 struct DepthArguments {
   std::string file;      ///< empty: there is none
+  std::string model;     ///< a network that finds it; empty: there is none
   bool carried = false;  ///< the picture's file has it: `file` is empty
   DepthKind kind = DepthKind::inverse;
   std::string strength = "3%";
@@ -24,7 +25,7 @@ struct DepthArguments {
 /// The name for --layout of a picture with its depth beside it.
 inline constexpr auto depth_layout = "rgbd";
 
-/// Adds --depth, --depth-is and --strength.
+/// Adds --depth, --depth-model, --depth-is and --strength.
 void add_depth_options(CLI::App& command, DepthArguments& arguments);
 
 /// "3%" or ".03" as a share. Throws Error{wrong_usage}.

@@ -82,6 +82,7 @@ ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
   ViewsOutput output{name, {arguments.style.style, arguments.matching.model}, arguments.format};
   output.inputs.insert(output.inputs.end(), arguments.files.begin(), arguments.files.end());
   output.inputs.emplace_back(arguments.depth.file);
+  output.inputs.emplace_back(arguments.depth.model);
   for (const std::string& disparity : {arguments.disparity, arguments.right_disparity}) {
     output.inputs.emplace_back(disparity);
     output.inputs.emplace_back(disparity.substr(0, disparity.rfind(':')));  // FILE:SCALE
@@ -127,7 +128,9 @@ struct Subject {
   }
 };
 
-bool is_single_picture(const Arguments& arguments) { return !arguments.depth.file.empty() || arguments.depth.carried; }
+bool is_single_picture(const Arguments& arguments) {
+  return !arguments.depth.file.empty() || !arguments.depth.model.empty() || arguments.depth.carried;
+}
 
 /// Reads what is to be painted; what is known of its geometry goes into the options.
 Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions& options,

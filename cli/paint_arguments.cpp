@@ -108,16 +108,19 @@ void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arg
 namespace {
 
 void refuse_for_depth(const CLI::App& command, const PaintArguments& arguments) {
-  const bool is_given = !arguments.depth.file.empty();
+  const std::string option = arguments.depth.model.empty() ? "--depth" : "--depth-model";
+  const bool is_given = !arguments.depth.file.empty() || !arguments.depth.model.empty();
   if (!is_given)
     refuse_group(command, depth_options_group, {arguments.depth.carried ? "--strength" : ""}, "without --depth", "");
   if (!is_given && !arguments.depth.carried) return;
   if (is_given && arguments.files.size() > 1)
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("--depth: belongs to one picture, but {} files are given; where there are two views, "
+                fmt::format("{}: belongs to one picture, but {} files are given; where there are two views, "
                             "--disparity gives that of the left one",
-                            arguments.files.size()));
-  const std::string situation = is_given ? "with --depth" : "on a picture that has its own depth";
+                            option, arguments.files.size()));
+  if (!arguments.depth.model.empty())
+    refuse_options(command, {"--depth-is"}, "with --depth-model", "a network gives inverse depth");
+  const std::string situation = is_given ? "with " + option : "on a picture that has its own depth";
   refuse_options(command, {"--disparity", "--right-disparity", "--swap", "--rectify"}, situation,
                  "it works where there are two views");
   if (is_given) refuse_options(command, {"--layout"}, situation, "it works where one file holds both");
@@ -143,7 +146,7 @@ void refuse_for_photographs(const CLI::App& command, const PaintArguments& argum
 }
 
 bool finds_depth_in_file(const CLI::App& command, const PaintArguments& arguments) {
-  if (arguments.files.size() != 1 || !arguments.depth.file.empty()) return false;
+  if (arguments.files.size() != 1 || !arguments.depth.file.empty() || !arguments.depth.model.empty()) return false;
   if (arguments.photographs.layout == depth_layout) return true;
   // Whoever says where two views lie, or what disparity they have, is believed.
   for (const char* option : {"--layout", "--swap", "--disparity"})

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "scenes/tiny_network.h"
 #include "scenes/xmp_pictures.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/disparity_file.h"
@@ -133,6 +134,19 @@ TEST(PaintSinglePicture, UsesTheDepthThatItsFileHas) {
   expect_refused(folder, {"paint", "portrait.jpg", "--quality", "fast"}, 2, "on a picture that has its own depth");
   expect_refused(folder, {"paint", "portrait.jpg", "--depth-is", "metric"}, 2, "--depth-is");
   expect_refused(folder, {"paint", "portrait.jpg", "--layout", "rgbd"}, 3, "in colour");
+}
+
+TEST(PaintSinglePicture, FindsTheDepthWithANetwork) {
+  const TemporaryFolder folder;
+  write_picture_and_depth(folder);
+  put_bytes(folder / "red.onnx", tiny_network::red_of_one_picture(48, 32));
+  const ProgramResult result = run_program(paint_line({"--depth-model", "red.onnx"}), {.folder = folder / ""});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NEAR(std::ranges::max(read_disparity(folder / "painted/left_disparity.pfm").pixels()), 0.03 * width, 1e-3);
+  put_bytes(folder / "text.onnx", "no network");
+  expect_refused(folder, paint_line({"--depth-model", "text.onnx"}), 3, "text.onnx: is not an ONNX network");
+  expect_refused(folder, paint_line({"--depth-model", "red.onnx", "--depth", "depth.png"}), 2, "--depth");
+  expect_refused(folder, paint_line({"--depth-model", "red.onnx", "--depth-is", "metric"}), 2, "--depth-is");
 }
 
 TEST(PaintSinglePicture, RefusesDepthThatDoesNotFitOrHasNone) {

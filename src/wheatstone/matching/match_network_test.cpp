@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <vector>
 
+#include "scenes/tiny_network.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "wheatstone/matching/match.h"
@@ -14,50 +14,7 @@
 namespace wheatstone {
 namespace {
 
-std::string varint(std::uint64_t value) {
-  std::string bytes;
-  for (; value >= 0x80; value >>= 7) bytes += static_cast<char>(value | 0x80);
-  return bytes + static_cast<char>(value);
-}
-
-std::string number(int field, std::uint64_t value) {
-  return varint(static_cast<std::uint64_t>(field) << 3) + varint(value);
-}
-
-std::string message(int field, const std::string& bytes) {
-  return varint(static_cast<std::uint64_t>(field) << 3 | 2) + varint(bytes.size()) + bytes;
-}
-
-/// A ValueInfoProto: 32-bit floats of these sides.
-std::string value(const std::string& name, const std::vector<int>& sides) {
-  std::string shape;
-  for (const int side : sides) shape += message(1, number(1, static_cast<std::uint64_t>(side)));
-  return message(1, name) + message(2, message(1, number(1, 1) + message(2, shape)));
-}
-
-/// A TensorProto: the weights of a convolution of one pixel, to one channel.
-std::string weights(const std::string& name, const std::vector<float>& values) {
-  std::string bytes = number(1, 1) + number(1, values.size()) + number(1, 1) + number(1, 1) + number(2, 1);
-  std::string raw(values.size() * sizeof(float), '\0');
-  std::memcpy(raw.data(), values.data(), raw.size());
-  return bytes + message(8, name) + message(9, raw);
-}
-
-/// An AttributeProto: a kernel of one pixel.
-std::string one_pixel_kernel() {
-  return message(5, message(1, "kernel_shape") + number(8, 1) + number(8, 1) + number(20, 7));
-}
-
-std::string node(const std::string& operation, const std::vector<std::string>& inputs, const std::string& output) {
-  std::string bytes;
-  for (const std::string& input : inputs) bytes += message(1, input);
-  bytes += message(2, output) + message(3, output) + message(4, operation);
-  return operation == "Conv" ? bytes + one_pixel_kernel() : bytes;
-}
-
-std::string model(const std::string& graph) {
-  return number(1, 7) + message(7, graph + message(2, "tiny")) + message(8, number(2, 11));
-}
+using namespace tiny_network;
 
 /// Disparity = (the left picture's red + the right one's) / 8.
 std::string two_inputs(int width, int height) {
