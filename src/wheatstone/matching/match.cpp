@@ -195,6 +195,8 @@ MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& ran
   matched.right_found_share = known_share(match.right);
   report(progress, "matching", 1);
   if (ours) {
+    match.found = {};
+    if (!options.wls) match.right = {};
     refine_ours(match, left, right, options);
     if (options.wls && !options.wls_keeps_confirmed) {
       fill_from_farther_side(match.right);

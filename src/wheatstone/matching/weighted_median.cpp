@@ -49,12 +49,14 @@ Image<float> weighted_median(const Image<float>& disparity, const cv::Mat& pictu
   cv::Mat least, largest;
   cv::erode(as_mat(disparity), least, window);
   cv::dilate(as_mat(disparity), largest, window);
+  // A pixel of 1000; less is no edge.
+  const float least_step = std::max(1.f, static_cast<float>(width) / 1000);
   Image<float> result = disparity;
   tbb::parallel_for(0, height, [&](int y) {
     std::vector<Sample> samples;
     const auto* own = picture.ptr<cv::Vec3b>(y);
     for (int x = 0; x < width; ++x) {
-      if (largest.at<float>(y, x) - least.at<float>(y, x) <= 1) continue;
+      if (largest.at<float>(y, x) - least.at<float>(y, x) <= least_step) continue;
       samples.clear();
       for (int down = -radius; down <= radius; down += options.step_px) {
         const int j = std::clamp(y + down, 0, height - 1);

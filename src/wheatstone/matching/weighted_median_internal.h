@@ -13,7 +13,8 @@ struct WeightedMedianOptions {
 
 /// The median of each pixel's surroundings, in which pixels of like colour count most (Ma et al. 2013, "Constant time
 /// weighted median filtering for stereo matching and beyond"): streaks and ragged edges go, the picture's edges stay.
-/// Where the surroundings differ by a pixel at most nothing changes. `picture` is 8-bit RGB; every disparity is known.
+/// Where the surroundings differ by a pixel at most, or a thousandth of the width, nothing changes. `picture` is 8-bit
+/// RGB; every disparity is known.
 Image<float> weighted_median(const Image<float>& disparity, const cv::Mat& picture,
                              const WeightedMedianOptions& options = {});
 
