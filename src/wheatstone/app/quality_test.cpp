@@ -10,6 +10,7 @@
 #include "wheatstone/app/report.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/single_view.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
@@ -91,6 +92,20 @@ TEST(PaintingQuality, SyntheticStillIsConsistent) { expect_consistent(synthetic_
 
 // Reached without the depth test: .0091 of some ten thousand strokes, of which the count's own noise is a tenth.
 TEST(PaintingQuality, SyntheticStillDoesNotSpill) { expect_no_spilling(synthetic_subject(), 0.008); }
+
+TEST(PaintingQuality, OfOnePictureAndItsDepthComesNearThatOfAPair) {
+  const Subject& pair = synthetic_subject();
+  MadePair made = make_pair_from_single_view(pair.photographs.left, pair.left_disparity);
+  const Subject single{std::move(made.pictures), pair.left_disparity, std::move(made.geometry.right_disparity)};
+  const PaintedPhotograph of_single = painted(single, Propagation::strokes);
+  const double ours = measure_left_right_difference(of_single.painted.pictures, pair.left_disparity).mean_absolute;
+  const double of_pair =
+      measure_left_right_difference(painted(pair, Propagation::strokes).painted.pictures, pair.left_disparity)
+          .mean_absolute;
+  testing::Test::RecordProperty("of_the_pair", std::to_string(ours / of_pair));
+  EXPECT_LE(ours, 1.3 * of_pair);
+  EXPECT_LE(of_single.painted.right_bare_share, 0.005);
+}
 
 TEST(PaintingQuality, TeddyIsConsistent) {
   const auto teddy = shared_subject("teddy", 4.f);
