@@ -95,7 +95,7 @@ StereoPair rectify_frame(const FrameTask& photographed, RotoscopeState& state, R
   }
   result.rows_note = std::move(scene.note);
   result.scene_begins = result.scene_begins || scene.rectification.how;
-  state.rectification = std::move(scene.rectification);
+  state.rectification = scene.rectification;
   return rectified(eyes, state.rectification);
 }
 

@@ -79,11 +79,11 @@ struct RotoscopedFrame {
 
 /// Paints the next frame of a film (Bukenberger et al. 2015): rectifies it as its scene's first frame asks for, finds
 /// its disparity, merges the eyes into the central
-/// view, finds the flow there from the frame before, and paints what that flow carries on. `eyes.right` is empty for a
-/// film of one eye. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size, wrong_usage for
-/// options that make no sense. What `progress` throws, between its steps and while it matches, ends it: then `state` is
-/// of no further use.
-RotoscopedFrame rotoscope_frame(const StereoPair& eyes, const RotoscopeOptions& options, RotoscopeState& state,
+/// view, finds the flow there from the frame before, and paints what that flow carries on. `photographed.right` is
+/// empty for a film of one eye. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size,
+/// wrong_usage for options that make no sense. What `progress` throws, between its steps and while it matches, ends it:
+/// then `state` is of no further use.
+RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known = nullptr, const Progress& progress = {});
 
 }  // namespace wheatstone

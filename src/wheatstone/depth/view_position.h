@@ -19,6 +19,7 @@ class ViewPosition {
   friend constexpr float operator-(ViewPosition to, ViewPosition from) {
     return to.eye_separations_ - from.eye_separations_;
   }
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a null pointer in what the compiler makes of this
   friend constexpr auto operator<=>(ViewPosition, ViewPosition) = default;
 
  private:

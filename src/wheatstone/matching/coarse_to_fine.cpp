@@ -90,9 +90,10 @@ SearchBand whole_range(cv::Size size, const DisparityRange& range) {
 }
 
 SearchBand band_around(const Image<float>& disparity) {
+  constexpr int half_band = fine_count / 2;
   SearchBand band{Image<std::int16_t>(disparity.width(), disparity.height()), fine_count};
   std::ranges::transform(disparity.pixels(), band.first.pixels().begin(),
-                         [](float d) { return static_cast<std::int16_t>(std::floor(d + 0.5f) - fine_count / 2); });
+                         [](float d) { return static_cast<std::int16_t>(std::floor(d + 0.5f) - half_band); });
   return band;
 }
 

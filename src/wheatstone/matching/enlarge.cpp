@@ -34,9 +34,10 @@ void compare(const std::array<std::vector<std::int16_t>, channels>& own, const D
              std::vector<std::int16_t>& keys) {
   constexpr int own_pixel_bonus = 12;  // neighbours must be clearly more alike
   const int bonus = index == own_index ? own_pixel_bonus : 0;
-  const auto* red = row.channel[0].data() + 2 + 2 * across;
-  const auto* green = row.channel[1].data() + 2 + 2 * across;
-  const auto* blue = row.channel[2].data() + 2 + 2 * across;
+  const std::ptrdiff_t first = 2 + 2 * std::ptrdiff_t{across};
+  const auto* red = row.channel[0].data() + first;
+  const auto* green = row.channel[1].data() + first;
+  const auto* blue = row.channel[2].data() + first;
   const std::size_t width = keys.size();
   for (std::size_t x = 0; x < width; ++x) {
     const auto distance = static_cast<std::int16_t>(std::abs(own[0][x] - red[x]) + std::abs(own[1][x] - green[x]) +

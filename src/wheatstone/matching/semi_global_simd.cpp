@@ -40,7 +40,7 @@ HWY_INLINE std::uint16_t least_lane(Sum sums) {
 class Planes {
  public:
   Planes(int planes, int width)
-      : stride_(static_cast<std::size_t>(width) + 2 * row_margin), values_(planes * stride_ + row_margin) {}
+      : stride_(static_cast<std::size_t>(width + 2 * row_margin)), values_(planes * stride_ + row_margin) {}
   std::uint8_t* operator[](int plane) { return &values_[plane * stride_ + row_margin]; }
   const std::uint8_t* operator[](int plane) const { return &values_[plane * stride_ + row_margin]; }
 
@@ -318,7 +318,7 @@ class StripMatcher {
     const Sums d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const auto left = result.left.row(y), right = result.right.row(y);
-    std::vector<std::uint16_t> least(static_cast<std::size_t>(width_) + 2 * row_margin, no_sum), chosen(least.size());
+    std::vector<std::uint16_t> least(static_cast<std::size_t>(width_ + 2 * row_margin), no_sum), chosen(least.size());
     std::uint16_t* sums = &memory_.sums[at(y)];
     const std::uint8_t* costs = &memory_.costs[at(y)];
     for (int x = 0; x < width_; ++x, sums += rounded_) {
