@@ -16,10 +16,10 @@
 namespace wheatstone {
 namespace {
 
-constexpr int film_width = 480, film_height = 270;
+constexpr int film_width = 384, film_height = 216;
 
 StereoPair film_frame(int frame, double right_turn_degrees) {
-  SyntheticFilmOptions options{.still = {.width = film_width, .height = film_height, .samples_a_side = 2},
+  SyntheticFilmOptions options{.still = {.width = film_width, .height = film_height, .samples_a_side = 1},
                                .frames = 12};
   options.cut = 0;
   StereoPair pair = make_synthetic_film_frame(options, frame).pictures;
@@ -60,7 +60,7 @@ PaintedFilm paint_film(double right_turn_degrees, int frames, RectifyPolicy poli
 }
 
 TEST(SceneRectification, MakesATurnedEyesFilmAsSteadyAsAStraightOnes) {
-  const PaintedFilm straight = paint_film(0, 6), turned = paint_film(1, 6);
+  const PaintedFilm straight = paint_film(0, 5), turned = paint_film(1, 5);
   EXPECT_FALSE(straight.rectified);
   EXPECT_TRUE(turned.rectified);
   EXPECT_THAT(turned.note, testing::HasSubstr("rectified"));

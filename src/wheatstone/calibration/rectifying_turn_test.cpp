@@ -28,7 +28,7 @@ std::vector<FeatureMatch> true_matches(std::uint64_t seed, double radial_distort
 
 TEST(RectifyingTurn, FindsWhatTheLensesBend) {
   // k1 = −0.05 at a focal length of 0.8 widths: the corner, at 0.78 focal lengths, comes in by 0.05 · 0.76².
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1, 2}) {
     const std::vector<FeatureMatch> matches = true_matches(seed, -0.05);
     const RectifyingTurn plain = find_rectifying_turn(matches, {width, height});
     const RectifyingTurn radial = find_rectifying_turn(matches, {width, height}, LensModel::radial);
