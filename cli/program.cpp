@@ -1,6 +1,5 @@
 #include "program.h"
 
-#include <regex>
 #include <string>
 
 #include "typed_options.h"
@@ -13,8 +12,12 @@ class CommandHelp : public CLI::Formatter {
  public:
   /// CLI11 writes behind a flag's names what its second form sets: "--no-swap{false}".
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
-    static const std::regex set_value(R"(\{[^}]*\})");
-    return std::regex_replace(CLI::Formatter::make_option_name(option, is_positional), set_value, "");
+    std::string name = CLI::Formatter::make_option_name(option, is_positional);
+    for (std::size_t begin = name.find('{'); begin != std::string::npos; begin = name.find('{', begin)) {
+      const std::size_t end = name.find('}', begin);
+      name.erase(begin, end == std::string::npos ? end : end - begin + 1);
+    }
+    return name;
   }
 
   std::string make_footer(const CLI::App* app) const override {

@@ -61,22 +61,10 @@ TEST(Ending, OfAnInterruptedRunIsExitCodeFive) {
   }
 }
 
-/// Runs that take many seconds, each in another of the long stages that no progress is told of.
-std::vector<std::vector<std::string>> long_stages() {
-  const std::string left = "left.bmp", right = "right.bmp";
-  return {{"synth", "still", "-o", "results", "--size", "4000x3000", "--samples", "8"},
-          {"synth", "universe", "-o", "results.hdf5", "--particles", "100000000"},
-          {"match", left, right, "-o", "results", "--range", "0:600"},
-          {"paint", left, right, "-o", "results"},
-          {"rectify", left, right, "-o", "results"},
-          {"rotoscope", "frame_%04d.bmp", "-o", "results.mp4", "--style", "mosaic", "--layout", "mono"},
-          {"pack", left, right, "--to", "wiggle", "-o", "results.webp"},
-          {"calibrate", "--left", left, left, left, "--right", right, right, right, "-o", "results.yml"},
-          {"render", "cloud.npy", "--views", "500", "--size", "1920x1080", "--save-slices", "s.exr", "-o", "results"},
-          {"measure", "stereo", left, right, "--photographs", left, right}};
-}
+using Lines = std::vector<std::vector<std::string>>;
 
-TEST(Ending, OfALongStageTakesLessThanASecondAndLeavesNothing) {
+/// Runs lines that take many seconds, each in another of the long stages that no progress is told of, and stops them.
+void expect_ends_within_a_second(const Lines& lines) {
   const TemporaryFolder folder;
   // Noise, coarse enough to be a picture at any reduced size.
   std::mt19937 random(1);
@@ -90,7 +78,7 @@ TEST(Ending, OfALongStageTakesLessThanASecondAndLeavesNothing) {
   std::filesystem::create_symlink("left.bmp", folder / "frame_0001.bmp");
   write_particles(folder / "cloud.npy", 3'000'000);
   const std::set<std::string> before = files_in(folder / "");
-  for (const std::vector<std::string>& line : long_stages()) {
+  for (const std::vector<std::string>& line : lines) {
     std::chrono::steady_clock::time_point sent;
     const ProgramResult result = run_program(line, {.folder = folder / "", .while_running = [&sent](int process) {
                                                       wait_until_caught(process, SIGINT);
@@ -104,6 +92,25 @@ TEST(Ending, OfALongStageTakesLessThanASecondAndLeavesNothing) {
     EXPECT_LT(reaction.count(), 1) << line[0];
     EXPECT_EQ(files_in(folder / ""), before) << line[0];
   }
+}
+
+TEST(Ending, OfALongStageTakesLessThanASecondAndLeavesNothing) {
+  expect_ends_within_a_second(
+      {{"synth", "still", "-o", "results", "--size", "4000x3000", "--samples", "8"},
+       {"paint", "left.bmp", "right.bmp", "-o", "results"},
+       {"rotoscope", "frame_%04d.bmp", "-o", "results.mp4", "--style", "mosaic", "--layout", "mono"},
+       {"pack", "left.bmp", "right.bmp", "--to", "wiggle", "-o", "results.webp"},
+       {"render", "cloud.npy", "--views", "500", "--size", "1920x1080", "--save-slices", "s.exr", "-o", "results"}});
+}
+
+TEST(EndingLong, OfOtherLongStagesTakesLessThanASecondAndLeavesNothing) {
+  const std::string left = "left.bmp", right = "right.bmp";
+  expect_ends_within_a_second(
+      {{"synth", "universe", "-o", "results.hdf5", "--particles", "100000000"},
+       {"match", left, right, "-o", "results", "--range", "0:600"},
+       {"rectify", left, right, "-o", "results"},
+       {"calibrate", "--left", left, left, left, "--right", right, right, right, "-o", "results.yml"},
+       {"measure", "stereo", left, right, "--photographs", left, right}});
 }
 
 TEST(Ending, OnAFullDiskIsExitCodeFour) {
