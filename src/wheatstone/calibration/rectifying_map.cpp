@@ -39,9 +39,10 @@ std::array<double, 10> row_terms(const RectifyingMap& map, PicturePoint straight
 PicturePoint straightened_place(const RectifyingMap& map, PicturePoint in_photograph) {
   const PicturePoint middle = middle_of(map);
   const double x = in_photograph.x - middle.x, y = in_photograph.y - middle.y;
-  const double scale = half_diagonal(map);
+  const double half_diagonal_squared =
+      (map.width * static_cast<double>(map.width) + map.height * static_cast<double>(map.height)) / 4;
   constexpr double most_grown = 10;  // beyond, the model folds the picture over
-  const double grown = 1 / std::max(1 - map.straightening * (x * x + y * y) / (scale * scale), 1 / most_grown);
+  const double grown = 1 / std::max(1 - map.straightening * (x * x + y * y) / half_diagonal_squared, 1 / most_grown);
   return {middle.x + grown * x, middle.y + grown * y};
 }
 

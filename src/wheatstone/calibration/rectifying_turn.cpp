@@ -1,3 +1,5 @@
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
@@ -131,7 +133,7 @@ class TurnFit {
 
   Equations equations(const Parameters& p, const std::vector<double>& misses, double believed_px) const {
     cv::Mat slopes(count_, static_cast<int>(misses.size()), CV_64F), weighted = slopes.clone();
-    for (int k = 0; k < count_; ++k) {
+    oneapi::tbb::parallel_for(0, count_, [&](int k) {
       constexpr double step = 1e-6;
       Parameters more = p, less = p;
       more[k] += step;
@@ -142,7 +144,7 @@ class TurnFit {
         weighted.at<double>(k, i) =
             slopes.at<double>(k, i) * weight_of(misses[i], believed_px) / (believed_px * believed_px);
       }
-    }
+    });
     Equations found{weighted * slopes.t(), weighted * cv::Mat(misses)};
     for (int k = 0; k < count_; ++k) {
       found.normal.at<double>(k, k) += prior_weight_ / (likely[k] * likely[k]);
