@@ -162,7 +162,7 @@ ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity
   if (!read.eyes_known_from_picture && eyes_look_swapped(prepared.pictures))
     tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
                               arguments.left, arguments.swap ? "leave out" : "add"));
-  std::string name = read.note.empty() ? std::move(read.name) : arguments.left;
+  std::string name = read.note.empty() ? read.name : arguments.left;
   tell_of_rows(prepared, name, session);
   return {std::move(prepared), whole, std::move(name)};
 }

@@ -116,7 +116,7 @@ TEST(RotoscopeResumeLong, KilledAtAnyMomentTheFilmIsTheSame) {
   }
 }
 
-TEST(RotoscopeResume, KilledAgainAndAgainTheFilmIsTheSame) {
+TEST(RotoscopeResumeLong, KilledAgainAndAgainTheFilmIsTheSame) {
   const Workplace work;
   const ProgramResult whole = work.run("whole.mp4");
   ASSERT_EQ(whole.exit_code, 0);

@@ -16,7 +16,7 @@
 namespace wheatstone {
 namespace {
 
-constexpr int film_width = 384, film_height = 216;
+constexpr int film_width = 320, film_height = 180;
 
 StereoPair film_frame(int frame, double right_turn_degrees) {
   SyntheticFilmOptions options{.still = {.width = film_width, .height = film_height, .samples_a_side = 1},
