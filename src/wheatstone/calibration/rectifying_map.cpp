@@ -11,14 +11,16 @@ namespace {
 
 PicturePoint middle_of(const RectifyingMap& map) { return {map.width / 2.0, map.height / 2.0}; }
 
-double half_diagonal(const RectifyingMap& map) { return std::hypot(map.width, map.height) / 2; }
+double half_diagonal_squared(const RectifyingMap& map) {
+  const double width = map.width, height = map.height;
+  return (width * width + height * height) / 4;
+}
 
 PicturePoint distorted_place(const RectifyingMap& map, PicturePoint straightened) {
   const PicturePoint middle = middle_of(map);
-  const double scale = half_diagonal(map);
   const double x = straightened.x - middle.x, y = straightened.y - middle.y;
-  const double target = std::hypot(x, y) / scale;  // r / (1 − s r²), solved for r
-  const double root = std::sqrt(std::max(1 + 4 * map.straightening * target * target, 0.0));
+  const double target_squared = (x * x + y * y) / half_diagonal_squared(map);  // of r / (1 − s r²), solved for r
+  const double root = std::sqrt(std::max(1 + 4 * map.straightening * target_squared, 0.0));
   const double ratio = 2 / (1 + root);
   return {middle.x + ratio * x, middle.y + ratio * y};
 }
@@ -39,10 +41,9 @@ std::array<double, 10> row_terms(const RectifyingMap& map, PicturePoint straight
 PicturePoint straightened_place(const RectifyingMap& map, PicturePoint in_photograph) {
   const PicturePoint middle = middle_of(map);
   const double x = in_photograph.x - middle.x, y = in_photograph.y - middle.y;
-  const double half_diagonal_squared =
-      (map.width * static_cast<double>(map.width) + map.height * static_cast<double>(map.height)) / 4;
   constexpr double most_grown = 10;  // beyond, the model folds the picture over
-  const double grown = 1 / std::max(1 - map.straightening * (x * x + y * y) / half_diagonal_squared, 1 / most_grown);
+  const double grown =
+      1 / std::max(1 - map.straightening * (x * x + y * y) / half_diagonal_squared(map), 1 / most_grown);
   return {middle.x + grown * x, middle.y + grown * y};
 }
 

@@ -114,31 +114,14 @@ TEST(CarriedDepth, ThatIsDamagedIsRefused) {
 /// Writes a HEIC file whose picture has a depth image: its alpha image, under another name. False where no encoder is
 /// installed.
 bool put_portrait(const std::filesystem::path& path) {
-  heif_context* context = heif_context_alloc();
-  heif_encoder* encoder = nullptr;
-  if (heif_context_get_encoder_for_format(context, heif_compression_HEVC, &encoder).code != heif_error_Ok) {
-    heif_context_free(context);
-    return false;
-  }
-  heif_encoder_set_lossy_quality(encoder, 95);
-  heif_image* image = nullptr;
-  heif_image_create(width, height, heif_colorspace_RGB, heif_chroma_interleaved_RGBA, &image);
-  heif_image_add_plane(image, heif_channel_interleaved, width, height, 8);
-  int stride = 0;
-  std::uint8_t* plane = heif_image_get_plane(image, heif_channel_interleaved, &stride);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  const auto with_alpha = [](std::size_t) {
+    return make_heif_image(width, height, heif_chroma_interleaved_RGBA, [](int y, std::uint8_t* row) {
       const std::array<std::uint8_t, 4> pixel{red.r, red.g, red.b,
                                               static_cast<std::uint8_t>(y < height / 2 ? 20 : 220)};
-      std::ranges::copy(pixel, plane + static_cast<std::ptrdiff_t>(y) * stride + 4 * static_cast<std::ptrdiff_t>(x));
-    }
-  heif_image_handle* handle = nullptr;
-  heif_context_encode_image(context, image, encoder, nullptr, &handle);
-  heif_image_handle_release(handle);
-  heif_image_release(image);
-  heif_encoder_release(encoder);
-  heif_context_write_to_file(context, path.c_str());
-  heif_context_free(context);
+      for (int x = 0; x < width; ++x) std::ranges::copy(pixel, row + 4 * static_cast<std::ptrdiff_t>(x));
+    });
+  };
+  if (!write_heic(path, 1, with_alpha)) return false;
 
   std::string bytes = bytes_of(path);
   const std::string alpha = "urn:mpeg:hevc:2015:auxid:1";
