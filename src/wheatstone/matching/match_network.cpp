@@ -11,6 +11,7 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/network_inputs_internal.h"
+#include "wheatstone/matching/network_picture_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -57,14 +58,9 @@ Layout layout_of(const std::string& model, std::string_view bytes, cv::Size pict
 }
 
 cv::Mat as_input(const cv::Mat& picture, cv::Size size, NetworkValues values) {
-  cv::Mat numbers;
-  cv::resize(picture, numbers, size, 0, 0, cv::INTER_LINEAR);
-  numbers.convertTo(numbers, CV_32FC3, values == NetworkValues::to_255 ? 1 : 1 / 255.0);
-  if (values == NetworkValues::imagenet) {
-    cv::subtract(numbers, cv::Scalar(0.485, 0.456, 0.406), numbers);
-    cv::divide(numbers, cv::Scalar(0.229, 0.224, 0.225), numbers);
-  }
-  return cv::dnn::blobFromImage(numbers);
+  cv::Mat sized;
+  cv::resize(picture, sized, size, 0, 0, cv::INTER_LINEAR);
+  return network_picture(sized, values);
 }
 
 /// The one-channel map among the sides 1 of a network's answer.

@@ -13,6 +13,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/network_inputs_internal.h"
+#include "wheatstone/matching/network_picture_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -48,13 +49,10 @@ cv::Size size_for(const std::filesystem::path& model, std::string_view bytes, Im
 }
 
 cv::Mat as_input(ImageView<const Rgb8> picture, cv::Size size) {
-  cv::Mat numbers;
+  cv::Mat sized;
   const bool is_reduced = size.width < picture.width();
-  cv::resize(as_mat(picture), numbers, size, 0, 0, is_reduced ? cv::INTER_AREA : cv::INTER_CUBIC);
-  numbers.convertTo(numbers, CV_32FC3, 1 / 255.0);
-  cv::subtract(numbers, cv::Scalar(0.485, 0.456, 0.406), numbers);
-  cv::divide(numbers, cv::Scalar(0.229, 0.224, 0.225), numbers);
-  return cv::dnn::blobFromImage(numbers);
+  cv::resize(as_mat(picture), sized, size, 0, 0, is_reduced ? cv::INTER_AREA : cv::INTER_CUBIC);
+  return network_picture(sized, NetworkValues::imagenet);
 }
 
 cv::Mat run(const std::filesystem::path& model, const std::string& bytes, const cv::Mat& input) {
