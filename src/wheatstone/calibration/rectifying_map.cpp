@@ -39,6 +39,7 @@ std::array<double, 10> row_terms(const RectifyingMap& map, PicturePoint straight
 }
 
 PicturePoint straightened_place(const RectifyingMap& map, PicturePoint in_photograph) {
+  if (map.straightening == 0) return in_photograph;
   const PicturePoint middle = middle_of(map);
   const double x = in_photograph.x - middle.x, y = in_photograph.y - middle.y;
   constexpr double most_grown = 10;  // beyond, the model folds the picture over

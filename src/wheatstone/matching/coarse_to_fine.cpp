@@ -92,8 +92,10 @@ SearchBand whole_range(cv::Size size, const DisparityRange& range) {
 SearchBand band_around(const Image<float>& disparity) {
   constexpr int half_band = fine_count / 2;
   SearchBand band{Image<std::int16_t>(disparity.width(), disparity.height()), fine_count};
-  std::ranges::transform(disparity.pixels(), band.first.pixels().begin(),
-                         [](float d) { return static_cast<std::int16_t>(std::floor(d + 0.5f) - half_band); });
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    std::ranges::transform(disparity.row(y), band.first.row(y).begin(),
+                           [](float d) { return static_cast<std::int16_t>(std::floor(d + 0.5f) - half_band); });
+  });
   return band;
 }
 
@@ -109,8 +111,9 @@ CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<G
   remove_speckles(result.found, options.least_surface_px);
   cv::Mat found = as_mat(result.found);
   result.confirmed = found == found;
-  result.plain = plain_places(level.left, match);
-  found.setTo(unknown, result.plain | ~distinct_places(match));
+  const TrustedPlaces places = trusted_places(level.left, match);
+  result.plain = places.plain;
+  found.setTo(unknown, places.plain | ~places.distinct);
   if (guess) {
     result.left = std::move(guess->left);
     cv::Mat left = as_mat(result.left);

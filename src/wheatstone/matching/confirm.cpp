@@ -38,12 +38,13 @@ bool is_hidden_from(std::span<const float> right, int x, const DisparityRange& r
 
 cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
   cv::Mat sixteenths(disparity.height(), disparity.width(), CV_16S);
-  for (int y = 0; y < disparity.height(); ++y)
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
     for (int x = 0; x < disparity.width(); ++x)
       sixteenths.at<std::int16_t>(y, x) =
           std::isfinite(disparity(x, y))
               ? static_cast<std::int16_t>(std::lround(sign * disparity(x, y) * sixteenths_a_px))
               : static_cast<std::int16_t>(unknown_sixteenths);
+  });
   return sixteenths;
 }
 
@@ -51,9 +52,10 @@ void remove_speckles(Image<float>& disparity, int least_surface_px) {
   cv::Mat sixteenths = in_sixteenths(disparity, 1);
   constexpr int same_surface = 2 * sixteenths_a_px;
   cv::filterSpeckles(sixteenths, unknown_sixteenths, least_surface_px, same_surface);
-  for (int y = 0; y < disparity.height(); ++y)
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
     for (int x = 0; x < disparity.width(); ++x)
       if (sixteenths.at<std::int16_t>(y, x) == unknown_sixteenths) disparity(x, y) = unknown;
+  });
 }
 
 double known_share(const Image<float>& disparity) {

@@ -33,7 +33,8 @@ std::vector<float> coarse_disparities(const StereoPair& pair) {
   const BandMatch match = match_semi_global(left, right, band);
   Image<float> sure = confirmed_disparity(match.left, match.right, -1, 1);
   constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-  as_mat(sure).setTo(unknown, plain_places(left, match) | ~distinct_places(match));
+  const TrustedPlaces places = trusted_places(left, match);
+  as_mat(sure).setTo(unknown, places.plain | ~places.distinct);
   remove_speckles(sure, least_surface_px);
   if (known_share(sure) < least_share) return {};
   return {disparity_percentile(sure, 0.01) / static_cast<float>(scale),

@@ -157,10 +157,24 @@ double share_of(const cv::Mat& mask) {
   return mask.empty() ? 0 : static_cast<double>(cv::countNonZero(mask)) / static_cast<double>(mask.total());
 }
 
+/// The median of 5×5 pixels, on all processors.
+void take_median(Image<float>& disparity) {
+  constexpr int side_px = 5, margin = side_px / 2, band_rows = 64;
+  const Image<float> before = disparity;
+  const cv::Mat from = as_mat(before);
+  cv::Mat to = as_mat(disparity);
+  tbb::parallel_for(0, (from.rows + band_rows - 1) / band_rows, [&](int band) {
+    const int begin = band * band_rows, end = std::min(begin + band_rows, from.rows);
+    const int top = std::max(begin - margin, 0), bottom = std::min(end + margin, from.rows);
+    cv::Mat median;
+    cv::medianBlur(from.rowRange(top, bottom), median, side_px);
+    median.rowRange(begin - top, end - top).copyTo(to.rowRange(begin, end));
+  });
+}
+
 /// What was found over the picture is smoothed where colours are alike, and found to parts of a pixel where wanted.
 void refine_ours(CheckedMatch& match, const cv::Mat& left, const cv::Mat& right, const MatchOptions& options) {
-  cv::Mat matrix = as_mat(match.left);
-  cv::medianBlur(matrix, matrix, 5);
+  take_median(match.left);
   match.left =
       weighted_median(match.left, left, options.double_size ? WeightedMedianOptions{4, 2} : WeightedMedianOptions{});
   constexpr std::size_t most_doubled = 4'000'000;
@@ -178,8 +192,7 @@ void complete_others(CheckedMatch& match, const StereoPair& pair, const Disparit
     match.left = refined(match.left, match.right, as_mat(pair.left), range, options);
     if (options.wls_keeps_confirmed) keep_confirmed(before, match.found, match.left);
   }
-  cv::Mat matrix = as_mat(match.left);
-  cv::medianBlur(matrix, matrix, 5);
+  take_median(match.left);
 }
 
 MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options,

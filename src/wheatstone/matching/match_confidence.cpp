@@ -12,6 +12,7 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/percentile.h"
 
 namespace wheatstone {
 namespace {
@@ -48,7 +49,7 @@ double detail_of(const Image<Rgb8>& picture) {
   return cv::mean(cv::abs(edges))[0] / std::max(cv::mean(small)[0], 1.0);
 }
 
-/// Looks at partners in both pictures.
+/// Looks at partners in both pictures, and at how far apart they are.
 void compare_partners(const StereoPair& pair, const StereoGeometry& geometry, MatchConfidence& confidence) {
   const Image<float>& disparity = geometry.left_disparity;
   // A million pixels tell as much as all.
@@ -56,9 +57,11 @@ void compare_partners(const StereoPair& pair, const StereoGeometry& geometry, Ma
   const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(disparity.pixels().size()) / enough)));
   std::size_t asked = 0, inside = 0;
   std::vector<int> differences;
+  std::vector<float> disparities;
   for (int y = 0; y < disparity.height(); y += step) {
     for (int x = 0; x < disparity.width(); x += step) {
       ++asked;
+      disparities.push_back(disparity(x, y));
       const float there = std::floor(static_cast<float>(x) + 0.5f - disparity(x, y));
       if (!(there >= 0 && there < static_cast<float>(disparity.width()))) continue;
       ++inside;
@@ -69,6 +72,8 @@ void compare_partners(const StereoPair& pair, const StereoGeometry& geometry, Ma
   }
   confidence.overlap_share = static_cast<double>(inside) / static_cast<double>(asked);
   if (!differences.empty()) confidence.colour_difference = middle_of(differences) / 3.0;
+  confidence.depth_px = static_cast<double>(percentile(disparities, 0.98)) - percentile(disparities, 0.02);
+  confidence.middle_px = percentile(disparities, 0.5);
 }
 
 }  // namespace
@@ -102,9 +107,6 @@ MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched
   confidence.found_share = matched.left_found_share;
   confidence.plain_share = matched.plain_share;
   confidence.streak_share = streak_share(disparity);
-  confidence.depth_px =
-      static_cast<double>(disparity_percentile(disparity, 0.98)) - disparity_percentile(disparity, 0.02);
-  confidence.middle_px = disparity_percentile(disparity, 0.5);
   const double left_detail = detail_of(pair.left), right_detail = detail_of(pair.right);
   confidence.left_is_blurrier = left_detail < right_detail;
   const double sharper = std::max(left_detail, right_detail);

@@ -1,5 +1,7 @@
 #include "wheatstone/matching/match_features.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
@@ -7,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/nearest_descriptors_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -16,46 +19,92 @@ struct Features {
   cv::Mat descriptors;
 };
 
-Features find_features(ImageView<const Rgb8> picture, const FeatureOptions& options) {
-  const double scale =
-      std::min(1.0, static_cast<double>(options.search_side_px) / std::max(picture.width(), picture.height()));
+/// A picture as it is searched.
+struct SearchedCopy {
   cv::Mat luminance;
-  cv::cvtColor(as_mat(picture), luminance, cv::COLOR_RGB2GRAY);
-  if (scale < 1) cv::resize(luminance, luminance, {}, scale, scale, cv::INTER_AREA);
-  const double x_scale = static_cast<double>(luminance.cols) / picture.width();
-  const double y_scale = static_cast<double>(luminance.rows) / picture.height();
+  double x_scale = 1, y_scale = 1;  ///< its sides over the picture's
+};
+
+SearchedCopy searched_copy(ImageView<const Rgb8> picture, int side_px) {
+  const double scale = std::min(1.0, static_cast<double>(side_px) / std::max(picture.width(), picture.height()));
+  SearchedCopy copy;
+  cv::cvtColor(as_mat(picture), copy.luminance, cv::COLOR_RGB2GRAY);
+  if (scale < 1) cv::resize(copy.luminance, copy.luminance, {}, scale, scale, cv::INTER_AREA);
+  copy.x_scale = static_cast<double>(copy.luminance.cols) / picture.width();
+  copy.y_scale = static_cast<double>(copy.luminance.rows) / picture.height();
+  return copy;
+}
+
+Features find_features(const SearchedCopy& copy, int most_features) {
   std::vector<cv::KeyPoint> keypoints;
   Features features;
   constexpr int octave_layers = 3;
   constexpr double contrast = 0.02, edge = 10, sigma = 1.6;  // half the usual contrast: dim and plain pictures too
-  cv::SIFT::create(options.most_features, octave_layers, contrast, edge, sigma)
-      ->detectAndCompute(luminance, {}, keypoints, features.descriptors);
+  cv::SIFT::create(most_features, octave_layers, contrast, edge, sigma)
+      ->detectAndCompute(copy.luminance, {}, keypoints, features.descriptors);
   // OpenCV counts from the centre of the first pixel.
   for (const cv::KeyPoint& point : keypoints)
-    features.places.push_back(
-        {(static_cast<double>(point.pt.x) + 0.5) / x_scale, (static_cast<double>(point.pt.y) + 0.5) / y_scale});
+    features.places.push_back({(static_cast<double>(point.pt.x) + 0.5) / copy.x_scale,
+                               (static_cast<double>(point.pt.y) + 0.5) / copy.y_scale});
   return features;
 }
 
-/// For each feature its closest one in the other picture, or −1 where the second closest, at another place, is about
-/// as close. One place may have several features, which differ in direction.
-std::vector<int> closest(const Features& from, const Features& into, double best_to_second) {
-  std::vector<int> result(from.places.size(), -1);
-  std::vector<std::vector<cv::DMatch>> found;
-  constexpr int candidates = 3;
-  cv::BFMatcher(cv::NORM_L2).knnMatch(from.descriptors, into.descriptors, found, candidates);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].empty()) continue;
-    const PicturePoint& best = into.places[found[i][0].trainIdx];
-    bool distinct = true;
-    for (std::size_t k = 1; k < found[i].size() && distinct; ++k) {
-      const PicturePoint& other = into.places[found[i][k].trainIdx];
-      const bool same_place = std::hypot(best.x - other.x, best.y - other.y) < 2;
-      distinct = same_place ||
-                 static_cast<double>(found[i][0].distance) < best_to_second * static_cast<double>(found[i][k].distance);
-    }
-    if (distinct) result[i] = found[i][0].trainIdx;
+struct FeaturesOfBoth {
+  Features left, right;
+};
+
+FeaturesOfBoth find_features(ImageView<const Rgb8> left, ImageView<const Rgb8> right, const FeatureOptions& options) {
+  SearchedCopy left_copy, right_copy;
+  tbb::parallel_invoke([&] { left_copy = searched_copy(left, options.search_side_px); },
+                       [&] { right_copy = searched_copy(right, options.search_side_px); });
+  FeaturesOfBoth found;
+  const auto find_left = [&] { found.left = find_features(left_copy, options.most_features); };
+  const auto find_right = [&] { found.right = find_features(right_copy, options.most_features); };
+  // SIFT takes about 230 bytes a pixel.
+  constexpr std::size_t most_at_once_px = 2'000'000;
+  if (left_copy.luminance.total() + right_copy.luminance.total() <= most_at_once_px) {
+    tbb::parallel_invoke(find_left, find_right);
+  } else {
+    find_left();
+    find_right();
   }
+  return found;
+}
+
+/// Whether the nearest descriptor is clearly nearer than the next ones of other places. One place may have several
+/// features, which differ in direction.
+bool is_distinct(const NearestDescriptors& nearest, const Features& into, double best_to_second) {
+  constexpr double same_place_px = 2;
+  const PicturePoint& best = into.places[nearest.row[0]];
+  for (int k = 1; k < NearestDescriptors::count && nearest.row[k] >= 0; ++k) {
+    const PicturePoint& other = into.places[nearest.row[k]];
+    if (std::hypot(best.x - other.x, best.y - other.y) < same_place_px) continue;
+    const double share = best_to_second * best_to_second;
+    if (static_cast<double>(nearest.squared_distance[0]) >= share * static_cast<double>(nearest.squared_distance[k]))
+      return false;
+  }
+  return true;
+}
+
+/// Which features are clearly nearer to one feature of the other picture than to those of its other places.
+struct NearestFeatures {
+  std::vector<int> from, into;
+};
+
+NearestFeatures distinct_nearest(const Features& from, const Features& into, double best_to_second) {
+  NearestFeatures result;
+  const std::vector<NearestDescriptors> nearest = nearest_descriptors(from.descriptors, into.descriptors);
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    if (!is_distinct(nearest[i], into, best_to_second)) continue;
+    result.from.push_back(static_cast<int>(i));
+    result.into.push_back(nearest[i].row[0]);
+  }
+  return result;
+}
+
+cv::Mat chosen_rows(const cv::Mat& rows, std::span<const int> indices) {
+  cv::Mat result(0, rows.cols, rows.type());
+  for (const int index : indices) result.push_back(rows.row(index));
   return result;
 }
 
@@ -68,16 +117,18 @@ std::vector<cv::Point2d> side_of(std::span<const FeatureMatch> matches, PictureP
 }  // namespace
 
 FeatureMatches match_features(ImageView<const Rgb8> left, ImageView<const Rgb8> right, const FeatureOptions& options) {
-  const Features in_left = find_features(left, options), in_right = find_features(right, options);
+  const auto [in_left, in_right] = find_features(left, right, options);
   FeatureMatches result;
   result.left_features = static_cast<int>(in_left.places.size());
   result.right_features = static_cast<int>(in_right.places.size());
   if (in_left.places.size() < 2 || in_right.places.size() < 2) return result;
-  const std::vector<int> there = closest(in_left, in_right, options.best_to_second);
-  const std::vector<int> back = closest(in_right, in_left, options.best_to_second);
-  for (std::size_t i = 0; i < there.size(); ++i)
-    if (there[i] >= 0 && back[there[i]] == static_cast<int>(i))
-      result.matches.push_back({in_left.places[i], in_right.places[there[i]]});
+  const NearestFeatures there = distinct_nearest(in_left, in_right, options.best_to_second);
+  // Only what was found is asked for the way back.
+  const std::vector<NearestDescriptors> back =
+      nearest_descriptors(chosen_rows(in_right.descriptors, there.into), in_left.descriptors);
+  for (std::size_t i = 0; i < back.size(); ++i)
+    if (back[i].row[0] == there.from[i] && is_distinct(back[i], in_left, options.best_to_second))
+      result.matches.push_back({in_left.places[there.from[i]], in_right.places[there.into[i]]});
 
   // Features of one place that differ in direction only are one match.
   const auto same = [](const FeatureMatch& a, const FeatureMatch& b) {
@@ -94,8 +145,8 @@ double sampson_distance(const std::array<double, 9>& fundamental, const FeatureM
   const cv::Matx33d f(fundamental.data());
   const cv::Vec3d left(match.left.x, match.left.y, 1), right(match.right.x, match.right.y, 1);
   const cv::Vec3d line_in_right = f * left, line_in_left = f.t() * right;
-  const double steepness =
-      std::hypot(std::hypot(line_in_right[0], line_in_right[1]), std::hypot(line_in_left[0], line_in_left[1]));
+  const double steepness = std::sqrt(line_in_right[0] * line_in_right[0] + line_in_right[1] * line_in_right[1] +
+                                     line_in_left[0] * line_in_left[0] + line_in_left[1] * line_in_left[1]);
   return steepness > 0 ? right.dot(line_in_right) / steepness : 0;
 }
 

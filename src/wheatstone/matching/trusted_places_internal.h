@@ -6,12 +6,16 @@
 
 namespace wheatstone {
 
-/// 255 in large parts of the left picture (8-bit RGB) that show nothing but noise and match at no disparity better than
-/// at others, up to the edges around: a white ground, a clear sky. What is found there is chance, or was carried there
-/// from an edge.
-cv::Mat plain_places(const cv::Mat& picture, const BandMatch& match);
+/// Where a match can be trusted and where not; masks of the left picture, 255 or 0.
+struct TrustedPlaces {
+  /// Large parts that show nothing but noise and match at no disparity better than at others, up to the edges around: a
+  /// white ground, a clear sky. What is found there is chance, or was carried there from an edge.
+  cv::Mat plain;
+  /// The surroundings of a pixel match at its disparity clearly better than at others of its band.
+  cv::Mat distinct;
+};
 
-/// 255 where the surroundings of a pixel match at its disparity clearly better than at others of its band.
-cv::Mat distinct_places(const BandMatch& match);
+/// `picture` is the left one, 8-bit RGB.
+TrustedPlaces trusted_places(const cv::Mat& picture, const BandMatch& match);
 
 }  // namespace wheatstone
