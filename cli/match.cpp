@@ -54,8 +54,9 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   for (const std::string& name : result_names(photographs.rectify != RectifyPolicy::never)) folder.file(name);
   const ReadPhotograph read = read_photographs(photographs, false, session);
   const PreparedPair& pair = read.pair;
-  const MatchedPair matched = match(pair.pictures, match_options_from(arguments.matching), session.progress);
-  const MatchConfidence confidence = measure_match(pair.pictures, matched);
+  const MatchOptions options = match_options_from(arguments.matching);
+  const MatchedPair matched = match(pair.pictures, options, session.progress);
+  const MatchConfidence confidence = measure_match(pair.pictures, matched, options.range);
   write(folder, pair, matched.geometry);
   tell_of_match(read, confidence, session);
   if (session.json) {

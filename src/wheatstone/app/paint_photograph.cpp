@@ -41,7 +41,7 @@ FoundGeometry find_geometry(const StereoPair& photographs, const PaintPhotograph
   check_fits(photographs);
   if (options.left_disparity) return {given_geometry(photographs, options), {}, {}};
   MatchedPair matched = match(photographs, options.matching, progress);
-  const MatchConfidence confidence = measure_match(photographs, matched);
+  const MatchConfidence confidence = measure_match(photographs, matched, options.matching.range);
   StereoGeometry geometry = std::exchange(matched.geometry, {});
   return {std::move(geometry), std::move(matched), confidence};
 }

@@ -3,12 +3,14 @@
 #include <limits>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match.h"
+#include "wheatstone/matching/seen_disparities_internal.h"
 #include "wheatstone/matching/trusted_places_internal.h"
 
 namespace wheatstone {
@@ -87,9 +89,8 @@ std::vector<float> supported(std::vector<float> disparities, float agreement_px)
 
 }  // namespace
 
-DisparityRange find_disparity_range(const StereoPair& pair) {
-  const int width = pair.left.width();
-  const double scale = std::min(1.0, static_cast<double>(search_width_px) / width);
+std::optional<SeenDisparities> find_seen_disparities(const StereoPair& pair) {
+  const double scale = std::min(1.0, static_cast<double>(search_width_px) / pair.left.width());
   const cv::Mat left = reduced_luminance(pair.left, scale), right = reduced_luminance(pair.right, scale);
   const float agreement_px = std::max(2.f, 0.005f * static_cast<float>(left.cols));
   std::vector<float> ends = coarse_disparities(pair);
@@ -98,14 +99,20 @@ DisparityRange find_disparity_range(const StereoPair& pair) {
     ends.push_back(corners.front() / static_cast<float>(scale));
     ends.push_back(corners.back() / static_cast<float>(scale));
   }
-
-  // Without anything to go by: what a pair made for viewing keeps to.
-  if (ends.empty()) return {-width / 32, std::max(width / 8, 16)};
+  if (ends.empty()) return {};
   const auto [least, largest] = std::ranges::minmax(ends);
-  const float room = std::max(0.1f * (largest - least), 6.f);
+  return SeenDisparities{least, largest};
+}
+
+DisparityRange find_disparity_range(const StereoPair& pair) {
+  const int width = pair.left.width();
+  const std::optional<SeenDisparities> seen = find_seen_disparities(pair);
+  // Without anything to go by: what a pair made for viewing keeps to.
+  if (!seen) return {-width / 32, std::max(width / 8, 16)};
+  const float room = std::max(0.1f * (seen->largest - seen->least), 6.f);
   const int limit = width - 1;
-  return {std::max(static_cast<int>(std::floor(least - room)), -limit),
-          std::min(static_cast<int>(std::ceil(largest + room)), limit)};
+  return {std::max(static_cast<int>(std::floor(seen->least - room)), -limit),
+          std::min(static_cast<int>(std::ceil(seen->largest + room)), limit)};
 }
 
 }  // namespace wheatstone

@@ -1,10 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "wheatstone/matching/match.h"
 
 namespace wheatstone {
+
+/// How the range of disparities that was asked for does not fit a pair.
+struct RangeMisfit {
+  DisparityRange asked;
+  DisparityRange present;  ///< what the pair has
+  double cut_share = 0;  ///< of the left view: at an end of the range beyond which the pair has more; 0: it is too wide
+};
 
 /// How sure a pair's disparity is, told from the pictures and the disparity alone. All but the difference are shares,
 /// 0..1.
@@ -16,11 +24,15 @@ struct MatchConfidence {
   double overlap_share = 0;      ///< of the left view: its partner lies within the right picture
   double sharper_share = 0;      ///< of fine detail in the blurrier picture against the other; 1: alike
   bool left_is_blurrier = false;
-  double depth_px = 0;   ///< between the 2nd and the 98th percentile of the disparity
-  double middle_px = 0;  ///< its median
+  double depth_px = 0;               ///< between the 2nd and the 98th percentile of the disparity
+  double middle_px = 0;              ///< its median
+  std::optional<RangeMisfit> range;  ///< none: the range fits, or none was asked for
 };
 
-MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched);
+/// `asked_range` is the one that the pair was matched with, where one was asked for. Where much of the disparity is at
+/// its ends the pair is searched for more beyond, in a fifth of the time that matching takes.
+MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched,
+                              const std::optional<DisparityRange>& asked_range = {});
 
 /// Streaks of a disparity map reduced to 640 columns: the share of pixels that differ from the median of the 15 in
 /// their column by more than 3 % of the map's range (2nd to 98th percentile), and from that of the 15 in their row by
@@ -28,7 +40,7 @@ MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched
 double streak_share(ImageView<const float> disparity);
 
 /// One sentence that names the likeliest reason why a match is poor, and what helps; empty where it is good: at least
-/// 70 % found, at most 3 % streaks, some depth. Rows that differ are told by row_warning.
+/// 70 % found, at most 3 % streaks, some depth, in a range that fits. Rows that differ are told by row_warning.
 std::string match_warning(const MatchConfidence& confidence);
 
 }  // namespace wheatstone

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string>
 
 #include "scenes/spoiled_pair.h"
 #include "scenes/test_photographs.h"
@@ -17,8 +19,10 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string warning_of(const StereoPair& pair) {
-  const MatchConfidence confidence = measure_match(pair, match(pair));
+std::string warning_of(const StereoPair& pair, const std::optional<DisparityRange>& range = {}) {
+  MatchOptions options;
+  options.range = range;
+  const MatchConfidence confidence = measure_match(pair, match(pair, options), range);
   testing::Test::RecordProperty(
       "confidence",
       fmt::format("found {:.3f} streaks {:.4f} colour {:.1f} plain {:.3f} overlap {:.3f} sharp "
@@ -96,6 +100,39 @@ TEST(MatchWarning, NamesTheSmallOverlap) {
   const StereoPair wide = still_for_test(640, 360);
   EXPECT_THAT(warning_of({columns(wide.left, 40, width), columns(wide.right, 40 + apart, width)}),
               HasSubstr("overlap"));
+}
+
+TEST(MatchWarning, NamesTheRangeThatEndsTooSoon) {
+  const StereoPair still = still_for_test();
+  const MatchedPair whole = match(still);
+  const int middle = static_cast<int>(measure_match(still, whole).middle_px);
+  for (const DisparityRange& range :
+       {DisparityRange{whole.range.least, middle}, {middle, whole.range.largest}, {middle - 4, middle + 4}}) {
+    const std::string warning = warning_of(still, range);
+    EXPECT_THAT(warning, HasSubstr(fmt::format("at the end of the range {}:{}", range.least, range.largest)));
+    EXPECT_THAT(warning, HasSubstr("widen --range"));
+  }
+  EXPECT_EQ(warning_of(still, whole.range), "");
+}
+
+TEST(MatchWarning, IsNotSaidWhereTheFarthestIsAtTheRangesEnd) {
+  // A wall of disparity 0, and before it a board of disparity 12.
+  StereoPair pair{still_for_test().left, still_for_test().left};
+  for (int y = 100; y < 260; ++y)
+    for (int x = 150; x < 330; ++x) {
+      const auto grey = static_cast<std::uint8_t>(
+          255 * unit_float(hash_keys({static_cast<std::uint64_t>(x / 2), static_cast<std::uint64_t>(y / 2)})));
+      pair.right(x - 12, y) = pair.left(x, y) = {grey, grey, grey};
+    }
+  const MatchedPair matched = match(pair);
+  ASSERT_NEAR(measure_match(pair, matched).middle_px, 0, 0.5);
+  EXPECT_EQ(warning_of(pair, DisparityRange{0, 40}), "");
+}
+
+TEST(MatchWarning, NamesTheRangeThatIsFarTooWide) {
+  const std::string warning = warning_of(still_for_test(), DisparityRange{-200, 300});
+  EXPECT_THAT(warning, HasSubstr("the disparity range -200:300 is far wider than"));
+  EXPECT_THAT(warning, HasSubstr("narrow --range"));
 }
 
 TEST(MatchConfidence, CountsTheStreaksThatThereAre) {
