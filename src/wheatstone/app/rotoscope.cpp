@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "wheatstone/error.h"
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/motion/central_flow.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/scene_view.h"
 #include "wheatstone/stopwatch.h"
 
@@ -41,18 +45,26 @@ void check_sizes(const StereoPair& eyes, const RotoscopeState& state) {
                             eyes.left.height(), state.left_before.width(), state.left_before.height()));
 }
 
+/// Scenes are looked at again with fewer and fewer frames, which show what a fade hid.
+bool looks_again(std::int64_t frame_of_scene) {
+  constexpr std::int64_t frames_between_looks = 24;
+  return frame_of_scene % frames_between_looks == 0 ||
+         (frame_of_scene < frames_between_looks && std::has_single_bit(static_cast<std::uint64_t>(frame_of_scene)));
+}
+
 /// The disparities to look for: those of the scene's first frame, widened by what later frames show, with some room,
 /// so that nothing moves out of them between two looks.
 DisparityRange scene_range(const StereoPair& eyes, RotoscopeState& state) {
-  constexpr std::int64_t frames_between_looks = 24;
-  if (state.range && state.frames_of_scene % frames_between_looks != 0) return *state.range;
-  DisparityRange found = find_disparity_range(eyes);
-  const int room = std::max((found.largest - found.least) / 8, 2);
-  found = {found.least - room, found.largest + room};
+  if (state.range && !looks_again(state.frames_of_scene)) return *state.range;
+  std::optional<DisparityRange> found = find_disparity_range(eyes);
+  const int width = eyes.left.width();
+  // A black frame says nothing.
+  if (!found) return state.range.value_or(usual_disparity_range(width));
+  const int room = std::max((found->largest - found->least) / 8, 2);
+  found = {found->least - room, found->largest + room};
   if (state.range && state.frames_of_scene > 0)
-    found = {std::min(found.least, state.range->least), std::max(found.largest, state.range->largest)};
-  const int most = eyes.left.width() - 1;
-  state.range = DisparityRange{std::max(found.least, -most), std::min(found.largest, most)};
+    found = {std::min(found->least, state.range->least), std::max(found->largest, state.range->largest)};
+  state.range = DisparityRange{std::max(found->least, 1 - width), std::min(found->largest, width - 1)};
   return *state.range;
 }
 
@@ -65,7 +77,12 @@ StereoGeometry find_geometry(const FrameTask& task, RotoscopeState& state) {
   MatchOptions matching = task.options.matching;
   if (!matching.range) matching.range = scene_range(task.eyes, state);
   matching.size = std::min(matching.size, share_of_width(task.eyes.left, task.options.widest_matched_px));
-  return match(task.eyes, matching, task.progress).geometry;
+  if (std::optional<MatchedPair> matched = match_if_any(task.eyes, matching, task.progress))
+    return std::move(matched->geometry);
+  // A frame that shows nothing, as a black one, is as deep as the one before, or flat where a scene begins with it.
+  if (state.frames_of_scene > 0 && !state.left_disparity_before.empty())
+    return geometry_from_left(state.left_disparity_before);
+  return geometry_from_left(Image<float>(task.eyes.left.width(), task.eyes.left.height(), 0));
 }
 
 bool scene_begins(const StereoPair& eyes, const RotoscopeState& state, const KnownFrame* known) {
@@ -76,7 +93,6 @@ bool scene_begins(const StereoPair& eyes, const RotoscopeState& state, const Kno
 
 /// The frame as its scene is rectified. Until a scene has shown whether its rows fit, later frames are measured too.
 StereoPair rectify_frame(const FrameTask& photographed, RotoscopeState& state, RotoscopedFrame& result) {
-  constexpr std::int64_t frames_between_looks = 24;
   const StereoPair& eyes = photographed.eyes;
   const KnownFrame* known = photographed.known;
   if (eyes.right.empty() || known != nullptr) {
@@ -85,7 +101,7 @@ StereoPair rectify_frame(const FrameTask& photographed, RotoscopeState& state, R
   }
   StereoPair frame = rectified(eyes, state.rectification);
   result.scene_begins = scene_begins(frame, state, known);
-  const bool look_again = !state.rectification.measured && state.frames_of_scene % frames_between_looks == 0;
+  const bool look_again = !state.rectification.measured && looks_again(state.frames_of_scene);
   if (!result.scene_begins && !look_again) return frame;
   MeasuredScene scene = measure_scene(eyes, photographed.options.rectify, photographed.progress);
   // A scene that says nothing is taken as the one before was: it is the same rig.

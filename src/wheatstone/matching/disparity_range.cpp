@@ -36,7 +36,7 @@ std::vector<float> coarse_disparities(const StereoPair& pair) {
   Image<float> sure = confirmed_disparity(match.left, match.right, -1, 1);
   constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
   const TrustedPlaces places = trusted_places(left, match);
-  as_mat(sure).setTo(unknown, places.plain | ~places.distinct);
+  as_mat(sure).setTo(unknown, places.plain | places.blank | ~places.distinct);
   remove_speckles(sure, least_surface_px);
   if (known_share(sure) < least_share) return {};
   return {disparity_percentile(sure, 0.01) / static_cast<float>(scale),
@@ -104,15 +104,15 @@ std::optional<SeenDisparities> find_seen_disparities(const StereoPair& pair) {
   return SeenDisparities{least, largest};
 }
 
-DisparityRange find_disparity_range(const StereoPair& pair) {
-  const int width = pair.left.width();
+DisparityRange usual_disparity_range(int width_px) { return {-width_px / 32, std::max(width_px / 8, 16)}; }
+
+std::optional<DisparityRange> find_disparity_range(const StereoPair& pair) {
   const std::optional<SeenDisparities> seen = find_seen_disparities(pair);
-  // Without anything to go by: what a pair made for viewing keeps to.
-  if (!seen) return {-width / 32, std::max(width / 8, 16)};
+  if (!seen) return {};
   const float room = std::max(0.1f * (seen->largest - seen->least), 6.f);
-  const int limit = width - 1;
-  return {std::max(static_cast<int>(std::floor(seen->least - room)), -limit),
-          std::min(static_cast<int>(std::ceil(seen->largest + room)), limit)};
+  const int limit = pair.left.width() - 1;
+  return DisparityRange{std::max(static_cast<int>(std::floor(seen->least - room)), -limit),
+                        std::min(static_cast<int>(std::ceil(seen->largest + room)), limit)};
 }
 
 }  // namespace wheatstone

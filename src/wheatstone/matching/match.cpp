@@ -10,6 +10,9 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/ximgproc/disparity_filter.hpp>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
@@ -144,9 +147,6 @@ CheckedMatch match_both_ways(const cv::Mat& left_picture, const cv::Mat& right_p
   }
   remove_speckles(match.found, options.least_surface_px);
   remove_speckles(match.right, options.least_surface_px);
-  if (known_share(match.found) == 0)
-    throw Error(ErrorKind::bad_input, fmt::format("no pixel of the two pictures matches between disparities {} and {}",
-                                                  range.least, range.largest));
   match.left = match.found;
   match.confirmed = as_mat(match.found) == as_mat(match.found);
   return match;
@@ -195,14 +195,15 @@ void complete_others(CheckedMatch& match, const StereoPair& pair, const Disparit
   take_median(match.left);
 }
 
-MatchedPair match_at_this_size(const StereoPair& pair, const DisparityRange& range, const MatchOptions& options,
-                               const Progress& progress) {
+/// None where no pixel matches.
+std::optional<MatchedPair> match_at_this_size(const StereoPair& pair, const DisparityRange& range,
+                                              const MatchOptions& options, const Progress& progress) {
   const cv::Mat left = as_mat(pair.left), right = as_mat(pair.right);
   const bool ours = options.matcher == Matcher::census;
   CheckedMatch match =
       ours ? match_coarse_to_fine(left, right, range, options, progress) : match_both_ways(left, right, range, options);
+  if (known_share(match.left) == 0) return {};
   MatchedPair matched;
-  matched.range = range;
   matched.left_found_share = share_of(match.confirmed);
   matched.plain_share = share_of(match.plain);
   matched.right_found_share = known_share(match.right);
@@ -277,17 +278,18 @@ MatchOptions match_options_for(MatchQuality quality) {
   return options;
 }
 
-MatchedPair match(const StereoPair& pair, const MatchOptions& options, const Progress& progress) {
+std::optional<MatchedPair> match_if_any(const StereoPair& pair, const MatchOptions& options, const Progress& progress) {
   check(pair, options);
   report(progress, "matching", 0);
-  const DisparityRange range = options.range ? *options.range : find_disparity_range(pair);
+  const DisparityRange range =
+      options.range ? *options.range : find_disparity_range(pair).value_or(usual_disparity_range(pair.left.width()));
   constexpr double range_share = 0.2, levels_share = 0.5;  // of the time, roughly; the rest is refinement
   report(progress, "matching", range_share);
   const Progress levels = [&](std::string_view step, double done) {
     report(progress, step, range_share + levels_share * done);
   };
   const double scale = std::min(options.size, reduction_for(pair, range));
-  MatchedPair matched;
+  std::optional<MatchedPair> matched;
   if (scale == 1) {
     matched = match_at_this_size(pair, range, options, levels);
   } else {
@@ -295,12 +297,22 @@ MatchedPair match(const StereoPair& pair, const MatchOptions& options, const Pro
     const DisparityRange small_range{static_cast<int>(std::floor(range.least * scale)),
                                      static_cast<int>(std::ceil(range.largest * scale))};
     matched = match_at_this_size(small, small_range, options, levels);
-    matched.range = range;
-    matched.geometry =
-        geometry_from_left(enlarged(matched.geometry.left_disparity, pair.left.width(), pair.left.height()));
   }
+  if (!matched) return {};
+  matched->range = range;
+  if (scale != 1)
+    matched->geometry =
+        geometry_from_left(enlarged(matched->geometry.left_disparity, pair.left.width(), pair.left.height()));
   report(progress, "matching", 1);
   return matched;
+}
+
+MatchedPair match(const StereoPair& pair, const MatchOptions& options, const Progress& progress) {
+  std::optional<MatchedPair> matched = match_if_any(pair, options, progress);
+  if (matched) return *std::move(matched);
+  const std::string between =
+      options.range ? fmt::format(" between disparities {} and {}", options.range->least, options.range->largest) : "";
+  throw Error(ErrorKind::bad_input, fmt::format("no pixel of the two pictures matches{}", between));
 }
 
 }  // namespace wheatstone

@@ -90,8 +90,15 @@ struct MatchedPair {
 /// network that can be run; Error{wrong_usage}: a range or block that makes no sense.
 MatchedPair match(const StereoPair& pair, const MatchOptions& options = {}, const Progress& progress = {});
 
+/// As match, but none where no pixel matches, as in two black frames of a film.
+std::optional<MatchedPair> match_if_any(const StereoPair& pair, const MatchOptions& options = {},
+                                        const Progress& progress = {});
+
 /// The range of disparities in a pair, from matched corners (ORB) and a coarse match of small copies, with some room at
-/// either end.
-DisparityRange find_disparity_range(const StereoPair& pair);
+/// either end. None where the pictures show nothing to tell it from.
+std::optional<DisparityRange> find_disparity_range(const StereoPair& pair);
+
+/// What a pair made for viewing keeps to.
+DisparityRange usual_disparity_range(int width_px);
 
 }  // namespace wheatstone

@@ -66,7 +66,7 @@ TEST(Match, RefinementKeepsTheDisparity) {
 }
 
 TEST(Match, FindsTheRangeByItself) {
-  const DisparityRange range = find_disparity_range(still().pictures);
+  const DisparityRange range = find_disparity_range(still().pictures).value();
   float least = INFINITY, largest = -INFINITY;
   for (const float d : still().geometry.left_disparity.pixels()) {
     least = std::min(least, d);
@@ -133,10 +133,16 @@ TEST(Match, ReducesWhatIsTooLargeToBeMatchedAsItIs) {
 }
 
 TEST(Match, SaysWhenNothingMatches) {
-  StereoPair blank{Image<Rgb8>(64, 48, {128, 128, 128}), Image<Rgb8>(64, 48, {128, 128, 128})};
+  const StereoPair blank{Image<Rgb8>(64, 48, {128, 128, 128}), Image<Rgb8>(64, 48, {128, 128, 128})};
   MatchOptions options;
   options.matcher = Matcher::bm;
   EXPECT_THROW(match(blank, options), Error);
+  EXPECT_FALSE(match_if_any(blank, options));
+  EXPECT_TRUE(match_if_any(still().pictures, options));
+}
+
+TEST(Match, FindsNoRangeInBlackPictures) {
+  EXPECT_FALSE(find_disparity_range({Image<Rgb8>(320, 180), Image<Rgb8>(320, 180)}));
 }
 
 TEST(Match, FindsTeddysTrueDisparities) {

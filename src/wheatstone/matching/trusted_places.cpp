@@ -46,7 +46,8 @@ cv::Mat cost_share(const cv::Mat& own_cost, const cv::Mat& mean_cost) {
   cv::Mat own, mean;
   cv::boxFilter(own_cost, own, CV_32F, {window_px, window_px});
   cv::boxFilter(mean_cost, mean, CV_32F, {window_px, window_px});
-  return own / (mean + 0.01f);
+  constexpr double none = 0.01;  // where nothing costs anything, as in black, no disparity is better than another
+  return (own + none) / (mean + none);
 }
 
 LocalEvidence local_evidence(const cv::Mat& picture, const BandMatch& match) {
@@ -88,7 +89,8 @@ TrustedPlaces trusted_places(const cv::Mat& picture, const BandMatch& match) {
   cv::dilate(large, large, cv::getStructuringElement(cv::MORPH_RECT, {large_px, large_px}));
   plain &= large;
   cv::dilate(plain, plain, cv::getStructuringElement(cv::MORPH_RECT, {plain_window_px, plain_window_px}));
-  return {plain, evidence.distinct};
+  constexpr double least_noise = 0.5;
+  return {plain, evidence.distinct, evidence.deviation < least_noise};
 }
 
 }  // namespace wheatstone

@@ -13,6 +13,8 @@ struct TrustedPlaces {
   cv::Mat plain;
   /// The surroundings of a pixel match at its disparity clearly better than at others of its band.
   cv::Mat distinct;
+  /// One colour, without even noise: every disparity fits.
+  cv::Mat blank;
 };
 
 /// `picture` is the left one, 8-bit RGB.
