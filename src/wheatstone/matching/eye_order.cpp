@@ -19,6 +19,7 @@ constexpr int small_width_px = 400;
 struct CheckedView {
   cv::Mat colours;         ///< CIE L*a*b*, 32-bit float
   Image<float> disparity;  ///< own x − other x; NaN where the other view does not confirm it
+  cv::Mat frame;           ///< as `frame_of` has it
 };
 
 cv::Mat small_copy(const Image<Rgb8>& picture, double scale) {
@@ -32,6 +33,24 @@ cv::Mat lab(const cv::Mat& rgb) {
   rgb.convertTo(values, CV_32FC3, 1.0 / 255);
   cv::cvtColor(values, values, cv::COLOR_RGB2Lab);
   return values;
+}
+
+/// 255 on what has the colour of a corner of the picture and goes on from there, and a little around it. It may be a
+/// frame, as the mount of a card beside the rounded corners of its prints: a frame hides what is farther and cuts off
+/// what is nearer, in both eyes.
+cv::Mat frame_of(const cv::Mat& colours) {
+  constexpr int window_px = 5, reach_px = 7;
+  constexpr double like_colour = 6;
+  cv::Mat even, reached(colours.rows + 2, colours.cols + 2, CV_8U, cv::Scalar(0));
+  cv::blur(colours, even, {window_px, window_px});
+  const int fill = 4 | (255 << 8) | cv::FLOODFILL_FIXED_RANGE | cv::FLOODFILL_MASK_ONLY;
+  for (const int y : {0, colours.rows - 1})
+    for (const int x : {0, colours.cols - 1})
+      cv::floodFill(even, reached, {x, y}, {}, nullptr, cv::Scalar::all(like_colour), cv::Scalar::all(like_colour),
+                    fill);
+  cv::Mat frame = reached(cv::Rect(1, 1, colours.cols, colours.rows)).clone();
+  cv::dilate(frame, frame, cv::getStructuringElement(cv::MORPH_RECT, {reach_px, reach_px}));
+  return frame;
 }
 
 Image<float> confirmed(const Image<float>& own, const Image<float>& other) {
@@ -79,6 +98,10 @@ void vote(const CheckedView& view, int y, int begin, int end, Votes& votes) {
   // The outermost pixels mix both surfaces.
   const int asked = std::clamp(width / 2, 1, most_asked_px);
   if (begin - 1 - asked < 0 || end + 1 + asked > view.disparity.width()) return;
+  const auto touches_frame = [&](int from, int to) {
+    return cv::countNonZero(view.frame(cv::Range(y, y + 1), cv::Range(from, to))) > 0;
+  };
+  if (touches_frame(begin - 1 - asked, begin - 1) || touches_frame(end + 1, end + 1 + asked)) return;
   const cv::Vec3f left = mean_colour(view.colours, y, begin - 1 - asked, begin - 1);
   const cv::Vec3f right = mean_colour(view.colours, y, end + 1, end + 1 + asked);
   const cv::Vec3f band = mean_colour(view.colours, y, begin + width / 4, end - width / 4);
@@ -110,10 +133,12 @@ EyeOrderEvidence eye_order_evidence(const StereoPair& pair) {
 
   Votes votes;
   const Image<float> forth = match_plain_sgbm(left, right, range), back = match_plain_sgbm(right, left, range);
-  vote({lab(left), confirmed(forth, back)}, votes);
+  const cv::Mat left_colours = lab(left);
+  vote({left_colours, confirmed(forth, back), frame_of(left_colours)}, votes);
   // The right view in a mirror is a left view.
   cv::flip(right, right, 1);
-  vote({lab(right), confirmed(mirrored(back), mirrored(forth))}, votes);
+  const cv::Mat right_colours = lab(right);
+  vote({right_colours, confirmed(mirrored(back), mirrored(forth)), frame_of(right_colours)}, votes);
 
   EyeOrderEvidence evidence;
   evidence.bands = votes.farther + votes.nearer;

@@ -78,6 +78,7 @@ TEST(EyeOrder, IsSeenWhereSwappedAndNeverWhereNot) {
   for (const NamedPair& pair : all_pairs()) {
     SCOPED_TRACE(pair.name);
     const EyeOrderEvidence right = eye_order_evidence(pair.pair), wrong = eye_order_evidence(swapped(pair.pair));
+    testing::Test::RecordProperty(pair.name + " order", std::to_string(right.for_order));
     EXPECT_GE(right.for_order, 0.4);
     EXPECT_LE(wrong.for_order, -0.4);
     EXPECT_FALSE(eyes_look_swapped(pair.pair));

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
 
 #include "scenes/stereograph_card.h"
 #include "scenes/test_photographs.h"
+#include "wheatstone/matching/eye_order.h"
 
 namespace wheatstone {
 namespace {
@@ -76,6 +79,18 @@ TEST(CardWindows, AreCutOutStraight) {
   ASSERT_TRUE(same_size(cut.left, cut.right));
   EXPECT_EQ(describe_card(*found).find("windows of "), 0u);
   EXPECT_NE(describe_card(*found).find("; the card is turned by 1.0 degrees"), std::string::npos);
+}
+
+// The mount in the corners cuts off what is nearer than it, which looks as if the eyes were swapped.
+TEST(CardWindows, DoNotLookSwappedForTheirRoundedTops) {
+  for (const auto& [scene, width] : {std::pair{3, 800}, {6, 1000}}) {
+    SCOPED_TRACE(scene);
+    const TestCard card =
+        make_card(still_for_test(480, 360, scene), {.width = width, .turn_deg = 0.6, .rounding = 0.36, .seed = 24});
+    const std::optional<CardWindows> found = find_card_windows(card.picture);
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(eyes_look_swapped(cut_card(card.picture, *found)));
+  }
 }
 
 TEST(CardWindows, AreNotSeenWhereThereAreNone) {
