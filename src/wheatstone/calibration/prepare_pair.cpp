@@ -19,9 +19,6 @@
 namespace wheatstone {
 namespace {
 
-/// The 95th percentile of row differences may be this many times the tolerated median.
-constexpr double tail_to_median = 3;
-
 /// Enough to tell, and quick.
 constexpr FeatureOptions quick_search{.most_features = 1000, .search_side_px = 960};
 
@@ -114,8 +111,23 @@ void check_dissimilar(const StereoPair& pair) {
     throw Error(ErrorKind::bad_input, "the pictures show different scenes, expected two views of one scene");
 }
 
-bool rows_fit(const VerticalDisparity& rows, double tolerated_px) {
-  return rows.median_px <= tolerated_px && rows.percentile_95_px <= tail_to_median * tolerated_px;
+bool rows_fit(const VerticalDisparity& rows, const VerticalDisparity& tolerated) {
+  return rows.median_px <= tolerated.median_px && rows.percentile_95_px <= tolerated.percentile_95_px;
+}
+
+VerticalDisparity tolerated_rows(int longer_side_px) {
+  // A place in a reduced copy is known no better than to a quarter of its pixels.
+  return {std::max(1.0, 0.25 * longer_side_px / quick_search.search_side_px),
+          std::max(3.0, epipolar_tolerance_px(longer_side_px))};
+}
+
+/// Whether rectifying brought the same matches, which did not decide it, clearly closer.
+bool rectifying_helped(const RectifiedPair& rectified) {
+  constexpr double clearly = 0.75;
+  const VerticalDisparity &before = rectified.before, &after = rectified.after;
+  return rectified.measured_matches > 0 &&
+         (after.median_px < clearly * before.median_px ||
+          (after.median_px <= before.median_px && after.percentile_95_px < clearly * before.percentile_95_px));
 }
 
 void take(RectifiedPair rectified, PreparedPair& prepared) {
@@ -132,8 +144,7 @@ void take(RectifiedPair rectified, PreparedPair& prepared) {
 void rectify_if_it_helps(PreparedPair& prepared, const RectifyOptions& options, const Progress& progress) {
   try {
     RectifiedPair rectified = rectify(prepared.pictures, options, progress);
-    constexpr double clearly = 0.75;
-    if (rectified.measured_matches > 0 && rectified.after.median_px < clearly * prepared.rows->median_px) {
+    if (rectifying_helped(rectified)) {
       take(std::move(rectified), prepared);
     } else {
       prepared.why_not_rectified = "no rotation of the cameras makes the rows fit better";
@@ -156,9 +167,7 @@ PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& opti
   }
 
   PreparedPair prepared;
-  // A place in a reduced copy is known no better than to a quarter of its pixels.
-  const int longer_side = std::max(photographs.left.width(), photographs.left.height());
-  prepared.tolerated_rows_px = std::max(1.0, 0.25 * longer_side / quick_search.search_side_px);
+  prepared.tolerated = tolerated_rows(std::max(photographs.left.width(), photographs.left.height()));
   prepared.pictures = std::move(photographs);
   RectifyOptions rectifying{.keep_size = options.keep_size};
   if (options.rectify == RectifyPolicy::always) {
@@ -169,7 +178,7 @@ PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& opti
   prepared.compared_features = static_cast<int>(common.inliers.size());
   prepared.rows = prepared.photographed_rows = vertical_disparity(common.inliers);
   rectifying.cameras_must_be_decided = false;
-  if (options.rectify == RectifyPolicy::automatic && !rows_fit(*prepared.rows, prepared.tolerated_rows_px))
+  if (options.rectify == RectifyPolicy::automatic && !rows_fit(*prepared.rows, prepared.tolerated))
     rectify_if_it_helps(prepared, rectifying, progress);
   return prepared;
 }
@@ -185,11 +194,10 @@ std::string rectified_note(const PreparedPair& pair) {
 }
 
 std::string row_warning(const PreparedPair& pair) {
-  if (!pair.rows || rows_fit(*pair.rows, pair.tolerated_rows_px)) return {};
-  const std::string rows =
-      fmt::format("rows differ by {:.1f} pixels (median; 95th percentile {:.1f}), expected at most {:.3g} ({:.3g})",
-                  pair.rows->median_px, pair.rows->percentile_95_px, pair.tolerated_rows_px,
-                  tail_to_median * pair.tolerated_rows_px);
+  if (!pair.rows || rows_fit(*pair.rows, pair.tolerated)) return {};
+  const std::string rows = fmt::format(
+      "rows differ by {:.1f} pixels (median; 95th percentile {:.1f}), expected at most {:.3g} ({:.3g})",
+      pair.rows->median_px, pair.rows->percentile_95_px, pair.tolerated.median_px, pair.tolerated.percentile_95_px);
   if (pair.rectification) return fmt::format("after rectification, {}; disparities may be wrong", rows);
   if (!pair.why_not_rectified.empty())
     return fmt::format("the pictures are not rectified: their {}, and rectifying them failed: {}", rows,

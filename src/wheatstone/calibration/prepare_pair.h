@@ -27,7 +27,7 @@ struct PreparedPair {
   int compared_features = 0;                           ///< that both pictures show
   std::optional<VerticalDisparity> photographed_rows;  ///< of the photographs; none: too few features to tell
   std::optional<VerticalDisparity> rows;               ///< of `pictures`
-  double tolerated_rows_px = 1;                        ///< median up to which a pair counts as rectified
+  VerticalDisparity tolerated{1, 3};                   ///< up to which a pair counts as rectified
   std::optional<Rectification> rectification;          ///< none: the pictures are the photographs
   std::optional<ColourTransfer> colour;                ///< of a rectified pair, as RectifiedPair has it
   std::string why_not_rectified;                       ///< where that was tried and failed; empty: it was not
@@ -35,8 +35,9 @@ struct PreparedPair {
 
 /// Looks for what makes two pictures no pair, and rectifies them where that is wanted. The rows are measured on
 /// features (SIFT) of copies whose longer side is at most 960 pixels, a fifth of the time that matching takes. Rows do
-/// not fit where their differences have a median above `tolerated_rows_px` or a 95th percentile above three times that.
-/// Throws
+/// not fit where their differences have a median or a 95th percentile above `tolerated`: 1 and 3 pixels; in large
+/// pictures a quarter of the copies' pixels, and a thousandth of the longer side, which is how far off features that
+/// count as right may be. Throws
 /// Error{bad_input}: sizes differ; a picture is blank; one of them is upside down, turned by 90 degrees or mirrored
 /// against the other; they show different scenes; and as `rectify` where the pair is always to be rectified.
 PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& options = {},

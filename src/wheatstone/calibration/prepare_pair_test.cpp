@@ -65,6 +65,21 @@ TEST(PreparePair, FindsPhotographsRectifiedThatAre) {
   }
 }
 
+// Features are found no better in a larger picture of the same scene.
+TEST(PreparePair, LeavesAnEnlargedRectifiedPairAsItIs) {
+  const auto pair = shared_pair("motorcycle");
+  if (!pair) GTEST_SKIP() << "no shared data";
+  const auto enlarged = [](const Image<Rgb8>& picture) {
+    Image<Rgb8> larger(6000, 6000 * picture.height() / picture.width());
+    cv::Mat to = as_mat(larger);
+    cv::resize(as_mat(picture), to, to.size(), 0, 0, cv::INTER_CUBIC);
+    return larger;
+  };
+  const PreparedPair prepared = prepare_pair({enlarged(pair->left), enlarged(pair->right)});
+  EXPECT_FALSE(prepared.rectification);
+  EXPECT_EQ(row_warning(prepared), "");
+}
+
 TEST(PreparePair, TellsByHowManyRowsAPairIsOff) {
   for (const int rows : {2, 12}) {
     const PreparedPair prepared = prepare_pair(lowered(rows), as_they_are);
