@@ -1,6 +1,7 @@
 #include "wheatstone/matching/coarse_to_fine_internal.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -52,8 +53,8 @@ std::vector<Level> levels_of(const cv::Mat& left, const cv::Mat& right, double c
     const Level& larger = levels.back();
     const cv::Size size((larger.left.cols + 1) / 2, (larger.left.rows + 1) / 2);
     Level smaller;
-    cv::resize(larger.left, smaller.left, size, 0, 0, cv::INTER_AREA);
-    cv::resize(larger.right, smaller.right, size, 0, 0, cv::INTER_AREA);
+    tbb::parallel_invoke([&] { cv::resize(larger.left, smaller.left, size, 0, 0, cv::INTER_AREA); },
+                         [&] { cv::resize(larger.right, smaller.right, size, 0, 0, cv::INTER_AREA); });
     levels.push_back(std::move(smaller));
   }
   return levels;
@@ -63,8 +64,8 @@ std::vector<Level> levels_of(const cv::Mat& left, const cv::Mat& right, double c
 /// is where these are nearly equal.
 cv::Mat exposed_alike(const cv::Mat& left, const cv::Mat& right) {
   cv::Scalar left_mean, left_spread, right_mean, right_spread;
-  cv::meanStdDev(left, left_mean, left_spread);
-  cv::meanStdDev(right, right_mean, right_spread);
+  tbb::parallel_invoke([&] { cv::meanStdDev(left, left_mean, left_spread); },
+                       [&] { cv::meanStdDev(right, right_mean, right_spread); });
   constexpr double least_spread = 1, near_gain = 0.03, near_mean = 3;
   bool alike = true;
   std::array<double, 3> gain{};
@@ -74,13 +75,12 @@ cv::Mat exposed_alike(const cv::Mat& left, const cv::Mat& right) {
             std::abs(left_mean[channel] - right_mean[channel]) <= near_mean;
   }
   if (alike) return right;
-  std::vector<cv::Mat> channels;
-  cv::split(right, channels);
-  for (int channel = 0; channel < 3; ++channel)
-    channels[channel].convertTo(channels[channel], -1, gain[channel],
-                                left_mean[channel] - gain[channel] * right_mean[channel]);
-  cv::Mat result;
-  cv::merge(channels, result);
+  cv::Mat table(1, 256, CV_8UC3), result;
+  for (int code = 0; code < 256; ++code)
+    for (int channel = 0; channel < 3; ++channel)
+      table.at<cv::Vec3b>(code)[channel] =
+          cv::saturate_cast<std::uint8_t>(gain[channel] * (code - right_mean[channel]) + left_mean[channel]);
+  cv::LUT(right, table, result);
   return result;
 }
 

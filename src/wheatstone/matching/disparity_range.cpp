@@ -1,3 +1,5 @@
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -91,10 +93,14 @@ std::vector<float> supported(std::vector<float> disparities, float agreement_px)
 
 std::optional<SeenDisparities> find_seen_disparities(const StereoPair& pair) {
   const double scale = std::min(1.0, static_cast<double>(search_width_px) / pair.left.width());
-  const cv::Mat left = reduced_luminance(pair.left, scale), right = reduced_luminance(pair.right, scale);
-  const float agreement_px = std::max(2.f, 0.005f * static_cast<float>(left.cols));
-  std::vector<float> ends = coarse_disparities(pair);
-  const std::vector<float> corners = supported(sparse_disparities(left, right), agreement_px);
+  std::vector<float> ends, corners;
+  tbb::parallel_invoke([&] { ends = coarse_disparities(pair); },
+                       [&] {
+                         const cv::Mat left = reduced_luminance(pair.left, scale),
+                                       right = reduced_luminance(pair.right, scale);
+                         const float agreement_px = std::max(2.f, 0.005f * static_cast<float>(left.cols));
+                         corners = supported(sparse_disparities(left, right), agreement_px);
+                       });
   if (corners.size() >= least_matches) {
     ends.push_back(corners.front() / static_cast<float>(scale));
     ends.push_back(corners.back() / static_cast<float>(scale));

@@ -1,5 +1,7 @@
 #include "wheatstone/matching/eye_order.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -126,13 +128,16 @@ void vote(const CheckedView& view, Votes& votes) {
 
 EyeOrderEvidence eye_order_evidence(const StereoPair& pair) {
   const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());
-  cv::Mat left = small_copy(pair.left, scale), right = small_copy(pair.right, scale);
+  cv::Mat left, right;
+  tbb::parallel_invoke([&] { left = small_copy(pair.left, scale); }, [&] { right = small_copy(pair.right, scale); });
   constexpr int least_side_px = 32;
   if (left.cols < least_side_px || left.rows < least_side_px) return {};
   const DisparityRange range{-left.cols / 4, left.cols / 4};
 
   Votes votes;
-  const Image<float> forth = match_plain_sgbm(left, right, range), back = match_plain_sgbm(right, left, range);
+  Image<float> forth, back;
+  tbb::parallel_invoke([&] { forth = match_plain_sgbm(left, right, range); },
+                       [&] { back = match_plain_sgbm(right, left, range); });
   const cv::Mat left_colours = lab(left);
   vote({left_colours, confirmed(forth, back), frame_of(left_colours)}, votes);
   // The right view in a mirror is a left view.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -151,12 +152,14 @@ MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched
   MatchConfidence confidence;
   confidence.found_share = matched.left_found_share;
   confidence.plain_share = matched.plain_share;
-  confidence.streak_share = streak_share(disparity);
-  const double left_detail = detail_of(pair.left), right_detail = detail_of(pair.right);
+  double left_detail = 0, right_detail = 0;
+  Spread spread;
+  tbb::parallel_invoke([&] { confidence.streak_share = streak_share(disparity); },
+                       [&] { left_detail = detail_of(pair.left); }, [&] { right_detail = detail_of(pair.right); },
+                       [&] { spread = compare_partners(pair, matched.geometry, confidence); });
   confidence.left_is_blurrier = left_detail < right_detail;
   const double sharper = std::max(left_detail, right_detail);
   confidence.sharper_share = sharper > 0 ? std::min(left_detail, right_detail) / sharper : 1;
-  const Spread spread = compare_partners(pair, matched.geometry, confidence);
   confidence.depth_px = static_cast<double>(spread.largest) - spread.least;
   if (asked_range) {
     confidence.range = cut_by(*asked_range, pair, disparity);
