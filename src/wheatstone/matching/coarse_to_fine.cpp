@@ -108,7 +108,11 @@ CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<G
                                           : match.left;
   result.right = options.left_right_check ? confirmed_disparity(match.right, match.left, 1, options.check_tolerance_px)
                                           : match.right;
-  remove_speckles(result.found, options.least_surface_px);
+  if (guess) {
+    remove_speckles(result.found, options.least_surface_px);
+  } else {
+    remove_speckles_but_holes(result.found, options.least_surface_px);
+  }
   cv::Mat found = as_mat(result.found);
   result.confirmed = found == found;
   const TrustedPlaces places = trusted_places(level.left, match);
@@ -117,7 +121,7 @@ CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<G
   if (guess) {
     result.left = std::move(guess->left);
     cv::Mat left = as_mat(result.left);
-    as_mat(guess->found).copyTo(found, found != found);
+    as_mat(guess->found).copyTo(found, unknown_places(found));
     found.copyTo(left, found == found);
     cv::Mat confirmed_before;
     cv::resize(guess->confirmed, confirmed_before, found.size(), 0, 0, cv::INTER_NEAREST);

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match_internal.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {
 namespace {
@@ -56,6 +59,27 @@ void remove_speckles(Image<float>& disparity, int least_surface_px) {
     for (int x = 0; x < disparity.width(); ++x)
       if (sixteenths.at<std::int16_t>(y, x) == unknown_sixteenths) disparity(x, y) = unknown;
   });
+}
+
+cv::Mat unknown_places(const cv::Mat& disparity) { return ~(disparity == disparity); }
+
+void remove_speckles_but_holes(Image<float>& disparity, int least_surface_px) {
+  constexpr int least_hole_px = 40, nearby_share = 8;  // of the width
+  constexpr float step_px = 1;
+  Image<float> holes = disparity;
+  remove_speckles(holes, std::min(least_hole_px, least_surface_px));
+  remove_speckles(disparity, least_surface_px);
+  if (known_share(disparity) == 0) return;
+  Image<float> beside = disparity, farthest = disparity;
+  fill_from_farther_side(beside);
+  cv::Mat nearby = as_mat(farthest);
+  nearby.setTo(std::numeric_limits<float>::max(), unknown_places(as_mat(disparity)));
+  const int nearby_px = disparity.width() / nearby_share | 1;
+  cv::erode(nearby, nearby, cv::getStructuringElement(cv::MORPH_RECT, {nearby_px, nearby_px}));
+  const auto kept = disparity.pixels(), hole = holes.pixels();
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (std::isnan(kept[i]) && hole[i] < beside.pixels()[i] - step_px && hole[i] >= farthest.pixels()[i] - step_px)
+      kept[i] = hole[i];
 }
 
 double known_share(const Image<float>& disparity) {

@@ -23,6 +23,14 @@ cv::Mat in_sixteenths(const Image<float>& disparity, float sign);
 /// Makes connected patches of like disparity unknown that have fewer than this many pixels.
 void remove_speckles(Image<float>& disparity, int least_surface_px);
 
+/// As remove_speckles, but keeps what may be seen through a hole: 40 pixels or more that are farther than what is on
+/// either side, and no farther than something larger nearby.
+void remove_speckles_but_holes(Image<float>& disparity, int least_surface_px);
+
+/// 255 where a 32-bit disparity is NaN. Not `disparity != disparity`, which OpenCV 4.6 takes for false where it
+/// compares vectors.
+cv::Mat unknown_places(const cv::Mat& disparity);
+
 /// The share of pixels, 0..1, whose disparity is known.
 double known_share(const Image<float>& disparity);
 
