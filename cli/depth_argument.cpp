@@ -70,21 +70,11 @@ void add_depth_options(CLI::App& command, DepthArguments& arguments) {
       ->group(depth_options_group);
 }
 
-float parse_strength(const std::string& text) {
-  constexpr NumberRange percent{0.1, 30};
-  const bool is_percent = text.ends_with('%');
-  const std::string number = is_percent ? text.substr(0, text.size() - 1) : text;
-  const double factor = is_percent ? 0.01 : 1;
-  return static_cast<float>(
-      factor * parse_number(is_percent ? "--strength, in %" : "--strength, a share of the width; with '%' in percent",
-                            number, {percent.least * 0.01 / factor, percent.most * 0.01 / factor}));
-}
-
 SinglePicture read_single_picture(const StereoArguments& photograph, const DepthArguments& arguments,
                                   const Session& session) {
   report(session.progress, "reading", 0);
   SinglePicture read;
-  read.strength = parse_strength(arguments.strength);
+  read.strength = parse_share("--strength", arguments.strength, {0.1, 30});
   CarriedDepth found = read_both(photograph, arguments, session);
   check_size(found.picture, photograph.left);
   if (photograph.max_size > 0 && std::max(found.picture.width(), found.picture.height()) > photograph.max_size) {

@@ -67,34 +67,25 @@ ordered_json facts_of_disparity(const fs::path& path, std::optional<float> scale
 }
 
 ordered_json facts_of_painting(const fs::path& path) {
-  const Painting any = read_painting(path);
-  const StrokePainting& painting = any.strokes;
+  const Painting painting = read_painting(path);
   DisparityRange range;
-  ordered_json facts = {{"kind", "painting"}, {"width", painting.width}, {"height", painting.height}};
-  if (any.regions.width > 0) {
-    for (const ControlPoint& point : any.regions.points) range.add(point.disparity);
-    facts["regions"] = any.regions.marks.size();
-    put_range(facts, range);
-    return facts;
-  }
-  if (any.curves.width > 0) {
-    for (const ColourPoint& point : any.curves.points) range.add(point.at.disparity);
-    facts["lines"] = any.curves.lines.size();
-    put_range(facts, range);
-    return facts;
+  for (const float disparity : disparities_of_marks(painting)) range.add(disparity);
+  const MarkCount marks = count_marks(painting);
+  ordered_json facts = {{"kind", "painting"}, {"width", width_of(painting)}, {"height", height_of(painting)}};
+  facts[std::string(marks.kind)] = marks.count;
+  put_range(facts, range);
+  facts["texture"] = painting.relief.depth_px > 0;
+  const ViewRange known = known_views(painting.surfaces);
+  if (painting.surfaces.seen.empty()) {
+    facts["views"] = "of two eyes";
+  } else {
+    facts["views"] = {{"first", known.first.eye_separations()}, {"last", known.last.eye_separations()}};
   }
   ordered_json layers = ordered_json::array();
-  std::size_t strokes = 0;
-  for (const Layer& layer : painting.layers) {
-    for (const ControlPoint& point : layer.points) range.add(point.disparity);
-    strokes += layer.strokes.size();
+  for (const Layer& layer : layers_of(painting))
     layers.push_back(
         {{"radius_px", layer.radius_px}, {"strokes", layer.strokes.size()}, {"points", layer.points.size()}});
-  }
-  facts["strokes"] = strokes;
-  facts["texture"] = any.relief.depth_px > 0;
-  put_range(facts, range);
-  facts["layers"] = std::move(layers);
+  if (!layers.empty()) facts["layers"] = std::move(layers);
   return facts;
 }
 

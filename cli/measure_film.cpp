@@ -206,7 +206,8 @@ struct MarksOfFilm {
 /// How much of either eye, or of the one there is, no mark covers.
 double bare_share_of(const Painting& marks, bool two_eyes) {
   if (!two_eyes) return draw(marks, central_view).bare_share;
-  return std::max(draw(marks, left_eye).bare_share, draw(marks, right_eye).bare_share);
+  const PreparedPainting prepared = prepare(marks);
+  return std::max(draw(prepared, left_eye).bare_share, draw(prepared, right_eye).bare_share);
 }
 
 MarksOfFilm measure_marks(const Arguments& arguments, bool two_eyes, int frames, const std::vector<int>& cuts,
@@ -224,8 +225,7 @@ MarksOfFilm measure_marks(const Arguments& arguments, bool two_eyes, int frames,
     marks.worst_bare_share = std::max(marks.worst_bare_share, bare);
     Json facts{{"frame", frame}, {"bare_share", bare}};
     if (frame > 0 && std::ranges::find(cuts, frame) == cuts.end()) {
-      const StrokeChanges changes =
-          compare_strokes(before.strokes.layers, now.strokes.layers, 1.0 / arguments.fade_frames);
+      const StrokeChanges changes = compare_strokes(layers_of(before), layers_of(now), 1.0 / arguments.fade_frames);
       marks.changes.whole += changes.whole;
       marks.changes.survived += changes.survived;
       marks.changes.popped += changes.popped;

@@ -80,14 +80,16 @@ Truth find_truth(const Arguments& arguments, const StereoPair& stylised, const s
 }
 
 PaintingGuards measure_guards(const Arguments& arguments, const StereoPair& stylised, const StereoGeometry& geometry) {
-  const Painting any = read_painting(arguments.painting);
-  const StrokePainting& painting = any.strokes;
-  if (!same_size(geometry.left_disparity, stylised.left) || painting.width != stylised.left.width() ||
-      painting.height != stylised.left.height())
+  const Painting painting = read_painting(arguments.painting);
+  const int width = width_of(painting), height = height_of(painting);
+  if (!same_size(geometry.left_disparity, stylised.left) || width != stylised.left.width() ||
+      height != stylised.left.height())
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: paints {}x{} pixels, expected {}x{} as {}", arguments.painting, painting.width,
-                            painting.height, stylised.left.width(), stylised.left.height(), arguments.left));
-  return {measure_strokes(painting, geometry), draw(any, left_eye).bare_share, draw(any, right_eye).bare_share};
+                fmt::format("{}: paints {}x{} pixels, expected {}x{} as {}", arguments.painting, width, height,
+                            stylised.left.width(), stylised.left.height(), arguments.left));
+  const PreparedPainting prepared = prepare(painting);
+  return {measure_strokes(layers_of(painting), geometry), draw(prepared, left_eye).bare_share,
+          draw(prepared, right_eye).bare_share};
 }
 
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }

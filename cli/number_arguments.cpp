@@ -97,6 +97,15 @@ double parse_length_mm(const std::string& option, std::string_view text, NumberR
   refuse(option, text, fmt::format("a length{} mm, as 30mm, 3cm, 0.03m or 1.2in", words_of(range_mm)));
 }
 
+float parse_share(const std::string& option, std::string_view text, NumberRange percent) {
+  const bool is_percent = text.ends_with('%');
+  const std::string_view number = is_percent ? text.substr(0, text.size() - 1) : text;
+  const double factor = is_percent ? 0.01 : 1;
+  const std::string name = option + (is_percent ? ", in %" : ", a share of the width; with '%' in percent");
+  return static_cast<float>(factor *
+                            parse_number(name, number, {percent.least * 0.01 / factor, percent.most * 0.01 / factor}));
+}
+
 Size parse_size(const std::string& option, std::string_view text, NumberRange side, std::string_view expected) {
   const std::vector<int> sides = parse_integers(option, text, {'x', 2, side, expected});
   return {sides[0], sides[1]};

@@ -38,6 +38,9 @@ std::vector<int> parse_integers(const std::string& option, std::string_view text
 /// A length in millimetres: "30", "30mm", "3cm", "0.03m", "1.2in". The range is in millimetres.
 double parse_length_mm(const std::string& option, std::string_view text, NumberRange range_mm);
 
+/// A share of something: "3%" or "0.03". The range is in percent.
+float parse_share(const std::string& option, std::string_view text, NumberRange percent);
+
 /// COLUMNSxROWS or WIDTHxHEIGHT: two whole numbers.
 struct Size {
   int width, height;

@@ -15,6 +15,7 @@
 #include "number_arguments.h"
 #include "paint_arguments.h"
 #include "print_facts.h"
+#include "views_argument.h"
 #include "wheatstone/app/paint_views.h"
 #include "wheatstone/app/redraw.h"
 #include "wheatstone/app/write_results.h"
@@ -46,28 +47,28 @@ ZeroParallax parse_zero_parallax(const Arguments& arguments) {
   return wanted;
 }
 
-std::string summary_of(const PaintedPhotograph& result, const PaintingMeasures* measures, const PictureSize& whole) {
+std::string summary_of(const PaintingReport& told) {
+  const auto& [result, style, pair, measures, depth_budget, whole] = told;
   std::string text;
   const auto to = std::back_inserter(text);
   const PaintedPair& painted = result.painted;
   const Painting& painting = painted.painting;
-  std::size_t strokes = 0;
-  for (const Layer& layer : painting.strokes.layers) strokes += layer.strokes.size();
+  const MarkCount marks = count_marks(painting);
+  const std::size_t layers = layers_of(painting).size();
+  const std::string in_layers = layers > 0 ? fmt::format(" in {} layers", layers) : "";
   const double seconds = painted.times.planning_s + painted.times.rasterising_s;
-  if (!painting.curves.lines.empty()) {
-    fmt::format_to(to, "painted          {} lines beside edges, {:.2f} s\n", painting.curves.lines.size(), seconds);
-  } else if (painting.regions.marks.empty()) {
-    fmt::format_to(to, "painted          {} strokes in {} layers, {:.2f} s\n", strokes, painting.strokes.layers.size(),
-                   seconds);
-  } else {
-    fmt::format_to(to, "painted          {} regions, {:.2f} s\n", painting.regions.marks.size(), seconds);
-  }
+  fmt::format_to(to, "painted          {} {}{}, {:.2f} s\n", marks.count, marks.kind, in_layers, seconds);
   if (whole.width > 0)
-    fmt::format_to(to, "reduced          from {}x{} to {}x{} pixels\n", whole.width, whole.height,
-                   painting.strokes.width, painting.strokes.height);
+    fmt::format_to(to, "reduced          from {}x{} to {}x{} pixels\n", whole.width, whole.height, width_of(painting),
+                   height_of(painting));
   fmt::format_to(to, "left bare        {:.2f} % of the left eye, {:.2f} % of the right\n",
                  100 * painted.left_bare_share, 100 * painted.right_bare_share);
   fmt::format_to(to, "zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
+  const float separation = comfortable_separation(painting, depth_budget);
+  if (separation < 1)
+    fmt::format_to(to,
+                   "to look at       with eyes {:.2f} of their distance apart, for a depth of {:.1f} % of the width\n",
+                   separation, 100 * *depth_budget);
   if (measures != nullptr) {
     fmt::format_to(to, "left - right     {:.2f} of 255 (photographs {:.2f})\n",
                    measures->painting.difference.mean_absolute, measures->photographs.difference.mean_absolute);
@@ -91,14 +92,12 @@ ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
 }
 
 /// What a display wants, where the user does not say otherwise.
-PaintViewsOptions views_options(const Arguments& arguments, const DisplayPreset& display,
-                                const PaintPhotographOptions& painting) {
-  PaintViewsOptions options{.painting = painting,
-                            .views = arguments.views > 0 ? arguments.views : display.views,
-                            .width = display.view_width_px,
-                            .height = display.view_height_px,
-                            .span = arguments.span,
-                            .widest_span = std::max(span_of(display), 1.f)};
+DisplayViewsOptions views_options(const Arguments& arguments, const DisplayPreset& display) {
+  DisplayViewsOptions options{.views = arguments.views > 0 ? arguments.views : display.views,
+                              .width = display.view_width_px,
+                              .height = display.view_height_px,
+                              .span = arguments.span,
+                              .widest_span = std::max(span_of(display), 1.f)};
   if (!arguments.size.empty()) {
     const Size size = parse_size("--size", arguments.size, {1, 16384});
     options.width = size.width;
@@ -108,7 +107,7 @@ PaintViewsOptions views_options(const Arguments& arguments, const DisplayPreset&
 }
 
 /// Writes a quilt or a lenticular picture where the display takes one, and else a picture a view.
-std::string write_views(const DisplayPreset& display, const ViewsOutput& output, const PaintedViews& result,
+std::string write_views(const DisplayPreset& display, const ViewsOutput& output, const DisplayViews& result,
                         const Progress& progress) {
   const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
   if (layout.columns * layout.rows == static_cast<int>(result.views.size()))
@@ -157,32 +156,39 @@ struct Painted {
   std::string written;
 };
 
+/// Writes the views of a display.
+Painted write_and_tell(const Arguments& arguments, const DisplayPreset& display, const std::string& output,
+                       const DisplayViews& drawn, const Session& session) {
+  const std::string written = write_views(display, output_of(arguments, output), drawn, session.progress);
+  const Image<Rgb8>& first = drawn.views.front();
+  Json facts{{"output", written},
+             {"views", drawn.views.size()},
+             {"width", first.width()},
+             {"height", first.height()},
+             {"span", drawn.span},
+             {"zero_parallax_px", drawn.zero_parallax_px},
+             {"worst_bare_share", drawn.worst_bare_share}};
+  std::string text =
+      fmt::format("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n",
+                  drawn.views.size(), first.width(), first.height(), drawn.span);
+  text += fmt::format("zero parallax    disparity {:.1f} px\n", drawn.zero_parallax_px);
+  text += fmt::format("left bare        at most {:.2f} % of a view\n", 100 * drawn.worst_bare_share);
+  return {std::move(facts), std::move(text), written};
+}
+
 Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const Subject& subject,
                           const PaintPhotographOptions& painting, const Session& session) {
   const ReadPhotograph& photograph = subject.photograph;
   const DisplayPreset& display = find_display(arguments.display);
-  const PaintViewsOptions options = views_options(arguments, display, painting);
-  const PaintedViews result = paint_views(photograph.pair.pictures, options, session.progress);
-  const std::string written = write_views(display, output_of(arguments, job.output), result, session.progress);
+  const PaintedViews result =
+      paint_views(photograph.pair.pictures, painting, views_options(arguments, display), session.progress);
   if (result.confidence) tell_of_match(photograph, *result.confidence, session);
-  Json facts{{"output", written},
-             {"views", result.views.size()},
-             {"width", options.width},
-             {"height", options.height},
-             {"span", result.span},
-             {"zero_parallax_px", result.zero_parallax_px},
-             {"worst_bare_share", result.worst_bare_share},
-             {subject.strength ? "depth" : "pair", subject.told()}};
-  if (result.confidence) facts["confidence"] = Json::parse(confidence_json(*result.confidence));
+  Painted painted = write_and_tell(arguments, display, job.output, result.views, session);
+  painted.facts[subject.strength ? "depth" : "pair"] = subject.told();
+  if (result.confidence) painted.facts["confidence"] = Json::parse(confidence_json(*result.confidence));
   if (photograph.whole.width > 0)
-    facts["reduced_from"] = {{"width", photograph.whole.width}, {"height", photograph.whole.height}};
-  std::string text =
-      fmt::format("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n",
-                  result.views.size(), options.width, options.height, result.span);
-  text += fmt::format("zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
-  text += fmt::format("left bare        at most {:.2f} % of a view, filled from its neighbours\n",
-                      100 * result.worst_bare_share);
-  return {std::move(facts), std::move(text), written};
+    painted.facts["reduced_from"] = {{"width", photograph.whole.width}, {"height", photograph.whole.height}};
+  return painted;
 }
 
 /// What the options say, before anything is read.
@@ -193,10 +199,8 @@ PaintPhotographOptions options_from(const Arguments& arguments, const Session& s
   options.zero_parallax = parse_zero_parallax(arguments);
   if (arguments.disparity.empty() && !arguments.right_disparity.empty())
     throw Error(ErrorKind::wrong_usage, "--right-disparity: needs --disparity, that of the left view");
-  if (arguments.display.empty()) return options;
-  if (options.style.texture)
-    throw Error(ErrorKind::wrong_usage, "--texture: has no effect with --display; it works where two eyes are painted");
-  views_options(arguments, find_display(arguments.display), options);
+  depth_budget_from(arguments);
+  if (!arguments.display.empty()) views_options(arguments, find_display(arguments.display));
   return options;
 }
 
@@ -229,10 +233,14 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
     measures = measure_painting(pictures, result, options.left_disparity.value_or(result.geometry.left_disparity),
                                 session.progress);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
-  const PaintingReport told{result, options.style, subject.strength ? nullptr : &photograph.pair, measured,
+  const PaintingReport told{result,
+                            options.style,
+                            subject.strength ? nullptr : &photograph.pair,
+                            measured,
+                            depth_budget_from(arguments),
                             photograph.whole};
   write_results(*folder, pictures, told, results, session.progress);
-  return {Json::parse(report_json(told)), summary_of(result, measured, photograph.whole), job.output};
+  return {Json::parse(report_json(told)), summary_of(told), job.output};
 }
 
 /// Paints each photograph; one that fails does not stop the others.
@@ -275,12 +283,33 @@ void paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, co
   throw ErrorTold{worst};
 }
 
+void tell(const Painted& painted, const Session& session) {
+  if (session.json) {
+    print_facts(painted.facts, session);
+  } else {
+    fmt::print(session.output, "{}written to       {}\n", painted.text, painted.written);
+  }
+}
+
+void draw_for_display_again(const Arguments& arguments, const Session& session) {
+  const ViewsOutput output = output_of(arguments, arguments.folder);
+  check_views_output(output);
+  const DisplayPreset& display = find_display(arguments.display);
+  DisplayViewsOptions options = views_options(arguments, display);
+  options.zero_parallax_px = parse_zero_parallax(arguments).disparity_px;
+  const DisplayViews views =
+      draw_display_views(read_painting_for_views(arguments.files.front()), options, session.progress);
+  tell(write_and_tell(arguments, display, arguments.folder, views, session), session);
+}
+
 void draw_painting_again(const Arguments& arguments, const CLI::App& command, const Session& session) {
   refuse_for_painting_file(command, arguments);
+  if (!arguments.display.empty()) return draw_for_display_again(arguments, session);
   const RedrawOptions options{.scale = arguments.scale,
                               .svg = arguments.svg,
                               .format = arguments.format,
-                              .zero_parallax_px = parse_zero_parallax(arguments).disparity_px};
+                              .zero_parallax_px = parse_zero_parallax(arguments).disparity_px,
+                              .depth_budget = depth_budget_from(arguments)};
   OutputFolder folder(arguments.folder, output_of(arguments, arguments.folder).inputs);
   draw_again(read_painting(arguments.files.front()), folder, options, session.progress);
   if (session.json) {
@@ -305,12 +334,7 @@ void run(Arguments& arguments, const CLI::App& command, const Session& session) 
   refuse_for_photographs(command, arguments, jobs.size() > 1);
   const PaintPhotographOptions options = options_from(arguments, session);
   if (jobs.size() > 1) return paint_all(arguments, jobs, options, session);
-  const Painted painted = paint_one(arguments, jobs.front(), options, session);
-  if (session.json) {
-    print_facts(painted.facts, session);
-  } else {
-    fmt::print(session.output, "{}written to       {}\n", painted.text, painted.written);
-  }
+  tell(paint_one(arguments, jobs.front(), options, session), session);
 }
 
 }  // namespace

@@ -78,6 +78,13 @@ void add_paint_options(CLI::App& command, PaintArguments& arguments) {
       .add_option("--zero-parallax-at", arguments.zero_parallax_at,
                   "Pixel X,Y of the left photograph that lies on the screen plane")
       ->excludes(plane);
+  command
+      .add_option(
+          "--depth-budget", arguments.depth_budget,
+          "Depth of side_by_side and anaglyph from the farthest point to the nearest, at most, in % of the width; "
+          "'full' for that of the photographs. The pictures are drawn for eyes that are nearer together")
+      ->type_name("SHARE")
+      ->capture_default_str();
   add_number(command, "--scale", arguments.scale, {0.01, 32}, "Scale factor of a painting.wst that is drawn again");
   add_display_options(command, arguments);
   command.add_flag("--report", arguments.measure, "Measure the consistency of the two painted views");
@@ -97,12 +104,17 @@ void refuse_for_printing(const CLI::App& command) {
 }
 
 void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments) {
-  refuse_options(command, {"--display"}, "on a painting (.wst), which holds what two eyes show",
-                 fmt::format("the views of a display are painted from the photographs, with 'wheatstone paint LEFT "
-                             "RIGHT --display {}'",
-                             arguments.display));
-  refuse_all_but(command, {"--output", "--format", "--scale", "--svg", "--zero-parallax"}, "on a painting (.wst)",
-                 "it works on photographs");
+  if (arguments.display.empty()) {
+    refuse_all_but(command, {"--output", "--format", "--scale", "--svg", "--zero-parallax", "--depth-budget"},
+                   "on a painting (.wst)", "it works on photographs");
+    return;
+  }
+  refuse_options(command, {"--scale", "--svg", "--depth-budget"}, "with --display",
+                 "it works where two eyes are drawn");
+  refuse_all_but(command, {"--output", "--format", "--display", "--views", "--size", "--span", "--zero-parallax"},
+                 "on a painting (.wst)", "it works on photographs");
+  if (arguments.zero_parallax == "nearest")
+    refuse_options(command, {"--zero-parallax"}, "as 'nearest' with --display", "it works with a disparity in pixels");
 }
 
 namespace {
@@ -140,9 +152,15 @@ void refuse_for_photographs(const CLI::App& command, const PaintArguments& argum
   refuse_match_options_without_effect(command, arguments.matching,
                                       arguments.disparity.empty() ? "" : "with --disparity");
   if (arguments.display.empty()) return;
-  refuse_options(command, {"--report", "--html", "--svg"}, "with --display", "it works where two eyes are painted");
+  refuse_options(command, {"--report", "--html", "--svg", "--depth-budget"}, "with --display",
+                 "it works where two eyes are painted");
   if (arguments.zero_parallax == "nearest")
     refuse_options(command, {"--zero-parallax"}, "as 'nearest' with --display", "it works with a disparity in pixels");
+}
+
+std::optional<float> depth_budget_from(const PaintArguments& arguments) {
+  if (arguments.depth_budget == "full") return {};
+  return parse_share("--depth-budget", arguments.depth_budget, {0.1, 100});
 }
 
 bool finds_depth_in_file(const CLI::App& command, const PaintArguments& arguments) {

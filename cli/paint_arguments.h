@@ -23,6 +23,7 @@ struct PaintArguments {
   DepthArguments depth;
   std::string zero_parallax = "nearest";
   std::string zero_parallax_at;
+  std::string depth_budget = "3%";
   double scale = 1;
   std::string display, size;
   int views = 0;
@@ -40,6 +41,9 @@ void add_paint_options(CLI::App& command, PaintArguments& arguments);
 void refuse_for_printing(const CLI::App& command);
 void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments);
 void refuse_for_photographs(const CLI::App& command, const PaintArguments& arguments, bool several);
+
+/// Of what is looked at, as a share of the width; none: "full".
+std::optional<float> depth_budget_from(const PaintArguments& arguments);
 
 /// Whether the one file that is given is one picture that has its own depth, which is painted.
 bool finds_depth_in_file(const CLI::App& command, const PaintArguments& arguments);

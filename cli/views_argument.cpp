@@ -12,6 +12,7 @@
 #include "option_use.h"
 #include "pictures_in_folder.h"
 #include "typed_options.h"
+#include "wheatstone/app/display_views.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
@@ -58,18 +59,20 @@ int count_of(const ViewsArguments& arguments, int wanted) {
   return wanted > 0 ? wanted : 2;
 }
 
-ReadViews draw_painting(const std::string& file, int count) {
-  // Views beyond the two eyes, and between them, show places that a painting of two eyes has no marks for.
-  if (count != 2)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: a painting holds what two eyes show, but {} views are wanted; more views are painted "
-                            "from the photographs, with 'wheatstone paint LEFT RIGHT --display NAME'",
-                            file, count));
-  const Painting painting = read_painting(file);
+/// The eyes' own pictures, or as many views as are wanted, with the middle of the scene's disparities on the screen.
+ReadViews draw_painting(const std::string& file, int count, float span, const Progress& progress) {
+  const bool of_the_eyes = count == 2 && span == 1;
+  const Painting painting = of_the_eyes ? read_painting(file) : read_painting_for_views(file);
   ReadViews read;
   read.how = "drawn from a painting";
-  for (const ViewPosition view : evenly_spaced(painting.strokes.width, painting.strokes.height, count).positions)
-    read.views.push_back(draw(painting, view).picture);
+  if (of_the_eyes) {
+    const PreparedPainting prepared = prepare(painting);
+    for (const ViewPosition eye : {left_eye, right_eye}) read.views.push_back(draw(prepared, eye).picture);
+    return read;
+  }
+  const DisplayViewsOptions options{
+      .views = count, .width = width_of(painting), .height = height_of(painting), .span = span};
+  read.views = draw_display_views(painting, options, progress).views;
   return read;
 }
 
@@ -113,8 +116,8 @@ ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::
     return take_quilt(arguments, file);
   }
   if (file.ends_with(".wst")) {
-    refuse({"--layout", "--span"}, "on a painting (.wst), whose views lie between its two eyes");
-    return draw_painting(file, count_of(arguments, wanted));
+    refuse({"--layout"}, "on a painting (.wst)");
+    return draw_painting(file, count_of(arguments, wanted), arguments.span, session.progress);
   }
   if (file.ends_with(".exr")) {
     refuse({"--layout"}, "on OpenEXR files");
@@ -128,6 +131,16 @@ ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::
 }
 
 }  // namespace
+
+Painting read_painting_for_views(const std::string& file) {
+  Painting painting = read_painting(file);
+  if (painting.surfaces.seen.empty())
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: has no surfaces, which more views than two need (it is of version 1 or 2, or each eye "
+                            "was painted alone); paint its photographs again",
+                            file));
+  return painting;
+}
 
 void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
   command

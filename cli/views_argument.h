@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "command.h"
-#include "wheatstone/image/image.h"
+#include "wheatstone/marks/painting.h"
 
 namespace wheatstone::cli {
 
@@ -26,6 +26,9 @@ struct ReadViews {
   std::vector<Image<Rgb8>> views;  ///< left to right, of one size
   std::string how;                 ///< in words, where they come from
 };
+
+/// A painting that can be drawn for any view. Throws Error{bad_input} where it holds what two eyes show.
+Painting read_painting_for_views(const std::string& file);
 
 /// The files that reading the views reads: those of a folder instead of the folder.
 std::vector<std::filesystem::path> files_read(const ViewsArguments& arguments);

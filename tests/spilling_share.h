@@ -10,19 +10,19 @@
 namespace wheatstone {
 
 /// A view's disparities and how far its pixels are from depth edges.
-struct Surfaces {
+struct ViewSurfaces {
   const Image<float>& disparity;
   Image<float> edge_distance;
   float threshold_px;
 };
 
-inline bool is_far_from_edge(const Surfaces& surfaces, float x, float y, float radius_px) {
+inline bool is_far_from_edge(const ViewSurfaces& surfaces, float x, float y, float radius_px) {
   const int column = static_cast<int>(x), row = static_cast<int>(y);
   return surfaces.edge_distance.contains(column, row) && surfaces.edge_distance(column, row) > radius_px;
 }
 
 /// True where a stroke jumps from one surface to another and is planned on there; a second jump takes it home.
-inline bool jumps(const Layer& layer, const Stroke& stroke, const Surfaces& surfaces) {
+inline bool jumps(const Layer& layer, const Stroke& stroke, const ViewSurfaces& surfaces) {
   const auto points = layer.points_of(stroke);
   bool away = false;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -34,19 +34,17 @@ inline bool jumps(const Layer& layer, const Stroke& stroke, const Surfaces& surf
 
 /// True where the centre line, walked by steps of a sixth of a radius, lies on a surface whose disparity is not the
 /// stroke's own there.
-inline bool strays(const Layer& layer, const Stroke& stroke, const Surfaces& surfaces) {
-  const ClampedSpline left(layer.points_of(stroke), stroke.reference_view, left_eye);
-  const ClampedSpline right(layer.points_of(stroke), stroke.reference_view, right_eye);
-  const ClampedSpline& own = stroke.reference_view < central_view ? left : right;
+inline bool strays(const Layer& layer, const Stroke& stroke, const ViewSurfaces& surfaces) {
+  const ClampedSpline spline(layer.points_of(stroke), stroke.reference_view);
   constexpr int steps = 6;
-  for (int span = 0; span < own.span_count(); ++span) {
+  for (int span = 0; span < spline.span_count(); ++span) {
     for (int step = 0; step < steps; ++step) {
       const float t = static_cast<float>(step) / steps;
-      const PlanePoint at = point_on(own, span, t);
+      const SpatialPoint point = point_on(spline, span, t);
+      const PlanePoint at = seen_from(point, stroke.reference_view);
       const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
       if (!surfaces.disparity.contains(x, y)) continue;
-      const float disparity = point_on(left, span, t).x - point_on(right, span, t).x;
-      const bool away = std::abs(surfaces.disparity(x, y) - disparity) > surfaces.threshold_px;
+      const bool away = std::abs(surfaces.disparity(x, y) - point.disparity) > surfaces.threshold_px;
       if (away && is_far_from_edge(surfaces, at.x, at.y, stroke.radius_px)) return true;
     }
   }
@@ -60,8 +58,8 @@ inline double spilling_share(const Layer& layer, const StereoGeometry& geometry,
   std::size_t spilling = 0, planned = 0;
   for (const ViewPosition view : {left_eye, right_eye}) {
     const Image<float>& disparity = view < central_view ? geometry.left_disparity : geometry.right_disparity;
-    const Surfaces surfaces{disparity, distance_to_depth_edge(disparity, threshold_px, 2 * layer.radius_px + 2),
-                            threshold_px};
+    const ViewSurfaces surfaces{disparity, distance_to_depth_edge(disparity, threshold_px, 2 * layer.radius_px + 2),
+                                threshold_px};
     for (const Stroke& stroke : layer.strokes) {
       if (stroke.reference_view != view) continue;
       ++planned;

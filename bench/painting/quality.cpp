@@ -33,7 +33,7 @@ PairMeasures paint_and_print(const Subject& subject, Propagation propagation, bo
   if (!matched) options.left_disparity = subject.left_disparity;
   const PaintedPhotograph result = paint_photograph(subject.photographs, options);
   const PairMeasures measures = measure_pair(result.painted.pictures, subject.left_disparity);
-  const StrokeMeasures strokes = measure_strokes(result.painted.painting.strokes, result.geometry);
+  const StrokeMeasures strokes = measure_strokes(layers_of(result.painted.painting), result.geometry);
   const std::string name = fmt::format("{}, {} disparity", name_of(propagation), matched ? "our own" : "true");
   print_row(name, measures,
             fmt::format("bare {:.2f} % {:.2f} %, paired {:.1f} %, shape differs {:.1f} %",

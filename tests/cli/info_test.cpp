@@ -52,9 +52,9 @@ TEST(Info, TellsOfAPainting) {
   StrokePainting painting{.width = 40, .height = 30};
   Layer layer{.radius_px = 4};
   layer.points = {{1, 2, 3}, {5, 6, 7}};
-  layer.strokes = {{.point_count = 2, .radius_px = 4}};
+  layer.strokes = {{.point_count = 2, .radius_px = 4, .disparity = 7}};
   painting.layers = {layer};
-  write_painting(folder / "p.wst", {.strokes = painting});
+  write_painting(folder / "p.wst", Painting{painting});
   const nlohmann::json facts = facts_of(folder / "p.wst");
   EXPECT_EQ(facts["kind"], "painting");
   EXPECT_EQ(facts["width"], 40);
@@ -65,11 +65,13 @@ TEST(Info, TellsOfAPainting) {
 
 TEST(Info, TellsOfAPaintingOfAreas) {
   const TemporaryFolder folder;
-  Painting painting{.strokes = {.width = 40, .height = 30}};
-  painting.regions = {40, 30, {{1, 1, 3}, {9, 1, 3}, {5, 8, 4}}, {{0, 3}}, {{0, 1}}};
+  Painting painting{RegionPainting{40, 30, {{1, 1, 3}, {9, 1, 3}, {5, 8, 4}}, {{0, 3}}, {{0, 1, {}, 4}}}};
+  painting.surfaces.seen = {{ViewPosition(-2.f), Image<float>(40, 30, 4)}, {right_eye, Image<float>(40, 30, 4)}};
   write_painting(folder / "p.wst", painting);
   const nlohmann::json facts = facts_of(folder / "p.wst");
   EXPECT_EQ(facts["regions"], 1);
+  EXPECT_EQ(facts["views"]["first"], -2);
+  EXPECT_EQ(facts["views"]["last"], 0.5);
   EXPECT_EQ(facts["nearest_disparity_px"], 4);
 }
 

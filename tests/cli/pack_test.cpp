@@ -150,7 +150,7 @@ TEST(PackCommand, ADisplayWithLensesGetsOnePictureUnderThem) {
   expect_refused(folder, {"pack", "left.png", "right.png", "--screen", "desk-stereo", "-o", "out.png"}, 2, "step-9");
 }
 
-TEST(PackCommand, APaintingHasTwoViewsAndNoMore) {
+TEST(PackCommand, APaintingHasAsManyViewsAsAreWanted) {
   const TemporaryFolder folder;
   put_still(folder);
   run_in(folder, {"paint", "left.png", "right.png", "-o", "painted"});
@@ -158,11 +158,20 @@ TEST(PackCommand, APaintingHasTwoViewsAndNoMore) {
   EXPECT_TRUE(std::filesystem::exists(folder / "two/view_001.png"));
   EXPECT_FALSE(std::filesystem::exists(folder / "two/view_002.png"));
   run_in(folder, {"pack", "painted/painting.wst", "--to", "anaglyph", "-o", "anaglyph.png"});
-  const std::string painting = "painted/painting.wst", instead = "wheatstone paint LEFT RIGHT --display";
-  for (const std::string views : {"1", "5", "9"})
-    expect_refused(folder, {"pack", painting, "--views", views, "-o", "out"}, 2, instead);
-  expect_refused(folder, {"pack", painting, "--quilt", "8x6", "-o", "out"}, 2, instead);
-  expect_refused(folder, {"paint", painting, "--display", "nine-view", "-o", "out"}, 2, instead + " nine-view");
+  run_in(folder, {"pack", "painted/painting.wst", "--to", "views", "--views", "5", "--span", "3", "-o", "five"});
+  EXPECT_EQ(files_in(folder / "five").size(), 5u);
+  EXPECT_NE(read_image(folder / "five/view_000.png"), read_image(folder / "five/view_004.png"));
+  run_in(folder, {"pack", "painted/painting.wst", "--to", "quilt", "--quilt", "8x6", "-o", "quilt"});
+}
+
+TEST(PackCommand, APaintingOfTwoEyesHasTwoViewsAndNoMore) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"paint", "left.png", "right.png", "--propagation", "independent", "-o", "painted"});
+  const std::string painting = "painted/painting.wst";
+  run_in(folder, {"pack", painting, "--to", "anaglyph", "-o", "anaglyph.png"});
+  expect_refused(folder, {"pack", painting, "--views", "5", "-o", "out"}, 3, "painting.wst: has no surfaces");
+  expect_refused(folder, {"paint", painting, "--display", "nine-view", "-o", "out"}, 3, "paint its photographs again");
 }
 
 TEST(PackCommand, RefusesWhatDoesNotFit) {

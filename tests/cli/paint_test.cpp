@@ -68,7 +68,7 @@ TEST(PaintCommand, PaintsWithOtherMarksThanStrokes) {
         paint_line({"--disparity", "disparity.pfm", "--style", style, "--svg", "--json"}), {.folder = folder / ""});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const auto report = nlohmann::json::parse(result.output);
-    EXPECT_GT(report[style == "diffusion" ? "curves" : "regions"], 1);
+    EXPECT_GT(report[style == "diffusion" ? "lines" : "regions"], 1);
     EXPECT_LT(report["right_bare_share"], 0.005);
     const auto files = files_in(folder / "painted");
     EXPECT_THAT(files, testing::IsSupersetOf({"left.png", "right.png", "side_by_side.png", "anaglyph.png",
@@ -82,16 +82,48 @@ TEST(PaintCommand, PaintsWithOtherMarksThanStrokes) {
   expect_refused(folder, paint_line({"--style", "posterise", "--colours", "1"}), 2, "colours is 1");
 }
 
-TEST(PaintCommand, PaintsEveryKindOfMarksForADisplay) {
+TEST(PaintCommand, PaintsEveryKindOfMarksForADisplayAsItsPaintingIsDrawnForOne) {
   const TemporaryFolder folder;
   write_pair(folder);
-  for (const std::string style : {"impressionist", "posterise", "mosaic", "diffusion"}) {
-    const ProgramResult result = run_program({"paint", "left.png", "right.png", "--style", style, "--display",
-                                              "looking-glass-go", "--size", "66x100", "-o", style},
-                                             {.folder = folder / ""});
+  const std::vector<std::string> display{"--display", "looking-glass-go", "--size", "66x100"};
+  const auto run = [&](std::vector<std::string> line, const std::vector<std::string>& more) {
+    line.insert(line.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(line, {.folder = folder / ""});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
-    EXPECT_TRUE(std::filesystem::exists(folder / (style + "_qs11x6a0.5625.png"))) << style;
+  };
+  for (const std::string style : {"impressionist", "dual", "posterise", "mosaic", "diffusion"}) {
+    const std::string texture = style == "impressionist" ? "--texture" : "--quiet";
+    const std::vector<std::string> paint{"paint", "left.png", "right.png", "--style", style, texture};
+    run(paint, {"-o", style + "_marks"});
+    std::vector<std::string> direct = paint, again{"paint", style + "_marks/painting.wst"};
+    run(direct, {"-o", style, display[0], display[1], display[2], display[3]});
+    run(again, {"-o", style + "_again", display[0], display[1], display[2], display[3]});
+    const std::string quilt = bytes_of(folder / (style + "_qs11x6a0.5625.png"));
+    EXPECT_GT(quilt.size(), 1000u) << style;
+    EXPECT_EQ(bytes_of(folder / (style + "_again_qs11x6a0.5625.png")), quilt) << style;
   }
+}
+
+TEST(PaintCommand, IsComfortableToLookAtUnlessAllDepthIsWanted) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  Image<float> disparity(width, height, 4);
+  for (int y = height / 4; y < height / 2; ++y)
+    for (int x = width / 4; x < width / 2; ++x) disparity(x, y) = 4 + 0.12f * width;
+  write_disparity(folder / "deep.pfm", disparity);
+  const auto separation = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--disparity", "deep.pfm", "--json"});
+    const ProgramResult result = run_program(paint_line(more), {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return nlohmann::json::parse(result.output)["presented_separation"].get<double>();
+  };
+  EXPECT_NEAR(separation({}), 0.25, 0.01);
+  EXPECT_NEAR(separation({"--depth-budget", "6%"}), 0.5, 0.01);
+  const std::string left = bytes_of(folder / "painted/left.png"), near = bytes_of(folder / "painted/anaglyph.png");
+  EXPECT_EQ(separation({"--depth-budget", "full"}), 1);
+  EXPECT_EQ(bytes_of(folder / "painted/left.png"), left);
+  EXPECT_NE(bytes_of(folder / "painted/anaglyph.png"), near);
+  expect_refused(folder, paint_line({"--depth-budget", "much"}), 2, "--depth-budget");
 }
 
 TEST(PaintCommand, SaysTheSameForTheSameSeedOnAnyNumberOfThreads) {
@@ -113,7 +145,7 @@ TEST(PaintCommand, TakesItsStyleFromAFileThatItPrinted) {
   ASSERT_EQ(printed.exit_code, 0);
   put_bytes(folder / "mine.toml", printed.output);
   EXPECT_EQ(run_program(paint_line({"--style", "mine.toml"}), {.folder = folder / ""}).exit_code, 0);
-  EXPECT_EQ(read_painting(folder / "painted/painting.wst").strokes.layers.size(), 2u);
+  EXPECT_EQ(layers_of(read_painting(folder / "painted/painting.wst")).size(), 2u);
 }
 
 TEST(PaintCommand, DrawsAPaintingAgain) {

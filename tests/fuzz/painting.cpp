@@ -1,4 +1,5 @@
-// The input is the payload: a checksum over it would keep every change of it out.
+// The input is the payload: a checksum over it would keep every change of it out. It is sealed as version 2, which does
+// not deflate it; what it may hold is the same.
 
 #include <flatbuffers/flatbuffers.h>
 #include <zlib.h>
@@ -20,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         {reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize()}, "input");
     // What is believed must also be drawn; size alone costs time and finds nothing.
     constexpr int small_px = 256;
-    if (painting.strokes.width <= small_px && painting.strokes.height <= small_px)
+    if (wheatstone::width_of(painting) <= small_px && wheatstone::height_of(painting) <= small_px)
       for (const wheatstone::ViewPosition view : {wheatstone::left_eye, wheatstone::right_eye})
         wheatstone::draw(painting, view);
   } catch (const wheatstone::Error&) {

@@ -9,15 +9,22 @@
 #include <hwy/targets.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
+#include <span>
 
 #include "golden/golden_folders.h"
+#include "painting_generated.h"
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/draw.h"
+#include "wheatstone/marks/deflated_internal.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/pictures/read_image.h"
@@ -36,10 +43,25 @@ Style style_of(const std::string& name) {
   return style;
 }
 
-/// FNV-1a of the painting's file, which holds every number of every mark.
-std::string fingerprint(const Painting& painting) {
+/// FNV-1a of what the painting's file holds: every number of every mark, and every disparity. How zlib packs them does
+/// not count.
+std::string fingerprint(Painting painting) {
   std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char byte : encode_painting(painting)) sum = (sum ^ static_cast<std::uint8_t>(byte)) * 0x100000001b3;
+  const auto add = [&](std::span<const std::uint8_t> bytes) {
+    for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3;
+  };
+  for (const Surface& surface : painting.surfaces.seen) {
+    for (const float disparity : surface.disparity.pixels()) {
+      const auto steps = std::bit_cast<std::array<std::uint8_t, 4>>(
+          std::isnan(disparity) ? std::numeric_limits<std::int32_t>::min()
+                                : static_cast<std::int32_t>(disparity * disparity_steps));
+      add(steps);
+    }
+  }
+  painting.surfaces.seen.clear();
+  const std::string bytes = encode_painting(painting);
+  const file::PaintingFile& whole = *file::GetPaintingFile(bytes.data());
+  add(inflated({whole.payload()->data(), whole.payload()->size()}, whole.payload_size()).value());
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
   return text;

@@ -76,14 +76,14 @@ void expect_no_spilling(const Subject& subject, double untested_share) {
   const Style style;
   const float threshold = style.depth_threshold_px * style_scale(style, subject.photographs.left.width());
   // What only the right eye sees is planned at half size: a stroke in ten thousand may miss an edge by a pixel.
-  EXPECT_LE(spilling_share(result.painted.painting.strokes.layers.back(), result.geometry, threshold), 1e-4);
+  EXPECT_LE(spilling_share(layers_of(result.painted.painting).back(), result.geometry, threshold), 1e-4);
 
   PaintPhotographOptions options;
   options.style.depth_test = false;
   options.left_disparity = subject.left_disparity;
   const PaintedPhotograph untested = paint_photograph(subject.photographs, options);
   // Without the test many do, of all strokes, most of which are nowhere near an edge.
-  const double spilling = spilling_share(untested.painted.painting.strokes.layers.back(), untested.geometry, threshold);
+  const double spilling = spilling_share(layers_of(untested.painted.painting).back(), untested.geometry, threshold);
   testing::Test::RecordProperty("spilling_untested", std::to_string(spilling));
   EXPECT_GT(spilling, untested_share);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "wheatstone/app/present_pair.h"
 #include "wheatstone/app/write_svg.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
@@ -29,11 +30,11 @@ float nearest_disparity(const Painting& painting) {
 
 Painting scaled(const Painting& painting, double scale) {
   constexpr double largest_side_px = 65535;
-  const double width = std::round(painting.strokes.width * scale), height = std::round(painting.strokes.height * scale);
+  const double width = std::round(width_of(painting) * scale), height = std::round(height_of(painting) * scale);
   if (!(width >= 1 && height >= 1 && width <= largest_side_px && height <= largest_side_px))
     throw Error(ErrorKind::wrong_usage, fmt::format("a scale of {} makes {}x{} pixels, expected 1 to {} a side", scale,
                                                     width, height, largest_side_px));
-  return resized(painting, scale);
+  return placed(painting, {.scale = scale});
 }
 
 void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options,
@@ -41,8 +42,10 @@ void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOpti
   const Painting sized = scaled(painting, options.scale);
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   report(progress, "drawing", 0);
-  const StereoPair pictures{draw(sized, left_eye).picture, draw(sized, right_eye).picture};
-  const StereoPair presented = set_convergence(pictures, options.zero_parallax_px.value_or(nearest_disparity(sized)));
+  const PreparedPainting prepared = prepare(sized);
+  const StereoPair pictures{draw(prepared, left_eye).picture, draw(prepared, right_eye).picture};
+  const StereoPair presented = present_pair(sized, pictures, comfortable_separation(sized, options.depth_budget),
+                                            options.zero_parallax_px.value_or(nearest_disparity(sized)));
   report(progress, "writing", 0);
   write_image(folder.file(picture("left")), pictures.left);
   write_image(folder.file(picture("right")), pictures.right);

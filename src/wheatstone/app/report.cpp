@@ -34,9 +34,9 @@ Json to_json(const WrongSpots& spots) {
   return {{"spots_per_100000_px", rounded(spots.spots_per_100000_px)}, {"share", rounded(spots.share)}};
 }
 
-Json layers_json(const StrokePainting& painting) {
+Json layers_json(std::span<const Layer> of_painting) {
   Json layers = Json::array();
-  for (const Layer& layer : painting.layers)
+  for (const Layer& layer : of_painting)
     layers.push_back({{"radius_px", rounded(layer.radius_px)}, {"strokes", layer.strokes.size()}});
   return layers;
 }
@@ -56,7 +56,7 @@ PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPh
   report(progress, "measuring", 0.45);
   measures.photographs = measure_pair(photographs, left_disparity);
   report(progress, "measuring", 0.9);
-  measures.strokes = measure_strokes(result.painted.painting.strokes, result.geometry);
+  measures.strokes = measure_strokes(layers_of(result.painted.painting), result.geometry);
   measures.wrong_spots = measure_wrong_spots(result.painted.pictures, photographs);
   report(progress, "measuring", 1);
   return measures;
@@ -107,17 +107,18 @@ std::string confidence_json(const MatchConfidence& confidence) {
 }
 
 std::string report_json(const PaintingReport& told) {
-  const auto& [result, style, pair, measures, whole] = told;
-  const auto& [strokes, regions, curves, relief] = result.painted.painting;
-  Json report{{"width", strokes.width},
-              {"height", strokes.height},
+  const auto& [result, style, pair, measures, depth_budget, whole] = told;
+  const Painting& painting = result.painted.painting;
+  const MarkCount marks = count_marks(painting);
+  Json report{{"width", width_of(painting)},
+              {"height", height_of(painting)},
               {"style", style.name},
               {"propagation", name_of(style.propagation)},
               {"seed", style.seed},
-              {"layers", layers_json(strokes)},
-              {"regions", regions.marks.size()},
-              {"curves", curves.lines.size()},
+              {std::string(marks.kind), marks.count},
+              {"layers", layers_json(layers_of(painting))},
               {"zero_parallax_px", rounded(result.zero_parallax_px)},
+              {"presented_separation", rounded(comfortable_separation(painting, depth_budget))},
               {"left_occluded_share", occluded_share(result.geometry.left_occlusion)},
               {"right_occluded_share", occluded_share(result.geometry.right_occlusion)},
               {"left_bare_share", rounded(result.painted.left_bare_share)},

@@ -150,7 +150,7 @@ FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes
 
 /// Compares the frame with the one before and adds it to the film's sums.
 void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& state, RotoscopedFrame& result) {
-  const std::vector<Layer>& layers = result.painted.painting.strokes.layers;
+  const std::span<const Layer> layers = layers_of(result.painted.painting);
   const double largest_step =
       1.0 / std::max(std::min(options.carrying.fade_in_frames, options.carrying.fade_out_frames), 1);
   if (!result.scene_begins) result.changes = compare_strokes(state.layers_before, layers, largest_step);
@@ -162,7 +162,7 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
   for (const Layer& layer : layers) totals.strokes += static_cast<std::int64_t>(layer.strokes.size());
   totals.worst_bare_share =
       std::max({totals.worst_bare_share, result.painted.left_bare_share, result.painted.right_bare_share});
-  state.layers_before = layers;
+  state.layers_before.assign(layers.begin(), layers.end());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "wheatstone/app/gallery.h"
+#include "wheatstone/app/present_pair.h"
 #include "wheatstone/app/write_svg.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
@@ -43,7 +44,8 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
   const Painting& painting = result.painted.painting;
-  const StereoPair presented = set_convergence(pictures, result.zero_parallax_px);
+  const StereoPair presented =
+      present_pair(painting, pictures, comfortable_separation(painting, told.depth_budget), result.zero_parallax_px);
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   std::vector<Output> outputs{
       {picture("left"), [&](const Path& path) { write_image(path, pictures.left); }},

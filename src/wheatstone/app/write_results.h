@@ -20,7 +20,7 @@ struct ResultOptions {
 std::vector<std::string> result_names(const ResultOptions& options = {});
 
 /// Writes a painted photograph into a folder and commits it: left.png and right.png in the
-/// photographs' own geometry; side_by_side.png and anaglyph.png shifted to the zero-parallax plane; disparity.png,
+/// photographs' own geometry; side_by_side.png and anaglyph.png as present_pair makes them; disparity.png,
 /// left_disparity.pfm, right_disparity.pfm, left_occlusion.png, right_occlusion.png; painting.wst,
 /// report.json; and what the options ask for. Masks and the disparity's picture are PNG in any format. Returns the
 /// names written. Throws Error as the folder does; then nothing is committed.

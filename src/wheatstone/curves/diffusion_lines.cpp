@@ -33,7 +33,6 @@ std::vector<Station> stations_of(const std::vector<PlanePoint>& chain) {
 struct Side {
   SampledColour colour;
   float disparity = 0;
-  ViewRange views;
   bool wanted = true;
 };
 
@@ -49,20 +48,22 @@ PlanePoint beside(const Station& station, int side, float offset_px) {
 
 class SideMaker {
  public:
-  SideMaker(const SceneOfEdges& scene, std::size_t view) : scene_(scene), view_(scene.views[view]), index_(view) {}
+  SideMaker(const SceneOfEdges& scene, std::size_t view)
+      : scene_(scene),
+        view_(scene.views[view]),
+        index_(view),
+        is_beside_eyes_(view > 0 && view_.position != left_eye && view_.position != right_eye) {}
 
   Side make(const Station& station, int side) const {
     const auto [x, y] = pixel(beside(station, side, colour_px));
-    Side result{colour_of(station, side), view_.disparity(x, y), {}, true};
+    Side result{colour_of(station, side), view_.disparity(x, y), true};
     // Behind a nearer surface each view sees another place of the farther one.
     const bool behind =
         disparity_at(beside(station, 1 - side, colour_px)) - result.disparity > scene_.depth_threshold_px;
     const bool only_here = index_ == 0 || view_.only_here.empty() || view_.only_here(x, y) != 0;
-    result.wanted = behind || only_here;
-    if (behind || index_ > 0)
-      result.views = {view_.position, view_.position};
-    else
-      result.views = views_that_see(static_cast<float>(x) + 0.5f, y, result.disparity);
+    // Close to a corner of something near, a line beside the eyes would carry that one's colour to what is behind it.
+    const bool is_covered = disparity_at(beside(station, side, line_px)) - result.disparity > scene_.depth_threshold_px;
+    result.wanted = (behind || only_here) && !(is_beside_eyes_ && is_covered);
     return result;
   }
 
@@ -106,23 +107,10 @@ class SideMaker {
     return colour;
   }
 
-  /// All but those on the side of a view where something nearer hides the point.
-  ViewRange views_that_see(float x, int y, float disparity) const {
-    ViewRange range;
-    for (const ViewOfEdges& other : scene_.views) {
-      if (other.position == view_.position) continue;
-      const int there = static_cast<int>(std::floor(x - (other.position - view_.position) * disparity));
-      if (!other.disparity.contains(there, y) || other.disparity(there, y) - disparity <= scene_.depth_threshold_px)
-        continue;
-      if (other.position < view_.position) range.first = view_.position;
-      if (other.position > view_.position) range.last = view_.position;
-    }
-    return range;
-  }
-
   const SceneOfEdges& scene_;
   const ViewOfEdges& view_;
   std::size_t index_;
+  bool is_beside_eyes_;
 };
 
 /// A chain's stations with both sides.
@@ -187,20 +175,20 @@ void ease(const CarriedEdges& carried, std::uint32_t view, float depth_threshold
   }
 }
 
-/// Adds the runs of a side that are wanted in the same views.
+/// Adds the runs of a side that are wanted.
 void add_lines(const TwoSides& line, int side, const SceneOfEdges& scene, ViewPosition position,
                DiffusionPainting& painting) {
   const std::vector<Side>& points = line.sides[side];
   for (std::size_t begin = 0; begin < points.size();) {
     std::size_t end = begin + 1;
     const auto joins = [&](std::size_t i) {
-      return points[i].wanted == points[begin].wanted && points[i].views == points[begin].views &&
+      return points[i].wanted == points[begin].wanted &&
              std::abs(points[i].disparity - points[i - 1].disparity) <= scene.depth_threshold_px;
     };
     while (end < points.size() && joins(end)) ++end;
     if (points[begin].wanted) {
       painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()),
-                                static_cast<std::uint32_t>(end - begin), position, points[begin].views});
+                                static_cast<std::uint32_t>(end - begin), position, all_views});
       for (std::size_t i = begin; i < end; ++i) {
         const PlanePoint at = beside(line.stations[i], side, line_px);
         painting.points.push_back({{at.x, at.y, points[i].disparity}, rounded(points[i].colour)});
@@ -245,11 +233,9 @@ LinesAndEdges lines_of_view(const SceneOfEdges& scene, std::size_t index, const 
 }
 
 /// A picture without edges still has a colour.
-void add_middle(const SceneOfEdges& scene, const ViewOfEdges& view, DiffusionPainting& painting) {
+void add_middle(const ViewOfEdges& view, DiffusionPainting& painting) {
   const int x = painting.width / 2, y = painting.height / 2;
-  ViewRange views{view.position, view.position};
-  if (scene.views.size() == 1) views = {std::min(left_eye, view.position), std::max(right_eye, view.position)};
-  painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()), 1, view.position, views});
+  painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()), 1, view.position, all_views});
   painting.points.push_back(
       {{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)}, view.picture(x, y)});
 }
@@ -271,10 +257,7 @@ LinesAndEdges lines_beside_edges(const SceneOfEdges& scene, const CarriedEdges* 
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) { parts[i] = lines_of_view(scene, i, before); });
   LinesAndEdges whole{{parts[0].painting.width, parts[0].painting.height, {}, {}}, {}};
   for (const LinesAndEdges& part : parts) append(part, whole);
-  for (const ViewOfEdges& view : scene.views) {
-    const auto shows = [&](const ColourLine& line) { return line.views.contains(view.position); };
-    if (std::ranges::none_of(whole.painting.lines, shows)) add_middle(scene, view, whole.painting);
-  }
+  if (whole.painting.lines.empty()) add_middle(scene.views[0], whole.painting);
   return whole;
 }
 

@@ -49,7 +49,7 @@ TEST(Diffusion, GivesTheSameBytesOnAnyNumberOfThreads) {
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     PaintedPair painted = paint_scene();
-    if (first.painting.curves.lines.empty()) first = painted;
+    if (first.pictures.left.empty()) first = painted;
     EXPECT_EQ(painted.painting, first.painting);
     EXPECT_EQ(painted.pictures.right, first.pictures.right);
   }
@@ -62,7 +62,7 @@ TEST(Diffusion, SpreadsColourEvenlyBetweenTwoLines) {
     const std::uint8_t level = x < 1 ? 40 : 240;
     for (const float y : {0.5f, 4.5f, 8.9f}) painting.points.push_back({{x, y, 0}, {level, level, level}});
   }
-  const DrawnView drawn = draw(painting, left_eye);
+  const DrawnView drawn = draw(Painting{painting}, left_eye);
   EXPECT_EQ(drawn.bare_share, 0);
   EXPECT_EQ(drawn.picture(0, 4).r, 40);
   EXPECT_EQ(drawn.picture(40, 4).r, 240);
@@ -70,7 +70,7 @@ TEST(Diffusion, SpreadsColourEvenlyBetweenTwoLines) {
 }
 
 TEST(Diffusion, IsBareWithoutLinesAndPaintsPicturesOfAnySize) {
-  EXPECT_EQ(draw(DiffusionPainting{5, 4, {}, {}}, left_eye).bare_share, 1);
+  EXPECT_EQ(draw(Painting{DiffusionPainting{5, 4, {}, {}}}, left_eye).bare_share, 1);
   for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {1, 7}, {9, 5}}) {
     const StereoPair tiny{Image<Rgb8>(width, height, {9, 99, 199}), Image<Rgb8>(width, height, {9, 99, 199})};
     const PaintedPair painted =

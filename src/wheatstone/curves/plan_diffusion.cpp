@@ -6,7 +6,6 @@
 #include "wheatstone/image/grain.h"
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/regions/plan_regions_internal.h"
-#include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/occlusion.h"
 
 namespace wheatstone {
@@ -51,13 +50,6 @@ DiffusionPainting plan_diffusion(std::span<const SceneView> views, const Style& 
   const SceneOfEdges scene = scene_of_edges(views, style);
   if (style.propagation == Propagation::independent) return plan_each_alone(scene);
   return lines_beside_edges(scene, nullptr).painting;
-}
-
-DiffusionPainting plan_diffusion(const StereoPairView& photographs, const StereoGeometryView& geometry,
-                                 const Style& style) {
-  check_style(style);
-  check_fits(photographs, geometry);
-  return plan_diffusion(scene_from_left(photographs, geometry), style);
 }
 
 }  // namespace wheatstone

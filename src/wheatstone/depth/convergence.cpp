@@ -24,4 +24,9 @@ float disparity_percentile(ImageView<const float> disparity, double share) {
   return percentile(std::move(known), share);
 }
 
+DepthEnds depth_ends(ImageView<const float> disparity) {
+  constexpr double outliers = 0.02;
+  return {disparity_percentile(disparity, outliers), disparity_percentile(disparity, 1 - outliers)};
+}
+
 }  // namespace wheatstone

@@ -12,4 +12,13 @@ float depth_from_disparity(float disparity_px, float scale);
 /// outliers. NaN where no pixel is finite.
 float disparity_percentile(ImageView<const float> disparity, double share);
 
+/// A scene's nearest and farthest disparities, but for outliers.
+struct DepthEnds {
+  float farthest_px = 0, nearest_px = 0;
+  float middle_px() const { return (farthest_px + nearest_px) / 2; }
+};
+
+/// NaN where no pixel is finite.
+DepthEnds depth_ends(ImageView<const float> disparity);
+
 }  // namespace wheatstone

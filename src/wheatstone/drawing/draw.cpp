@@ -1,15 +1,89 @@
 #include "wheatstone/drawing/draw.h"
 
-#include "wheatstone/drawing/relief.h"
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "wheatstone/drawing/prepared_painting_internal.h"
+#include "wheatstone/drawing/relief_internal.h"
+#include "wheatstone/drawing/seen_surface_internal.h"
 
 namespace wheatstone {
+namespace {
 
-DrawnView draw(const Painting& painting, ViewPosition view) {
-  if (painting.regions.width > 0) return draw(painting.regions, view);
-  if (painting.curves.width > 0) return draw(painting.curves, view);
-  DrawnView drawn = draw(painting.strokes, view);
-  light_paint(painting.strokes, view, painting.relief, drawn.picture);
+bool is_as_planned(const Placement& placement) { return placement == Placement{}; }
+
+void leave_out_detail(const DrawOptions& options, Painting& painting) {
+  auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
+  if (strokes == nullptr) return;
+  const auto wanted = static_cast<std::size_t>(std::max(options.finest_layer, 0)) + 1;
+  if (strokes->layers.size() > wanted) strokes->layers.resize(wanted);
+}
+
+PreparedPainting prepared(const Painting& painting) {
+  auto contents = std::make_unique<PreparedPainting::Contents>(PreparedPainting::Contents{
+      width_of(painting),
+      height_of(painting),
+      std::visit([](const auto& marks) -> decltype(PreparedPainting::Contents::marks) { return prepare_marks(marks); },
+                 painting.marks),
+      PreparedSurfaces(painting.surfaces),
+      painting.relief,
+  });
+  return PreparedPainting(std::move(contents));
+}
+
+}  // namespace
+
+PreparedPainting::PreparedPainting(std::unique_ptr<const Contents> contents) : contents_(std::move(contents)) {}
+PreparedPainting::PreparedPainting(PreparedPainting&&) noexcept = default;
+PreparedPainting& PreparedPainting::operator=(PreparedPainting&&) noexcept = default;
+PreparedPainting::~PreparedPainting() = default;
+int PreparedPainting::width() const { return contents_->width; }
+int PreparedPainting::height() const { return contents_->height; }
+
+PreparedPainting prepare(const Painting& painting, const DrawOptions& options, Device /*device*/) {
+  const DrawOptions everything;
+  if (is_as_planned(options.placement) && options.finest_layer == everything.finest_layer && options.relief)
+    return prepared(painting);
+  Painting part = is_as_planned(options.placement) ? painting : placed(painting, options.placement);
+  leave_out_detail(options, part);
+  if (!options.relief) part.relief = {};
+  return prepared(part);
+}
+
+std::vector<DrawnView> draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
+                            std::span<const ImageView<const Rgb8>> backgrounds) {
+  const PreparedPainting::Contents& contents = painting.contents();
+  // The surfaces of so many views are held at once.
+  constexpr std::size_t most_pixels = 16u << 20;
+  const std::size_t pixels = static_cast<std::size_t>(contents.width) * static_cast<std::size_t>(contents.height);
+  const std::size_t at_once = std::max<std::size_t>(most_pixels / std::max<std::size_t>(pixels, 1), 2);
+  std::vector<DrawnView> drawn(views.size());
+  for (std::size_t first = 0; first < views.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, views.size() - first);
+    std::vector<SeenSurfaces> seen(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      seen[i] = seen_surfaces(contents.surfaces, views[first + i], contents.width, contents.height);
+    });
+    std::vector<ViewToDraw> to_draw;
+    for (std::size_t i = 0; i < count; ++i)
+      to_draw.push_back({views[first + i], seen[i].hiding,
+                         backgrounds.empty() ? ImageView<const Rgb8>() : backgrounds[first + i], drawn[first + i]});
+    std::visit([&](const auto& marks) { draw_marks(marks, to_draw); }, contents.marks);
+    const auto* const strokes = std::get_if<PreparedStrokes>(&contents.marks);
+    if (strokes == nullptr) continue;
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      light_paint(*strokes, to_draw[i].position, to_draw[i].hiding, contents.relief, to_draw[i].drawn.picture);
+    });
+  }
   return drawn;
 }
+
+DrawnView draw(const PreparedPainting& painting, ViewPosition view, ImageView<const Rgb8> background) {
+  return std::move(draw(painting, {&view, 1}, {&background, 1}).front());
+}
+
+DrawnView draw(const Painting& painting, ViewPosition view) { return draw(prepare(painting), view); }
 
 }  // namespace wheatstone

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "wheatstone/drawing/device.h"
 #include "wheatstone/marks/painting.h"
 
 namespace wheatstone {
@@ -7,32 +12,52 @@ namespace wheatstone {
 /// A painting as one view sees it.
 struct DrawnView {
   Image<Rgb8> picture;
-  double bare_share = 0;     ///< share of the pixels, 0..1, of which strokes cover less than half
+  double bare_share = 0;     ///< share of the pixels, 0..1, of which marks cover less than half
   Image<std::uint8_t> bare;  ///< 255 for those pixels, 0 for the others
-  Image<float> disparity;    ///< of the stroke that covers half of a pixel, NaN where none does; empty unless asked for
 };
 
+/// What of a painting is drawn.
 struct DrawOptions {
-  ImageView<const Rgb8> background;  ///< of the painting's size; empty: the painting's canvas colour
-  bool with_disparity = false;
+  Placement placement;
+  int finest_layer = 1 << 20;  ///< number of the last layer of strokes that is drawn, from the coarsest, 0: less detail
+  bool relief = true;          ///< light the paint of a painting that has relief
 };
 
-/// Draws a whole painting for one view over its background. Works from the nearest stroke to the farthest and leaves
-/// out what is hidden; the picture is that of `rasterise`, layer by layer, within rounding.
-DrawnView draw(const StrokePainting& painting, ViewPosition view, const DrawOptions& options = {});
+/// A painting made ready: all that no view changes. Strokes are flattened into segments, sorted into bands of rows, and
+/// stand in the central view with their disparities, so that a view only moves them along their rows.
+class PreparedPainting {
+ public:
+  struct Contents;
+  explicit PreparedPainting(std::unique_ptr<const Contents> contents);
+  PreparedPainting(PreparedPainting&&) noexcept;
+  PreparedPainting& operator=(PreparedPainting&&) noexcept;
+  ~PreparedPainting();
 
-/// Draws the marks for one view, antialiased, every point moved by its own disparity. A mark covers the earlier ones
-/// unless it lies behind them by more than a pixel of disparity, so that sloped surfaces hide each other correctly.
-/// What no mark covers counts as bare, and takes the colour of the farther of its two neighbours on the row. The same
-/// bytes on any number of threads.
-DrawnView draw(const RegionPainting& painting, ViewPosition view);
+  int width() const;
+  int height() const;
+  const Contents& contents() const { return *contents_; }
 
-/// Draws the lines for one view, every point moved by its own disparity, and fills the space between them by
-/// the Laplace equation, starting from a pull-push pyramid. The same bytes on any number of threads. Only a painting
-/// without lines is bare; it is grey.
-DrawnView draw(const DiffusionPainting& painting, ViewPosition view);
+ private:
+  std::unique_ptr<const Contents> contents_;
+};
 
-/// Draws a painting for one view as its kind of marks is drawn; strokes over their canvas colour.
+/// Does once what all views of a painting share.
+PreparedPainting prepare(const Painting& painting, const DrawOptions& options = {}, Device device = Device::processor);
+
+/// Draws a painting for one view, at any place on the line through the eyes: every point of a mark is moved by its own
+/// disparity, and a mark does not cover a pixel where one of the painting's surfaces lies before it. Strokes lie over
+/// `background`, of the pictures' size, or over their canvas colour where it is empty. What no region covers takes the
+/// colour of the farther of its two neighbours on the row; lines of colour spread by the Laplace equation over what is
+/// between them, which leaves nothing bare. The same bytes on any number of threads.
+DrawnView draw(const PreparedPainting& painting, ViewPosition view, ImageView<const Rgb8> background = {});
+
+/// The same for many views at once, one for each position, in their order, for little more than a few: a stroke is made
+/// once for all of them (as the fragments of splats are, Hassaine 2010, sec. 4.5). There is a background for each view,
+/// or none.
+std::vector<DrawnView> draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
+                            std::span<const ImageView<const Rgb8>> backgrounds = {});
+
+/// A painting of which one view is wanted.
 DrawnView draw(const Painting& painting, ViewPosition view);
 
 }  // namespace wheatstone

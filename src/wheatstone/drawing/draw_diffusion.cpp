@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "wheatstone/drawing/draw.h"
+#include "wheatstone/drawing/prepared_painting_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -69,14 +69,23 @@ void spread(const LinePlace& place, int width, int height, Use use) {
     if (share > 0 && x >= 0 && y >= 0 && x < width && y < height) use(x, y, share);
 }
 
+/// Whether surfaces hide a place of a line. Lines lie a pixel beside the edges of surfaces, which are known to a pixel
+/// or two: what is not hidden that far to one side is seen.
+bool is_hidden(const LinePlace& place, const Hiding& hiding) {
+  constexpr float beside_px = 2;
+  const auto hidden_at = [&](float x) { return is_hidden(x, place.y, place.disparity, hiding.reference_view, hiding); };
+  return hidden_at(place.x) && hidden_at(place.x - beside_px) && hidden_at(place.x + beside_px);
+}
+
 /// What the lines say about each pixel. A line gives its colour wholly to a pixel through whose middle it runs, and
 /// less to those up to a pixel away, so that an edge between two lines lies where it lies, not on a pixel's side. The
 /// nearest surface's lines count where they disagree, and their mean where they lie on one surface.
-Image<Known> draw_lines(const DiffusionPainting& painting, ViewPosition view) {
+Image<Known> draw_lines(const DiffusionPainting& painting, ViewPosition view, const Hiding& hiding) {
   constexpr float same_surface_px = 1;
   const int width = painting.width, height = painting.height;
   Image<float> nearest(width, height, -std::numeric_limits<float>::infinity());
   walk_lines(painting, view, [&](const LinePlace& place) {
+    if (is_hidden(place, hiding)) return;
     spread(place, width, height, [&](int x, int y, float share) {
       constexpr float least_share = 0.25f;
       if (share >= least_share) nearest(x, y) = std::max(nearest(x, y), place.disparity);
@@ -84,6 +93,7 @@ Image<Known> draw_lines(const DiffusionPainting& painting, ViewPosition view) {
   });
   Image<Known> known(width, height);
   walk_lines(painting, view, [&](const LinePlace& place) {
+    if (is_hidden(place, hiding)) return;
     spread(place, width, height, [&](int x, int y, float share) {
       if (place.disparity < nearest(x, y) - same_surface_px) return;
       Known& pixel = known(x, y);
@@ -187,12 +197,10 @@ void spread_colours(Image<Known>& known) {
   known = std::move(coarser);
 }
 
-}  // namespace
-
-DrawnView draw(const DiffusionPainting& painting, ViewPosition view) {
+DrawnView draw_view(const DiffusionPainting& painting, ViewPosition view, const Hiding& hiding) {
   DrawnView drawn{Image<Rgb8>(painting.width, painting.height, {128, 128, 128}), 1,
-                  Image<std::uint8_t>(painting.width, painting.height, 255), Image<float>()};
-  Image<Known> known = draw_lines(painting, view);
+                  Image<std::uint8_t>(painting.width, painting.height, 255)};
+  Image<Known> known = draw_lines(painting, view, hiding);
   const bool any = std::ranges::any_of(known.pixels(), [](const Known& pixel) { return pixel.weight > 0; });
   if (!any) return drawn;
   spread_colours(known);
@@ -204,6 +212,13 @@ DrawnView draw(const DiffusionPainting& painting, ViewPosition view) {
   }
   drawn.bare_share = 0;
   return drawn;
+}
+
+}  // namespace
+
+void draw_marks(const DiffusionPainting& painting, std::span<const ViewToDraw> views) {
+  tbb::parallel_for(std::size_t{0}, views.size(),
+                    [&](std::size_t i) { views[i].drawn = draw_view(painting, views[i].position, views[i].hiding); });
 }
 
 }  // namespace wheatstone

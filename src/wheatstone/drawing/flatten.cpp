@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "wheatstone/marks/spline.h"
 
@@ -13,16 +14,18 @@ namespace {
 constexpr float tolerance_px = 0.125f;
 constexpr int most_segments_a_span = 16;
 
-float squared_second_difference(PlanePoint a, PlanePoint b, PlanePoint c) {
-  const float x = a.x - 2 * b.x + c.x, y = a.y - 2 * b.y + c.y;
+/// By how far three controls of a spline bend, in the view where they bend most.
+float squared_second_difference(const SpatialPoint& a, const SpatialPoint& b, const SpatialPoint& c) {
+  const float depth = std::abs(a.disparity - 2 * b.disparity + c.disparity) * (right_eye - central_view);
+  const float x = std::abs(a.x - 2 * b.x + c.x) + depth, y = a.y - 2 * b.y + c.y;
   return x * x + y * y;
 }
 
 /// Segments that a span needs: a cubic leaves its chord by at most an eighth of its largest second difference, and n
 /// segments divide that by n².
 int segment_count(const ClampedSpline& spline, int span) {
-  const PlanePoint a = spline.control(span), b = spline.control(span + 1), c = spline.control(span + 2),
-                   d = spline.control(span + 3);
+  const SpatialPoint a = spline.control(span), b = spline.control(span + 1), c = spline.control(span + 2),
+                     d = spline.control(span + 3);
   const float squared = std::max(squared_second_difference(a, b, c), squared_second_difference(b, c, d));
   constexpr float enough_for_one = 8 * tolerance_px;
   if (squared <= enough_for_one * enough_for_one) return 1;
@@ -37,15 +40,21 @@ std::uint32_t vertex_count(const ClampedSpline& spline) {
 
 void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& flat) {
   std::size_t vertex = stroke.first_vertex;
-  const auto add = [&](PlanePoint p) {
+  const auto add = [&](const SpatialPoint& p) {
     flat.x[vertex] = p.x;
     flat.y[vertex] = p.y;
+    flat.disparity[vertex] = p.disparity;
     ++vertex;
     stroke.top = std::min(stroke.top, p.y);
     stroke.bottom = std::max(stroke.bottom, p.y);
+    stroke.left = std::min(stroke.left, p.x);
+    stroke.right = std::max(stroke.right, p.x);
+    stroke.farthest_disparity = std::min(stroke.farthest_disparity, p.disparity);
   };
-  const PlanePoint begin = spline.control(0);
+  const SpatialPoint begin = spline.control(0);
   stroke.top = stroke.bottom = begin.y;
+  stroke.left = stroke.right = begin.x;
+  stroke.farthest_disparity = begin.disparity;
   add(begin);
   for (int span = 0; span < spline.span_count(); ++span) {
     const int segments = segment_count(spline, span);
@@ -54,20 +63,40 @@ void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& 
   }
 }
 
+/// Fits a plane that slopes along the columns to a stroke's disparities.
+void fit_depth(const FlatLayer& flat, FlatStroke& stroke) {
+  constexpr float rigid_px = 0.5f, least_radius_px = 1.25f;  // the rims of thinner strokes are too round to interpolate
+  const auto disparities = std::span(flat.disparity).subspan(stroke.first_vertex, stroke.vertex_count);
+  const auto rows = std::span(flat.y).subspan(stroke.first_vertex, stroke.vertex_count);
+  const auto count = static_cast<float>(stroke.vertex_count);
+  float mean_row = 0, mean = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    mean_row += rows[i] / count;
+    mean += disparities[i] / count;
+  }
+  float row_variance = 0, covariance = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    row_variance += (rows[i] - mean_row) * (rows[i] - mean_row);
+    covariance += (rows[i] - mean_row) * (disparities[i] - mean);
+  }
+  const bool is_long = row_variance > count;  // the rows of a stroke that is not do not tell a slope
+  stroke.depth_slope = is_long ? covariance / row_variance : 0;
+  stroke.disparity = mean - stroke.depth_slope * mean_row;
+  stroke.is_rigid = stroke.radius_px >= least_radius_px;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (std::abs(disparities[i] - stroke.disparity - stroke.depth_slope * rows[i]) > rigid_px) stroke.is_rigid = false;
+}
+
 }  // namespace
 
-FlatLayer flatten(const Layer& layer, ViewPosition view) {
-  std::vector<const Stroke*> shown;
-  shown.reserve(layer.strokes.size());
-  for (const Stroke& stroke : layer.strokes)
-    if (stroke.views.contains(view)) shown.push_back(&stroke);
-
+FlatLayer flatten(const Layer& layer) {
+  const std::size_t count = layer.strokes.size();
   FlatLayer flat;
-  flat.strokes.resize(shown.size());
+  flat.strokes.resize(count);
   const auto spline_of = [&](std::size_t i) {
-    return ClampedSpline(layer.points_of(*shown[i]), shown[i]->reference_view, view);
+    return ClampedSpline(layer.points_of(layer.strokes[i]), layer.strokes[i].reference_view);
   };
-  tbb::parallel_for(std::size_t{0}, shown.size(),
+  tbb::parallel_for(std::size_t{0}, count,
                     [&](std::size_t i) { flat.strokes[i].vertex_count = vertex_count(spline_of(i)); });
 
   std::uint32_t vertices = 0;
@@ -77,17 +106,21 @@ FlatLayer flatten(const Layer& layer, ViewPosition view) {
   }
   flat.x.resize(vertices);
   flat.y.resize(vertices);
+  flat.disparity.resize(vertices);
 
-  tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     FlatStroke& stroke = flat.strokes[i];
-    const Stroke& source = *shown[i];
+    const Stroke& source = layer.strokes[i];
     stroke.radius_px = source.radius_px;
     stroke.opacity = source.opacity;
-    stroke.disparity = source.disparity;
+    stroke.views = source.views;
+    stroke.number = source.number;
+    stroke.reference_view = source.reference_view;
     stroke.red = source.colour.r;
     stroke.green = source.colour.g;
     stroke.blue = source.colour.b;
     write_vertices(spline_of(i), stroke, flat);
+    fit_depth(flat, stroke);
   });
   return flat;
 }

@@ -7,25 +7,42 @@
 
 namespace wheatstone {
 
-/// A stroke as the rasteriser wants it: a chain of straight segments in one view.
+/// A stroke as the rasteriser wants it: a chain of straight segments.
 struct FlatStroke {
   std::uint32_t first_vertex = 0;
   std::uint32_t vertex_count = 0;  ///< one for a dot
   float radius_px = 0;
   float opacity = 1;
-  float red = 0, green = 0, blue = 0;  ///< 0..255
-  float disparity = 0;
-  float top = 0, bottom = 0;  ///< the rows its chain spans, without the radius
+  float red = 0, green = 0, blue = 0;    ///< 0..255
+  float farthest_disparity = 0;          ///< of its points
+  float top = 0, bottom = 0;             ///< the rows its chain spans, without the radius
+  float left = 0, right = 0;             ///< the columns, in the central view
+  float disparity = 0, depth_slope = 0;  ///< disparity + depth_slope · y is about that of all of its points
+  bool is_rigid = false;                 ///< … so nearly that the views see its rows shifted
+  ViewRange views;
+  std::uint32_t number = 0;
+  ViewPosition reference_view;
 };
 
-/// The strokes of one layer that one view shows, in drawing order; vertices as a structure of arrays.
+/// The strokes of one layer, in drawing order, for any view; vertices as a structure of arrays. A vertex at x in the
+/// central view stands at x − v · disparity in the view at v.
 struct FlatLayer {
-  std::vector<float> x, y;
+  std::vector<float> x, y, disparity;
   std::vector<FlatStroke> strokes;
 };
 
 /// Bends every stroke's cubic B-spline (clamped: it begins and ends at its outer control points) into segments that
-/// leave the curve by less than an eighth of a pixel.
-FlatLayer flatten(const Layer& layer, ViewPosition view);
+/// leave the curve by less than an eighth of a pixel in any view from eye to eye.
+FlatLayer flatten(const Layer& layer);
+
+/// A flat layer as one view sees it, in columns that are counted from `left_px`.
+struct SeenLayer {
+  SeenLayer(const FlatLayer& layer, ViewPosition view, int left = 0)
+      : flat(layer), shift(view - central_view), left_px(static_cast<float>(left)) {}
+  float x(std::size_t vertex) const { return flat.x[vertex] - shift * flat.disparity[vertex] - left_px; }
+
+  const FlatLayer& flat;
+  float shift, left_px;
+};
 
 }  // namespace wheatstone

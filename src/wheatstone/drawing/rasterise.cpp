@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 
@@ -31,12 +33,41 @@ DistanceBand::DistanceBand(int top_, int canvas_width, int canvas_height)
       begin(row_count),
       end(row_count) {}
 
-void rasterise(const Layer& layer, ViewPosition view, Canvas& canvas) {
-  const FlatLayer flat = flatten(layer, view);
+BandHiding::BandHiding(const Hiding& hiding, const DistanceBand& band, int canvas_width) {
+  if (hiding.surface.empty()) return;
+  constexpr float everything = std::numeric_limits<float>::infinity();
+  const auto fill = [&](HiddenBelow& below, auto least_seen) {
+    below.pixels.resize(band.squared.size(), -everything);
+    below.blocks.resize(static_cast<std::size_t>(band.stride / HiddenBelow::block_px + 1), -everything);
+    for (int row = 0; row < band.row_count; ++row) {
+      float* pixels = below.pixels.data() + static_cast<std::size_t>(row) * band.stride;
+      for (int x = 0; x < canvas_width; ++x) {
+        pixels[x] = least_seen(x, band.top + row);
+        float& block = below.blocks[static_cast<std::size_t>(x / HiddenBelow::block_px)];
+        block = std::max(block, pixels[x]);
+      }
+    }
+  };
+  const auto& [surface, reference, tolerance_px, reference_view] = hiding;
+  fill(own, [&](int x, int y) { return least_seen_disparity(surface(x, y), tolerance_px); });
+  if (reference.empty()) return;
+  fill(other, [&](int x, int y) { return least_seen_of_other(surface(x, y), reference(x, y), tolerance_px); });
+  fill(gaps, [&](int x, int y) {
+    return std::isnan(reference(x, y)) ? everything : least_seen_disparity(surface(x, y), tolerance_px);
+  });
+}
+
+void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas) {
+  const FlatLayer flat = flatten(layer);
+  const SeenLayer seen(flat, view);
   const auto bands = strokes_by_band(flat, canvas.height);
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {
     DistanceBand band(i * band_rows, canvas.width, canvas.height);
-    for (const std::uint32_t stroke : bands[i]) draw_stroke_over(flat, flat.strokes[stroke], band, canvas);
+    const BandHiding hides(hiding, band, canvas.width);
+    for (const std::uint32_t place : bands[i]) {
+      const FlatStroke& stroke = flat.strokes[place];
+      if (stroke.views.contains(view)) draw_stroke_over({seen, stroke, hides.own}, band, canvas);
+    }
   });
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
 #include "wheatstone/drawing/canvas.h"
+#include "wheatstone/drawing/hiding.h"
 #include "wheatstone/marks/stroke_painting.h"
 
 namespace wheatstone {
 
-/// Draws one layer's strokes over a canvas, in their order, as the view position `view` sees them: what the next layer
-/// is planned against. Antialiased; a stroke's cover is the largest of its dabs', so that where it crosses itself it is
-/// not darker. Parallel over bands of rows; the same bytes on any number of threads.
-void rasterise(const Layer& layer, ViewPosition view, Canvas& canvas);
+/// Draws one layer's strokes over a canvas, in their order, as far as the view position `view` sees them: what the next
+/// layer is planned against. Antialiased; a stroke's cover is the largest of its dabs', so that where it crosses itself
+/// it is not darker. Parallel over bands of rows; the same bytes on any number of threads.
+void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas);
 
 }  // namespace wheatstone

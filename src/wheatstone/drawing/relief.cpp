@@ -1,4 +1,4 @@
-#include "wheatstone/drawing/relief.h"
+#include "wheatstone/drawing/relief_internal.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wheatstone/drawing/flatten_internal.h"
-#include "wheatstone/drawing/rasterise_internal.h"
+#include "wheatstone/drawing/relief.h"
 #include "wheatstone/random.h"
 
 namespace wheatstone {
@@ -42,36 +41,23 @@ float bristle_height(std::uint64_t seed, float radius_px, float bristle_px, cons
   return (0.7f * ridge + 0.3f * along) * (1 - 0.35f * to_rim * to_rim);
 }
 
-/// One layer as the view sees it.
-struct SeenLayer {
-  FlatLayer flat;
-  std::vector<std::vector<std::uint32_t>> bands;
-  std::vector<std::uint64_t> seeds;  ///< of each flat stroke's bristles
-};
-
-SeenLayer seen_layer(const Layer& layer, ViewPosition view, int height, std::uint64_t number) {
-  SeenLayer seen{flatten(layer, view), {}, {}};
-  seen.bands = strokes_by_band(seen.flat, height);
-  // A stroke's number tells its bristles in every view and frame; without one, its place among all of its layer, seen
-  // or not.
-  for (std::size_t i = 0; i < layer.strokes.size(); ++i) {
-    const Stroke& stroke = layer.strokes[i];
-    if (stroke.views.contains(view)) seen.seeds.push_back(hash_keys({number, stroke.number != 0 ? stroke.number : i}));
-  }
-  return seen;
+/// A stroke's number tells its bristles in every view and frame; without one, its place in its layer.
+std::uint64_t bristle_seed(const FlatStroke& stroke, std::size_t place, std::size_t layer) {
+  return hash_keys({layer, stroke.number != 0 ? stroke.number : place});
 }
 
 /// Pixels of a band: what the stroke at hand is nearest to.
 class ReliefBand {
  public:
-  ReliefBand(int top, float bristle_px, Image<float>& relief)
+  ReliefBand(int top, float bristle_px, const Hiding& hiding, Image<float>& relief)
       : top_(top),
         bristle_px_(bristle_px),
+        hiding_(hiding),
         bottom_(std::min(top + band_rows, relief.height())),
         relief_(relief),
         places_(static_cast<std::size_t>(relief.width()) * static_cast<std::size_t>(band_rows)) {}
 
-  void add(const FlatLayer& layer, const FlatStroke& stroke, std::uint64_t seed) {
+  void add(const SeenLayer& layer, const FlatStroke& stroke, std::uint64_t seed) {
     const BrushProfile brush(stroke.radius_px);
     Columns touched{relief_.width(), 0};
     float along = 0;
@@ -79,8 +65,13 @@ class ReliefBand {
     for (std::uint32_t s = 0; s < segments; ++s) {
       const std::size_t from = stroke.first_vertex + s,
                         to = std::min(s + 1, stroke.vertex_count - 1) + stroke.first_vertex;
-      measure({{layer.x[from], layer.y[from]}, {layer.x[to], layer.y[to]}, along}, brush.reach_px, touched);
-      along += std::hypot(layer.x[to] - layer.x[from], layer.y[to] - layer.y[from]);
+      const std::vector<float>&y = layer.flat.y, &disparity = layer.flat.disparity;
+      measure({{layer.x(from), y[from], disparity[from]},
+               {layer.x(to), y[to], disparity[to]},
+               along,
+               stroke.reference_view},
+              brush.reach_px, touched);
+      along += std::hypot(layer.x(to) - layer.x(from), y[to] - y[from]);
     }
     const int first = std::max(static_cast<int>(std::floor(stroke.top - brush.reach_px)), top_);
     const int end = std::min(static_cast<int>(std::ceil(stroke.bottom + brush.reach_px)) + 1, bottom_);
@@ -96,12 +87,13 @@ class ReliefBand {
 
  private:
   struct Point {
-    float x, y;
+    float x, y, disparity;
   };
   /// Of a stroke's spine; `along` is the length of the spine before it.
   struct Segment {
     Point a, b;
     float along;
+    ViewPosition planned_in;
   };
   struct Columns {
     int left, right;
@@ -121,7 +113,7 @@ class ReliefBand {
 
   /// Notes the pixels to which this is the nearest segment so far, and widens `touched` to their columns.
   void measure(const Segment& segment, float reach, Columns& touched) {
-    const auto [a, b, along] = segment;
+    const auto [a, b, along, planned_in] = segment;
     const float dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
     const int first_x = std::max(static_cast<int>(std::floor(std::min(a.x, b.x) - reach)), 0);
     const int end_x = std::min(static_cast<int>(std::ceil(std::max(a.x, b.x) + reach)) + 1, relief_.width());
@@ -137,6 +129,9 @@ class ReliefBand {
         const float distance = std::hypot(px - t * dx, py - t * dy);
         OnStroke& place = at(x, y);
         if (distance >= place.distance) continue;
+        const float disparity = a.disparity + t * (b.disparity - a.disparity);
+        if (is_hidden(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, disparity, planned_in, hiding_))
+          continue;
         const float beside = length > 0 ? (px * dy - py * dx) / length : py;
         place = {distance, along + t * length, beside};
       }
@@ -145,6 +140,7 @@ class ReliefBand {
 
   int top_;
   float bristle_px_;
+  const Hiding& hiding_;
   int bottom_;
   Image<float>& relief_;
   std::vector<OnStroke> places_;
@@ -152,16 +148,18 @@ class ReliefBand {
 
 }  // namespace
 
-Image<float> relief_of(const StrokePainting& painting, ViewPosition view, float bristle_px) {
-  std::vector<SeenLayer> layers(painting.layers.size());
-  tbb::parallel_for(std::size_t{0}, layers.size(),
-                    [&](std::size_t i) { layers[i] = seen_layer(painting.layers[i], view, painting.height, i); });
+Image<float> relief_of(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding, float bristle_px) {
+  std::vector<SeenLayer> layers;
+  for (const BandedLayer& layer : painting.layers) layers.emplace_back(layer.flat, view);
   Image<float> relief(painting.width, painting.height);
   tbb::parallel_for(0, (painting.height + band_rows - 1) / band_rows, [&](int i) {
-    ReliefBand band(i * band_rows, bristle_px, relief);
-    for (const SeenLayer& layer : layers)
-      for (const std::uint32_t stroke : layer.bands[static_cast<std::size_t>(i)])
-        band.add(layer.flat, layer.flat.strokes[stroke], layer.seeds[stroke]);
+    ReliefBand band(i * band_rows, bristle_px, hiding, relief);
+    for (std::size_t l = 0; l < layers.size(); ++l) {
+      for (const std::uint32_t place : painting.layers[l].bands[static_cast<std::size_t>(i)]) {
+        const FlatStroke& stroke = layers[l].flat.strokes[place];
+        if (stroke.views.contains(view)) band.add(layers[l], stroke, bristle_seed(stroke, place, l));
+      }
+    }
   });
   return relief;
 }
@@ -190,8 +188,9 @@ void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& pictu
   });
 }
 
-void light_paint(const StrokePainting& painting, ViewPosition view, const Relief& relief, Image<Rgb8>& picture) {
-  if (relief.depth_px > 0) light_relief(relief_of(painting, view, relief.bristle_px), relief.depth_px, picture);
+void light_paint(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding, const Relief& relief,
+                 Image<Rgb8>& picture) {
+  if (relief.depth_px > 0) light_relief(relief_of(painting, view, hiding, relief.bristle_px), relief.depth_px, picture);
 }
 
 Relief relief_for(const Style& style, int width) {

@@ -9,6 +9,9 @@
 
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/draw.h"
+#include "wheatstone/drawing/prepared_painting_internal.h"
+#include "wheatstone/drawing/relief_internal.h"
+#include "wheatstone/drawing/seen_surface_internal.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/painting/paint.h"
 
@@ -24,7 +27,7 @@ StrokePainting one_stroke(float disparity) {
 }
 
 TEST(Relief, MovesWithItsStroke) {
-  const StrokePainting painting = one_stroke(12);
+  const PreparedStrokes painting = prepare_marks(one_stroke(12));
   const Image<float> left = relief_of(painting, left_eye), right = relief_of(painting, right_eye);
   float highest = 0;
   for (int y = 0; y < 48; ++y) {
@@ -68,17 +71,25 @@ TEST(Relief, TexturedStrokesFuseWhereIndependentEyesDoNot) {
   const PaintedPair textured = paint_scene(Propagation::strokes);
   EXPECT_LT(difference(textured), 0.35 * difference(paint_scene(Propagation::independent)));
   EXPECT_LT(textured.right_bare_share, 0.005);
-  EXPECT_NE(textured.pictures.left, draw(textured.painting.strokes, left_eye).picture);
+  const StereoPair photographs = test_scene::photographs();
+  const auto left_without = [&](bool relief) {
+    return draw(prepare(textured.painting, {.relief = relief}), left_eye, photographs.left).picture;
+  };
+  EXPECT_EQ(textured.pictures.left, left_without(true));
+  EXPECT_NE(textured.pictures.left, left_without(false));
 }
 
 TEST(Relief, GivesTheSameBytesOnAnyNumberOfThreads) {
   Style style;
   style.absolute_radii = true;
-  const StrokePainting painting = paint(test_scene::photographs(), test_scene::geometry(), style).painting.strokes;
+  const Painting painted = paint(test_scene::photographs(), test_scene::geometry(), style).painting;
+  const SeenSurfaces seen =
+      seen_surfaces(PreparedSurfaces(painted.surfaces), right_eye, test_scene::width, test_scene::height);
   Image<float> first;
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    const Image<float> relief = relief_of(painting, right_eye);
+    const Image<float> relief =
+        relief_of(prepare_marks(std::get<StrokePainting>(painted.marks)), right_eye, seen.hiding);
     if (first.empty()) first = relief;
     EXPECT_EQ(relief, first);
   }

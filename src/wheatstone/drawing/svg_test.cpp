@@ -9,6 +9,8 @@
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/fit_curve_internal.h"
+#include "wheatstone/drawing/prepared_painting_internal.h"
+#include "wheatstone/drawing/seen_surface_internal.h"
 #include "wheatstone/drawing/visible_strokes_internal.h"
 #include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/painting/paint.h"
@@ -36,19 +38,19 @@ TEST(Svg, LeavesOutStrokesThatAreWhollyHidden) {
   StrokePainting painting{.width = 40, .height = 30};
   add_stroke(painting, 15, 2, {255, 0, 0});
   add_stroke(painting, 15, 5, {0, 255, 0});
-  EXPECT_THAT(svg_of(painting, left_eye), testing::Not(HasSubstr("#ff0000")));
-  EXPECT_THAT(svg_of(painting, left_eye), HasSubstr("#00ff00"));
+  EXPECT_THAT(svg_of(Painting{painting}, left_eye), testing::Not(HasSubstr("#ff0000")));
+  EXPECT_THAT(svg_of(Painting{painting}, left_eye), HasSubstr("#00ff00"));
   painting.layers.back().strokes[0].opacity = 0.7f;
-  EXPECT_THAT(svg_of(painting, left_eye), HasSubstr("#ff0000")) << "it shines through";
+  EXPECT_THAT(svg_of(Painting{painting}, left_eye), HasSubstr("#ff0000")) << "it shines through";
   painting.layers.back().strokes[0].opacity = 1;
   painting.layers.back().strokes[0].radius_px = 1.5f;
-  EXPECT_THAT(svg_of(painting, left_eye), HasSubstr("#ff0000")) << "it shows on either side";
+  EXPECT_THAT(svg_of(Painting{painting}, left_eye), HasSubstr("#ff0000")) << "it shows on either side";
 }
 
 TEST(Svg, AStraightStrokeIsOneLineInTenthsOfAPixel) {
   StrokePainting painting{.width = 40, .height = 30};
   add_stroke(painting, 15.04f, 2, {255, 0, 0});
-  const std::string svg = svg_of(painting, left_eye);
+  const std::string svg = svg_of(Painting{painting}, left_eye);
   EXPECT_THAT(svg, HasSubstr("d=\"M50 150l300 0\""));
   EXPECT_THAT(svg, HasSubstr("width=\"40\" height=\"30\" viewBox=\"0 0 400 300\""));
   EXPECT_EQ(count_of(svg, "<svg"), 1u);
@@ -84,13 +86,15 @@ TEST(FitCurves, StayWithinTheToleranceWithFewCurves) {
 }
 
 /// The painting without the strokes that the view does not see.
-StrokePainting without_hidden(const StrokePainting& painting, ViewPosition view, float least_share) {
-  const auto visible = visible_strokes(painting, view, least_share);
-  StrokePainting kept = painting;
-  for (std::size_t l = 0; l < kept.layers.size(); ++l) {
-    std::size_t shown = 0;
-    std::erase_if(kept.layers[l].strokes,
-                  [&](const Stroke& s) { return s.views.contains(view) && visible[l][shown++] == 0; });
+Painting without_hidden(const Painting& painting, ViewPosition view, float least_share) {
+  const SeenSurfaces seen =
+      seen_surfaces(PreparedSurfaces(painting.surfaces), view, width_of(painting), height_of(painting));
+  Painting kept = painting;
+  auto& strokes = std::get<StrokePainting>(kept.marks);
+  const auto visible = visible_strokes(prepare_marks(strokes), view, seen.hiding, least_share);
+  for (std::size_t l = 0; l < strokes.layers.size(); ++l) {
+    std::size_t i = 0;
+    std::erase_if(strokes.layers[l].strokes, [&](const Stroke&) { return visible[l][i++] == 0; });
   }
   return kept;
 }
@@ -99,8 +103,8 @@ TEST(Svg, StrokesThatAreLeftOutDoNotShowInThePicture) {
   Style style = style_by_name("expressionist");
   style.background = Background::colour;
   const PaintedPair painted = paint(test_scene::photographs(), test_scene::geometry(), style);
-  const StrokePainting kept = without_hidden(painted.painting.strokes, left_eye, 1.f / 128);
-  const Image<Rgb8> before = draw(painted.painting.strokes, left_eye).picture, after = draw(kept, left_eye).picture;
+  const Painting kept = without_hidden(painted.painting, left_eye, 1.f / 128);
+  const Image<Rgb8> before = draw(painted.painting, left_eye).picture, after = draw(kept, left_eye).picture;
   int worst = 0;
   double sum = 0;
   for (std::size_t i = 0; i < before.pixels().size(); ++i) {
@@ -112,23 +116,24 @@ TEST(Svg, StrokesThatAreLeftOutDoNotShowInThePicture) {
   EXPECT_LE(worst, 8);
   EXPECT_LE(sum / static_cast<double>(before.pixels().size()), 0.5);
   std::size_t strokes = 0;
-  for (const Layer& layer : kept.layers)
-    strokes += static_cast<std::size_t>(
-        std::ranges::count_if(layer.strokes, [](const Stroke& s) { return s.views.contains(left_eye); }));
-  EXPECT_EQ(count_of(svg_of(painted.painting.strokes, left_eye), "<path"), strokes);
+  for (const Layer& layer : std::get<StrokePainting>(kept.marks).layers) strokes += layer.strokes.size();
+  const std::string svg = svg_of(painted.painting, left_eye);
+  // A surface may hide the middle of a brush whose rim shows.
+  EXPECT_LE(count_of(svg, "<path"), strokes);
+  EXPECT_GT(count_of(svg, "<path"), strokes - strokes / 20);
   // A pixel of this picture holds no more than 24 bytes of SVG, where every stroke with all its points would take 180.
-  EXPECT_LE(svg_of(painted.painting.strokes, left_eye).size(), 24u * test_scene::width * test_scene::height);
+  EXPECT_LE(svg.size(), 24u * test_scene::width * test_scene::height);
 }
 
 TEST(Svg, DiffusionCurvesLieOverTheDrawnView) {
   DiffusionPainting painting{.width = 40, .height = 30};
   painting.points = {{{2, 3, 0}, {200, 0, 0}}, {{20, 3, 0}, {204, 0, 0}}, {{30, 3, 0}, {0, 0, 200}}};
   painting.lines = {{.point_count = 3}};
-  const std::string svg = svg_of(painting, left_eye, "\x89PNG");
+  const std::string svg = svg_of(Painting{painting}, left_eye, "\x89PNG");
   EXPECT_THAT(svg, HasSubstr("xlink:href=\"data:image/png;base64,iVBORw==\""));
+  EXPECT_THAT(svg_of(Painting{painting}, left_eye), testing::Not(HasSubstr("<image")));
   EXPECT_EQ(count_of(svg, "<path"), 2u) << "a piece for each of two colours";
   EXPECT_THAT(svg, HasSubstr("M20 30l180 0 100 0"));
-  EXPECT_THAT(svg_of(painting, left_eye), testing::Not(HasSubstr("<image")));
 }
 
 }  // namespace

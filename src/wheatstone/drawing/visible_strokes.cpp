@@ -13,19 +13,22 @@ namespace {
 /// The light that comes through a rectangle of a band, before a stroke is drawn under what is there.
 class LightBefore {
  public:
-  void keep(const FlatLayer& layer, const FlatStroke& stroke, const DistanceBand& band,
+  void keep(const SeenLayer& layer, const FlatStroke& stroke, const DistanceBand& band,
             const FrontToBackAccumulator& accumulator) {
     const float reach = BrushProfile(stroke.radius_px).reach_px + 1;
-    const auto [left, right] = std::minmax_element(layer.x.begin() + stroke.first_vertex,
-                                                   layer.x.begin() + stroke.first_vertex + stroke.vertex_count);
+    float left = layer.x(stroke.first_vertex), right = left;
+    for (std::uint32_t i = 1; i < stroke.vertex_count; ++i) {
+      left = std::min(left, layer.x(stroke.first_vertex + i));
+      right = std::max(right, layer.x(stroke.first_vertex + i));
+    }
     const auto clamped = [](float place, int most) {
       return static_cast<int>(std::clamp(std::floor(place), 0.f, static_cast<float>(most)));
     };
     const auto top = static_cast<float>(band.top);
     first_row_ = clamped(stroke.top - reach - top, band.row_count);
     end_row_ = clamped(stroke.bottom + reach + 1 - top, band.row_count);
-    begin_ = clamped(*left - reach, accumulator.width);
-    end_ = clamped(*right + reach + 1, accumulator.width);
+    begin_ = clamped(left - reach, accumulator.width);
+    end_ = clamped(right + reach + 1, accumulator.width);
     light_.clear();
     for (int row = first_row_; row < end_row_; ++row) {
       const float* from = accumulator.light.data() + static_cast<std::size_t>(row) * accumulator.stride;
@@ -51,33 +54,38 @@ class LightBefore {
 
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> visible_strokes(const StrokePainting& painting, ViewPosition view,
-                                                       float least_share) {
-  std::vector<FlatLayer> layers;
-  std::vector<std::vector<std::vector<std::uint32_t>>> bands_of;
+std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& painting, ViewPosition view,
+                                                       const Hiding& hiding, float least_share) {
+  std::vector<SeenLayer> layers;
   std::vector<std::vector<std::uint8_t>> visible;
-  for (const Layer& layer : painting.layers) {
-    layers.push_back(flatten(layer, view));
-    bands_of.push_back(strokes_by_band(layers.back(), painting.height));
-    visible.emplace_back(layers.back().strokes.size(), std::uint8_t{0});
+  for (const BandedLayer& layer : painting.layers) {
+    layers.emplace_back(layer.flat, view);
+    visible.emplace_back(layer.flat.strokes.size(), std::uint8_t{0});
   }
   const int bands = (painting.height + band_rows - 1) / band_rows;
   tbb::parallel_for(0, bands, [&](int i) {
     DistanceBand band(i * band_rows, painting.width, painting.height);
+    const BandHiding hides(hiding, band, painting.width);
     FrontToBackAccumulator accumulator(band.row_count, painting.width);
     LightBefore before;
-    for (std::size_t above = layers.size(); above-- > 0;) {
-      const FlatLayer& layer = layers[above];
-      const std::vector<std::uint32_t>& strokes = bands_of[above][i];
-      for (std::size_t nearer = strokes.size(); nearer-- > 0;) {
-        const FlatStroke& stroke = layer.strokes[strokes[nearer]];
-        before.keep(layer, stroke, band, accumulator);
-        draw_stroke_under(layer, stroke, band, accumulator);
-        // A stroke that lies in several bands is marked by whichever sees it.
-        if (before.largest_share_taken(accumulator) > least_share)
-          std::atomic_ref(visible[above][strokes[nearer]]).store(1, std::memory_order_relaxed);
+    const auto look_at_strokes = [&](auto hidden_below) {
+      for (std::size_t above = layers.size(); above-- > 0;) {
+        const std::vector<std::uint32_t>& strokes = painting.layers[above].bands[i];
+        for (std::size_t nearer = strokes.size(); nearer-- > 0;) {
+          const FlatStroke& stroke = layers[above].flat.strokes[strokes[nearer]];
+          if (!stroke.views.contains(view)) continue;
+          const HiddenBelow* const below = hidden_below(hiding.is_own(stroke.reference_view));
+          if (below == nullptr) continue;
+          before.keep(layers[above], stroke, band, accumulator);
+          draw_stroke_under({layers[above], stroke, *below}, band, accumulator);
+          // A stroke that lies in several bands is marked by whichever sees it.
+          if (before.largest_share_taken(accumulator) > least_share)
+            std::atomic_ref(visible[above][strokes[nearer]]).store(1, std::memory_order_relaxed);
+        }
       }
-    }
+    };
+    look_at_strokes([&](bool own) { return own ? &hides.own : &hides.other; });
+    if (!hiding.reference.empty()) look_at_strokes([&](bool own) { return own ? nullptr : &hides.gaps; });
   });
   return visible;
 }

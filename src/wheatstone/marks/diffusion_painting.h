@@ -20,7 +20,7 @@ struct ColourLine {
   std::uint32_t first_point = 0;  ///< index into its painting's points
   std::uint32_t point_count = 0;
   ViewPosition reference_view = left_eye;  ///< the view in which its points stand
-  ViewRange views;
+  ViewRange views;                         ///< in which it may be drawn, where no surface hides it
   friend bool operator==(const ColourLine&, const ColourLine&) = default;
 };
 

@@ -1,44 +1,169 @@
 #include "wheatstone/marks/painting.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include "wheatstone/marks/resize_strokes.h"
+#include <limits>
 
 namespace wheatstone {
 namespace {
 
-ControlPoint times(const ControlPoint& point, float factor) {
-  return {point.x * factor, point.y * factor, point.disparity * factor};
+int times(int length_px, double factor) { return static_cast<int>(std::round(length_px * factor)); }
+
+// Calls `visit(point, reference view)` for the points of all marks.
+
+template <class Visit>
+void visit_points(StrokePainting& painting, Visit visit) {
+  for (Layer& layer : painting.layers)
+    for (const Stroke& stroke : layer.strokes)
+      for (std::uint32_t i = 0; i < stroke.point_count; ++i)
+        visit(layer.points[stroke.first_point + i], stroke.reference_view);
 }
 
-int times(int length_px, double factor) { return static_cast<int>(std::round(length_px * factor)); }
+template <class Visit>
+void visit_points(RegionPainting& painting, Visit visit) {
+  for (const RegionMark& mark : painting.marks)
+    for (const Ring& ring : painting.rings_of(mark))
+      for (std::uint32_t i = 0; i < ring.point_count; ++i)
+        visit(painting.points[ring.first_point + i], mark.reference_view);
+}
+
+template <class Visit>
+void visit_points(DiffusionPainting& painting, Visit visit) {
+  for (const ColourLine& line : painting.lines)
+    for (std::uint32_t i = 0; i < line.point_count; ++i)
+      visit(painting.points[line.first_point + i].at, line.reference_view);
+}
+
+/// Moves marks and surfaces to where they are drawn. A point stands in a reference view, where less disparity is a
+/// shift, too.
+class Mover {
+ public:
+  explicit Mover(const Placement& to) : to_(to), scale_(static_cast<float>(to.scale)) {}
+
+  template <class Marks>
+  void move(Marks& marks) const {
+    visit_points(marks, [this](ControlPoint& point, ViewPosition reference_view) {
+      point = {static_cast<float>((static_cast<double>(point.x) + shift_in(reference_view) - to_.left) * to_.scale),
+               static_cast<float>((static_cast<double>(point.y) - to_.top) * to_.scale), disparity(point.disparity)};
+    });
+    move_whole_marks(marks);
+    marks.width = to_.width;
+    marks.height = to_.height;
+  }
+
+  /// Between two surfaces there is no third one: disparities are not interpolated.
+  Surface moved(const Surface& surface) const {
+    const Image<float>& from = surface.disparity;
+    const double first = (surface.left_px + shift_in(surface.view) - to_.left) * to_.scale;
+    Surface to{surface.view, Image<float>(std::max(times(from.width(), to_.scale), 1), to_.height),
+               static_cast<int>(std::floor(first)), surface.continued};
+    for (int y = 0; y < to_.height; ++y) {
+      const int row = static_cast<int>(std::floor((y + 0.5) / to_.scale + to_.top));
+      for (int x = 0; x < to.disparity.width(); ++x) {
+        const int column = static_cast<int>(std::floor((x + 0.5 + to.left_px - first) / to_.scale));
+        to.disparity(x, y) =
+            from.contains(column, row) ? disparity(from(column, row)) : std::numeric_limits<float>::quiet_NaN();
+      }
+    }
+    return to;
+  }
+
+ private:
+  float disparity(float d) const { return scale_ * (d - to_.zero_parallax_px); }
+  double shift_in(ViewPosition view) const {
+    return static_cast<double>(view - central_view) * static_cast<double>(to_.zero_parallax_px);
+  }
+
+  void move_whole_marks(StrokePainting& painting) const {
+    for (Layer& layer : painting.layers) {
+      layer.radius_px *= scale_;
+      for (Stroke& stroke : layer.strokes) {
+        stroke.radius_px *= scale_;
+        stroke.disparity = disparity(stroke.disparity);
+      }
+    }
+  }
+  void move_whole_marks(RegionPainting& painting) const {
+    for (RegionMark& mark : painting.marks) mark.disparity = disparity(mark.disparity);
+  }
+  void move_whole_marks(DiffusionPainting& /*painting*/) const {}
+
+  Placement to_;
+  float scale_;
+};
 
 }  // namespace
 
-Painting resized(Painting painting, double scale) {
-  const auto resize = [&](auto& part) {
-    part.width = times(part.width, scale);
-    part.height = times(part.height, scale);
-  };
-  const auto factor = static_cast<float>(scale);
-  resize(painting.strokes);
-  resize(painting.regions);
-  resize(painting.curves);
-  for (Layer& layer : painting.strokes.layers) resize_strokes(layer, factor);
-  for (ControlPoint& point : painting.regions.points) point = times(point, factor);
-  for (RegionMark& mark : painting.regions.marks) mark.disparity *= factor;
-  for (ColourPoint& point : painting.curves.points) point.at = times(point.at, factor);
-  painting.relief.depth_px *= factor;
-  painting.relief.bristle_px *= factor;
+int width_of(const Painting& painting) {
+  return std::visit([](const auto& marks) { return marks.width; }, painting.marks);
+}
+
+int height_of(const Painting& painting) {
+  return std::visit([](const auto& marks) { return marks.height; }, painting.marks);
+}
+
+std::span<const Layer> layers_of(const Painting& painting) {
+  const auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
+  return strokes != nullptr ? std::span<const Layer>(strokes->layers) : std::span<const Layer>();
+}
+
+namespace {
+
+MarkCount count_marks(const StrokePainting& painting) {
+  MarkCount counted{"strokes"};
+  for (const Layer& layer : painting.layers) counted.count += layer.strokes.size();
+  return counted;
+}
+MarkCount count_marks(const RegionPainting& painting) { return {"regions", painting.marks.size()}; }
+MarkCount count_marks(const DiffusionPainting& painting) { return {"lines", painting.lines.size()}; }
+
+}  // namespace
+
+MarkCount count_marks(const Painting& painting) {
+  return std::visit([](const auto& marks) { return count_marks(marks); }, painting.marks);
+}
+
+Painting placed(Painting painting, const Placement& placement) {
+  Placement to = placement;
+  if (to.width == 0) to.width = times(width_of(painting), to.scale);
+  if (to.height == 0) to.height = times(height_of(painting), to.scale);
+  const Mover mover(to);
+  std::visit([&](auto& marks) { mover.move(marks); }, painting.marks);
+  for (Surface& surface : painting.surfaces.seen) surface = mover.moved(surface);
+  const auto scale = static_cast<float>(to.scale);
+  painting.surfaces.tolerance_px *= scale;
+  painting.relief.depth_px *= scale;
+  painting.relief.bristle_px *= scale;
   return painting;
 }
 
+void shift_marks(ViewPosition reference_view, float by_px, Painting& painting) {
+  const auto shift = [=](ControlPoint& point, ViewPosition view) {
+    if (view == reference_view) point.x += by_px;
+  };
+  std::visit([&](auto& marks) { visit_points(marks, shift); }, painting.marks);
+}
+
+namespace {
+
+void add_disparities(const StrokePainting& painting, std::vector<float>& to) {
+  for (const Layer& layer : painting.layers)
+    for (const Stroke& stroke : layer.strokes) to.push_back(stroke.disparity);
+}
+
+void add_disparities(const RegionPainting& painting, std::vector<float>& to) {
+  for (const RegionMark& mark : painting.marks) to.push_back(mark.disparity);
+}
+
+void add_disparities(const DiffusionPainting& painting, std::vector<float>& to) {
+  for (const ColourPoint& point : painting.points) to.push_back(point.at.disparity);
+}
+
+}  // namespace
+
 std::vector<float> disparities_of_marks(const Painting& painting) {
   std::vector<float> disparities;
-  for (const Layer& layer : painting.strokes.layers)
-    for (const Stroke& stroke : layer.strokes) disparities.push_back(stroke.disparity);
-  for (const RegionMark& mark : painting.regions.marks) disparities.push_back(mark.disparity);
-  for (const ColourPoint& point : painting.curves.points) disparities.push_back(point.at.disparity);
+  std::visit([&](const auto& marks) { add_disparities(marks, disparities); }, painting.marks);
   return disparities;
 }
 

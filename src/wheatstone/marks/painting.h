@@ -1,10 +1,14 @@
 #pragma once
 
+#include <span>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "wheatstone/marks/diffusion_painting.h"
 #include "wheatstone/marks/region_painting.h"
 #include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/marks/surfaces.h"
 
 namespace wheatstone {
 
@@ -15,18 +19,43 @@ struct Relief {
   friend bool operator==(const Relief&, const Relief&) = default;
 };
 
-/// A painting of one kind of marks: regions or curves where these have a size, else strokes. The other kinds are
-/// empty; `strokes` always has the size of the pictures.
+/// A painting: marks of one kind, and the surfaces that they lie on. Without surfaces nothing hides a mark, which is
+/// then drawn in the views that it names.
 struct Painting {
-  StrokePainting strokes;
-  RegionPainting regions;
-  DiffusionPainting curves;
-  Relief relief;  ///< of the strokes
+  std::variant<StrokePainting, RegionPainting, DiffusionPainting> marks;
+  Surfaces surfaces;
+  Relief relief;  ///< of strokes
   friend bool operator==(const Painting&, const Painting&) = default;
 };
 
-/// The painting, `scale` times as large: sizes are rounded to whole pixels.
-Painting resized(Painting painting, double scale);
+/// Size of the painting's pictures, in pixels.
+int width_of(const Painting& painting);
+int height_of(const Painting& painting);
+
+/// The layers of a painting of strokes; none of any other.
+std::span<const Layer> layers_of(const Painting& painting);
+
+/// How many marks there are, and what they are called.
+struct MarkCount {
+  std::string_view kind;  ///< "strokes", "regions" or "lines"
+  std::size_t count = 0;
+};
+MarkCount count_marks(const Painting& painting);
+
+/// How a painting is brought to pictures of another size.
+struct Placement {
+  int width = 0, height = 0;   ///< of the pictures; 0: the painting's own size, scaled
+  double scale = 1;            ///< pixels of the pictures for one of the painting
+  double left = 0, top = 0;    ///< place of the painting, in its own pixels, that comes to lie in the pictures' corner
+  float zero_parallax_px = 0;  ///< disparity, in the painting's own pixels, that becomes 0
+  friend bool operator==(const Placement&, const Placement&) = default;
+};
+
+/// The painting as it is to be drawn. A central view's place (x, y) comes to lie at scale · (x − left, y − top).
+Painting placed(Painting painting, const Placement& placement);
+
+/// Moves the marks that stand in one reference view to the right.
+void shift_marks(ViewPosition reference_view, float by_px, Painting& painting);
 
 /// How near each mark is, in no order: the disparities of strokes and regions, and of the points of curves.
 std::vector<float> disparities_of_marks(const Painting& painting);

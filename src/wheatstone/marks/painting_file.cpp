@@ -5,16 +5,21 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "painting_generated.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/marks/deflated_internal.h"
+#include "wheatstone/marks/disparity_code_internal.h"
 
 namespace wheatstone {
 namespace {
 
-constexpr std::uint32_t first_version = 1, current_version = 2;
+constexpr std::uint32_t first_version = 1, current_version = 3;
 constexpr std::size_t most_bytes = 0x7fffffff;  // FlatBuffers' own limit
 constexpr std::uint32_t largest_side_px = 65535;
 constexpr float farthest_view = 1000;  ///< more eye separations than any display has
@@ -77,6 +82,25 @@ flatbuffers::Offset<file::Curves> encode_curves(const DiffusionPainting& curves,
     lines.emplace_back(l.first_point, l.point_count, l.reference_view.eye_separations(),
                        l.views.first.eye_separations(), l.views.last.eye_separations());
   return file::CreateCurvesDirect(builder, &points.x, &points.y, &points.disparity, &colours, &lines);
+}
+
+struct MarksInFile {
+  Rgb8 canvas{255, 255, 255};
+  bool canvas_shows = true;
+  std::vector<flatbuffers::Offset<file::Layer>> layers;
+  flatbuffers::Offset<file::Regions> regions;
+  flatbuffers::Offset<file::Curves> curves;
+};
+
+flatbuffers::Offset<file::Surfaces> encode_surfaces(const Surfaces& surfaces, flatbuffers::FlatBufferBuilder& builder) {
+  std::vector<flatbuffers::Offset<file::Surface>> seen;
+  for (const Surface& s : surfaces.seen) {
+    const std::vector<std::uint8_t> bytes = encode_disparities(s.disparity);
+    seen.push_back(file::CreateSurfaceDirect(builder, s.view.eye_separations(), s.left_px,
+                                             static_cast<std::uint32_t>(s.disparity.width()),
+                                             static_cast<std::uint32_t>(s.disparity.height()), &bytes, s.continued));
+  }
+  return file::CreateSurfacesDirect(builder, surfaces.tolerance_px, &seen);
 }
 
 /// Throws, with the file's name in front, where a thing that must hold does not.
@@ -196,6 +220,28 @@ DiffusionPainting decode_curves(const file::Curves& from, int width, int height,
   return curves;
 }
 
+Surface decode_surface(const file::Surface& from, const Checker& checker) {
+  checker.expect(std::abs(from.view()) <= farthest_view, "a surface's view position is out of range");
+  checker.expect(from.width() >= 1 && from.height() >= 1 && from.width() <= largest_side_px &&
+                     from.height() <= largest_side_px && std::abs(std::int64_t{from.left_px()}) <= largest_side_px,
+                 "a surface's size or place is out of range");
+  std::optional<Image<float>> disparity =
+      decode_disparities({from.disparity()->data(), from.disparity()->size()}, static_cast<int>(from.width()),
+                         static_cast<int>(from.height()));
+  checker.expect(disparity.has_value(), "a surface is damaged");
+  return {ViewPosition(from.view()), std::move(*disparity), from.left_px(), from.continued()};
+}
+
+Surfaces decode_surfaces(const file::Surfaces& from, const Checker& checker) {
+  constexpr flatbuffers::uoffset_t most = 16;
+  checker.expect(from.seen()->size() <= most, fmt::format("the painting has more than {} surfaces", most));
+  checker.expect(from.tolerance_px() >= 0 && from.tolerance_px() <= static_cast<float>(largest_side_px),
+                 "the tolerance of the surfaces is out of range");
+  Surfaces surfaces{{}, from.tolerance_px()};
+  for (const file::Surface* surface : *from.seen()) surfaces.seen.push_back(decode_surface(*surface, checker));
+  return surfaces;
+}
+
 Painting decode_payload(const file::Painting& from, const Checker& checker) {
   checker.expect(
       from.width() >= 1 && from.height() >= 1 && from.width() <= largest_side_px && from.height() <= largest_side_px,
@@ -210,35 +256,65 @@ Painting decode_payload(const file::Painting& from, const Checker& checker) {
   checker.expect(from.relief_bristle_px() >= narrowest_bristle_px &&
                      from.relief_bristle_px() <= static_cast<float>(largest_side_px),
                  "the relief's bristles are out of range");
-  Painting any{{width, height, {from.canvas_red(), from.canvas_green(), from.canvas_blue()}, {}}, {}, {}};
-  for (const file::Layer* layer : *from.layers()) any.strokes.layers.push_back(decode_layer(*layer, checker));
-  if (from.regions() != nullptr) any.regions = decode_regions(*from.regions(), width, height, checker);
-  if (from.curves() != nullptr) any.curves = decode_curves(*from.curves(), width, height, checker);
-  any.relief = {from.relief_depth_px(), from.relief_bristle_px()};
-  return any;
+  Painting painting;
+  if (from.regions() != nullptr) {
+    painting.marks = decode_regions(*from.regions(), width, height, checker);
+  } else if (from.curves() != nullptr) {
+    painting.marks = decode_curves(*from.curves(), width, height, checker);
+  } else {
+    StrokePainting strokes{
+        width, height, {from.canvas_red(), from.canvas_green(), from.canvas_blue()}, {}, !from.canvas_hidden()};
+    for (const file::Layer* layer : *from.layers()) strokes.layers.push_back(decode_layer(*layer, checker));
+    painting.marks = std::move(strokes);
+  }
+  painting.relief = {from.relief_depth_px(), from.relief_bristle_px()};
+  if (from.surfaces() != nullptr) painting.surfaces = decode_surfaces(*from.surfaces(), checker);
+  return painting;
+}
+
+// Each kind of marks has its place in the file.
+
+void add_marks(const StrokePainting& painting, flatbuffers::FlatBufferBuilder& payload, MarksInFile& to) {
+  to.canvas = painting.canvas_colour;
+  to.canvas_shows = painting.canvas_shows;
+  for (const Layer& layer : painting.layers) to.layers.push_back(encode_layer(layer, payload));
+}
+void add_marks(const RegionPainting& painting, flatbuffers::FlatBufferBuilder& payload, MarksInFile& to) {
+  to.regions = encode_regions(painting, payload);
+}
+void add_marks(const DiffusionPainting& painting, flatbuffers::FlatBufferBuilder& payload, MarksInFile& to) {
+  to.curves = encode_curves(painting, payload);
+}
+
+/// FlatBuffers reads numbers where they lie: a copy puts them on even addresses whatever the file says.
+std::vector<std::uint8_t> payload_of(const file::PaintingFile& file, const Checker& checker) {
+  constexpr std::uint32_t first_deflated_version = 3;
+  const std::span<const std::uint8_t> stored(file.payload()->data(), file.payload()->size());
+  if (file.version() < first_deflated_version) return {stored.begin(), stored.end()};
+  checker.expect(file.payload_size() <= most_bytes, "the painting is damaged");
+  auto payload = inflated(stored, file.payload_size());
+  checker.expect(payload.has_value(), "the painting is damaged");
+  return std::move(*payload);
 }
 
 }  // namespace
 
-std::string encode_painting(const Painting& any) {
+std::string encode_painting(const Painting& painting) {
   flatbuffers::FlatBufferBuilder payload;
-  const StrokePainting& painting = any.strokes;
-  std::vector<flatbuffers::Offset<file::Layer>> layers;
-  for (const Layer& layer : painting.layers) layers.push_back(encode_layer(layer, payload));
-  flatbuffers::Offset<file::Regions> regions;
-  flatbuffers::Offset<file::Curves> curves;
-  if (any.regions.width > 0) regions = encode_regions(any.regions, payload);
-  if (any.curves.width > 0) curves = encode_curves(any.curves, payload);
-  payload.Finish(file::CreatePaintingDirect(payload, static_cast<std::uint32_t>(painting.width),
-                                            static_cast<std::uint32_t>(painting.height), painting.canvas_colour.r,
-                                            painting.canvas_colour.g, painting.canvas_colour.b, &layers, regions,
-                                            curves, any.relief.depth_px, any.relief.bristle_px));
+  MarksInFile marks;
+  std::visit([&](const auto& of_a_kind) { add_marks(of_a_kind, payload, marks); }, painting.marks);
+  flatbuffers::Offset<file::Surfaces> surfaces;
+  if (!painting.surfaces.seen.empty()) surfaces = encode_surfaces(painting.surfaces, payload);
+  payload.Finish(file::CreatePaintingDirect(
+      payload, static_cast<std::uint32_t>(width_of(painting)), static_cast<std::uint32_t>(height_of(painting)),
+      marks.canvas.r, marks.canvas.g, marks.canvas.b, &marks.layers, marks.regions, marks.curves,
+      painting.relief.depth_px, painting.relief.bristle_px, surfaces, !marks.canvas_shows));
 
   flatbuffers::FlatBufferBuilder builder;
-  const auto bytes = builder.CreateVector(payload.GetBufferPointer(), payload.GetSize());
+  const std::vector<std::uint8_t> bytes = deflated({payload.GetBufferPointer(), payload.GetSize()});
   file::FinishPaintingFileBuffer(
-      builder, file::CreatePaintingFile(builder, current_version,
-                                        checksum(payload.GetBufferPointer(), payload.GetSize()), bytes));
+      builder, file::CreatePaintingFileDirect(builder, current_version, checksum(bytes.data(), bytes.size()), &bytes,
+                                              payload.GetSize()));
   return {reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize()};
 }
 
@@ -251,7 +327,9 @@ Painting decode_painting(std::string_view bytes, std::string_view name) {
   const std::vector<std::uint8_t> aligned(bytes.begin(), bytes.end());
   const std::uint8_t* data = aligned.data();
   flatbuffers::Verifier verifier(data, aligned.size());
-  checker.expect(file::VerifyPaintingFileBuffer(verifier), "the painting is damaged or truncated");
+  // What FlatBuffers writes ends on such a boundary; what is cut off may be no more than padding.
+  const bool is_whole = aligned.size() % sizeof(flatbuffers::uoffset_t) == 0;
+  checker.expect(is_whole && file::VerifyPaintingFileBuffer(verifier), "the painting is damaged or truncated");
   const file::PaintingFile& file = *file::GetPaintingFile(data);
   checker.expect(
       file.version() >= first_version && file.version() <= current_version,
@@ -259,8 +337,7 @@ Painting decode_painting(std::string_view bytes, std::string_view name) {
   checker.expect(checksum(file.payload()->data(), file.payload()->size()) == file.checksum(),
                  "the painting is damaged: its checksum does not match");
 
-  // FlatBuffers reads numbers where they lie; a copy puts them on even addresses whatever the file says.
-  const std::vector<std::uint8_t> payload(file.payload()->begin(), file.payload()->end());
+  const std::vector<std::uint8_t> payload = payload_of(file, checker);
   flatbuffers::Verifier payload_verifier(payload.data(), payload.size());
   checker.expect(payload.size() >= smallest && payload_verifier.VerifyBuffer<file::Painting>(nullptr),
                  "the painting is damaged");

@@ -17,7 +17,7 @@ void write_painting(const std::filesystem::path& path, const Painting& painting)
 Painting read_painting(const std::filesystem::path& path);
 
 /// The same in memory; `name` stands for the file in messages.
-std::string encode_painting(const Painting& any);
+std::string encode_painting(const Painting& painting);
 Painting decode_painting(std::string_view bytes, std::string_view name);
 
 }  // namespace wheatstone

@@ -23,7 +23,7 @@ struct RegionMark {
   Rgb8 colour;
   float disparity = 0;                     ///< the mark's depth: its mean
   ViewPosition reference_view = left_eye;  ///< the view in which its points stand
-  ViewRange views;
+  ViewRange views;                         ///< in which it may be drawn, where no surface hides it
   friend bool operator==(const RegionMark&, const RegionMark&) = default;
 };
 

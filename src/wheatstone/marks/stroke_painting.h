@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "wheatstone/depth/view_position.h"
 #include "wheatstone/image/image.h"
+#include "wheatstone/marks/view_range.h"
 
 namespace wheatstone {
 
@@ -15,14 +15,6 @@ struct ControlPoint {
   float y = 0;
   float disparity = 0;
   friend bool operator==(const ControlPoint&, const ControlPoint&) = default;
-};
-
-/// The view positions in which a mark may be drawn, both ends included.
-struct ViewRange {
-  ViewPosition first = left_eye;
-  ViewPosition last = right_eye;
-  bool contains(ViewPosition view) const { return view >= first && view <= last; }
-  friend bool operator==(const ViewRange&, const ViewRange&) = default;
 };
 
 /// One stroke of the brush: a disc with a soft rim, drawn along a cubic B-spline. It covers a pixel once, however
@@ -35,8 +27,8 @@ struct Stroke {
   Rgb8 colour;
   float disparity = 0;                     ///< the stroke's depth: the disparity of the point where it was begun
   ViewPosition reference_view = left_eye;  ///< the view in which its points stand
-  ViewRange views;
-  std::uint32_t number = 0;  ///< names the stroke across the frames of a film, from 1; 0: none
+  ViewRange views;                         ///< in which it may be drawn, where no surface hides it
+  std::uint32_t number = 0;                ///< names the stroke across the frames of a film, from 1; 0: none
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 
@@ -52,13 +44,15 @@ struct Layer {
   friend bool operator==(const Layer&, const Layer&) = default;
 };
 
-/// A painting as a value: made once, drawn for any view. Layers are drawn in their order, coarse to fine, over a
-/// background that is either the view's photograph or `canvas_colour`.
+/// A painting as a value: made once, drawn for any view. Layers are drawn in their order, coarse to fine, over the
+/// view's photograph or the canvas.
 struct StrokePainting {
   int width = 0;  ///< of each view, in pixels
   int height = 0;
   Rgb8 canvas_colour{255, 255, 255};
   std::vector<Layer> layers;
+  bool canvas_shows =
+      true;  ///< false: without the photograph, thin paint is drawn opaque, and goes on where there is none
   friend bool operator==(const StrokePainting&, const StrokePainting&) = default;
 };
 

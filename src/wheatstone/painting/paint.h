@@ -14,8 +14,8 @@ struct PaintingTimes {
   double rasterising_s = 0;
 };
 
-/// A painting of both eyes and its two pictures. With Propagation::raster the right picture is made from pixels and is
-/// not what `draw` makes of the marks.
+/// A painting and its pictures for two eyes. With Propagation::raster the right picture is made from pixels and is not
+/// what `draw` makes of the marks.
 struct PaintedPair {
   Painting painting;
   StereoPair pictures;
@@ -24,13 +24,16 @@ struct PaintedPair {
   PaintingTimes times;
 };
 
-/// A rectified pair's painting, not drawn. What it takes and throws is as for `paint`.
-Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                       const Progress& progress = {});
+/// The views that paintings of photographs can be drawn for: five eye separations.
+inline constexpr ViewRange widest_views{ViewPosition(-2.5f), ViewPosition(2.5f)};
 
-/// Paints a rectified pair so that its marks fuse. The geometry must have the pair's size and no unknown disparity.
-/// Throws Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not
-/// fit.
+/// Plans the painting of a rectified pair, for any of the `wanted` views. The geometry must have the pair's size and no
+/// unknown disparity. Of each eye planned by itself, and of Propagation::raster, there are two views. Throws
+/// Error{wrong_usage} for a style that cannot be painted with, Error{bad_input} for a geometry that does not fit.
+Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
+                       const Progress& progress = {}, ViewRange wanted = widest_views);
+
+/// Paints a rectified pair so that its marks fuse. Takes and throws what plan_painting does.
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                   const Progress& progress = {});
 

@@ -1,21 +1,9 @@
 #pragma once
 
-#include "wheatstone/curves/diffusion_in_time.h"
-#include "wheatstone/motion/film_frame.h"
 #include "wheatstone/painting/paint.h"
-#include "wheatstone/regions/mosaic.h"
-#include "wheatstone/regions/posterise.h"
-#include "wheatstone/strokes/strokes_in_time.h"
+#include "wheatstone/painting/plan_painting.h"
 
 namespace wheatstone {
-
-/// What any style carries from frame to frame. Empty before the first.
-struct PaintingMemory {
-  StrokeMemory strokes;
-  PosterisedMemory posterised;
-  MosaicMemory mosaic;
-  DiffusionMemory diffusion;
-};
 
 /// A frame of a film, painted. Of a scene of one view, `pictures.right` is empty.
 struct PaintedFrame {

@@ -29,6 +29,8 @@ Style small_style(Propagation propagation = Propagation::strokes) {
   return style;
 }
 
+const StrokePainting& strokes_of(const Painting& painting) { return std::get<StrokePainting>(painting.marks); }
+
 PaintedPair paint_scene(const Style& style) { return paint(test_scene::photographs(), test_scene::geometry(), style); }
 
 double difference_of(const PaintedPair& painted) {
@@ -52,9 +54,9 @@ TEST(Paint, CoversBothEyes) {
 TEST(Paint, PicturesAreWhatDrawMakesOfTheMarks) {
   const StereoPair photographs = test_scene::photographs();
   const PaintedPair painted = paint(photographs, test_scene::geometry(), small_style());
-  EXPECT_EQ(draw(painted.painting.strokes, left_eye, {.background = photographs.left}).picture, painted.pictures.left);
-  EXPECT_EQ(draw(painted.painting.strokes, right_eye, {.background = photographs.right}).picture,
-            painted.pictures.right);
+  const PreparedPainting prepared = prepare(painted.painting);
+  EXPECT_EQ(draw(prepared, left_eye, photographs.left).picture, painted.pictures.left);
+  EXPECT_EQ(draw(prepared, right_eye, photographs.right).picture, painted.pictures.right);
 }
 
 TEST(Paint, PaintingOfEveryKindOfMarksIsWrittenAndReadBackEqual) {
@@ -145,27 +147,30 @@ TEST(Paint, EndsWhereverItsProgressThrows) {
     for (int last = 1; last <= 3; ++last) {
       int told = 0;
       const Progress stop = [&](std::string_view, double) {
-        if (++told == last) throw Error(ErrorKind::interrupted, "stopped");
+        if (++told >= last) throw Error(ErrorKind::interrupted, "stopped");
       };
       expect_error(ErrorKind::interrupted, "stopped",
                    [&] { paint(test_scene::photographs(), test_scene::geometry(), small_style(propagation), stop); });
-      EXPECT_EQ(told, last);
+      // Each of the scene's views, which are planned at once, is told of its end by one more report.
+      constexpr int views = 5;
+      EXPECT_LT(told, last + views);
     }
   }
 }
 
 TEST(Paint, GivesTheSameBytesOnAnyNumberOfThreads) {
-  StrokePainting first;
+  Painting first;
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const PaintedPair painted = paint_scene(small_style());
-    if (first.layers.empty()) first = painted.painting.strokes;
-    EXPECT_EQ(painted.painting.strokes, first);
+    if (strokes_of(first).layers.empty()) first = painted.painting;
+    EXPECT_EQ(painted.painting, first);
   }
 }
 
 TEST(Paint, DrawsFarStrokesBeforeNearOnesInEveryLayer) {
-  for (const PaintedPair painted = paint_scene(small_style()); const Layer& layer : painted.painting.strokes.layers) {
+  const PaintedPair painted = paint_scene(small_style());
+  for (const Layer& layer : strokes_of(painted.painting).layers) {
     float last = -INFINITY;
     for (const Stroke& stroke : layer.strokes) {
       EXPECT_GE(std::round(stroke.disparity), std::round(last));
@@ -176,34 +181,37 @@ TEST(Paint, DrawsFarStrokesBeforeNearOnesInEveryLayer) {
 
 TEST(Paint, PairsEveryStrokeThatBothEyesCanSee) {
   const StereoGeometry geometry = test_scene::geometry();
-  const StrokeMeasures strokes = measure_strokes(paint_scene(small_style()).painting.strokes, geometry);
+  const StrokeMeasures strokes = measure_strokes(strokes_of(paint_scene(small_style()).painting).layers, geometry);
   EXPECT_DOUBLE_EQ(strokes.paired_share, 1);
   EXPECT_LT(strokes.shape_differs_share, 0.01);
   const StrokeMeasures independent =
-      measure_strokes(paint_scene(small_style(Propagation::independent)).painting.strokes, geometry);
+      measure_strokes(strokes_of(paint_scene(small_style(Propagation::independent)).painting).layers, geometry);
   EXPECT_DOUBLE_EQ(independent.paired_share, 0);
 }
 
 TEST(Paint, FinestStrokesDoNotSpillOverDepthEdgesUnlessTheTestIsOff) {
   const StereoGeometry geometry = test_scene::geometry();
   Style style = small_style();
-  EXPECT_DOUBLE_EQ(spilling_share(paint_scene(style).painting.strokes.layers.back(), geometry, 2), 0);
+  EXPECT_DOUBLE_EQ(spilling_share(strokes_of(paint_scene(style).painting).layers.back(), geometry, 2), 0);
   style.depth_test = false;
-  EXPECT_GT(spilling_share(paint_scene(style).painting.strokes.layers.back(), geometry, 2), 0.005);
+  EXPECT_GT(spilling_share(strokes_of(paint_scene(style).painting).layers.back(), geometry, 2), 0.005);
 }
 
 TEST(Paint, RightOnlyStrokesBeginOnTheGrownOcclusion) {
   const StereoGeometry geometry = test_scene::geometry();
   Style style = small_style();
   style.occlusion_dilation = 0;
-  for (const PaintedPair painted = paint_scene(style); const Layer& layer : painted.painting.strokes.layers) {
+  const PaintedPair painted = paint_scene(style);
+  int begun = 0;
+  for (const Layer& layer : strokes_of(painted.painting).layers) {
     for (const Stroke& stroke : layer.strokes) {
-      if (stroke.views != ViewRange{right_eye, right_eye}) continue;
-      EXPECT_EQ(stroke.reference_view, right_eye);
+      if (stroke.reference_view != right_eye) continue;
+      ++begun;
       const ControlPoint& begin = layer.points[stroke.first_point];
       EXPECT_NE(geometry.right_occlusion(static_cast<int>(begin.x), static_cast<int>(begin.y)), 0);
     }
   }
+  EXPECT_GT(begun, 0);
 }
 
 TEST(Paint, WorksWithDisparitiesOfBothSigns) {

@@ -83,11 +83,6 @@ void ease(const MosaicTile& before, RegionMeans& means) {
   means.blue -= (1 - colour_share) * blue;
 }
 
-void cut_tiles(const ViewToCut& view, const Style& style, RegionPainting& painting) {
-  const Tiles tiles = lay_tiles(view, without_grain(view.photograph, view.scale), style.tile_px * view.scale);
-  add_tiles(view, tiles, means_of(tiles.regions, view.photograph, view.disparity), painting);
-}
-
 /// Lays a view's tiles where `before` has them, and puts them into what the next frame remembers.
 void cut_tiles_again(const ViewToCut& view, const Style& style, std::span<const MosaicTile> before,
                      std::vector<MosaicTile>& after, RegionPainting& painting) {
@@ -125,10 +120,6 @@ void carry(std::vector<MosaicTile>& tiles, const Flow& forward) {
 }
 
 }  // namespace
-
-RegionPainting plan_mosaic(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style) {
-  return plan_regions(photographs, geometry, style, cut_tiles);
-}
 
 RegionPainting plan_mosaic(const FilmFrame& frame, const Style& style, MosaicMemory& memory, TilePlaces places) {
   std::vector<MosaicTile> before, after;

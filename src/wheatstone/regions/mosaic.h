@@ -3,16 +3,8 @@
 #include "wheatstone/marks/region_painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/motion/film_frame.h"
-#include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
-
-/// A pair as a mosaic of stained glass (Hausner 2001; Bukenberger et al. 2015, sec. 4.2): tiles about `style.tile_px`
-/// wide, a centroidal Voronoi diagram under the square metric turned along the picture's edges, which tiles keep clear
-/// of. A tile shows the mean colour of what it covers, lies on one surface and is bordered by a darker joint. Both eyes
-/// show the tiles of the left one; what only the right eye sees is tiled there. Throws Error: bad_input where the
-/// geometry does not fit, wrong_usage for a style that cannot be painted with.
-RegionPainting plan_mosaic(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style);
 
 /// A tile of a mosaic in time.
 struct MosaicTile {
@@ -34,10 +26,16 @@ enum class TilePlaces {
   keep     ///< they stay, and the picture moves behind them (Bukenberger et al. 2015, sec. 4.2)
 };
 
-/// The next frame of a film as a mosaic: tiles begin where they lay a frame before, move only slightly, take their
-/// colours anew and turn with the picture, both eased where the picture did not change at once. A tile that nothing is
-/// left of is dropped, a gap gets new ones. What only another view than the reference sees is tiled there, and those
-/// tiles keep their places. Throws Error as above, and bad_input where the flow has not the views' size.
+/// A frame of a film as a mosaic of stained glass (Hausner 2001; Bukenberger et al. 2015, sec. 4.2): tiles about
+/// `style.tile_px` wide, a centroidal Voronoi diagram under the square metric turned along the picture's edges, which
+/// tiles keep clear of. A tile shows the mean colour of what it covers, lies on one surface and is bordered by a darker
+/// joint. All views show the tiles of the reference view; what only another one sees is tiled there.
+///
+/// In the frames that follow tiles begin where they lay a frame before, move only slightly, take their colours anew and
+/// turn with the picture, both eased where the picture did not change at once. A tile that nothing is left of is
+/// dropped, a gap gets new ones; tiles of other views than the reference keep their places. Throws Error: bad_input
+/// where the views do not fit together, or the flow has not their size; wrong_usage for a style that cannot be painted
+/// with.
 RegionPainting plan_mosaic(const FilmFrame& frame, const Style& style, MosaicMemory& memory,
                            TilePlaces places = TilePlaces::follow);
 

@@ -8,15 +8,15 @@
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/random.h"
 #include "wheatstone/regions/plan_regions_internal.h"
-#include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/occlusion.h"
 
 namespace wheatstone {
 namespace {
 
-void sort_far_to_near(RegionPainting& painting) {
-  const auto key = [](const RegionMark& mark) {
-    return std::tuple(mark.views == ViewRange{}, std::lround(mark.disparity));
+/// What the reference view does not show lies under what it shows.
+void sort_far_to_near(ViewPosition reference, RegionPainting& painting) {
+  const auto key = [reference](const RegionMark& mark) {
+    return std::tuple(mark.reference_view == reference, std::lround(mark.disparity));
   };
   std::ranges::stable_sort(painting.marks, {}, key);
 }
@@ -38,11 +38,11 @@ RegionPainting plan_regions(std::span<const SceneView> views, const Style& style
                      .mask = {},
                      .number = i,
                      .view = view.position,
-                     .views = {},
+                     .views = all_views,
                      .seed = style.seed,
                      .scale = scale,
                      .depth_threshold_px = style.depth_threshold_px * scale};
-    if (i > 0 || independent) to_cut.views = {view.position, view.position};
+    if (independent) to_cut.views = {view.position, view.position};
     if (i > 0 && independent) to_cut.seed = hash_keys({style.seed, i});
     Image<std::uint8_t> only_here;
     if (i > 0 && !independent && !view.only_here.empty()) {
@@ -54,15 +54,8 @@ RegionPainting plan_regions(std::span<const SceneView> views, const Style& style
     cut(to_cut, style, painting);
   }
   std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.ring_count == 0; });
-  sort_far_to_near(painting);
+  sort_far_to_near(views[0].position, painting);
   return painting;
-}
-
-RegionPainting plan_regions(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                            const CutView& cut) {
-  check_style(style);
-  check_fits(photographs, geometry);
-  return plan_regions(scene_from_left(photographs, geometry), style, cut);
 }
 
 }  // namespace wheatstone

@@ -32,8 +32,4 @@ using CutView = std::function<void(const ViewToCut&, const Style&, RegionPaintin
 /// do not fit together, wrong_usage for a style that cannot be painted with.
 RegionPainting plan_regions(std::span<const SceneView> views, const Style& style, const CutView& cut);
 
-/// The same for a pair, with its left view as the reference.
-RegionPainting plan_regions(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                            const CutView& cut);
-
 }  // namespace wheatstone

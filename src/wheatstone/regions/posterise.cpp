@@ -197,18 +197,6 @@ void cut_next(const ViewToCut& view, const FlowPair& flow, PosterisedMemory& mem
 
 }  // namespace
 
-RegionPainting plan_posterised(const StereoPairView& photographs, const StereoGeometryView& geometry,
-                               const Style& style) {
-  std::vector<Rgb8> palette;
-  const auto cut = [&](const ViewToCut& view, const Style&, RegionPainting& painting) {
-    const Image<Rgb8> picture = without_grain(view.photograph, view.scale);
-    if (view.number == 0 || style.propagation == Propagation::independent)
-      palette = rounded(find_palette(picture, style.colours, view.seed));
-    add_areas(view, picture, palette, {}, painting);
-  };
-  return plan_regions(photographs, geometry, style, cut);
-}
-
 RegionPainting plan_posterised(const FilmFrame& frame, const Style& style, PosterisedMemory& memory) {
   if (frame.flow != nullptr) check_fits(*frame.flow, frame.views);
   return plan_regions(frame.views, style, [&](const ViewToCut& view, const Style&, RegionPainting& painting) {

@@ -4,16 +4,8 @@
 #include "wheatstone/marks/style.h"
 #include "wheatstone/motion/film_frame.h"
 #include "wheatstone/motion/steady_picture.h"
-#include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
-
-/// A pair as regions of few colours (Bukenberger et al. 2015, sec. 4.2): the pixels are clustered in RGB by k-means
-/// into `style.colours` colours, connected pixels of one colour and one surface become a region. Both eyes show the
-/// regions of the left one; what only the right eye sees is cut there, into the same colours. Throws Error: bad_input
-/// where the geometry does not fit, wrong_usage for a style that cannot be painted with.
-RegionPainting plan_posterised(const StereoPairView& photographs, const StereoGeometryView& geometry,
-                               const Style& style);
 
 /// One colour of a palette, 0..255 a channel, finer than pixels have it.
 struct PaletteColour {
@@ -28,10 +20,12 @@ struct PosterisedMemory {
   SteadyPicture picture;          ///< the reference view
 };
 
-/// The next frame of a film, posterised: the palette goes on from the frame before, slowly, and a pixel keeps its
-/// point's colour, carried along the confirmed flow, unless another one is now clearly nearer. The reference view gives
-/// all views their regions; what only another view sees is cut there, into the same colours. Throws Error as above, and
-/// bad_input where the flow has not the views' size.
+/// A frame of a film as regions of few colours (Bukenberger et al. 2015, sec. 4.2): the pixels of the reference view
+/// are clustered in RGB by k-means into `style.colours` colours, connected pixels of one colour and one surface become
+/// a region. The reference view gives all views their regions; what only another view sees is cut there, into the same
+/// colours. In the frames that follow the palette goes on from the frame before, slowly, and a pixel keeps its point's
+/// colour, carried along the confirmed flow, unless another one is now clearly nearer. Throws Error: bad_input where
+/// the views do not fit together, or the flow has not their size; wrong_usage for a style that cannot be painted with.
 RegionPainting plan_posterised(const FilmFrame& frame, const Style& style, PosterisedMemory& memory);
 
 }  // namespace wheatstone

@@ -27,6 +27,8 @@ PaintedPair paint_scene(const Style& style) {
   return paint(test_scene::as_photographed(), test_scene::geometry(), style);
 }
 
+const RegionPainting& regions_of(const Painting& painting) { return std::get<RegionPainting>(painting.marks); }
+
 double difference_of(const PaintedPair& painted) {
   return measure_left_right_difference(painted.pictures, test_scene::geometry().left_disparity).mean_absolute;
 }
@@ -48,10 +50,11 @@ TEST_P(RegionStyle, CoversBothEyes) {
 }
 
 TEST_P(RegionStyle, LeavesTheRightEyeBareWithoutWhatOnlyItSees) {
-  RegionPainting regions = paint_scene(small_style(GetParam())).painting.regions;
-  std::erase_if(regions.marks, [](const RegionMark& mark) { return mark.reference_view == right_eye; });
-  EXPECT_GT(draw(regions, right_eye).bare_share, 0.02);
-  EXPECT_LT(draw(regions, left_eye).bare_share, 0.005);
+  Painting painting = paint_scene(small_style(GetParam())).painting;
+  std::erase_if(std::get<RegionPainting>(painting.marks).marks,
+                [](const RegionMark& mark) { return mark.reference_view == right_eye; });
+  EXPECT_GT(draw(painting, right_eye).bare_share, 0.02);
+  EXPECT_LT(draw(painting, left_eye).bare_share, 0.005);
 }
 
 TEST_P(RegionStyle, GivesTheSameBytesOnAnyNumberOfThreads) {
@@ -59,7 +62,7 @@ TEST_P(RegionStyle, GivesTheSameBytesOnAnyNumberOfThreads) {
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     PaintedPair painted = paint_scene(small_style(GetParam()));
-    if (first.painting.regions.marks.empty()) first = painted;
+    if (first.pictures.left.empty()) first = painted;
     EXPECT_EQ(painted.painting, first.painting);
     EXPECT_EQ(painted.pictures.left, first.pictures.left);
     EXPECT_EQ(painted.pictures.right, first.pictures.right);
@@ -82,11 +85,12 @@ std::size_t spanning_marks(const RegionPainting& regions) {
 
 TEST_P(RegionStyle, NoRegionSpansTwoSurfacesUnlessDepthIsIgnored) {
   Style style = small_style(GetParam());
-  const RegionPainting regions = paint_scene(style).painting.regions;
+  const Painting painting = paint_scene(style).painting;
+  const RegionPainting& regions = regions_of(painting);
   EXPECT_EQ(spanning_marks(regions), 0u);
   for (const Ring& ring : regions.rings) EXPECT_GE(ring.point_count, 3u);
   style.depth_threshold_px = 100;
-  EXPECT_GT(spanning_marks(paint_scene(style).painting.regions), 0u);
+  EXPECT_GT(spanning_marks(regions_of(paint_scene(style).painting)), 0u);
 }
 
 TEST_P(RegionStyle, StaysWhatItIsOnPicturesOfAnySize) {
@@ -117,7 +121,8 @@ TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
   Style style = small_style("posterise");
   style.colours = 3;
   std::vector<std::uint32_t> colours;
-  for (const RegionMark& mark : paint_scene(style).painting.regions.marks)
+  const Painting painting = paint_scene(style).painting;
+  for (const RegionMark& mark : regions_of(painting).marks)
     colours.push_back(mark.colour.r * 65536u + mark.colour.g * 256u + mark.colour.b);
   std::ranges::sort(colours);
   colours.erase(std::unique(colours.begin(), colours.end()), colours.end());
@@ -149,8 +154,8 @@ TEST(Mosaic, TurnsItsTilesAlongTheEdgesOfThePicture) {
   Style style = small_style("mosaic");
   style.tile_px = 12;
   const StereoGeometry geometry = geometry_from_left(Image<float>(size, size, 0));
-  EXPECT_GT(diagonal_order(paint({stripe, stripe}, geometry, style).painting.regions), 0.1);
-  EXPECT_LT(diagonal_order(paint({flat, flat}, geometry, style).painting.regions), -0.1);
+  EXPECT_GT(diagonal_order(regions_of(paint({stripe, stripe}, geometry, style).painting)), 0.1);
+  EXPECT_LT(diagonal_order(regions_of(paint({flat, flat}, geometry, style).painting)), -0.1);
 }
 
 TEST(DrawRegions, LeavesHolesAndHidesByDepth) {
@@ -166,14 +171,14 @@ TEST(DrawRegions, LeavesHolesAndHidesByDepth) {
   add_square(14, 16, 4);
   painting.marks = {{.first_ring = 0, .ring_count = 2, .colour = {200, 0, 0}},
                     {.first_ring = 2, .ring_count = 1, .colour = {0, 200, 0}, .disparity = 4}};
-  const DrawnView left = draw(painting, left_eye), right = draw(painting, right_eye);
+  const DrawnView left = draw(Painting{painting}, left_eye), right = draw(Painting{painting}, right_eye);
   EXPECT_EQ(left.picture(15, 15), (Rgb8{0, 200, 0}));
   EXPECT_EQ(right.picture(11, 15), (Rgb8{0, 200, 0}));
   EXPECT_EQ(right.picture(15, 15), (Rgb8{200, 0, 0}));
   EXPECT_EQ(left.bare(10, 10), 255);
   EXPECT_EQ(left.bare(5, 5), 0);
   std::ranges::reverse(painting.marks);  // what is nearer hides what is farther, whatever the order
-  EXPECT_EQ(draw(painting, right_eye).picture(11, 15), (Rgb8{0, 200, 0}));
+  EXPECT_EQ(draw(Painting{painting}, right_eye).picture(11, 15), (Rgb8{0, 200, 0}));
 }
 
 }  // namespace

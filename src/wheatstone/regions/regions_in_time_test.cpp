@@ -16,8 +16,8 @@
 #include "wheatstone/error.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/film_measures.h"
-#include "wheatstone/regions/mosaic.h"
-#include "wheatstone/regions/posterise.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/plan_painting.h"
 
 namespace wheatstone {
 namespace {
@@ -57,15 +57,16 @@ class Painter {
   explicit Painter(std::string_view name, TilePlaces places = TilePlaces::follow)
       : style_(style_of(name)), places_(places) {}
 
-  RegionPainting plan(const FilmFrame& frame) {
-    return style_.marks == Marks::regions ? plan_posterised(frame, style_, areas_)
-                                          : plan_mosaic(frame, style_, tiles_, places_);
+  Painting plan(const FilmFrame& frame) {
+    Painting painting = plan_painting(frame, style_, {}, memory_).painting;
+    if (places_ == TilePlaces::keep) painting.marks = plan_mosaic(frame, style_, kept_tiles_, places_);
+    return painting;
   }
-  RegionPainting plan_still(const StereoPair& pair, const StereoGeometry& geometry) const {
-    return style_.marks == Marks::regions ? plan_posterised(pair, geometry, style_)
-                                          : plan_mosaic(pair, geometry, style_);
+  /// For the eyes alone.
+  Painting plan_still(const StereoPair& pair, const StereoGeometry& geometry) const {
+    return plan_painting(pair, geometry, style_, {}, ViewRange{});
   }
-  RegionPainting plan_frame(const ShortFilm& film, std::size_t i, bool afresh = false) {
+  Painting plan_frame(const ShortFilm& film, std::size_t i, bool afresh = false) {
     const std::vector<SceneView> views = film.scene(i);
     return plan({views, afresh ? nullptr : film.flow_to(i)});
   }
@@ -73,8 +74,8 @@ class Painter {
  private:
   Style style_;
   TilePlaces places_;
-  PosterisedMemory areas_;
-  MosaicMemory tiles_;
+  PaintingMemory memory_;
+  MosaicMemory kept_tiles_;
 };
 
 /// E_warp of the left eye's film.
@@ -124,19 +125,19 @@ TEST_P(RegionsInTime, BeginASceneAsIfNothingHadBeenBefore) {
 TEST_P(RegionsInTime, BeginWithTheStill) {
   const SyntheticFilmFrame& frame = walk().frames[0];
   const std::vector<SceneView> views = scene_from_left(frame.pictures, frame.geometry);
-  const RegionPainting film = Painter(GetParam()).plan({views, nullptr});
-  const RegionPainting still = Painter(GetParam()).plan_still(frame.pictures, frame.geometry);
+  const Painting film = Painter(GetParam()).plan({views, nullptr});
+  const Painting still = Painter(GetParam()).plan_still(frame.pictures, frame.geometry);
   EXPECT_EQ(draw(film, left_eye).picture, draw(still, left_eye).picture);
 }
 
 TEST_P(RegionsInTime, GiveTheSameBytesOnAnyNumberOfThreads) {
-  std::optional<RegionPainting> first;
+  std::optional<Painting> first;
   for (const std::size_t threads : {1u, 2u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     Painter painter(GetParam());
     painter.plan_frame(walk(), 0);
     painter.plan_frame(walk(), 1);
-    const RegionPainting painting = painter.plan_frame(walk(), 2);
+    const Painting painting = painter.plan_frame(walk(), 2);
     if (!first) first = painting;
     EXPECT_EQ(painting, *first);
   }
@@ -144,11 +145,11 @@ TEST_P(RegionsInTime, GiveTheSameBytesOnAnyNumberOfThreads) {
 
 TEST_P(RegionsInTime, FuseAsWellAsTheStill) {
   Painter painter(GetParam());
-  RegionPainting painting;
+  Painting painting;
   for (std::size_t i = 0; i < walk().frames.size(); ++i) painting = painter.plan_frame(walk(), i);
-  const RegionPainting afresh = painter.plan_frame(walk(), walk().frames.size() - 1, true);
+  const Painting afresh = painter.plan_frame(walk(), walk().frames.size() - 1, true);
   const SyntheticFilmFrame& frame = walk().frames.back();
-  const auto difference = [&](const RegionPainting& regions) {
+  const auto difference = [&](const Painting& regions) {
     return measure_left_right_difference({draw(regions, left_eye).picture, draw(regions, right_eye).picture},
                                          frame.geometry.left_disparity)
         .mean_absolute;
@@ -163,8 +164,9 @@ TEST_P(RegionsInTime, FuseAsWellAsTheStill) {
 TEST_P(RegionsInTime, LeaveTheEyesBareWithoutWhatOnlyOneSees) {
   Painter painter(GetParam());
   painter.plan_frame(walk(), 0);
-  RegionPainting painting = painter.plan_frame(walk(), 1);
-  std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.reference_view != central_view; });
+  Painting painting = painter.plan_frame(walk(), 1);
+  std::erase_if(std::get<RegionPainting>(painting.marks).marks,
+                [](const RegionMark& mark) { return mark.reference_view != central_view; });
   EXPECT_GT(draw(painting, left_eye).bare_share, 0.01);
   EXPECT_GT(draw(painting, right_eye).bare_share, 0.01);
 }
@@ -174,7 +176,7 @@ TEST_P(RegionsInTime, PaintAFilmOfOneView) {
   Painter painter(GetParam());
   for (std::size_t i = 0; i < 2; ++i) {
     const SceneView view{walk().centres[i].picture, flat, {}, central_view};
-    const RegionPainting painting = painter.plan({{&view, 1}, walk().flow_to(i)});
+    const Painting painting = painter.plan({{&view, 1}, walk().flow_to(i)});
     EXPECT_EQ(draw(painting, left_eye).picture, draw(painting, right_eye).picture);
     EXPECT_LT(draw(painting, central_view).bare_share, 0.005);
   }

@@ -8,47 +8,14 @@
 #include <limits>
 #include <vector>
 
+#include "wheatstone/depth/warp_row.h"
+
 namespace wheatstone {
 namespace {
 
-/// Neighbours that differ by more than this are different surfaces.
-constexpr float joined_px = 1;
-
-/// Without SSE 4.1, which not every processor has, std::floor is a call for every pixel.
-int floor_of(float value) {
-  const int truncated = static_cast<int>(value);
-  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
-}
-
-/// Calls `land(x_in_other, disparity, x, t)` for every pixel centre of another view's scan line that the surface of
-/// this one covers: between the pixels x and x + 1, at the fraction t. The other view is `separation` eye separations
-/// to the right. Not z-tested; a pixel may be landed on often. Every pixel lands at least where it is (`every_pixel`),
-/// or only those at a surface's edges, which is all that the surface between its pixels does not cover.
 template <bool every_pixel = true, class Land>
 void warp_row(std::span<const float> disparity, float separation, Land land) {
-  const auto target_of = [separation](int x, float d) { return static_cast<float>(x) + 0.5f - separation * d; };
-  const int width = static_cast<int>(disparity.size());
-  const auto land_inside = [&](int target, float d, int x, float t) {
-    if (target >= 0 && target < width) land(target, d, x, t);
-  };
-  bool joined_before = false;
-  for (int x = 0; x < width; ++x) {
-    const bool joined_after = x + 1 < width && std::abs(disparity[x + 1] - disparity[x]) <= joined_px;
-    const bool at_edge = !(joined_before && joined_after);
-    joined_before = joined_after;
-    const float here = target_of(x, disparity[x]);
-    if (!(std::abs(here) < 1e9f)) continue;  // unknown, or nowhere near the picture
-    if (every_pixel || at_edge) land_inside(floor_of(here), disparity[x], x, 0);
-    if (!joined_after) continue;
-
-    // The surface between two pixels covers the centres between the places where they land.
-    const float next = target_of(x + 1, disparity[x + 1]);
-    const int first = -floor_of(0.5f - here), last = floor_of(next - 0.5f);
-    for (int target = first; target <= last; ++target) {
-      const float t = next > here ? (static_cast<float>(target) + 0.5f - here) / (next - here) : 0;
-      land_inside(target, disparity[x] + t * (disparity[x + 1] - disparity[x]), x, t);
-    }
-  }
+  warp_row<every_pixel>(disparity, separation, static_cast<int>(disparity.size()), 0, land);
 }
 
 Rgb8 blend(Rgb8 a, Rgb8 b, float t) {
@@ -62,12 +29,8 @@ Rgb8 blend(Rgb8 a, Rgb8 b, float t) {
 }  // namespace
 
 void warp_disparity_over(ImageView<const float> disparity, ViewPosition from, ViewPosition to, Image<float>& nearest) {
-  tbb::parallel_for(0, disparity.height(), [&](int y) {
-    const auto row = nearest.row(y);
-    warp_row(disparity.row(y), to - from, [&](int target, float d, int, float) {
-      if (!(row[target] >= d)) row[target] = d;
-    });
-  });
+  tbb::parallel_for(0, disparity.height(),
+                    [&](int y) { warp_disparity_row_over(disparity.row(y), to - from, 0, nearest.row(y)); });
 }
 
 Image<float> warp_disparity(ImageView<const float> disparity, ViewPosition from, ViewPosition to) {
@@ -116,18 +79,20 @@ WarpedColumns warp_columns(ImageView<const float> disparity, ViewPosition from, 
 void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> disparity, ViewPosition from,
                        float tolerance_px, Composition& composition) {
   const float separation = composition.position - from;
+  const int shown_width = composition.picture.width();
   constexpr float farthest = -std::numeric_limits<float>::infinity();
   tbb::parallel_for(tbb::blocked_range<int>(0, picture.height()), [&](const tbb::blocked_range<int>& rows) {
-    std::vector<float> nearest(picture.width());
-    std::vector<Rgb8> warped(picture.width());
+    std::vector<float> nearest(shown_width);
+    std::vector<Rgb8> warped(shown_width);
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::ranges::fill(nearest, farthest);
       const auto colours = picture.row(y);
-      warp_row<false>(disparity.row(y), separation, [&](int target, float d, int x, float t) {
-        if (d <= nearest[target]) return;
-        nearest[target] = d;
-        warped[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];
-      });
+      warp_row<false>(disparity.row(y), separation, shown_width, -composition.left_px,
+                      [&](int target, float d, int x, float t) {
+                        if (d <= nearest[target]) return;
+                        nearest[target] = d;
+                        warped[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];
+                      });
       const auto to = composition.picture.row(y);
       const auto there = composition.nearest.row(y);
       for (std::size_t x = 0; x < nearest.size(); ++x) {

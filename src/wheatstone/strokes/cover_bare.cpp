@@ -2,11 +2,7 @@
 #include <cmath>
 
 #include "wheatstone/drawing/rasterise_internal.h"
-#include "wheatstone/strokes/carry_strokes_internal.h"
-#include "wheatstone/strokes/layer_order.h"
-#include "wheatstone/strokes/layer_planner.h"
-#include "wheatstone/strokes/strokes_in_time.h"
-#include "wheatstone/strokes/visible_runs_internal.h"
+#include "wheatstone/strokes/cover_bare_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -38,43 +34,31 @@ void strike_out(int x, int y, float radius_px, Image<std::uint8_t>& bare) {
 
 }  // namespace
 
-Layer cover_bare(const FilmFrame& frame, const BareView& left_bare, const Style& style, const CarryOptions& options,
-                 StrokeMemory& memory) {
-  const auto [view, bare] = left_bare;
-  const SceneView& scene = frame.views[view];
-  const ScaledStyle scaled(style, scene.picture.width());
-  TrackedLayer& tracked = memory.views[view].back();
-  tracked.layer.radius_px = scaled.radii_px.back();
-  Image<std::uint8_t> left(bare.width(), bare.height());
-  for (int y = 0; y < bare.height(); ++y) std::ranges::copy(bare.row(y), left.row(y).begin());
-  Layer shown{scaled.radii_px.back(), {}, {}};
-  for (int y = 0; y < bare.height(); ++y) {
-    for (int x = 0; x < bare.width(); ++x) {
-      if (left(x, y) == 0) continue;
-      const float disparity = scene.disparity(x, y);
-      Stroke dot{.first_point = static_cast<std::uint32_t>(tracked.layer.points.size()), .point_count = 1};
-      dot.radius_px = fitting_radius(scene.disparity, x, y, scaled.radii_px.back(), scaled.depth_threshold_px);
+Layer cover_bare(const LayerPlanner& planner, const ScaledStyle& scaled, const Style& style,
+                 ImageView<const std::uint8_t> wanted) {
+  const int width = planner.photograph.width(), height = planner.photograph.height();
+  Image<std::uint8_t> bare(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      bare(x, y) = planner.canvas.coverage(x, y) < 0.5f && (wanted.empty() || wanted(x, y) != 0) ? 255 : 0;
+  Layer dots{scaled.radii_px.back(), {}, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (bare(x, y) == 0) continue;
+      const float disparity = planner.disparity(x, y);
+      Stroke dot{.first_point = static_cast<std::uint32_t>(dots.points.size()), .point_count = 1};
+      dot.radius_px = fitting_radius(planner.disparity, x, y, scaled.radii_px.back(), scaled.depth_threshold_px);
       dot.opacity = style.opacity;
-      dot.colour = scene.picture(x, y);
+      dot.colour = planner.photograph(x, y);
       dot.disparity = disparity;
-      dot.reference_view = scene.position;
-      dot.views = {scene.position, scene.position};
-      dot.number = ++memory.last_number;
-      tracked.layer.points.push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, disparity});
-      tracked.layer.strokes.push_back(dot);
-      tracked.tracks.push_back({.shown = first_shown(frame.flow == nullptr, options)});
-      strike_out(x, y, dot.radius_px, left);
-      const std::span point = tracked.layer.points_of(dot);
-      dot.opacity *= tracked.tracks.back().shown;
-      append_visible_runs(dot, point, frame.views, scaled.depth_threshold_px, shown);
+      dot.reference_view = planner.view;
+      dot.views = all_views;
+      dots.points.push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, disparity});
+      dots.strokes.push_back(dot);
+      strike_out(x, y, dot.radius_px, bare);
     }
   }
-  return shown;
-}
-
-void insert_strokes(const Layer& part, const Style& style, Layer& whole) {
-  append_strokes(part, whole);
-  sort_numbered_far_to_near(whole, style.seed);
+  return dots;
 }
 
 }  // namespace wheatstone

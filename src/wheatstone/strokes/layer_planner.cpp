@@ -76,7 +76,9 @@ StrokePainting plan_alone(LayerPlanner& planner, const Style& style, const Scale
     report(progress, "painting", static_cast<double>(i) / layers);
     painting.layers.push_back(plan_on(planner, style, scaled, i, seeds));
     order_strokes(painting.layers.back(), style, i);
-    if (i + 1 < layers) rasterise(painting.layers.back(), planner.view, planner.canvas);
+    if (i + 1 < layers)
+      rasterise(painting.layers.back(), planner.view,
+                {.surface = planner.disparity, .tolerance_px = scaled.depth_threshold_px}, planner.canvas);
   }
   report(progress, "painting", 1);
   return painting;

@@ -117,6 +117,18 @@ std::uint64_t cell_hash(const Pass& pass, int column, int row, Purpose purpose) 
                     static_cast<std::uint64_t>(row), purpose});
 }
 
+/// Single wrong disparities would bend the stroke in other views: each becomes the median of itself and its neighbours
+/// on the stroke (Bukenberger et al. 2015, sec. 3).
+void smooth_disparities(std::span<ControlPoint> points) {
+  if (points.empty()) return;
+  float before = points[0].disparity;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const float here = points[i].disparity, after = points[i + 1].disparity;
+    points[i].disparity = std::max(std::min(before, here), std::min(std::max(before, here), after));
+    before = here;
+  }
+}
+
 void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer& layer) {
   const auto& [plan, style, place, grid] = pass;
   Stroke stroke;
@@ -124,6 +136,7 @@ void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer&
   stroke.radius_px = stroke_radius(plan, place, seed);
   trace_stroke(plan, style, {seed, stroke.radius_px, (random & 1) != 0}, layer.points);
   stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
+  smooth_disparities(std::span(layer.points).subspan(stroke.first_point));
   stroke.opacity = style.opacity;
   const ReferencePicture& reference = plan.reference;
   stroke.colour =
@@ -131,7 +144,7 @@ void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer&
                style.jitter, random);
   stroke.disparity = plan.disparity(seed.x, seed.y);
   stroke.reference_view = plan.view;
-  stroke.views = {plan.view, plan.view};
+  stroke.views = all_views;
   layer.strokes.push_back(stroke);
   if (style.dual) make_dual(plan, layer);
 }

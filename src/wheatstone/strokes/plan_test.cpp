@@ -10,7 +10,6 @@
 #include "wheatstone/strokes/depth_edges_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
-#include "wheatstone/strokes/propagate.h"
 #include "wheatstone/strokes/reference_picture.h"
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/trace_stroke_internal.h"
@@ -232,29 +231,24 @@ TEST(LayerOrder, GoesFromFarToNear) {
   EXPECT_NE(layer.strokes, other.strokes) << "equal depths are permuted by the seed";
 }
 
-TEST(Propagation, SplitsAStrokeWhereItBecomesOccluded) {
-  Image<std::uint8_t> occlusion(100, 10);
-  for (int y = 0; y < 10; ++y)
-    for (int x = 40; x < 60; ++x) occlusion(x, y) = 255;
-  Layer planned;
-  for (int i = 0; i < 9; ++i) planned.points.push_back({5.f + 10.f * static_cast<float>(i), 5, 3});
-  planned.strokes.push_back({.point_count = 9, .radius_px = 4, .views = {left_eye, left_eye}});
-  const Layer split = propagate_to_other_eye(planned, occlusion);
-  ASSERT_EQ(split.strokes.size(), 3u);
-  EXPECT_EQ(split.strokes[0].point_count, 4u);
-  EXPECT_EQ(split.strokes[0].views, ViewRange{});
-  EXPECT_EQ(split.strokes[1].point_count, 2u);
-  EXPECT_EQ(split.strokes[1].views, (ViewRange{left_eye, left_eye}));
-  EXPECT_EQ(split.strokes[2].views, ViewRange{});
-}
-
-TEST(Propagation, TakesSingleWrongDisparitiesOutOfAStroke) {
-  Layer planned;
-  for (const float d : {10.f, 10.f, 40.f, 10.f, 10.f}) planned.points.push_back({5, 5, d});
-  planned.strokes.push_back({.point_count = 5, .radius_px = 4});
-  for (const Layer split = propagate_to_other_eye(planned, Image<std::uint8_t>(10, 10));
-       const ControlPoint& point : split.points)
-    EXPECT_EQ(point.disparity, 10);
+TEST(Plan, TakesSingleWrongDisparitiesOutOfAStroke) {
+  Bench bench(horizontal_stripes(80, 60));
+  bench.style.depth_test = false;  // strokes go on over wrong disparities
+  constexpr float wrong = 40;
+  for (int y = 0; y < 60; ++y)
+    for (int x = y % 2; x < 80; x += 11) bench.disparity(x, y) = wrong;
+  const Layer layer = plan_layer(bench.plan(), bench.style);
+  int taken_out = 0;
+  for (const Stroke& stroke : layer.strokes) {
+    const auto points = layer.points_of(stroke);
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      const bool alone = points[i - 1].disparity != wrong && points[i + 1].disparity != wrong;
+      if (!alone || bench.disparity(static_cast<int>(points[i].x), static_cast<int>(points[i].y)) != wrong) continue;
+      EXPECT_EQ(points[i].disparity, 5);
+      ++taken_out;
+    }
+  }
+  EXPECT_GT(taken_out, 20);
 }
 
 TEST(Jitter, StaysWithinHalfOfItsAmountAndIsSpreadOverIt) {
@@ -276,9 +270,12 @@ TEST(Flatten, CurvesBeginAndEndOnTheirOuterControlPoints) {
   Layer layer;
   layer.points = {{10, 10, 2}, {20, 14, 2}, {25, 30, 2}, {40, 31, 2}};
   layer.strokes.push_back({.point_count = 4, .radius_px = 3});
-  const FlatLayer flat = flatten(layer, left_eye);
-  EXPECT_FLOAT_EQ(flat.x.front(), 10);
-  EXPECT_NEAR(flat.x.back(), 40, 1e-3);
+  const FlatLayer flat = flatten(layer);
+  const SeenLayer left(flat, left_eye), right(flat, right_eye);
+  EXPECT_FLOAT_EQ(left.x(0), 10);
+  EXPECT_NEAR(left.x(flat.x.size() - 1), 40, 1e-3);
+  EXPECT_FLOAT_EQ(right.x(0), 8);
+  EXPECT_NEAR(right.x(flat.x.size() - 1), 38, 1e-3);
   EXPECT_NEAR(flat.y.back(), 31, 1e-3);
 }
 

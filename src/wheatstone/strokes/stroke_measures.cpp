@@ -36,10 +36,10 @@ bool shape_differs(const Layer& layer, const Stroke& stroke) {
 
 }  // namespace
 
-StrokeMeasures measure_strokes(const StrokePainting& painting, const StereoGeometry& geometry) {
+StrokeMeasures measure_strokes(std::span<const Layer> layers, const StereoGeometry& geometry) {
   StrokeMeasures measures;
   std::size_t paired = 0, in_both = 0, differing = 0;
-  for (const Layer& layer : painting.layers) {
+  for (const Layer& layer : layers) {
     for (const Stroke& stroke : layer.strokes) {
       ++measures.strokes;
       const bool both = shows(stroke, left_eye) && shows(stroke, right_eye);

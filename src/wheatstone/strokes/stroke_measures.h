@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/stereo/stereo_pair.h"
@@ -15,6 +16,6 @@ struct StrokeMeasures {
   double shape_differs_share = 0;  ///< of those in both eyes, the ones whose length differs by over a tenth and a pixel
 };
 
-StrokeMeasures measure_strokes(const StrokePainting& painting, const StereoGeometry& geometry);
+StrokeMeasures measure_strokes(std::span<const Layer> layers, const StereoGeometry& geometry);
 
 }  // namespace wheatstone

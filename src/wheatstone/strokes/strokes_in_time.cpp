@@ -14,6 +14,7 @@
 #include "wheatstone/marks/resize_strokes.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
+#include "wheatstone/strokes/cover_bare_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/layer_planner.h"
 #include "wheatstone/strokes/seed_internal.h"
@@ -22,14 +23,34 @@
 namespace wheatstone {
 namespace {
 
+/// New numbers for the strokes of one of a scene's views; those of the other views lie between them, so that all views
+/// are planned at once.
+class StrokeNumbers {
+ public:
+  StrokeNumbers(std::uint32_t last, std::size_t view, std::size_t views)
+      : next_(last + 1 + static_cast<std::uint32_t>(view)), step_(static_cast<std::uint32_t>(views)) {}
+
+  void give(Layer& layer) {
+    for (Stroke& stroke : layer.strokes) {
+      stroke.number = next_;
+      next_ += step_;
+    }
+  }
+
+ private:
+  std::uint32_t next_, step_;
+};
+
 /// A view that is being painted: its planner, of half the size where only a part of the view is wanted.
 class ViewAtWork {
  public:
-  ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, bool scene_begins)
+  ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, bool scene_begins,
+             StrokeNumbers& numbers)
       : part_(part_of(view, reference, style, scene_begins)),
         reduction_(part_ ? HalfView::reduction : 1),
         scaled_(style, view.picture.width(), static_cast<float>(reduction_)),
         style_(style),
+        numbers_(numbers),
         planner_(part_ ? part_->photograph.view() : view.picture, part_ ? part_->disparity.view() : view.disparity,
                  view.position, style) {
     planner_.avoid_mixed_colours = !part_;  // no other eye sees them
@@ -45,16 +66,25 @@ class ViewAtWork {
       draw_on_canvas(carried(tracked));
       keep_away_from(tracked, layer, seeds);
     }
-    Layer begun = plan_on(planner_, inputs, style_, scaled_, seeds);
-    order_strokes(begun, style_, layer);
-    Layer whole_size = begun;
-    if (part_) resize_strokes(whole_size, static_cast<float>(reduction_));
-    add(whole_size, inputs, scene_begins, options, tracked);
+    const Layer begun = begin_strokes(inputs, seeds);
+    add(begun, inputs, scene_begins, options, tracked);
     const bool finest = layer + 1 == static_cast<int>(scaled_.radii_px.size());
-    if (!finest) rasterise(begun, planner_.view, planner_.canvas);
+    if (!finest) return;
+    Layer dots = cover_bare(planner_, scaled_, style_, part_ ? part_->seeds.view() : ImageView<const std::uint8_t>());
+    numbers_.give(dots);
+    add(std::move(dots), inputs, scene_begins, options, tracked);
   }
 
  private:
+  /// Plans strokes and draws them on the canvas.
+  Layer begin_strokes(const LayerInputs& inputs, ImageView<const std::uint8_t> seeds) {
+    Layer begun = plan_on(planner_, inputs, style_, scaled_, seeds);
+    numbers_.give(begun);
+    sort_numbered_far_to_near(begun, style_.seed);
+    rasterise(begun, planner_.view, hiding(), planner_.canvas);
+    return begun;
+  }
+
   /// What a view alone shows. Grown at first, so that its strokes reach under those of the reference view; later those
   /// are there, and what they may show is theirs.
   static std::optional<HalfView> part_of(const SceneView& view, const SceneView& reference, const Style& style,
@@ -70,7 +100,9 @@ class ViewAtWork {
       for (int x = 0; x < alone.width(); ++x) {
         if (view.only_here(x, y) == 0) continue;
         const ControlPoint point{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)};
-        alone(x, y) = is_visible(point, view.position, reference, scaled.depth_threshold_px) ? 0 : 255;
+        const float column = x_in_view(point, view.position, reference.position);
+        const bool is_in_picture = column >= 0 && column < static_cast<float>(alone.width());
+        alone(x, y) = is_in_picture && is_visible(point, view.position, reference, scaled.depth_threshold_px) ? 0 : 255;
       }
     });
     return halved(view.picture, view.disparity, alone);
@@ -123,10 +155,11 @@ class ViewAtWork {
   }
 
   void draw_on_canvas(Layer layer) {
-    for (Stroke& stroke : layer.strokes) stroke.views = {planner_.view, planner_.view};
     if (part_) resize_strokes(layer, 1.f / static_cast<float>(reduction_));
-    rasterise(layer, planner_.view, planner_.canvas);
+    rasterise(layer, planner_.view, hiding(), planner_.canvas);
   }
+
+  Hiding hiding() const { return {.surface = planner_.disparity, .tolerance_px = scaled_.depth_threshold_px}; }
 
   /// 255 where the coarser layers leave something to do.
   Image<std::uint8_t> where_paint_is_wanted(const LayerInputs& inputs) const {
@@ -166,8 +199,9 @@ class ViewAtWork {
     });
   }
 
-  void add(const Layer& begun, const LayerInputs& inputs, bool scene_begins, const CarryOptions& options,
+  void add(Layer begun, const LayerInputs& inputs, bool scene_begins, const CarryOptions& options,
            TrackedLayer& tracked) const {
+    if (part_) resize_strokes(begun, static_cast<float>(reduction_));
     tracked.layer.radius_px = begun.radius_px;
     for (const Stroke& stroke : begun.strokes) {
       StrokeTrack track;
@@ -185,6 +219,7 @@ class ViewAtWork {
   int reduction_;
   ScaledStyle scaled_;
   const Style& style_;
+  StrokeNumbers& numbers_;
   LayerPlanner planner_;
 };
 
@@ -247,39 +282,42 @@ void carry(const FilmFrame& frame, const Style& style, const CarryOptions& optio
   }
 }
 
-/// New strokes that no view shows are dropped: they would come up later at once.
-void drop_hidden(const FilmFrame& frame, float depth_threshold_px, TrackedLayer& tracked) {
+/// New strokes, those with numbers after `last_number`, that no view shows are dropped: they would come up later at
+/// once.
+void drop_hidden(const FilmFrame& frame, float depth_threshold_px, std::uint32_t last_number, TrackedLayer& tracked) {
   std::vector<std::uint8_t> shown(tracked.tracks.size());
   tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
     const Stroke& stroke = tracked.layer.strokes[i];
-    shown[i] =
-        stroke.number != 0 || std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
-          return std::ranges::any_of(frame.views, [&](const SceneView& view) {
-            return is_visible(point, stroke.reference_view, view, depth_threshold_px);
-          });
-        });
+    shown[i] = stroke.number <= last_number ||
+               std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
+                 return std::ranges::any_of(frame.views, [&](const SceneView& view) {
+                   return is_visible(point, stroke.reference_view, view, depth_threshold_px);
+                 });
+               });
   });
   keep_if(tracked, [&](std::size_t i) { return shown[i] != 0; });
 }
 
-/// New strokes have no number yet: they get them in the order of views, layers and planning.
-std::int64_t give_numbers(StrokeMemory& memory) {
-  std::int64_t given = 0;
-  for (std::vector<TrackedLayer>& layers : memory.views)
-    for (TrackedLayer& tracked : layers)
-      for (Stroke& stroke : tracked.layer.strokes)
-        if (stroke.number == 0) {
-          stroke.number = ++memory.last_number;
-          ++given;
+/// Counts the new strokes and remembers their numbers.
+std::int64_t count_new(StrokeMemory& memory) {
+  std::int64_t count = 0;
+  std::uint32_t last = memory.last_number;
+  for (const std::vector<TrackedLayer>& layers : memory.views)
+    for (const TrackedLayer& tracked : layers)
+      for (const Stroke& stroke : tracked.layer.strokes)
+        if (stroke.number > memory.last_number) {
+          last = std::max(last, stroke.number);
+          ++count;
         }
-  return given;
+  memory.last_number = last;
+  return count;
 }
 
 StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const StrokeMemory& memory) {
   const ImageView<const Rgb8> picture = frame.views.front().picture;
   const ScaledStyle scaled(style, picture.width());
   StrokePainting painting{picture.width(), picture.height(), style.canvas_colour,
-                          std::vector<Layer>(scaled.radii_px.size())};
+                          std::vector<Layer>(scaled.radii_px.size()), style.background == Background::colour};
   tbb::parallel_for(std::size_t{0}, painting.layers.size(), [&](std::size_t i) {
     Layer& shown = painting.layers[i];
     shown.radius_px = scaled.radii_px[i];
@@ -288,7 +326,7 @@ StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const 
       for (std::size_t k = 0; k < layer.strokes.size(); ++k) {
         Stroke stroke = layer.strokes[k];
         stroke.opacity *= view[i].tracks[k].shown;
-        append_visible_runs(stroke, layer.points_of(stroke), frame.views, scaled.depth_threshold_px, shown);
+        append_everywhere(stroke, layer.points_of(stroke), shown);
       }
     }
     sort_numbered_far_to_near(shown, style.seed);
@@ -316,14 +354,16 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
   ViewsPlan plan(progress, frame.views.size(), layers);
   plan.run([&](std::size_t view) {
     plan.report_step();
-    ViewAtWork work(frame.views[view], frame.views.front(), style, scene_begins);
+    StrokeNumbers numbers(memory.last_number, view, frame.views.size());
+    ViewAtWork work(frame.views[view], frame.views.front(), style, scene_begins, numbers);
     for (std::size_t i = 0; i < layers; ++i) {
       work.plan(static_cast<int>(i), scene_begins, options, memory.views[view][i]);
       plan.report_step();
     }
-    for (TrackedLayer& tracked : memory.views[view]) drop_hidden(frame, depth_threshold_px, tracked);
+    for (TrackedLayer& tracked : memory.views[view])
+      drop_hidden(frame, depth_threshold_px, memory.last_number, tracked);
   });
-  result.counts.begun = give_numbers(memory);
+  result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;
   const ImageView<const float> disparity = frame.views.front().disparity;
   memory.reference_disparity = Image<float>(disparity.width(), disparity.height());

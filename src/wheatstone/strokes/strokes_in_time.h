@@ -63,18 +63,4 @@ struct CarriedPainting {
 CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                              StrokeMemory& memory, const Progress& progress = {});
 
-/// What strokes left bare in one of a scene's views.
-struct BareView {
-  std::size_t view = 0;                ///< number of the view in the scene
-  ImageView<const std::uint8_t> bare;  ///< 255 where no stroke covers a pixel
-};
-
-/// Begins dots that cover the bare pixels of a view. They fade in unless the scene begins. Returns them as they are to
-/// be drawn with the finest layer.
-Layer cover_bare(const FilmFrame& frame, const BareView& left_bare, const Style& style, const CarryOptions& options,
-                 StrokeMemory& memory);
-
-/// Adds strokes to a layer whose strokes have numbers, each in its place.
-void insert_strokes(const Layer& part, const Style& style, Layer& whole);
-
 }  // namespace wheatstone

@@ -6,31 +6,6 @@
 #include "wheatstone/motion/flow.h"
 
 namespace wheatstone {
-namespace {
-
-/// A bit for each of the scene's views that shows the point.
-unsigned views_of(const ControlPoint& point, ViewPosition reference, std::span<const SceneView> views,
-                  float tolerance_px) {
-  unsigned seen = 0;
-  for (std::size_t i = 0; i < views.size(); ++i)
-    if (is_visible(point, reference, views[i], tolerance_px)) seen |= 1u << i;
-  return seen;
-}
-
-/// From the first to the last of the views.
-ViewRange range_of(unsigned seen, std::span<const SceneView> views) {
-  if (seen + 1 == 1u << views.size()) return {};
-  ViewRange range{right_eye, left_eye};
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if ((seen >> i & 1) == 0) continue;
-    range.first = std::min(range.first, views[i].position);
-    range.last = std::max(range.last, views[i].position);
-  }
-  return range;
-}
-
-}  // namespace
-
 float surface_disparity(ImageView<const float> disparity, float x, float y, float depth_threshold_px) {
   const auto width = static_cast<float>(disparity.width()), height = static_cast<float>(disparity.height());
   const float column = std::clamp(x - 0.5f, 0.f, width - 1), row = std::clamp(y - 0.5f, 0.f, height - 1);
@@ -52,32 +27,11 @@ bool is_visible(const ControlPoint& point, ViewPosition reference, const SceneVi
   return view.disparity(column, row) <= point.disparity + tolerance_px;
 }
 
-void append_visible_runs(const Stroke& stroke, std::span<const ControlPoint> points, std::span<const SceneView> views,
-                         float tolerance_px, Layer& shown) {
-  const auto first = static_cast<std::uint32_t>(shown.points.size());
-  shown.points.insert(shown.points.end(), points.begin(), points.end());
-  Stroke run = stroke;
-  if (views.size() == 1) {
-    run.first_point = first;
-    run.views = {};
-    shown.strokes.push_back(run);
-    return;
-  }
-  const auto seen_from = [&](std::size_t i) { return views_of(points[i], stroke.reference_view, views, tolerance_px); };
-  unsigned seen = seen_from(0);
-  for (std::size_t begin = 0; begin < points.size();) {
-    std::size_t end = begin + 1;
-    unsigned next = seen;
-    while (end < points.size() && (next = seen_from(end)) == seen) ++end;
-    if (seen != 0) {
-      run.first_point = first + static_cast<std::uint32_t>(begin);
-      run.point_count = static_cast<std::uint32_t>(end - begin);
-      run.views = range_of(seen, views);
-      shown.strokes.push_back(run);
-    }
-    begin = end;
-    seen = next;
-  }
+void append_everywhere(Stroke stroke, std::span<const ControlPoint> points, Layer& layer) {
+  stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
+  stroke.views = all_views;
+  layer.points.insert(layer.points.end(), points.begin(), points.end());
+  layer.strokes.push_back(stroke);
 }
 
 }  // namespace wheatstone

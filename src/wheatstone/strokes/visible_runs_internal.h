@@ -15,9 +15,7 @@ float surface_disparity(ImageView<const float> disparity, float x, float y, floa
 /// view in which the point stands.
 bool is_visible(const ControlPoint& point, ViewPosition reference, const SceneView& view, float tolerance_px);
 
-/// Appends a stroke, cut into runs of points that the same views of the scene show; what none shows is left out.
-/// `points` are the stroke's own.
-void append_visible_runs(const Stroke& stroke, std::span<const ControlPoint> points, std::span<const SceneView> views,
-                         float tolerance_px, Layer& shown);
+/// Appends a stroke that is seen from everywhere where nothing hides it. `points` are the stroke's own.
+void append_everywhere(Stroke stroke, std::span<const ControlPoint> points, Layer& layer);
 
 }  // namespace wheatstone

@@ -1,0 +1,67 @@
+#include "wheatstone/app/display_views.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone {
+namespace {
+
+void check_has_surfaces(const Painting& painting) {
+  if (painting.surfaces.seen.empty())
+    throw Error(ErrorKind::bad_input,
+                "the painting has no surfaces, which other views than those of two eyes need; paint its photographs "
+                "again, with strokes that are propagated");
+}
+
+/// Of the width of a view, how much the outermost views may be apart.
+float span_for(const DisplayViewsOptions& options, const DepthEnds& ends, float scale) {
+  if (options.span > 0) return options.span;
+  const float depth_px = std::max((ends.nearest_px - ends.farthest_px) * scale, 1.f);
+  return std::min(options.depth_share * static_cast<float>(options.width) / depth_px, options.widest_span);
+}
+
+/// Both eyes' pictures, moved against each other so that the screen plane has no parallax, share a part of the width,
+/// which fills a view.
+Placement placement_for(const Painting& painting, const DisplayViewsOptions& options, float zero_parallax_px) {
+  const int width = width_of(painting), height = height_of(painting);
+  const double shared = static_cast<double>(width) - std::abs(static_cast<double>(zero_parallax_px));
+  if (shared < 1)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("a disparity of {} px on the screen plane leaves nothing of {} px to show",
+                            zero_parallax_px, width));
+  Placement placement{.width = options.width, .height = options.height, .zero_parallax_px = zero_parallax_px};
+  placement.scale = std::max(options.width / shared, static_cast<double>(options.height) / height);
+  placement.left = (width - options.width / placement.scale) / 2;
+  placement.top = (height - options.height / placement.scale) / 2;
+  return placement;
+}
+
+}  // namespace
+
+DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options,
+                                const Progress& progress) {
+  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
+  check_has_surfaces(painting);
+  const DepthEnds ends = depth_ends(painting.surfaces.seen.front().disparity);
+  DisplayViews result;
+  result.zero_parallax_px = options.zero_parallax_px.value_or(ends.middle_px());
+  const Placement placement = placement_for(painting, options, result.zero_parallax_px);
+  result.span = span_for(options, ends, static_cast<float>(placement.scale));
+  result.rig = evenly_spaced(options.width, options.height, options.views, result.span);
+  report(progress, "views", 0);
+  std::vector<DrawnView> views = draw(prepare(painting, {.placement = placement}), result.rig.positions);
+  for (DrawnView& view : views) {
+    result.worst_bare_share = std::max(result.worst_bare_share, view.bare_share);
+    result.views.push_back(std::move(view.picture));
+  }
+  report(progress, "views", 1);
+  return result;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "wheatstone/depth/rig.h"
+#include "wheatstone/marks/painting.h"
+#include "wheatstone/progress.h"
+
+namespace wheatstone {
+
+/// The views of a painting that a display wants. The painting fills a view's picture, cropped at its middle.
+struct DisplayViewsOptions {
+  int views = 48;
+  int width = 420, height = 560;  ///< of a view
+  float span = 0;                 ///< eye separations of the photographs between the outermost views; 0: `widest_span`
+                                  ///< at most, but no more than parts near and far by `depth_share` of the width
+  float widest_span = 4;
+  float depth_share = 0.2f;
+  std::optional<float> zero_parallax_px;  ///< disparity on the screen plane; none: the middle of the scene's
+};
+
+struct DisplayViews {
+  std::vector<Image<Rgb8>> views;  ///< left to right
+  Rig rig;
+  float span = 0;               ///< as chosen
+  float zero_parallax_px = 0;   ///< in pixels of the painting
+  double worst_bare_share = 0;  ///< of a view's pixels that marks cover less than half
+};
+
+/// Draws a painting for a display. Throws Error{bad_input} where the painting has no surfaces, as those of two eyes and
+/// of old files, and other views than those of the two eyes are wanted.
+DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options,
+                                const Progress& progress = {});
+
+}  // namespace wheatstone

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace wheatstone {
+
+/// What draws.
+enum class Device { processor };
+
+}  // namespace wheatstone

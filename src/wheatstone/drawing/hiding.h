@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "wheatstone/depth/view_position.h"
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// What hides marks in one view. Surfaces are of the picture's size, NaN where none is known; empty ones hide nothing.
+///
+/// The reference view's marks are those of what it shows. What was planned in another view is seen where the reference
+/// view shows nothing, or something that lies farther; elsewhere it fills what the reference view's marks leave bare.
+struct Hiding {
+  ImageView<const float> surface;    ///< the nearest
+  ImageView<const float> reference;  ///< the reference view's alone; empty: all marks are its own
+  float tolerance_px = 0;            ///< of disparity, by which a surface must lie before a mark
+  ViewPosition reference_view;
+
+  bool is_own(ViewPosition planned_in) const { return reference.empty() || planned_in == reference_view; }
+};
+
+// The disparity that a mark must have to be seen at a pixel.
+
+inline float least_seen_disparity(float surface, float tolerance_px) {
+  constexpr float anything = -std::numeric_limits<float>::infinity();
+  return std::isnan(surface) ? anything : surface - tolerance_px;
+}
+
+/// Whether the reference view shows the nearest surface.
+inline bool is_of_reference(float surface, float reference, float tolerance_px) {
+  return !std::isnan(reference) && surface <= reference + tolerance_px;
+}
+
+/// Of a mark that was planned in another view than the reference.
+inline float least_seen_of_other(float surface, float reference, float tolerance_px) {
+  constexpr float nothing = std::numeric_limits<float>::infinity();
+  return is_of_reference(surface, reference, tolerance_px) ? nothing : least_seen_disparity(surface, tolerance_px);
+}
+
+/// Whether surfaces hide what a mark of this disparity has at a place, in pixels.
+inline bool is_hidden(float x, float y, float disparity, ViewPosition planned_in, const Hiding& hiding) {
+  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+  if (!hiding.surface.contains(column, row)) return false;
+  const float surface = hiding.surface(column, row);
+  return disparity < (hiding.is_own(planned_in)
+                          ? least_seen_disparity(surface, hiding.tolerance_px)
+                          : least_seen_of_other(surface, hiding.reference(column, row), hiding.tolerance_px));
+}
+
+}  // namespace wheatstone

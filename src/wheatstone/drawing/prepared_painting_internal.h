@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <variant>
+
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/drawing/hiding.h"
+#include "wheatstone/drawing/prepared_strokes_internal.h"
+#include "wheatstone/drawing/seen_surface_internal.h"
+
+namespace wheatstone {
+
+struct PreparedPainting::Contents {
+  int width, height;
+  std::variant<PreparedStrokes, RegionPainting, DiffusionPainting> marks;
+  PreparedSurfaces surfaces;
+  Relief relief;
+};
+
+// How each kind of marks is made ready and drawn.
+
+PreparedStrokes prepare_marks(const StrokePainting& painting);
+inline RegionPainting prepare_marks(RegionPainting painting) { return painting; }
+inline DiffusionPainting prepare_marks(DiffusionPainting painting) { return painting; }
+
+/// A view that is to be drawn.
+struct ViewToDraw {
+  ViewPosition position;
+  const Hiding& hiding;
+  ImageView<const Rgb8> background;  ///< may be empty
+  DrawnView& drawn;
+};
+
+void draw_marks(const PreparedStrokes& painting, std::span<const ViewToDraw> views);
+void draw_marks(const RegionPainting& painting, std::span<const ViewToDraw> views);
+void draw_marks(const DiffusionPainting& painting, std::span<const ViewToDraw> views);
+
+}  // namespace wheatstone

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace wheatstone {
+
+/// Bytes in fewer bytes (zlib).
+std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes);
+
+/// The bytes again, which are `size` many; nothing where the deflated ones are not exactly those of so many. Memory is
+/// taken only for what they can hold.
+std::optional<std::vector<std::uint8_t>> inflated(std::span<const std::uint8_t> bytes, std::size_t size);
+
+}  // namespace wheatstone

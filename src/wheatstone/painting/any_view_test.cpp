@@ -1,0 +1,186 @@
+// Paintings of a pair seen from views between and beside its eyes.
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/synthetic/synthetic_still.h"
+
+namespace wheatstone {
+namespace {
+
+const SyntheticStillOptions still_options{.width = 320, .height = 240, .samples_a_side = 1};
+
+const SyntheticStill& still() {
+  static const SyntheticStill made = make_synthetic_still(still_options);
+  return made;
+}
+
+const Image<Rgb8>& truth(float position) {
+  static std::map<float, Image<Rgb8>> views;
+  Image<Rgb8>& view = views[position];
+  if (view.empty()) view = make_synthetic_view(still_options, ViewPosition(position)).picture;
+  return view;
+}
+
+double rms(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
+    sum += std::pow(p.r - q.r, 2) + std::pow(p.g - q.g, 2) + std::pow(p.b - q.b, 2);
+  }
+  return std::sqrt(sum / (3.0 * static_cast<double>(a.pixels().size())));
+}
+
+constexpr ViewRange range{ViewPosition(-1.25f), ViewPosition(1.25f)};
+
+/// About the middle of the still's depths; a view is shifted by whole pixels when it has no parallax there.
+constexpr float zero_parallax_px = 12;
+
+Painting plan(const char* name, ViewRange wanted = range) {
+  return plan_painting(still().pictures, still().geometry, style_by_name(name), {}, wanted);
+}
+
+/// As a display shows views.
+PreparedPainting on_display(const Painting& painting) {
+  return prepare(painting, {.placement = {.zero_parallax_px = zero_parallax_px}});
+}
+
+Image<Rgb8> seen(const Painting& painting, float position) {
+  return draw(on_display(painting), ViewPosition(position)).picture;
+}
+
+/// How far a view on a display is from what a camera at its place would take.
+double error_at(float position, const Image<Rgb8>& view) {
+  const Image<Rgb8>& there = truth(position);
+  const int shift = static_cast<int>(std::lround(position * zero_parallax_px)), width = view.width();
+  const int first = std::max(shift, 0), end = std::min(width + shift, width);
+  Image<Rgb8> part(end - first, view.height()), true_part(end - first, view.height());
+  for (int y = 0; y < view.height(); ++y) {
+    for (int x = first; x < end; ++x) {
+      part(x - first, y) = view(x, y);
+      true_part(x - first, y) = there(x - shift, y);
+    }
+  }
+  return rms(part, true_part);
+}
+
+class AnyView : public testing::TestWithParam<const char*> {
+ protected:
+  const Painting& painting() const {
+    static std::map<std::string, Painting> planned;
+    const auto [at, is_new] = planned.try_emplace(GetParam());
+    if (is_new) at->second = plan(GetParam());
+    return at->second;
+  }
+};
+
+TEST_P(AnyView, IsAsTrueAsTheEyes) {
+  const double eye = error_at(-0.5f, seen(painting(), -0.5f));
+  // The naive way: all marks, whatever hides them. Regions hide each other by their own disparities, too.
+  Painting naive = painting();
+  naive.surfaces = {};
+  for (const float position : {-1.25f, -0.8f, -0.25f, 0.f, 0.3f, 1.25f}) {
+    const double ours = error_at(position, seen(painting(), position));
+    RecordProperty("at_" + std::to_string(position), std::to_string(ours / eye));
+    EXPECT_LT(ours, (std::abs(position) <= 0.5f ? 1.1 : 1.15) * eye) << position;
+    if (!std::holds_alternative<RegionPainting>(painting().marks)) {
+      EXPECT_GT(error_at(position, seen(naive, position)), 1.05 * ours) << position;
+    }
+    // The left eye's picture as it is, but for the views next to it.
+    if (std::abs(position + 0.5f) >= 0.5f) {
+      EXPECT_GT(error_at(position, seen(painting(), -0.5f)), ours) << position;
+    }
+  }
+}
+
+TEST_P(AnyView, IsNotLeftBare) {
+  const double most = std::holds_alternative<RegionPainting>(painting().marks) ? 0.004 : 0.002;
+  for (const float position : {-1.25f, -0.9f, -0.5f, -0.2f, 0.f, 0.5f, 0.7f, 1.25f}) {
+    const double bare = draw(on_display(painting()), ViewPosition(position)).bare_share;
+    RecordProperty("at_" + std::to_string(position), std::to_string(bare));
+    EXPECT_LT(bare, std::abs(position) <= 0.5f ? 0.001 : most) << position;
+  }
+}
+
+TEST_P(AnyView, DoesNotJumpFromItsNeighbours) {
+  std::vector<ViewPosition> positions;
+  for (int i = 0; i <= 20; ++i) positions.emplace_back(-0.5f + 0.05f * static_cast<float>(i));
+  const std::vector<DrawnView> views = draw(prepare(painting()), positions);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < views.size(); ++i) steps.push_back(rms(views[i - 1].picture, views[i].picture));
+  std::vector<double> sorted = steps;
+  std::ranges::sort(sorted);
+  RecordProperty("largest_step", std::to_string(sorted.back() / sorted[sorted.size() / 2]));
+  EXPECT_LT(sorted.back(), 1.6 * sorted[sorted.size() / 2]);
+}
+
+TEST_P(AnyView, OfManyIsWhatIsDrawnOfItAlone) {
+  const std::vector<ViewPosition> positions{ViewPosition(-1.25f), ViewPosition(-0.2f), right_eye, ViewPosition(1.25f)};
+  const std::vector<DrawnView> many = draw(prepare(painting()), positions);
+  ASSERT_EQ(many.size(), positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const DrawnView alone = draw(painting(), positions[i]);
+    EXPECT_EQ(many[i].picture, alone.picture);
+    EXPECT_EQ(many[i].bare, alone.bare);
+    EXPECT_EQ(many[i].bare_share, alone.bare_share);
+  }
+}
+
+TEST_P(AnyView, IsTheSameOnAnyNumberOfThreads) {
+  const std::vector<ViewPosition> positions{ViewPosition(-0.7f), ViewPosition(0.1f), ViewPosition(1.f)};
+  const std::vector<DrawnView> many = draw(prepare(painting()), positions);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Painting alone = plan(GetParam());
+  EXPECT_EQ(alone, painting());
+  const std::vector<DrawnView> drawn = draw(prepare(alone), positions);
+  for (std::size_t i = 0; i < positions.size(); ++i) EXPECT_EQ(many[i].picture, drawn[i].picture);
+}
+
+TEST_P(AnyView, BesideTheEyesCostsTheEyesNothing) {
+  const Painting of_eyes = plan(GetParam(), {});
+  EXPECT_LT(disparities_of_marks(of_eyes).size(), disparities_of_marks(painting()).size());
+  for (const ViewPosition eye : {left_eye, right_eye}) {
+    const Image<Rgb8>& photograph = eye == left_eye ? still().pictures.left : still().pictures.right;
+    const double with = rms(draw(painting(), eye).picture, photograph);
+    const double without = rms(draw(of_eyes, eye).picture, photograph);
+    RecordProperty(eye == left_eye ? "left" : "right", std::to_string(with / without));
+    EXPECT_LT(with, 1.02 * without) << eye.eye_separations();
+  }
+}
+
+TEST_P(AnyView, BesideTheEyesIsWorthItsMarks) {
+  const Painting of_eyes = plan(GetParam(), {});
+  for (const float position : {-1.25f, 1.25f}) {
+    const double with = error_at(position, seen(painting(), position));
+    const double without = error_at(position, seen(of_eyes, position));
+    RecordProperty("at_" + std::to_string(position), std::to_string(with / without));
+    EXPECT_LT(with, without) << position;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, AnyView, testing::Values("impressionist", "posterise", "mosaic", "diffusion"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+TEST(EyesApart, HaveTwoViewsAndNoSurfaces) {
+  for (const char* name : {"impressionist", "posterise", "diffusion"}) {
+    Style style = style_by_name(name);
+    style.propagation = Propagation::independent;
+    const Painting apart = plan_painting(still().pictures, still().geometry, style);
+    EXPECT_TRUE(apart.surfaces.seen.empty());
+    EXPECT_LT(draw(apart, right_eye).bare_share, 0.01) << name;
+    if (style.marks != Marks::curves) {
+      EXPECT_EQ(draw(apart, central_view).bare_share, 1) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wheatstone

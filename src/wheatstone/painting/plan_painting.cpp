@@ -1,0 +1,70 @@
+#include "wheatstone/painting/plan_painting.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "wheatstone/drawing/relief.h"
+#include "wheatstone/motion/fitting_scene.h"
+#include "wheatstone/strokes/layer_planner.h"
+
+namespace wheatstone {
+namespace {
+
+/// What a view is the first to see.
+Surface surface_of(const SceneView& view) {
+  const int width = view.disparity.width(), height = view.disparity.height();
+  Surface surface{view.position, Image<float>(width, height)};
+  tbb::parallel_for(0, height, [&](int y) {
+    const auto from = view.disparity.row(y);
+    const auto to = surface.disparity.row(y);
+    for (int x = 0; x < width; ++x) {
+      const bool is_its_own = view.only_here.empty() || view.only_here(x, y) != 0;
+      to[x] = is_its_own ? std::round(from[x] * disparity_steps) / disparity_steps
+                         : std::numeric_limits<float>::quiet_NaN();
+    }
+  });
+  return surface;
+}
+
+Surfaces surfaces_of(std::span<const SceneView> views, const Style& style) {
+  Surfaces surfaces;
+  for (const SceneView& view : views) surfaces.seen.push_back(surface_of(view));
+  surfaces.tolerance_px = ScaledStyle(style, views.front().picture.width()).depth_threshold_px;
+  return surfaces;
+}
+
+}  // namespace
+
+PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                           PaintingMemory& memory, const Progress& progress) {
+  check_style(style);
+  check_fits(frame.views);
+  report(progress, "painting", 0);
+  PlannedFrame planned;
+  Painting& painting = planned.painting;
+  switch (style.marks) {
+    case Marks::strokes: {
+      CarriedPainting carried = plan_strokes(frame, style, options, memory.strokes, progress);
+      painting.marks = std::move(carried.painting);
+      planned.counts = carried.counts;
+      break;
+    }
+    case Marks::regions:
+      painting.marks = plan_posterised(frame, style, memory.posterised);
+      break;
+    case Marks::tiles:
+      painting.marks = plan_mosaic(frame, style, memory.mosaic);
+      break;
+    case Marks::curves:
+      painting.marks = plan_diffusion(frame, style, memory.diffusion);
+      break;
+  }
+  painting.surfaces = surfaces_of(frame.views, style);
+  painting.relief = relief_for(style, width_of(painting));
+  return planned;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "wheatstone/curves/diffusion_in_time.h"
+#include "wheatstone/marks/painting.h"
+#include "wheatstone/motion/film_frame.h"
+#include "wheatstone/regions/mosaic.h"
+#include "wheatstone/regions/posterise.h"
+#include "wheatstone/strokes/strokes_in_time.h"
+
+namespace wheatstone {
+
+/// What any style carries from frame to frame. Empty before the first.
+struct PaintingMemory {
+  StrokeMemory strokes;
+  PosterisedMemory posterised;
+  MosaicMemory mosaic;
+  DiffusionMemory diffusion;
+};
+
+struct PlannedFrame {
+  Painting painting;
+  StrokeCounts counts;
+};
+
+/// Plans a frame of a film in any style; a still is a film of one frame. The marks of the reference view, the first,
+/// are those of all views; what only another view sees is planned there. Marks may be drawn from anywhere: the
+/// painting's surfaces, which are the views' disparities, hide them. Throws Error{wrong_usage} for a style that cannot
+/// be painted with, Error{bad_input} where the views do not fit together. What `progress` throws ends it: then `memory`
+/// is of no further use.
+PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                           PaintingMemory& memory, const Progress& progress = {});
+
+}  // namespace wheatstone
