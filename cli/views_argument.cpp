@@ -153,7 +153,8 @@ void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
                                  fmt::join(photograph_layout_names(), ", ")));
   command.add_option("--from-quilt", arguments.quilt, "Read the picture as a quilt of COLUMNSxROWS views");
   command.add_flag("--swap", arguments.swap, "Reverse the order of the views: they are stored from right to left");
-  add_number(command, "--views", arguments.views, {1, 1000}, "Number of views to make from a painting or from slices")->default_str("");
+  add_number(command, "--views", arguments.views, {1, 1000}, "Number of views to make from a painting or from slices")
+      ->default_str("");
   add_number(command, "--span", arguments.span, {0, 100},
              "Distance from the first view to the last, in eye separations, for a painting or slices");
 }

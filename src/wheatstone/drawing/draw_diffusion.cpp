@@ -24,6 +24,7 @@ struct LinePlace {
   float x, y, disparity;
   std::array<float, 3> colour;
   float length_px;  ///< of the line, that it stands for
+  ViewPosition planned_in;
 };
 
 /// Calls `use(place)` along every line that the view shows, some places to a pixel.
@@ -51,7 +52,7 @@ void walk_lines(const DiffusionPainting& painting, ViewPosition view, Use use) {
         std::array<float, 3> colour;
         for (std::size_t c = 0; c < 3; ++c) colour[c] = from[c] + t * (to[c] - from[c]);
         use(LinePlace{ax + t * (bx - ax), a.at.y + t * (b.at.y - a.at.y),
-                      a.at.disparity + t * (b.at.disparity - a.at.disparity), colour, step_px});
+                      a.at.disparity + t * (b.at.disparity - a.at.disparity), colour, step_px, line.reference_view});
       }
     }
   }
@@ -70,10 +71,13 @@ void spread(const LinePlace& place, int width, int height, Use use) {
 }
 
 /// Whether surfaces hide a place of a line. Lines lie a pixel beside the edges of surfaces, which are known to a pixel
-/// or two: what is not hidden that far to one side is seen.
-bool is_hidden(const LinePlace& place, const Hiding& hiding) {
+/// or two: what is not hidden that far to one side is seen. Every view has lines of its own beside what hides
+/// something; in those that photographs show, the lines of the others give way.
+bool is_hidden(const LinePlace& place, ViewPosition view, const Hiding& hiding) {
   constexpr float beside_px = 2;
-  const auto hidden_at = [&](float x) { return is_hidden(x, place.y, place.disparity, hiding.reference_view, hiding); };
+  const bool gives_way = hiding.photographed_views.contains(view) && hiding.is_continued(place.planned_in);
+  const ViewPosition planned_in = gives_way ? place.planned_in : hiding.reference_view;
+  const auto hidden_at = [&](float x) { return is_hidden(x, place.y, place.disparity, planned_in, hiding); };
   return hidden_at(place.x) && hidden_at(place.x - beside_px) && hidden_at(place.x + beside_px);
 }
 
@@ -85,7 +89,7 @@ Image<Known> draw_lines(const DiffusionPainting& painting, ViewPosition view, co
   const int width = painting.width, height = painting.height;
   Image<float> nearest(width, height, -std::numeric_limits<float>::infinity());
   walk_lines(painting, view, [&](const LinePlace& place) {
-    if (is_hidden(place, hiding)) return;
+    if (is_hidden(place, view, hiding)) return;
     spread(place, width, height, [&](int x, int y, float share) {
       constexpr float least_share = 0.25f;
       if (share >= least_share) nearest(x, y) = std::max(nearest(x, y), place.disparity);
@@ -93,7 +97,7 @@ Image<Known> draw_lines(const DiffusionPainting& painting, ViewPosition view, co
   });
   Image<Known> known(width, height);
   walk_lines(painting, view, [&](const LinePlace& place) {
-    if (is_hidden(place, hiding)) return;
+    if (is_hidden(place, view, hiding)) return;
     spread(place, width, height, [&](int x, int y, float share) {
       if (place.disparity < nearest(x, y) - same_surface_px) return;
       Known& pixel = known(x, y);

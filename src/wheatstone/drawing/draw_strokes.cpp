@@ -123,15 +123,17 @@ class BandOfViews {
     const BandHiding hides(view.hiding, band_, painting_.width);
     FrontToBackAccumulator accumulator(band_.row_count, painting_.width);
     draw_strokes(
-        view, [&](bool own) { return own ? &hides.own : &hides.other; }, accumulator);
+        view, [&](const FlatStroke& stroke) { return &hides.of(stroke, view.hiding); }, accumulator);
     if (!view.hiding.reference.empty())
       draw_strokes(
-          view, [&](bool own) { return own ? nullptr : &hides.gaps; }, accumulator);
+          view,
+          [&](const FlatStroke& stroke) { return view.hiding.is_own(stroke.reference_view) ? nullptr : &hides.gaps; },
+          accumulator);
     return finish_band({painting_, view, accumulator}, band_.top, band_.row_count);
   }
 
  private:
-  /// `hidden_below(own)` tells what hides strokes of the reference view, or of others; null: they are not drawn.
+  /// `hidden_below(stroke)` tells what hides it; null: it is not drawn.
   template <class HiddenBelowOf>
   void draw_strokes(const ViewToDraw& view, HiddenBelowOf hidden_below, FrontToBackAccumulator& accumulator) {
     for (std::size_t above = painting_.layers.size(); above-- > 0;) {
@@ -141,7 +143,7 @@ class BandOfViews {
       for (std::size_t nearer = strokes.size(); nearer-- > 0;) {
         const FlatStroke& stroke = layer.strokes[strokes[nearer]];
         if (!stroke.views.contains(view.position)) continue;
-        const HiddenBelow* const below = hidden_below(view.hiding.is_own(stroke.reference_view));
+        const HiddenBelow* const below = hidden_below(stroke);
         if (below == nullptr) continue;
         if (!stroke.is_rigid) {
           draw_stroke_under({seen, stroke, *below}, band_, accumulator);

@@ -5,6 +5,7 @@
 
 #include "wheatstone/depth/view_position.h"
 #include "wheatstone/image/image.h"
+#include "wheatstone/marks/view_range.h"
 
 namespace wheatstone {
 
@@ -17,7 +18,12 @@ struct Hiding {
   ImageView<const float> reference;  ///< the reference view's alone; empty: all marks are its own
   float tolerance_px = 0;            ///< of disparity, by which a surface must lie before a mark
   ViewPosition reference_view;
+  ImageView<const float> photographed;  ///< the nearest that photographs show; of all views where that is empty
+  ViewRange photographed_views;         ///< marks of other views go on where no photograph shows anything
 
+  bool is_continued(ViewPosition planned_in) const {
+    return !photographed.empty() && !photographed_views.contains(planned_in);
+  }
   bool is_own(ViewPosition planned_in) const { return reference.empty() || planned_in == reference_view; }
 };
 
@@ -44,9 +50,9 @@ inline bool is_hidden(float x, float y, float disparity, ViewPosition planned_in
   const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
   if (!hiding.surface.contains(column, row)) return false;
   const float surface = hiding.surface(column, row);
-  return disparity < (hiding.is_own(planned_in)
-                          ? least_seen_disparity(surface, hiding.tolerance_px)
-                          : least_seen_of_other(surface, hiding.reference(column, row), hiding.tolerance_px));
+  if (hiding.is_own(planned_in)) return disparity < least_seen_disparity(surface, hiding.tolerance_px);
+  const ImageView<const float>& known = hiding.is_continued(planned_in) ? hiding.photographed : hiding.reference;
+  return disparity < least_seen_of_other(surface, known(column, row), hiding.tolerance_px);
 }
 
 }  // namespace wheatstone

@@ -48,12 +48,17 @@ BandHiding::BandHiding(const Hiding& hiding, const DistanceBand& band, int canva
       }
     }
   };
-  const auto& [surface, reference, tolerance_px, reference_view] = hiding;
+  const ImageView<const float>&surface = hiding.surface, &reference = hiding.reference;
+  const float tolerance_px = hiding.tolerance_px;
   fill(own, [&](int x, int y) { return least_seen_disparity(surface(x, y), tolerance_px); });
   if (reference.empty()) return;
   fill(other, [&](int x, int y) { return least_seen_of_other(surface(x, y), reference(x, y), tolerance_px); });
+  if (!hiding.photographed.empty())
+    fill(continued,
+         [&](int x, int y) { return least_seen_of_other(surface(x, y), hiding.photographed(x, y), tolerance_px); });
+  const ImageView<const float>& known = hiding.photographed.empty() ? reference : hiding.photographed;
   fill(gaps, [&](int x, int y) {
-    return std::isnan(reference(x, y)) ? everything : least_seen_disparity(surface(x, y), tolerance_px);
+    return std::isnan(known(x, y)) ? everything : least_seen_disparity(surface(x, y), tolerance_px);
   });
 }
 

@@ -63,9 +63,16 @@ struct DistanceBand {
 struct BandHiding {
   BandHiding(const Hiding& hiding, const DistanceBand& band, int canvas_width);
 
-  HiddenBelow own;    ///< those of the reference view
-  HiddenBelow other;  ///< those of other views
-  HiddenBelow gaps;   ///< those of other views that fill what the reference view's leave bare
+  HiddenBelow own;        ///< those of the reference view
+  HiddenBelow other;      ///< those of other views that photographs show
+  HiddenBelow continued;  ///< those of other views
+  HiddenBelow gaps;       ///< those that fill what the reference view's leave bare
+
+  /// What hides a stroke at first.
+  const HiddenBelow& of(const FlatStroke& stroke, const Hiding& hiding) const {
+    if (hiding.is_own(stroke.reference_view)) return own;
+    return hiding.is_continued(stroke.reference_view) ? continued : other;
+  }
 };
 
 /// Which blocks of columns still let light through, a bit each.

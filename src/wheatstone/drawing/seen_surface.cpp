@@ -35,9 +35,10 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& prepared, ViewPosition view, 
   const Surfaces& surfaces = prepared.surfaces;
   if (surfaces.seen.empty()) return seen;
   seen.reference = Image<float>(width, height, unknown);
-  seen.nearest = Image<float>(width, height, unknown);
+  seen.nearest = seen.photographed = Image<float>(width, height, unknown);
   tbb::parallel_for(0, height, [&](int y) {
-    const auto reference = seen.reference.row(y), nearest = seen.nearest.row(y);
+    const auto reference = seen.reference.row(y), nearest = seen.nearest.row(y),
+               photographed = seen.photographed.row(y);
     const auto warp = [&](std::size_t i, std::span<float> over) {
       const Surface& surface = surfaces.seen[i];
       if (y >= surface.disparity.height()) return;
@@ -47,14 +48,16 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& prepared, ViewPosition view, 
     };
     warp(0, reference);
     close_cracks(reference);
-    std::ranges::copy(reference, nearest.begin());
+    std::ranges::copy(reference, photographed.begin());
     std::vector<float> continued(nearest.size(), unknown);
     for (std::size_t i = 1; i < surfaces.seen.size(); ++i)
-      warp(i, surfaces.seen[i].continued ? std::span<float>(continued) : nearest);
+      warp(i, surfaces.seen[i].continued ? std::span<float>(continued) : photographed);
     for (std::size_t x = 0; x < nearest.size(); ++x)
-      if (std::isnan(nearest[x])) nearest[x] = continued[x];
+      nearest[x] = std::isnan(photographed[x]) ? continued[x] : photographed[x];
   });
-  seen.hiding = {seen.nearest, seen.reference, surfaces.tolerance_px, surfaces.seen.front().view};
+  seen.hiding = {seen.nearest,          seen.reference,
+                 surfaces.tolerance_px, surfaces.seen.front().view,
+                 seen.photographed,     photographed_views(surfaces)};
   return seen;
 }
 

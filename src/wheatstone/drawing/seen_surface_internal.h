@@ -28,7 +28,7 @@ struct PreparedSurfaces {
 
 /// What hides a painting's marks in one view.
 struct SeenSurfaces {
-  Image<float> nearest, reference;
+  Image<float> nearest, reference, photographed;
   Hiding hiding;  ///< refers to them
 };
 

@@ -74,7 +74,7 @@ std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& pa
         for (std::size_t nearer = strokes.size(); nearer-- > 0;) {
           const FlatStroke& stroke = layers[above].flat.strokes[strokes[nearer]];
           if (!stroke.views.contains(view)) continue;
-          const HiddenBelow* const below = hidden_below(hiding.is_own(stroke.reference_view));
+          const HiddenBelow* const below = hidden_below(stroke);
           if (below == nullptr) continue;
           before.keep(layers[above], stroke, band, accumulator);
           draw_stroke_under({layers[above], stroke, *below}, band, accumulator);
@@ -84,8 +84,10 @@ std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& pa
         }
       }
     };
-    look_at_strokes([&](bool own) { return own ? &hides.own : &hides.other; });
-    if (!hiding.reference.empty()) look_at_strokes([&](bool own) { return own ? nullptr : &hides.gaps; });
+    look_at_strokes([&](const FlatStroke& stroke) { return &hides.of(stroke, hiding); });
+    if (!hiding.reference.empty())
+      look_at_strokes(
+          [&](const FlatStroke& stroke) { return hiding.is_own(stroke.reference_view) ? nullptr : &hides.gaps; });
   });
   return visible;
 }

@@ -12,14 +12,28 @@ bool operator==(const Surface& a, const Surface& b) {
          std::ranges::equal(a.disparity.pixels(), b.disparity.pixels(), same);
 }
 
-ViewRange known_views(const Surfaces& surfaces) {
-  ViewRange known{central_view, central_view};
-  if (!surfaces.seen.empty()) known = {surfaces.seen.front().view, surfaces.seen.front().view};
+namespace {
+
+template <class Counts>
+ViewRange range_of(const Surfaces& surfaces, Counts counts) {
+  ViewRange range{central_view, central_view};
+  if (!surfaces.seen.empty()) range = {surfaces.seen.front().view, surfaces.seen.front().view};
   for (const Surface& surface : surfaces.seen) {
-    known.first = std::min(known.first, surface.view);
-    known.last = std::max(known.last, surface.view);
+    if (!counts(surface)) continue;
+    range.first = std::min(range.first, surface.view);
+    range.last = std::max(range.last, surface.view);
   }
-  return known;
+  return range;
+}
+
+}  // namespace
+
+ViewRange photographed_views(const Surfaces& surfaces) {
+  return range_of(surfaces, [](const Surface& surface) { return !surface.continued; });
+}
+
+ViewRange known_views(const Surfaces& surfaces) {
+  return range_of(surfaces, [](const Surface&) { return true; });
 }
 
 }  // namespace wheatstone

@@ -30,6 +30,9 @@ struct Surfaces {
   friend bool operator==(const Surfaces&, const Surfaces&) = default;
 };
 
+/// From the leftmost to the rightmost view whose surface a photograph shows.
+ViewRange photographed_views(const Surfaces& surfaces);
+
 /// The views in which surfaces are known: from the leftmost to the rightmost of them.
 ViewRange known_views(const Surfaces& surfaces);
 

@@ -8,9 +8,14 @@ StillScene make_still_scene(const StereoPairView& photographs, const StereoGeome
   StillScene scene;
   scene.views = scene_from_left(photographs, geometry);
   const float middle_px = depth_ends(geometry.left_disparity).middle_px();
-  if (wanted.first < left_eye) scene.outer.push_back(make_outer_view(photographs, geometry, wanted.first, middle_px));
-  if (wanted != ViewRange{}) scene.outer.push_back(make_outer_view(photographs, geometry, central_view, middle_px));
-  if (wanted.last > right_eye) scene.outer.push_back(make_outer_view(photographs, geometry, wanted.last, middle_px));
+  // What a view halfway uncovers, the outermost one may hide again.
+  for (const float share : {1.f, 0.5f}) {
+    for (const ViewPosition outermost : {wanted.first, wanted.last}) {
+      const ViewPosition view(share * outermost.eye_separations());
+      if (view < left_eye || view > right_eye)
+        scene.outer.push_back(make_outer_view(photographs, geometry, view, middle_px));
+    }
+  }
   for (const OuterView& view : scene.outer)
     scene.views.push_back({view.picture, view.disparity, view.uncovered, view.position});
   return scene;

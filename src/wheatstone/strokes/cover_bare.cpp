@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 #include "wheatstone/strokes/cover_bare_internal.h"
@@ -33,6 +35,31 @@ void strike_out(int x, int y, float radius_px, Image<std::uint8_t>& bare) {
 }
 
 }  // namespace
+
+Layer strokes_near_bare(const Layer& layer, const Canvas& canvas) {
+  constexpr int block_px = 16;
+  const int columns = canvas.width / block_px + 1, rows = canvas.height / block_px + 1;
+  Image<std::uint8_t> has_bare(columns, rows);
+  for (int y = 0; y < canvas.height; ++y)
+    for (int x = 0; x < canvas.width; ++x)
+      if (canvas.coverage(x, y) < 0.5f) has_bare(x / block_px, y / block_px) = 1;
+  const auto block = [](float place, int count) {
+    return std::clamp(static_cast<int>(std::floor(place / block_px)), 0, count - 1);
+  };
+  const auto may_cover = [&](const Stroke& stroke) {
+    const std::span<const ControlPoint> points = layer.points_of(stroke);
+    const auto [left, right] = std::ranges::minmax_element(points, {}, &ControlPoint::x);
+    const auto [top, bottom] = std::ranges::minmax_element(points, {}, &ControlPoint::y);
+    const float reach = stroke.radius_px + 1;
+    for (int row = block(top->y - reach, rows); row <= block(bottom->y + reach, rows); ++row)
+      for (int column = block(left->x - reach, columns); column <= block(right->x + reach, columns); ++column)
+        if (has_bare(column, row) != 0) return true;
+    return false;
+  };
+  Layer near{layer.radius_px, layer.points, {}};
+  std::ranges::copy_if(layer.strokes, std::back_inserter(near.strokes), may_cover);
+  return near;
+}
 
 Layer cover_bare(const LayerPlanner& planner, const ScaledStyle& scaled, const Style& style,
                  ImageView<const std::uint8_t> wanted) {

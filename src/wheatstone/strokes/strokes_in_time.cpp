@@ -60,31 +60,27 @@ class ViewAtWork {
   void plan(int layer, bool scene_begins, const CarryOptions& options, TrackedLayer& tracked) {
     if (planner_.photograph.empty()) return;
     const LayerInputs inputs = make_layer_inputs(planner_, style_, scaled_, layer);
-    Image<std::uint8_t> seeds = where_paint_is_wanted(inputs);
+    const ImageView<const std::uint8_t> part = part_ ? part_->seeds.view() : ImageView<const std::uint8_t>();
+    Image<std::uint8_t> seeds;
     if (!tracked.tracks.empty()) {
+      seeds = where_paint_is_wanted(inputs);
       end_wrong_colours(inputs, options, tracked);
       draw_on_canvas(carried(tracked));
       keep_away_from(tracked, layer, seeds);
     }
-    const Layer begun = begin_strokes(inputs, seeds);
+    Layer begun = plan_on(planner_, inputs, style_, scaled_, seeds.empty() ? part : seeds.view());
+    numbers_.give(begun);
+    sort_numbered_far_to_near(begun, style_.seed);
     add(begun, inputs, scene_begins, options, tracked);
     const bool finest = layer + 1 == static_cast<int>(scaled_.radii_px.size());
+    rasterise(finest ? strokes_near_bare(begun, planner_.canvas) : begun, planner_.view, hiding(), planner_.canvas);
     if (!finest) return;
-    Layer dots = cover_bare(planner_, scaled_, style_, part_ ? part_->seeds.view() : ImageView<const std::uint8_t>());
+    Layer dots = cover_bare(planner_, scaled_, style_, part);
     numbers_.give(dots);
     add(std::move(dots), inputs, scene_begins, options, tracked);
   }
 
  private:
-  /// Plans strokes and draws them on the canvas.
-  Layer begin_strokes(const LayerInputs& inputs, ImageView<const std::uint8_t> seeds) {
-    Layer begun = plan_on(planner_, inputs, style_, scaled_, seeds);
-    numbers_.give(begun);
-    sort_numbered_far_to_near(begun, style_.seed);
-    rasterise(begun, planner_.view, hiding(), planner_.canvas);
-    return begun;
-  }
-
   /// What a view alone shows. Grown at first, so that its strokes reach under those of the reference view; later those
   /// are there, and what they may show is theirs.
   static std::optional<HalfView> part_of(const SceneView& view, const SceneView& reference, const Style& style,
