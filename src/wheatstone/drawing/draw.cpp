@@ -58,7 +58,7 @@ std::vector<DrawnView> draw(const PreparedPainting& painting, std::span<const Vi
   // The surfaces of so many views are held at once.
   constexpr std::size_t most_pixels = 16u << 20;
   const std::size_t pixels = static_cast<std::size_t>(contents.width) * static_cast<std::size_t>(contents.height);
-  const std::size_t at_once = std::max<std::size_t>(most_pixels / std::max<std::size_t>(pixels, 1), 2);
+  const std::size_t at_once = std::max<std::size_t>(most_pixels / std::max<std::size_t>(pixels, 1), 1);
   std::vector<DrawnView> drawn(views.size());
   for (std::size_t first = 0; first < views.size(); first += at_once) {
     const std::size_t count = std::min(at_once, views.size() - first);

@@ -8,22 +8,37 @@
 
 namespace wheatstone {
 
-/// A painting's surfaces, and the runs of columns in which each row of them is known.
-struct PreparedSurfaces {
-  explicit PreparedSurfaces(Surfaces surfaces);
-
+/// A painting's surfaces, of each only what is known.
+class PreparedSurfaces {
+ public:
+  /// A run of columns of a row, and where its disparities begin.
   struct Run {
     int begin, end;
+    std::size_t first_value;
   };
-  std::span<const Run> runs_of(std::size_t surface, int y) const {
-    const std::vector<std::size_t>& first = first_run[surface];
-    const auto row = static_cast<std::size_t>(y);
-    return std::span(runs[surface]).subspan(first[row], first[row + 1] - first[row]);
-  }
+  struct KnownPart {
+    ViewPosition view;
+    int left_px;
+    bool continued;
+    std::vector<Run> runs;               ///< row by row
+    std::vector<std::size_t> first_run;  ///< of each row, and one more
+    std::vector<float> disparities;
 
-  Surfaces surfaces;
-  std::vector<std::vector<Run>> runs;               ///< of each surface, row by row
-  std::vector<std::vector<std::size_t>> first_run;  ///< of each row, and one more
+    int rows() const { return static_cast<int>(first_run.size()) - 1; }
+    std::span<const Run> runs_of(int y) const {
+      const auto row = static_cast<std::size_t>(y);
+      return std::span(runs).subspan(first_run[row], first_run[row + 1] - first_run[row]);
+    }
+    std::span<const float> disparities_of(const Run& run) const {
+      return std::span(disparities).subspan(run.first_value, static_cast<std::size_t>(run.end - run.begin));
+    }
+  };
+
+  explicit PreparedSurfaces(const Surfaces& surfaces);
+
+  std::vector<KnownPart> seen;  ///< the reference view's first
+  float tolerance_px;
+  ViewRange photographed;
 };
 
 /// What hides a painting's marks in one view.

@@ -11,7 +11,7 @@ struct PaintedFrame {
   StrokeCounts counts;
 };
 
-/// Paints a frame of a film for both eyes, or for the one view there is, and leaves no pixel bare. Throws
+/// Paints a frame of a film for both eyes, or for the one view there is, and leaves at most single pixels bare. Throws
 /// Error{wrong_usage} for a style that cannot be painted with. What `progress` throws, between the steps of planning
 /// and drawing, ends it: then `memory` is of no further use.
 PaintedFrame paint_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options,

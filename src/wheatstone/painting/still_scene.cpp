@@ -8,8 +8,11 @@ StillScene make_still_scene(const StereoPairView& photographs, const StereoGeome
   StillScene scene;
   scene.views = scene_from_left(photographs, geometry);
   const float middle_px = depth_ends(geometry.left_disparity).middle_px();
-  // What a view halfway uncovers, the outermost one may hide again.
-  for (const float share : {1.f, 0.5f}) {
+  std::vector<float> shares{1};
+  // What a view halfway uncovers, the outermost one may hide again. Large pictures would take too much memory.
+  constexpr double large_px = 8e6;
+  if (static_cast<double>(photographs.left.width()) * photographs.left.height() <= large_px) shares.push_back(0.5f);
+  for (const float share : shares) {
     for (const ViewPosition outermost : {wanted.first, wanted.last}) {
       const ViewPosition view(share * outermost.eye_separations());
       if (view < left_eye || view > right_eye)
