@@ -64,7 +64,9 @@ struct DrawnBand {
 
 /// Writes a finished row over the background; `offset` is its place in the accumulator.
 void finish_row(const DrawnBand& band, std::size_t offset, int y) {
-  const auto& [painting, work, accumulator] = band;
+  const PreparedStrokes& painting = band.painting;
+  const ViewToDraw& work = band.view;
+  const FrontToBackAccumulator& accumulator = band.accumulator;
   const std::span light = std::span(accumulator.light).subspan(offset, accumulator.width);
   const auto to = work.drawn.picture.row(y);
   const auto paint = [&](int x) {

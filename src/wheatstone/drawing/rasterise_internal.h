@@ -87,7 +87,7 @@ class TransmittanceMask {
 
   /// Whether any of the blocks from `first` to `last` is.
   bool is_any_open(int row, int first, int last) const {
-    const std::uint64_t* words = words_.data() + row * stride_;
+    const std::uint64_t* words = words_.data() + static_cast<std::ptrdiff_t>(row) * stride_;
     for (int word = first / 64; word <= last / 64; ++word) {
       std::uint64_t bits = words[word];
       if (word == first / 64) bits &= ~std::uint64_t{0} << (first % 64);
@@ -148,7 +148,7 @@ struct Stamp {
   int first_row = 0, end_row = 0;  ///< of the band
   int left = 0;                    ///< column of the central view
   int width = 0;                   ///< columns; 0: not made yet
-  std::size_t stride() const { return static_cast<std::size_t>(width + margin + 1); }
+  std::size_t stride() const { return static_cast<std::size_t>(width) + margin + 1; }
 };
 
 /// Makes the stamp of a stroke, whose layer is seen in columns from stamp.left on; `band` is as wide as the stamp.

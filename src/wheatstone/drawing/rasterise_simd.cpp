@@ -122,7 +122,9 @@ bool may_be_hidden(const FlatStroke& stroke, const HiddenBelow& below, const Dis
 
 /// Fills the band with the stroke's squared distances, within its extents.
 void measure_distances(const StrokeInBand& of, DistanceBand& band) {
-  const auto& [layer, stroke, below] = of;
+  const SeenLayer& layer = of.layer;
+  const FlatStroke& stroke = of.stroke;
+  const HiddenBelow& below = of.hidden_below;
   const Floats f;
   const int lanes = static_cast<int>(hn::Lanes(f));
   const auto far = hn::Set(f, far_away);

@@ -92,13 +92,14 @@ struct CellRun {
 
 /// The cells of a row in which strokes may begin at all.
 std::vector<CellRun> runs_of_active_cells(const Pass& pass, int row) {
-  const auto& [plan, style, place, grid] = pass;
+  const LayerPlan& plan = pass.plan;
+  const Grid& grid = pass.grid;
   std::vector<CellRun> runs;
   for (int column = 0; column < grid.columns(); ++column) {
     const auto holds = [&](ImageView<const std::uint8_t> mask) {
       return has_any(mask, grid.left(column), grid.left(column + 1), grid.top(row), grid.top(row + 1));
     };
-    if (!holds(plan.seeds) || (place == Place::beside_edge && !holds(plan.depth_edges))) continue;
+    if (!holds(plan.seeds) || (pass.place == Place::beside_edge && !holds(plan.depth_edges))) continue;
     if (!runs.empty() && runs.back().end == column) {
       ++runs.back().end;
     } else {
