@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -43,7 +44,9 @@ void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOpti
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   report(progress, "drawing", 0);
   const PreparedPainting prepared = prepare(sized);
-  const StereoPair pictures{draw(prepared, left_eye).picture, draw(prepared, right_eye).picture};
+  const std::array eyes{left_eye, right_eye};
+  std::vector<DrawnView> drawn = draw(prepared, eyes);
+  const StereoPair pictures{std::move(drawn.front().picture), std::move(drawn.back().picture)};
   const StereoPair presented = present_pair(sized, pictures, comfortable_separation(sized, options.depth_budget),
                                             options.zero_parallax_px.value_or(nearest_disparity(sized)));
   report(progress, "writing", 0);
