@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -207,7 +208,9 @@ struct MarksOfFilm {
 double bare_share_of(const Painting& marks, bool two_eyes) {
   if (!two_eyes) return draw(marks, central_view).bare_share;
   const PreparedPainting prepared = prepare(marks);
-  return std::max(draw(prepared, left_eye).bare_share, draw(prepared, right_eye).bare_share);
+  const std::array eyes{left_eye, right_eye};
+  const std::vector<DrawnView> drawn = draw(prepared, eyes);
+  return std::max(drawn.front().bare_share, drawn.back().bare_share);
 }
 
 MarksOfFilm measure_marks(const Arguments& arguments, bool two_eyes, int frames, const std::vector<int>& cuts,

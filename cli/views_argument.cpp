@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -67,7 +68,8 @@ ReadViews draw_painting(const std::string& file, int count, float span, const Pr
   read.how = "drawn from a painting";
   if (of_the_eyes) {
     const PreparedPainting prepared = prepare(painting);
-    for (const ViewPosition eye : {left_eye, right_eye}) read.views.push_back(draw(prepared, eye).picture);
+    const std::array eyes{left_eye, right_eye};
+    for (DrawnView& view : draw(prepared, eyes)) read.views.push_back(std::move(view.picture));
     return read;
   }
   const DisplayViewsOptions options{
