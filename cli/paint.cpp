@@ -12,6 +12,7 @@
 
 #include "command.h"
 #include "disparity_argument.h"
+#include "display_argument.h"
 #include "number_arguments.h"
 #include "paint_arguments.h"
 #include "print_facts.h"
@@ -93,17 +94,7 @@ ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
 
 /// What a display wants, where the user does not say otherwise.
 DisplayViewsOptions views_options(const Arguments& arguments, const DisplayPreset& display) {
-  DisplayViewsOptions options{.views = arguments.views > 0 ? arguments.views : display.views,
-                              .width = display.view_width_px,
-                              .height = display.view_height_px,
-                              .span = arguments.span,
-                              .widest_span = std::max(span_of(display), 1.f)};
-  if (!arguments.size.empty()) {
-    const Size size = parse_size("--size", arguments.size, {1, 16384});
-    options.width = size.width;
-    options.height = size.height;
-  }
-  return options;
+  return display_views_options(display, {arguments.display, arguments.size, arguments.views, arguments.span});
 }
 
 /// Writes a quilt or a lenticular picture where the display takes one, and else a picture a view.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "command.h"
+#include "display_argument.h"
 #include "film_argument.h"
 #include "interrupt.h"
 #include "match_options.h"
@@ -48,6 +49,7 @@ struct Arguments {
   bool no_audio = false, no_subtitles = false;
   std::string rate;
   std::string truth;
+  DisplayArguments display;
   RotoscopeFilmOptions options;
   MatchArguments matching;
   StyleArguments style;
@@ -69,6 +71,7 @@ KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
 
 /// How the eyes lie in a painted frame: as in the source, where a frame can hold them so.
 StereoLayout layout_of_output(const Arguments& arguments, const StereoFilmReader& source, bool two_films) {
+  if (arguments.options.frames.display) return StereoLayout::mono;
   if (const auto asked = film_layout_option("--output-layout", arguments.output_layout)) {
     if (source.layout() == StereoLayout::mono && !two_films && *asked != StereoLayout::mono)
       throw Error(ErrorKind::wrong_usage,
@@ -86,7 +89,7 @@ FilmWriterOptions writing_options(const Arguments& arguments, const FilmArgument
   const FilmFacts& facts = source.facts();
   writing.layout = layout_of_output(arguments, source, !film.right.empty());
   writing.frame_rate = facts.frame_rate;
-  writing.pixel_aspect = facts.pixel_aspect;
+  writing.pixel_aspect = arguments.options.frames.display ? Rational{1, 1} : facts.pixel_aspect;
   writing.colour = facts.colour;
   if (!facts.side_streams.empty()) writing.side_streams_from = film.film;
   writing.copy_audio = !arguments.no_audio;
@@ -178,9 +181,27 @@ RotoscopedFilm begin_or_resume(StereoFilmReader& source, const fs::path& output,
   }
 }
 
+/// What a display asks for, where the user does not say otherwise.
+void take_display(const CLI::App& command, Arguments& arguments) {
+  arguments.options.frames.display = film_display_from(arguments.display);
+  if (!arguments.options.frames.display) return;
+  refuse_options(command, {"--output-layout"}, "with --display", "it works where two eyes are painted");
+  if (!was_given(command, "--output")) arguments.output = "painted";
+  arguments.output = name_of_display_film(arguments.output, arguments.display);
+  if (fs::path(arguments.output).extension() == ".wst")
+    refuse_options(command, {"--display"}, "on marks (.wst)", "'paint --display' draws them for a display");
+  const FilmDisplay& display = *arguments.options.frames.display;
+  FilmWriterOptions& writing = arguments.options.writing;
+  if (!was_given(command, "--codec")) writing.codec = codec_for(display);
+  // Neighbouring sub-pixels belong to different views.
+  if (!display.quilt && !was_given(command, "--pixel-format") && writing.codec != "ffv1")
+    writing.pixel_format = "yuv444p";
+}
+
 void run(Arguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.style = style_from(arguments.style, session.seed);
   arguments.options.frames.matching = match_options_from(arguments.matching);
+  take_display(command, arguments);
   refuse_options_without_effect(command, arguments);
   tell_what_is_kept([output = fs::path(arguments.output), marks = arguments.options.marks] {
     const std::optional<std::string> kept = unfinished_film(output, marks);
@@ -212,6 +233,10 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   options.reading = reading;
   StereoFilmReader source = open_film(film, reading);
   if (source.layout() == StereoLayout::mono && film.right.empty()) {
+    if (options.frames.display)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: has one eye, expected two for a display of more views (--layout says how they lie)",
+                              film.film.string()));
     refuse_group(command, match_options_group, {}, "on a film of one eye", {});
     refuse_options(command, {"--central", "--rectify"}, "on a film of one eye", {});
   }
@@ -317,10 +342,13 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
                   "eye: LEFT,RIGHT")
       ->required();
   command.add_option("RIGHT", arguments->right, "Film of the right eye, if FILM is that of the left eye");
-  add_output_option(command, arguments->output,
-                    "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks (frame_%04d.wst)");
+  add_output_option(
+      command, arguments->output,
+      "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks (frame_%04d.wst); the stem of "
+      "the name with --display");
   add_film_options(command, *arguments);
   add_time_options(command, *arguments);
+  add_film_display_options(command, arguments->display);
   add_style_options(command, arguments->style);
   arguments->matching.matcher = name_of(RotoscopeOptions().matching.matcher);  // films need a quick one
   add_match_options(command, arguments->matching);
@@ -329,6 +357,7 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
       "copied. --resume continues a stopped run and gives the same film.\n\n"
       "Examples:\n  wheatstone rotoscope film.mp4 -o painted.mp4\n"
       "  wheatstone rotoscope film.mp4 --from 0:10 --to 0:12 --style expressionist -o try.mp4\n"
+      "  wheatstone rotoscope film.mp4 --display looking-glass-portrait -o painted\n"
       "  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4");
   command.callback([arguments, &command, &session] { run(*arguments, command, session); });
 }

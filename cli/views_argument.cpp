@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "film_facts.h"
 #include "number_arguments.h"
 #include "option_use.h"
 #include "pictures_in_folder.h"
@@ -113,6 +114,11 @@ ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::
     refuse({"--layout", "--from-quilt", "--views", "--span"}, "on a folder of views");
     return read_pictures(pictures_in(file), session.progress);
   }
+  if (is_film(file))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: is a film, expected pictures; of a film a single frame can be packed, saved as a "
+                            "picture{}",
+                            file, quilt_of_name(fs::path(file).filename().string()) ? " (with --from-quilt)" : ""));
   if (!arguments.quilt.empty()) {
     refuse({"--layout", "--views", "--span"}, "with --from-quilt");
     return take_quilt(arguments, file);

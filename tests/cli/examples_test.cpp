@@ -46,7 +46,7 @@ const std::vector<Reduction> reductions{
     {{"synth", "film"}, "", "--size", "96x64"},         {{"synth", "film"}, "", "--frames", "3"},
     {{"synth", "film"}, "", "--samples", "1"},          {{"synth", "film"}, "--cut", "--cut", "2"},
     {{"synth", "universe"}, "", "--particles", "2000"}, {{"paint"}, "--display", "--size", "36x48"},
-    {{"render"}, ".hdf5", "--size", "48x36"},
+    {{"rotoscope"}, "--display", "--size", "36x48"},    {{"render"}, ".hdf5", "--size", "48x36"},
 };
 
 bool begins_with(const Words& words, const Words& beginning) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/depth/convergence.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 
@@ -28,8 +27,8 @@ float span_for(const DisplayViewsOptions& options, const DepthEnds& ends, float 
 
 /// Both eyes' pictures, moved against each other so that the screen plane has no parallax, share a part of the width,
 /// which fills a view.
-Placement placement_for(const Painting& painting, const DisplayViewsOptions& options, float zero_parallax_px) {
-  const int width = width_of(painting), height = height_of(painting);
+Placement placement_for(PictureSize painting, const DisplayViewsOptions& options, float zero_parallax_px) {
+  const auto [width, height] = painting;
   const double shared = static_cast<double>(width) - std::abs(static_cast<double>(zero_parallax_px));
   if (shared < 1)
     throw Error(ErrorKind::wrong_usage,
@@ -44,22 +43,28 @@ Placement placement_for(const Painting& painting, const DisplayViewsOptions& opt
 
 }  // namespace
 
+DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options) {
+  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
+  DisplayViewsPlan plan;
+  plan.zero_parallax_px = options.zero_parallax_px.value_or(ends.middle_px());
+  plan.placement = placement_for(painting, options, plan.zero_parallax_px);
+  plan.span = span_for(options, ends, static_cast<float>(plan.placement.scale));
+  plan.rig = evenly_spaced(options.width, options.height, options.views, plan.span);
+  return plan;
+}
+
 DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options,
                                 const Progress& progress) {
-  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
   check_has_surfaces(painting);
-  const DepthEnds ends = depth_ends(painting.surfaces.seen.front().disparity);
-  DisplayViews result;
-  result.zero_parallax_px = options.zero_parallax_px.value_or(ends.middle_px());
-  const Placement placement = placement_for(painting, options, result.zero_parallax_px);
-  result.span = span_for(options, ends, static_cast<float>(placement.scale));
-  result.rig = evenly_spaced(options.width, options.height, options.views, result.span);
+  const DisplayViewsPlan plan = plan_display_views({width_of(painting), height_of(painting)},
+                                                   depth_ends(painting.surfaces.seen.front().disparity), options);
+  DisplayViews result{.rig = plan.rig, .span = plan.span, .zero_parallax_px = plan.zero_parallax_px};
   report(progress, "views", 0);
-  std::vector<DrawnView> views = draw(prepare(painting, {.placement = placement}), result.rig.positions);
-  for (DrawnView& view : views) {
+  const ViewSink keep = [&](std::size_t /*place*/, DrawnView view) {
     result.worst_bare_share = std::max(result.worst_bare_share, view.bare_share);
     result.views.push_back(std::move(view.picture));
-  }
+  };
+  draw(prepare(painting, {.placement = plan.placement}), result.rig.positions, keep);
   report(progress, "views", 1);
   return result;
 }

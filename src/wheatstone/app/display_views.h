@@ -3,9 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/progress.h"
+#include "wheatstone/stereo/reduced_pair.h"
 
 namespace wheatstone {
 
@@ -19,6 +21,18 @@ struct DisplayViewsOptions {
   float depth_share = 0.2f;
   std::optional<float> zero_parallax_px;  ///< disparity on the screen plane; none: the middle of the scene's
 };
+
+/// Where the views stand, and how the painting lies in them.
+struct DisplayViewsPlan {
+  Placement placement;
+  Rig rig;
+  float span = 0;              ///< as chosen
+  float zero_parallax_px = 0;  ///< in pixels of the painting
+};
+
+/// Chooses the screen plane and the span for a painting of this size whose disparities, in its pixels, have these ends.
+/// Throws Error{wrong_usage} where there are no views, or the screen plane leaves nothing to show.
+DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options);
 
 struct DisplayViews {
   std::vector<Image<Rgb8>> views;  ///< left to right

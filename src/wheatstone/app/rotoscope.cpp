@@ -12,6 +12,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/motion/central_flow.h"
+#include "wheatstone/painting/still_scene.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/scene_view.h"
 #include "wheatstone/stopwatch.h"
@@ -31,10 +32,13 @@ struct FrameTask {
 struct FrameAtWork {
   StereoGeometry geometry;
   CentralView centre;
+  std::vector<OuterView> outer;  ///< that a display shows
   std::vector<SceneView> views;
 };
 
-void check_sizes(const StereoPair& eyes, const RotoscopeState& state) {
+void check_eyes(const StereoPair& eyes, const RotoscopeOptions& options, const RotoscopeState& state) {
+  if (eyes.right.empty() && options.display)
+    throw Error(ErrorKind::bad_input, "the film has one eye, expected two for a display of more views");
   if (!eyes.right.empty() && !same_size(eyes.left, eyes.right))
     throw Error(ErrorKind::bad_input,
                 fmt::format("the right eye's picture is {}x{} pixels, expected the left one's {}x{}",
@@ -148,6 +152,39 @@ FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes
   return frame;
 }
 
+/// The scene's views: the central one, the eyes', and those beside them that a display shows.
+void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state, FrameAtWork& frame) {
+  if (task.eyes.right.empty()) {
+    frame.views = {{frame.centre.picture, frame.centre.disparity, {}, central_view}};
+    return;
+  }
+  frame.views = scene_from_centre(frame.centre, task.eyes, frame.geometry);
+  if (!task.options.display) return;
+  follow_depth(depth_ends(frame.centre.disparity), scene_begins, state.depth);
+  const ViewRange wanted =
+      planned_views({task.eyes.left.width(), task.eyes.left.height()}, state.depth, task.options.display->views);
+  frame.outer = make_outer_views(task.eyes, frame.geometry, wanted, state.depth.first.middle_px());
+  append_views(frame.outer, frame.views);
+}
+
+/// Plans the frame and draws it for the display.
+PaintedFrame paint_for_display(const FilmFrame& frame, const FrameTask& task, RotoscopeState& state) {
+  PaintedFrame result;
+  PaintedPair& painted = result.painted;
+  {
+    const Stopwatch watch(painted.times.planning_s);
+    PlannedFrame planned = plan_painting(frame, task.options.style, task.options.carrying, state.memory, task.progress);
+    painted.painting = std::move(planned.painting);
+    result.counts = planned.counts;
+  }
+  report(task.progress, "drawing", 0);
+  const Stopwatch watch(painted.times.rasterising_s);
+  DisplayedFrame shown = draw_for_display(painted.painting, state.depth, *task.options.display);
+  painted.pictures.left = std::move(shown.picture);
+  painted.left_bare_share = shown.worst_bare_share;
+  return result;
+}
+
 /// Compares the frame with the one before and adds it to the film's sums.
 void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& state, RotoscopedFrame& result) {
   const std::span<const Layer> layers = layers_of(result.painted.painting);
@@ -169,7 +206,7 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
 
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known, const Progress& progress) {
-  check_sizes(photographed, state);
+  check_eyes(photographed, options, state);
   RotoscopedFrame result;
   const StereoPair eyes = rectify_frame({photographed, options, known, progress}, state, result);
   if (result.scene_begins) {
@@ -178,9 +215,7 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   }
   const FrameTask task{eyes, options, known, progress};
   FrameAtWork frame = look_at(task, state, result.times);
-  frame.views = eyes.right.empty()
-                    ? std::vector<SceneView>{{frame.centre.picture, frame.centre.disparity, {}, central_view}}
-                    : scene_from_centre(frame.centre, eyes, frame.geometry);
+  find_views(task, result.scene_begins, state, frame);
   const bool carries = !result.scene_begins && !options.anew;
   if (carries) {
     report(progress, "flow", 0);
@@ -188,8 +223,10 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
     state.flow_before = find_flow(frame, task, state);
   }
   report(progress, "painting", 0);
-  PaintedFrame painted = paint_frame({frame.views, carries ? &state.flow_before : nullptr}, options.style,
-                                     options.carrying, state.memory, progress);
+  const FilmFrame to_paint{frame.views, carries ? &state.flow_before : nullptr};
+  PaintedFrame painted = options.display
+                             ? paint_for_display(to_paint, task, state)
+                             : paint_frame(to_paint, options.style, options.carrying, state.memory, progress);
   result.painted = std::move(painted.painted);
   result.counts = painted.counts;
 

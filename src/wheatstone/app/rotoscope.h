@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/app/film_display.h"
 #include "wheatstone/app/scene_rectification.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/motion/flow.h"
@@ -26,7 +27,8 @@ struct RotoscopeOptions {
   FlowMethod flow = FlowMethod::farneback;
   CentralMerge central = CentralMerge::visible;
   CarryOptions carrying;
-  bool anew = false;  ///< every frame as if a scene began: the naive method, to be measured against
+  std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for the eyes
+  bool anew = false;                   ///< every frame as if a scene began: the naive method, to be measured against
 };
 
 /// What is known of a frame beforehand and need not be estimated.
@@ -57,6 +59,7 @@ struct RotoscopeState {
   FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
   std::optional<DisparityRange> range;
   SceneRectification rectification;
+  SceneDepth depth;  ///< where the frames are drawn for a display
   PaintingMemory memory;
   std::vector<Layer> layers_before;  ///< the strokes as they were drawn, to tell what became of them
   RotoscopeTotals totals;
@@ -69,7 +72,8 @@ struct RotoscopeTimes {
 };
 
 struct RotoscopedFrame {
-  PaintedPair painted;  ///< of a film of one eye, `pictures.right` is empty
+  PaintedPair
+      painted;  ///< of a film of one eye, `pictures.right` is empty; for a display, `pictures.left` is its picture
   StrokeCounts counts;
   StrokeChanges changes;  ///< from the frame before; nothing where a scene begins
   bool scene_begins = false;
@@ -81,6 +85,7 @@ struct RotoscopedFrame {
 /// its disparity, merges the eyes into the central
 /// view, finds the flow there from the frame before, and paints what that flow carries on. `photographed.right` is
 /// empty for a film of one eye. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size,
+/// or a film of one eye is to be shown on a display,
 /// wrong_usage for options that make no sense. What `progress` throws, between its steps and while it matches, ends it:
 /// then `state` is of no further use.
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,

@@ -21,14 +21,14 @@ using flatbuffers::Offset;
 using Builder = flatbuffers::FlatBufferBuilder;
 
 // Whoever adds a member to one of these adds it to the schema, to `encode` and to `decode`.
-static_assert(field_count<RotoscopeState>() == 12 && field_count<SceneRectification>() == 3 &&
-              field_count<Rectification>() == 4 && field_count<RectifyingMap>() == 5 &&
-              field_count<ColourTransfer>() == 2 && field_count<RotoscopeTotals>() == 6 &&
-              field_count<PaintingMemory>() == 4 && field_count<StrokeMemory>() == 3 &&
-              field_count<TrackedLayer>() == 2 && field_count<StrokeTrack>() == 5 && field_count<Layer>() == 3 &&
-              field_count<Stroke>() == 9 && field_count<PosterisedMemory>() == 3 && field_count<MosaicTile>() == 8 &&
-              field_count<MosaicMemory>() == 1 && field_count<DiffusionMemory>() == 4 &&
-              field_count<SteadyPicture>() == 2);
+static_assert(field_count<RotoscopeState>() == 13 && field_count<SceneDepth>() == 2 && field_count<DepthEnds>() == 2 &&
+              field_count<SceneRectification>() == 3 && field_count<Rectification>() == 4 &&
+              field_count<RectifyingMap>() == 5 && field_count<ColourTransfer>() == 2 &&
+              field_count<RotoscopeTotals>() == 6 && field_count<PaintingMemory>() == 4 &&
+              field_count<StrokeMemory>() == 3 && field_count<TrackedLayer>() == 2 && field_count<StrokeTrack>() == 5 &&
+              field_count<Layer>() == 3 && field_count<Stroke>() == 9 && field_count<PosterisedMemory>() == 3 &&
+              field_count<MosaicTile>() == 8 && field_count<MosaicMemory>() == 1 &&
+              field_count<DiffusionMemory>() == 4 && field_count<SteadyPicture>() == 2);
 
 constexpr std::string_view magic = "WSRSTATE";
 constexpr std::size_t head_bytes = 16;
@@ -327,6 +327,8 @@ RotoscopeState Decoder::state(const state::RotoscopeState& from) const {
   if (from.range() != nullptr) state.range = DisparityRange{from.range()->least(), from.range()->largest()};
   state.left_before = image<Rgb8>(*from.left_before());
   const Image<Rgb8>& frame = state.left_before;
+  const state::SceneDepth& depth = *from.depth();
+  state.depth = {{depth.first_farthest_px(), depth.first_nearest_px()}, {depth.farthest_px(), depth.nearest_px()}};
   state.rectification = rectification(*from.rectification(), frame);
   state.central_before = frame_image<Rgb8>(*from.central_before(), frame);
   state.left_disparity_before = frame_image<float>(*from.left_disparity_before(), frame);
@@ -372,9 +374,11 @@ std::string encode_rotoscope_state(const RotoscopeState& state) {
                              t.worst_bare_share);
   const DisparityRange found = state.range.value_or(DisparityRange{});
   const state::Range range(found.least, found.largest);
+  const auto [first, ends] = state.depth;
+  const state::SceneDepth depth(first.farthest_px, first.nearest_px, ends.farthest_px, ends.nearest_px);
   builder.Finish(state::CreateRotoscopeState(
-      builder, state.frames, state.frames_of_scene, &totals, state.range ? &range : nullptr, rectification, left,
-      central, left_disparity, central_disparity, forward, backward, layers_before, views, reference_disparity,
+      builder, state.frames, state.frames_of_scene, &totals, state.range ? &range : nullptr, rectification, &depth,
+      left, central, left_disparity, central_disparity, forward, backward, layers_before, views, reference_disparity,
       memory.strokes.last_number, palette, colour_of, posterised_mean, posterised_frames, tiles, diffusion_mean,
       diffusion_frames, diffusion_disparity, diffusion_edges, edges));
   return rotoscope_state_with_checksum(

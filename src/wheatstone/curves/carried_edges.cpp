@@ -7,17 +7,17 @@
 
 namespace wheatstone {
 
-CarriedEdges::CarriedEdges(const DiffusionMemory& before, const FlowPair& flow, std::span<const ViewPosition> positions,
+CarriedEdges::CarriedEdges(const DiffusionMemory& before, const FlowPair& flow, std::span<const SceneView> views,
                            ImageView<const float> disparity, float depth_threshold_px)
     : memory_(before),
       flow_(flow),
-      positions_(positions),
+      views_(views),
       disparity_(disparity),
       depth_threshold_px_(depth_threshold_px),
-      point_at_(positions.size(), Image<std::uint32_t>(disparity.width(), disparity.height())) {
+      point_at_(views.size(), Image<std::uint32_t>(disparity.width(), disparity.height())) {
   for (std::size_t i = 0; i < before.points.size(); ++i) {
     const CarriedEdge& point = before.points[i];
-    if (point.view >= positions.size()) continue;
+    if (point.view >= views.size()) continue;
     const int x = static_cast<int>(std::floor(point.x)), y = static_cast<int>(std::floor(point.y));
     if (disparity.contains(x, y)) point_at_[point.view](x, y) = static_cast<std::uint32_t>(i) + 1;
   }
@@ -50,8 +50,10 @@ std::optional<PlanePoint> CarriedEdges::before(PlanePoint at) const {
 }
 
 std::optional<PlanePoint> CarriedEdges::before(const SurfacePoint& point) const {
-  const float from_reference = positions_[point.view] - positions_[0];
-  const PlanePoint in_reference{point.at.x + from_reference * point.disparity, point.at.y};
+  const SceneView& view = views_[point.view];
+  const float from_reference = view.position - views_[0].position;
+  const auto left = static_cast<float>(view.left_px);
+  const PlanePoint in_reference{point.at.x + left + from_reference * point.disparity, point.at.y};
   const int x = static_cast<int>(std::floor(in_reference.x)), y = static_cast<int>(std::floor(in_reference.y));
   if (!disparity_.contains(x, y) || std::abs(disparity_(x, y) - point.disparity) > depth_threshold_px_)
     return std::nullopt;
@@ -59,7 +61,7 @@ std::optional<PlanePoint> CarriedEdges::before(const SurfacePoint& point) const 
   if (!was || point.view == 0) return was;
   const float disparity = sample(memory_.disparity.view(), was->x, was->y);
   if (std::abs(disparity - point.disparity) > depth_threshold_px_) return std::nullopt;
-  return PlanePoint{was->x - from_reference * disparity, was->y};
+  return PlanePoint{was->x - from_reference * disparity - left, was->y};
 }
 
 std::optional<EdgeBefore> CarriedEdges::find(PlanePoint at, Direction across, const SurfacePoint& carrier) const {

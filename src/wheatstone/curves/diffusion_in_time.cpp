@@ -35,10 +35,8 @@ DiffusionPainting plan_diffusion(const FilmFrame& frame, const Style& style, Dif
   SteadyPicture picture = begins ? begin_steady(reference.picture) : std::move(memory.picture);
   if (!begins) steady(reference.picture, flow->backward, confirmed(flow->backward, flow->forward), picture);
   reference.picture = rounded(picture.colours);
-  std::vector<ViewPosition> positions;
-  for (const ViewOfEdges& view : scene.views) positions.push_back(view.position);
   std::optional<CarriedEdges> before;
-  if (!begins) before.emplace(memory, *flow, positions, reference.disparity, scene.depth_threshold_px);
+  if (!begins) before.emplace(memory, *flow, frame.views, reference.disparity, scene.depth_threshold_px);
   LinesAndEdges found = lines_beside_edges(scene, before ? &*before : nullptr);
   memory = {std::move(picture), reference.disparity,
             edge_mask(found.edges, reference.picture.width(), reference.picture.height()), std::move(found.edges)};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "wheatstone/error.h"
 
@@ -28,11 +29,20 @@ Image<Rgb8> make_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& la
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!same_size(views[v], views.front()))
       throw Error(ErrorKind::wrong_usage, "the views of a quilt must be of one size");
-    const auto [left, top] = place_of(static_cast<int>(v), layout, width, height);
-    for (int y = 0; y < height; ++y)
-      std::ranges::copy(views[v].row(y), quilt.row(top + y).subspan(left, width).begin());
+    put_into_quilt(views[v], static_cast<int>(v), layout, quilt);
   }
   return quilt;
+}
+
+void put_into_quilt(ImageView<const Rgb8> view, int number, const QuiltLayout& layout, ImageView<Rgb8> quilt) {
+  const int width = view.width(), height = view.height();
+  if (number < 0 || number >= layout.columns * layout.rows || width * layout.columns != quilt.width() ||
+      height * layout.rows != quilt.height())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("view {} of {}x{} pixels has no place in a quilt of {}x{} views and {}x{} pixels", number,
+                            width, height, layout.columns, layout.rows, quilt.width(), quilt.height()));
+  const auto [left, top] = place_of(number, layout, width, height);
+  for (int y = 0; y < height; ++y) std::ranges::copy(view.row(y), quilt.row(top + y).subspan(left, width).begin());
 }
 
 std::vector<Image<Rgb8>> views_of_quilt(ImageView<const Rgb8> quilt, const QuiltLayout& layout) {
@@ -54,6 +64,15 @@ std::vector<Image<Rgb8>> views_of_quilt(ImageView<const Rgb8> quilt, const Quilt
 std::string quilt_name(const std::string& stem, const QuiltLayout& layout, double aspect) {
   // As few digits as tell it: 0.75, 1.7778.
   return fmt::format("{}_qs{}x{}a{:.5g}.png", stem, layout.columns, layout.rows, aspect);
+}
+
+std::optional<NamedQuilt> quilt_of_name(const std::string& file_name) {
+  static const std::regex ending(R"(.*_qs(\d{1,3})x(\d{1,3})a(\d{1,3}(?:\.\d{1,6})?)\.[A-Za-z0-9]+)");
+  std::smatch said;
+  if (!std::regex_match(file_name, said, ending)) return {};
+  const NamedQuilt quilt{{std::stoi(said[1]), std::stoi(said[2])}, std::stod(said[3])};
+  if (quilt.layout.columns < 1 || quilt.layout.rows < 1 || !(quilt.aspect > 0)) return {};
+  return quilt;
 }
 
 }  // namespace wheatstone

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -56,6 +58,13 @@ DrawnView draw(const PreparedPainting& painting, ViewPosition view, ImageView<co
 /// or none.
 std::vector<DrawnView> draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
                             std::span<const ImageView<const Rgb8>> backgrounds = {});
+
+/// Takes a view that was drawn, and its place among those that were asked for.
+using ViewSink = std::function<void(std::size_t place, DrawnView view)>;
+
+/// The same, a few views at a time, each given away when it is drawn: however many there are, only a few are in memory.
+void draw(const PreparedPainting& painting, std::span<const ViewPosition> views, const ViewSink& take,
+          std::span<const ImageView<const Rgb8>> backgrounds = {});
 
 /// A painting of which one view is wanted.
 DrawnView draw(const Painting& painting, ViewPosition view);

@@ -58,17 +58,7 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
   if (apart) return plan_eyes_apart(photographs, geometry, style, progress);
   const StillScene scene = make_still_scene(photographs, geometry, wanted);
   PaintingMemory nothing_before;
-  Painting painting =
-      plan_painting(FilmFrame{.views = scene.views}, style, CarryOptions{}, nothing_before, progress).painting;
-  for (const OuterView& outer : scene.outer) {
-    shift_marks(outer.position, static_cast<float>(outer.left_px), painting);
-    for (Surface& surface : painting.surfaces.seen) {
-      if (surface.view != outer.position) continue;
-      surface.left_px = outer.left_px;
-      surface.continued = true;
-    }
-  }
-  return painting;
+  return plan_painting(FilmFrame{.views = scene.views}, style, CarryOptions{}, nothing_before, progress).painting;
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,

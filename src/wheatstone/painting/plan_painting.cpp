@@ -16,7 +16,7 @@ namespace {
 /// What a view is the first to see.
 Surface surface_of(const SceneView& view) {
   const int width = view.disparity.width(), height = view.disparity.height();
-  Surface surface{view.position, Image<float>(width, height)};
+  Surface surface{view.position, Image<float>(width, height), view.left_px, view.continued};
   tbb::parallel_for(0, height, [&](int y) {
     const auto from = view.disparity.row(y);
     const auto to = surface.disparity.row(y);
@@ -62,6 +62,8 @@ PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const Car
       painting.marks = plan_diffusion(frame, style, memory.diffusion);
       break;
   }
+  for (const SceneView& view : frame.views)
+    if (view.left_px != 0) shift_marks(view.position, static_cast<float>(view.left_px), painting);
   painting.surfaces = surfaces_of(frame.views, style);
   painting.relief = relief_for(style, width_of(painting));
   return planned;

@@ -1,11 +1,20 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "wheatstone/marks/view_range.h"
 #include "wheatstone/stereo/outer_view.h"
 
 namespace wheatstone {
+
+/// What the outermost of the wanted views show beside the eyes, and views halfway there. `zero_parallax_px` is as
+/// make_outer_view has it.
+std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                                        ViewRange wanted, float zero_parallax_px);
+
+/// Adds them to a scene, which borrows them.
+void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scene);
 
 /// A pair as the scene that its painting is planned from: the left eye as the reference view, what only the right eye
 /// sees, and what no photograph shows and views beside the eyes uncover.

@@ -15,6 +15,8 @@ struct SceneView {
   ImageView<const float> disparity;         ///< no unknowns
   ImageView<const std::uint8_t> only_here;  ///< 255 for what the reference view does not show; empty: all is wanted
   ViewPosition position = central_view;
+  int left_px = 0;         ///< column, in the eyes' own geometry, at which the pictures begin
+  bool continued = false;  ///< no eye sees what is wanted of it: it lies behind whatever an eye sees
 };
 
 /// The left eye as reference view, and what only the right one sees.

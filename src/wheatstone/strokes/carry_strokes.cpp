@@ -63,10 +63,10 @@ Landing land(const SceneView& now, float depth_threshold_px, ControlPoint& point
 }
 
 /// Moves one stroke. False where its points came to lie on other surfaces.
-bool move_stroke(const SceneMotion& motion, const SceneView& now, float depth_threshold_px, const Stroke& stroke,
+bool move_stroke(const SceneMotion& motion, const SceneView& now, float depth_threshold_px,
                  std::span<ControlPoint> points) {
   std::vector<PointStep> steps(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) steps[i] = motion.of(points[i], stroke.reference_view);
+  for (std::size_t i = 0; i < points.size(); ++i) steps[i] = motion.of(points[i], now);
   std::size_t slipped = 0, buried = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     ControlPoint& point = points[i];
@@ -97,7 +97,7 @@ void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_th
     Stroke& stroke = layer.strokes[i];
     const std::span points = std::span(layer.points).subspan(stroke.first_point, stroke.point_count);
     StrokeTrack& track = tracked.tracks[i];
-    const bool fits = move_stroke(motion, now, depth_threshold_px, stroke, points);
+    const bool fits = move_stroke(motion, now, depth_threshold_px, points);
     // The order of strokes goes by their disparities: noise must not make them change places.
     constexpr float share_of_new = 0.3f;
     stroke.disparity += share_of_new * (points.front().disparity - stroke.disparity);
@@ -152,19 +152,20 @@ ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const Fi
 namespace {
 
 /// The points of a stroke that a view shows.
-std::size_t visible_points(std::span<const ControlPoint> points, ViewPosition reference, const SceneView& view,
+std::size_t visible_points(std::span<const ControlPoint> points, const SceneView& from, const SceneView& view,
                            float tolerance_px) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      points, [&](const ControlPoint& p) { return is_visible(p, reference, view, tolerance_px); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(points, [&](const ControlPoint& p) { return is_visible(p, from, view, tolerance_px); }));
 }
 
 /// True where some of a stroke's paint may lie in one of the views' pictures.
-bool reaches_a_picture(std::span<const ControlPoint> points, const Stroke& stroke, std::span<const SceneView> views) {
-  const float reach = stroke.radius_px + 1;
+bool reaches_a_picture(std::span<const ControlPoint> points, const SceneView& from, float radius_px,
+                       std::span<const SceneView> views) {
+  const float reach = radius_px + 1;
   return std::ranges::any_of(views, [&](const SceneView& view) {
     const auto width = static_cast<float>(view.disparity.width()), height = static_cast<float>(view.disparity.height());
     return std::ranges::any_of(points, [&](const ControlPoint& p) {
-      const float x = x_in_view(p, stroke.reference_view, view.position);
+      const float x = column_in(p, from, view);
       return x > -reach && p.y > -reach && x < width + reach && p.y < height + reach;
     });
   });
@@ -173,10 +174,8 @@ bool reaches_a_picture(std::span<const ControlPoint> points, const Stroke& strok
 /// The view that a stroke belongs to now; the number of views where to none.
 std::size_t home_of(const Stroke& stroke, std::span<const ControlPoint> points, std::size_t home,
                     std::span<const SceneView> views, float tolerance_px) {
-  if (!reaches_a_picture(points, stroke, views)) return views.size();
-  const auto visible = [&](std::size_t view) {
-    return visible_points(points, stroke.reference_view, views[view], tolerance_px);
-  };
+  if (!reaches_a_picture(points, views[home], stroke.radius_px, views)) return views.size();
+  const auto visible = [&](std::size_t view) { return visible_points(points, views[home], views[view], tolerance_px); };
   const std::size_t in_reference = visible(0);
   if (home == 0 ? 2 * in_reference >= points.size() : in_reference == points.size()) return 0;
   if (home != 0 && visible(home) > 0) return home;
@@ -185,16 +184,20 @@ std::size_t home_of(const Stroke& stroke, std::span<const ControlPoint> points, 
   return in_reference > 0 ? 0 : views.size();
 }
 
-void move_home(const TrackedLayer& from, std::size_t i, ViewPosition position, TrackedLayer& to) {
+/// Moves a stroke of a view's layer to another view's.
+struct Move {
+  const SceneView &from, &to;
+};
+void move_home(const TrackedLayer& from, std::size_t i, const Move& move, TrackedLayer& to) {
   Stroke stroke = from.layer.strokes[i];
   const std::span<const ControlPoint> points = from.layer.points_of(stroke);
   const auto first = static_cast<std::uint32_t>(to.layer.points.size());
   for (ControlPoint point : points) {
-    point.x = x_in_view(point, stroke.reference_view, position);
+    point.x = column_in(point, move.from, move.to);
     to.layer.points.push_back(point);
   }
   stroke.first_point = first;
-  stroke.reference_view = position;
+  stroke.reference_view = move.to.position;
   to.layer.strokes.push_back(stroke);
   to.tracks.push_back(from.tracks[i]);
 }
@@ -215,7 +218,7 @@ void settle(std::span<const SceneView> views, float depth_threshold_px, std::spa
   for (std::size_t view = 0; view < views.size(); ++view) {
     for (std::size_t i = 0; i < homes[view].size(); ++i)
       if (homes[view][i] != view && homes[view][i] < views.size())
-        move_home(*layers[view], i, views[homes[view][i]].position, arrived[homes[view][i]]);
+        move_home(*layers[view], i, {views[view], views[homes[view][i]]}, arrived[homes[view][i]]);
     keep_if(*layers[view], [&](std::size_t i) { return homes[view][i] == view; });
   }
   for (std::size_t view = 0; view < views.size(); ++view) {

@@ -54,10 +54,10 @@ SceneMotion::SceneMotion(const FilmFrame& frame, ImageView<const float> disparit
       reference_(frame.views.front().position),
       depth_threshold_px_(depth_threshold_px) {}
 
-PointStep SceneMotion::of(const ControlPoint& point, ViewPosition position) const {
-  float x = point.x + (position - reference_) * point.disparity;
+PointStep SceneMotion::of(const ControlPoint& point, const SceneView& view) const {
+  float x = point.x + static_cast<float>(view.left_px) + (view.position - reference_) * point.disparity;
   const float y = point.y;
-  if (position != reference_) {
+  if (view.position != reference_) {
     const int row = std::clamp(static_cast<int>(y), 0, disparity_before_.height() - 1);
     const int column = std::clamp(static_cast<int>(x), 0, disparity_before_.width() - 1);
     const int seen = column_not_nearer(disparity_before_.row(row), column, point.disparity + depth_threshold_px_);

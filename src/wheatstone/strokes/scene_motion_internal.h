@@ -18,7 +18,8 @@ class SceneMotion {
   /// `disparity_before` is the reference view's at the frame before; all is borrowed, and the frame has a flow.
   SceneMotion(const FilmFrame& frame, ImageView<const float> disparity_before, float depth_threshold_px);
 
-  PointStep of(const ControlPoint& point, ViewPosition position) const;
+  /// Of a point that stands in the view's pictures.
+  PointStep of(const ControlPoint& point, const SceneView& view) const;
 
  private:
   const FlowPair& flow_;

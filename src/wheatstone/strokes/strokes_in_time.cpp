@@ -96,9 +96,9 @@ class ViewAtWork {
       for (int x = 0; x < alone.width(); ++x) {
         if (view.only_here(x, y) == 0) continue;
         const ControlPoint point{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)};
-        const float column = x_in_view(point, view.position, reference.position);
+        const float column = column_in(point, view, reference);
         const bool is_in_picture = column >= 0 && column < static_cast<float>(alone.width());
-        alone(x, y) = is_in_picture && is_visible(point, view.position, reference, scaled.depth_threshold_px) ? 0 : 255;
+        alone(x, y) = is_in_picture && is_visible(point, view, reference, scaled.depth_threshold_px) ? 0 : 255;
       }
     });
     return halved(view.picture, view.disparity, alone);
@@ -278,16 +278,17 @@ void carry(const FilmFrame& frame, const Style& style, const CarryOptions& optio
   }
 }
 
-/// New strokes, those with numbers after `last_number`, that no view shows are dropped: they would come up later at
-/// once.
-void drop_hidden(const FilmFrame& frame, float depth_threshold_px, std::uint32_t last_number, TrackedLayer& tracked) {
+/// New strokes of the view `home`, those with numbers after `last_number`, that no view shows are dropped: they would
+/// come up later at once.
+void drop_hidden(const FilmFrame& frame, std::size_t home, std::uint32_t last_number, float depth_threshold_px,
+                 TrackedLayer& tracked) {
   std::vector<std::uint8_t> shown(tracked.tracks.size());
   tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
     const Stroke& stroke = tracked.layer.strokes[i];
     shown[i] = stroke.number <= last_number ||
                std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
                  return std::ranges::any_of(frame.views, [&](const SceneView& view) {
-                   return is_visible(point, stroke.reference_view, view, depth_threshold_px);
+                   return is_visible(point, frame.views[home], view, depth_threshold_px);
                  });
                });
   });
@@ -357,7 +358,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
       plan.report_step();
     }
     for (TrackedLayer& tracked : memory.views[view])
-      drop_hidden(frame, depth_threshold_px, memory.last_number, tracked);
+      drop_hidden(frame, view, memory.last_number, depth_threshold_px, tracked);
   });
   result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;

@@ -20,8 +20,12 @@ float surface_disparity(ImageView<const float> disparity, float x, float y, floa
   return sample(disparity, x, y);
 }
 
-bool is_visible(const ControlPoint& point, ViewPosition reference, const SceneView& view, float tolerance_px) {
-  const float x = x_in_view(point, reference, view.position);
+float column_in(const ControlPoint& point, const SceneView& from, const SceneView& to) {
+  return x_in_view(point, from.position, to.position) + static_cast<float>(from.left_px - to.left_px);
+}
+
+bool is_visible(const ControlPoint& point, const SceneView& from, const SceneView& view, float tolerance_px) {
+  const float x = column_in(point, from, view);
   const int column = std::clamp(static_cast<int>(x), 0, view.disparity.width() - 1);
   const int row = std::clamp(static_cast<int>(point.y), 0, view.disparity.height() - 1);
   return view.disparity(column, row) <= point.disparity + tolerance_px;

@@ -1,0 +1,95 @@
+#include "display_argument.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "number_arguments.h"
+#include "typed_options.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto display_group = "Display";
+
+bool is_for_films(const DisplayPreset& display) {
+  return display.quilt_columns > 0 || display.lenses.screen_width_px > 0;
+}
+
+}  // namespace
+
+DisplayViewsOptions display_views_options(const DisplayPreset& display, const DisplayArguments& arguments) {
+  DisplayViewsOptions options{.views = arguments.views > 0 ? arguments.views : display.views,
+                              .width = display.view_width_px,
+                              .height = display.view_height_px,
+                              .span = arguments.span,
+                              .widest_span = std::max(span_of(display), 1.f)};
+  if (!arguments.size.empty()) {
+    const Size size = parse_size("--size", arguments.size, {1, 16384});
+    options.width = size.width;
+    options.height = size.height;
+  }
+  return options;
+}
+
+void add_film_display_options(CLI::App& command, DisplayArguments& arguments) {
+  std::string names;
+  for (const DisplayPreset& preset : display_presets())
+    if (is_for_films(preset)) names += fmt::format(" {}", preset.name);
+  auto* display =
+      command
+          .add_option("--display", arguments.name,
+                      "Paint the film for a display with many views: each frame becomes one quilt, or one picture for "
+                      "the display's lenses:" +
+                          names)
+          ->group(display_group);
+  command.add_option("--size", arguments.size, "Size of a view, WIDTHxHEIGHT; the display's own by default")
+      ->needs(display)
+      ->group(display_group);
+  add_number(command, "--span", arguments.span, {0.01, 20},
+             "Distance from the first view to the last, in eye separations; chosen from the depth by default")
+      ->default_str("")
+      ->needs(display)
+      ->group(display_group);
+}
+
+std::optional<FilmDisplay> film_display_from(const DisplayArguments& arguments) {
+  if (arguments.name.empty()) return {};
+  const DisplayPreset& display = find_display(arguments.name);
+  if (!is_for_films(display))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--display: {} takes neither quilts nor lenticular pictures; for two eyes use "
+                            "--output-layout, for separate views 'paint --display' on saved marks",
+                            arguments.name));
+  FilmDisplay wanted{.views = display_views_options(display, arguments), .quilt = {}, .screen = {}};
+  if (display.quilt_columns > 0) {
+    wanted.quilt = QuiltLayout{display.quilt_columns, display.quilt_rows};
+  } else {
+    wanted.screen = lenticular_screen_of(display);
+  }
+  return wanted;
+}
+
+std::string name_of_display_film(const std::string& output, const DisplayArguments& arguments) {
+  const fs::path path = output;
+  if (path.has_extension()) return output;
+  const DisplayPreset& display = find_display(arguments.name);
+  if (display.quilt_columns == 0) return output + ".mp4";
+  const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
+  const std::string name = quilt_name(path.filename().string(), layout, static_cast<double>(display.aspect));
+  return (path.parent_path() / fs::path(name).replace_extension(".mp4")).string();
+}
+
+std::string codec_for(const FilmDisplay& display) {
+  constexpr int most_macroblocks = 36864, macroblock_px = 16;
+  const auto blocks = [](int side_px) { return (side_px + macroblock_px - 1) / macroblock_px; };
+  const int width = display.quilt ? display.quilt->columns * display.views.width : display.screen->width;
+  const int height = display.quilt ? display.quilt->rows * display.views.height : display.screen->height;
+  return blocks(width) * blocks(height) <= most_macroblocks ? "h264" : "hevc";
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "wheatstone/app/film_display.h"
+#include "wheatstone/depth/display_presets.h"
+
+namespace wheatstone::cli {
+
+/// A display with many views as it is typed.
+struct DisplayArguments {
+  std::string name;  ///< of a preset; empty: there is none
+  std::string size;  ///< WIDTHxHEIGHT of a view; empty: the display's own
+  int views = 0;     ///< 0: the display's own
+  float span = 0;    ///< 0: chosen from the depth
+};
+
+/// What the display wants, where the user does not say otherwise. Throws Error{wrong_usage}.
+DisplayViewsOptions display_views_options(const DisplayPreset& display, const DisplayArguments& arguments);
+
+/// Adds --display, --size and --span of a film.
+void add_film_display_options(CLI::App& command, DisplayArguments& arguments);
+
+/// What each frame of a film becomes; none where no display is named. Throws Error{wrong_usage} where the display takes
+/// neither quilts nor lenticular pictures.
+std::optional<FilmDisplay> film_display_from(const DisplayArguments& arguments);
+
+/// The name of a display's film: as it was typed where it has an ending, and else with the convention of quilts and
+/// ".mp4".
+std::string name_of_display_film(const std::string& output, const DisplayArguments& arguments);
+
+/// The codec that holds frames of a display's film: H.264, or HEVC for larger ones than level 5.2 of H.264 allows,
+/// which is the highest that players' hardware knows.
+std::string codec_for(const FilmDisplay& display);
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,97 @@
+// What `wheatstone rotoscope --display` gives: names, sizes, codecs; what info and pack say of it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/display_argument.h"
+#include "cli/run_program.h"
+#include "scenes/moving_picture.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+void make_synthetic(const TemporaryFolder& folder, int frames) {
+  const ProgramResult result = run_program({"synth", "film", "-o", "film", "--size", "96x64", "--frames",
+                                            std::to_string(frames), "--samples", "1", "--quiet"},
+                                           {.folder = folder / ""});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+}
+
+nlohmann::json facts_of(const TemporaryFolder& folder, const Words& words) {
+  Words line = words;
+  line.insert(line.end(), {"--quiet", "--json"});
+  const ProgramResult result = run_program(line, {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  return nlohmann::json::parse(result.output, nullptr, false);
+}
+
+TEST(DisplayFilm, AQuiltFilmHasTheNameSizeAndFramesThatTheDisplayTakes) {
+  const TemporaryFolder folder;
+  make_synthetic(folder, 3);
+  const auto facts = facts_of(folder, {"rotoscope", "film", "--display", "looking-glass-portrait", "--size", "21x28",
+                                       "--preset", "ultrafast", "-o", "painted"});
+  EXPECT_EQ(facts["output"], "painted_qs8x6a0.75.mp4");
+  const std::vector<Frame> frames = frames_of(folder / "painted_qs8x6a0.75.mp4");
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(frames.front().picture.width(), 168);
+  EXPECT_EQ(frames.front().picture.height(), 168);
+
+  const auto told = facts_of(folder, {"info", "painted_qs8x6a0.75.mp4"});
+  EXPECT_EQ(told["quilt"], "8x6");
+  EXPECT_EQ(told["views"], 48);
+  EXPECT_EQ(told["view_width"], 21);
+  EXPECT_EQ(told["view_height"], 28);
+  EXPECT_EQ(told["view_aspect"], 0.75);
+  EXPECT_EQ(told["frames"], 3);
+  EXPECT_EQ(told["codec"], "h264");
+  expect_refused(folder, {"pack", "painted_qs8x6a0.75.mp4", "--to", "views", "-o", "views"}, 3,
+                 "painted_qs8x6a0.75.mp4: is a film, expected pictures; of a film a single frame can be packed");
+}
+
+TEST(DisplayFilm, ATypedEndingKeepsItsName) {
+  const TemporaryFolder folder;
+  make_synthetic(folder, 1);
+  const auto facts = facts_of(folder, {"rotoscope", "film", "--display", "looking-glass-portrait", "--size", "21x28",
+                                       "--codec", "ffv1", "-o", "a.mkv"});
+  EXPECT_EQ(facts["output"], "a.mkv");
+  EXPECT_EQ(frames_of(folder / "a.mkv").size(), 1u);
+}
+
+// What the displays' makers publish, and what H.264 up to level 5.2 holds.
+TEST(DisplayFilm, QuiltsTooLargeForH264AreHevc) {
+  const auto display = [](const char* name, const char* size = "") {
+    return cli::film_display_from({.name = name, .size = size}).value();
+  };
+  const FilmDisplay portrait = display("looking-glass-portrait");
+  EXPECT_EQ(portrait.quilt->columns * portrait.views.width, 3360);
+  EXPECT_EQ(portrait.quilt->rows * portrait.views.height, 3360);
+  for (const char* name :
+       {"looking-glass-go", "looking-glass-portrait", "looking-glass-16", "looking-glass-32", "looking-glass-65"})
+    EXPECT_EQ(cli::codec_for(display(name)), "hevc") << name;
+  EXPECT_EQ(cli::codec_for(display("looking-glass-portrait", "210x280")), "h264");
+  EXPECT_EQ(cli::codec_for(display("step-9")), "h264");
+}
+
+TEST(DisplayFilm, WhatCannotBeShownIsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  make_film(folder / "one.mp4", 3, {.preset = "ultrafast"});
+  const auto refused = [&](const Words& words, int exit_code, const std::string& part) {
+    Words line{"rotoscope", "one.mp4", "--layout", "mono", "--quiet"};
+    line.insert(line.end(), words.begin(), words.end());
+    expect_refused(folder, line, exit_code, part);
+  };
+  refused({"--display", "looking-glass-portrait"}, 3, "one.mp4: has one eye, expected two for a display");
+  refused({"--display", "desk-stereo"}, 2, "--display: desk-stereo takes neither quilts nor lenticular pictures");
+  refused({"--display", "moon"}, 2, "no display 'moon'");
+  refused({"--display", "step-9", "--output-layout", "sbs"}, 2, "--output-layout: has no effect with --display");
+  refused({"--display", "step-9", "-o", "m_%04d.wst"}, 2, "--display: has no effect on marks");
+  refused({"--span", "2"}, 2, "--span requires --display");
+}
+
+}  // namespace
+}  // namespace wheatstone
