@@ -1,5 +1,5 @@
 # The most common tasks. Each target first installs missing packages and builds what it needs.
-.PHONY: build test test-long demo bench format lint fuzz configured
+.PHONY: build test test-long demo view bench format lint fuzz configured
 
 build: configured
 	@cmake --build --preset release
@@ -13,6 +13,11 @@ test-long: build
 demo: configured
 	@cmake --build --preset release --target wheatstone_cli
 	@scripts/demo
+
+view: configured
+	@cmake --build --preset release --target wheatstone_cli wheatstone_view
+	@scripts/demo
+	@build/release/bin/wheatstone view demo/*/painting.wst
 
 bench: build
 	@scripts/bench

@@ -129,6 +129,7 @@ const std::map<std::string, Maker>& makers() {
          make_with_program({"paint", example_input("left.png"), example_input("right.png"), "-o", path});
        }},
       {"painting.wst", make_painting},
+      {"tour.txt", [](const fs::path& path) { put_bytes(path, "wait\nmode right\nwait\n"); }},
       {"rig", make_rig},
       {"film.mp4", make_film},
       {"universe.hdf5", make_universe},

@@ -31,19 +31,8 @@ ViewingGeometry viewing_of(const RenderParticlesOptions& options) {
 }
 
 Staged stage(const RenderParticlesOptions& options, const CloudStatistics& statistics) {
-  Staged staged;
-  staged.rig = evenly_spaced(options.width, options.height, options.views, options.span);
-  staged.viewing = viewing_of(options);
-  staged.scene.camera =
-      camera_around(statistics.centre(), statistics.radius(), options.width, options.height, options.framing);
-  float depth = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    depth += (statistics.centre()[axis] - staged.scene.camera.position[axis]) * staged.scene.camera.forward[axis];
-  staged.scene.mapping = mapping_for(options.depth, options.width, std::max(depth - statistics.radius(), depth * 0.01f),
-                                     depth + statistics.radius());
-  staged.scene.splat_style = make_splat_style(options.appearance, statistics);
-  staged.scene.splat_style.size_depth = depth;
-  return staged;
+  return {scene_of(statistics, options), evenly_spaced(options.width, options.height, options.views, options.span),
+          viewing_of(options)};
 }
 
 [[noreturn]] void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts) {
@@ -140,6 +129,20 @@ RenderedParticles render_whole(const std::filesystem::path& file, const RenderPa
 }
 
 }  // namespace
+
+Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options) {
+  Scene scene;
+  scene.camera =
+      camera_around(statistics.centre(), statistics.radius(), options.width, options.height, options.framing);
+  float depth = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    depth += (statistics.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
+  scene.mapping = mapping_for(options.depth, options.width, std::max(depth - statistics.radius(), depth * 0.01f),
+                              depth + statistics.radius());
+  scene.splat_style = make_splat_style(options.appearance, statistics);
+  scene.splat_style.size_depth = depth;
+  return scene;
+}
 
 DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float nearest, float farthest) {
   ViewingGeometry viewing = depth.viewing;

@@ -7,9 +7,11 @@
 #include "wheatstone/depth/camera.h"
 #include "wheatstone/depth/viewing_geometry.h"
 #include "wheatstone/multiview/render.h"
+#include "wheatstone/multiview/scene.h"
 #include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/particles/appearance.h"
 #include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/particles/cloud_statistics.h"
 #include "wheatstone/particles/select.h"
 #include "wheatstone/progress.h"
 
@@ -63,6 +65,10 @@ struct RenderedParticles {
 /// A file of particles to the views of a rig. Throws Error: bad_input for the file, wrong_usage for the options.
 RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                    const Progress& progress = {});
+
+/// The scene as the central camera has it, of particles of which this is known. Throws Error{wrong_usage} for the
+/// options.
+Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options);
 
 /// The mapping of a scene between these depths, in scene units.
 DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float nearest, float farthest);

@@ -24,6 +24,7 @@ struct Framing {
   float elevation_deg = 20;      ///< above the horizontal plane
   float field_of_view_deg = 40;  ///< across the width of a view
   float zoom = 1;                ///< 2 shows half as much
+  friend bool operator==(const Framing&, const Framing&) = default;
 };
 
 /// A camera outside a sphere that sees just all of it, in views of the given size, in pixels.

@@ -1,0 +1,47 @@
+#include "view_arguments.h"
+
+namespace wheatstone::cli {
+
+void add_view_options(CLI::App& command, ViewArguments& arguments) {
+  command.add_option("FILE", arguments.files,
+                     "Paintings (.wst), stereo photographs, pictures with depth, quilts, slices (.exr) or particles; "
+                     "two pictures of one scene are its left and right view");
+  command.add_option("--mode", arguments.mode, "Output mode, as --to of 'wheatstone pack'; red-cyan by default");
+  command.add_option("--style", arguments.style, "Style in which photographs are painted: a preset or a style file");
+  command.add_option("--display", arguments.display,
+                     "Display, which sets the views of a quilt and what is comfortable");
+  command.add_option("--size", arguments.size, "Size of the window: WIDTHxHEIGHT")->capture_default_str();
+  command.add_flag("--full-screen", arguments.full_screen, "Begin in full screen");
+  command.add_flag("--no-opengl", arguments.no_opengl, "Show pictures without OpenGL");
+  command.add_option("--script", arguments.script, "Do the commands in this file, one a line, and end");
+  command.add_flag("--commands", arguments.commands, "List all commands with their keys, and end");
+  command.footer(
+      "\nClick: what lies there comes onto the screen plane. Drag: pan, or turn particles. Wheel: zoom.\n"
+      "?: all keys and commands.\n\n"
+      "Examples:\n"
+      "  wheatstone view painting.wst\n"
+      "  wheatstone view left.png right.png --style mosaic --mode left-right\n"
+      "  wheatstone view universe.hdf5 --display looking-glass-portrait");
+}
+
+std::vector<std::string> view_words(const ViewArguments& arguments) {
+  std::vector<std::string> words;
+  const auto add = [&words](const char* option, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {option, value});
+  };
+  add("--mode", arguments.mode);
+  add("--style", arguments.style);
+  add("--display", arguments.display);
+  add("--size", arguments.size);
+  add("--script", arguments.script);
+  add("--threads", std::to_string(arguments.threads));
+  add("--seed", std::to_string(arguments.seed));
+  if (arguments.full_screen) words.emplace_back("--full-screen");
+  if (arguments.no_opengl) words.emplace_back("--no-opengl");
+  if (arguments.commands) words.emplace_back("--commands");
+  if (!arguments.files.empty()) words.emplace_back("--");
+  words.insert(words.end(), arguments.files.begin(), arguments.files.end());
+  return words;
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace wheatstone::cli {
+
+/// What the window is to begin with, as it is typed.
+struct ViewArguments {
+  std::vector<std::string> files;
+  std::string mode, style, display, script;
+  std::string size = "960x640";
+  int threads = 0;         ///< as of every command; 0: as many as the machine has
+  std::uint64_t seed = 1;  ///< likewise
+  bool commands = false, full_screen = false, no_opengl = false;
+};
+
+/// Adds the files and options of `wheatstone view`, which the window's own program takes as well.
+void add_view_options(CLI::App& command, ViewArguments& arguments);
+
+/// The words that add_view_options understands as these arguments.
+std::vector<std::string> view_words(const ViewArguments& arguments);
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,119 @@
+#include "command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "output_mode.h"
+#include "wheatstone/marks/style_parameters.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+/// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string text;
+  for (const char letter : word) {
+    if (letter == '\'')
+      text += "'\\''";
+    else
+      text += letter;
+  }
+  return fmt::format("'{}'", text);
+}
+
+std::string files_of(const Item& item) {
+  std::string text;
+  for (const auto& file : item) text += fmt::format(" {}", shell_word(file.string()));
+  return text;
+}
+
+/// The options that make a preset this style.
+std::string style_options(const Style& style) {
+  const auto names = style_names();
+  const bool is_preset = std::ranges::find(names, style.name) != names.end();
+  const Style preset = is_preset ? style_by_name(style.name) : Style();
+  std::string text = fmt::format(" --style {}", shell_word(is_preset ? style.name : preset.name));
+  for (const StyleParameter& parameter : style_parameters()) {
+    const std::string value = parameter.toml_value(style);
+    if (value == parameter.toml_value(preset) || parameter.name == "seed") continue;
+    std::string plain = value;
+    std::erase_if(plain, [](char letter) { return letter == '[' || letter == ']' || letter == '"' || letter == ' '; });
+    if (!parameter.is_switch) {
+      text += fmt::format(" --{} {}", parameter.name, shell_word(plain));
+    } else {
+      text += value == "true" ? fmt::format(" --{}", parameter.name) : fmt::format(" --{}=false", parameter.name);
+    }
+  }
+  return text;
+}
+
+std::string packed(const ViewState& state, const std::string& input, float zero_parallax_px) {
+  const OutputMode& mode = find_output_mode(state.mode);
+  if (shows_display_views(mode)) {
+    const bool has_screen = state.mode == "lenticular" && !state.screen.empty();
+    return fmt::format("wheatstone pack {} --to {} {} {} -o {}", input, state.mode,
+                       has_screen ? "--screen" : "--display", shell_word(has_screen ? state.screen : state.display),
+                       state.mode);
+  }
+  const bool is_one_picture =
+      std::holds_alternative<StereoLayout>(mode.kind) || std::holds_alternative<const AnaglyphKind*>(mode.kind);
+  if (!is_one_picture && state.mode != "wiggle") return {};
+  const std::string views = state.adjustment.separation == 1
+                                ? std::string()
+                                : fmt::format(" --views 2 --span {:.4g}", state.adjustment.separation);
+  return fmt::format("wheatstone pack {}{} --to {} --zero-parallax {:.2f}{} -o {}", input, views, state.mode,
+                     zero_parallax_px, state.swap ? " --swap" : "",
+                     state.mode == "wiggle" ? "wiggle.gif" : "picture.png");
+}
+
+std::string for_painting(const Session& session, const Item& item, const PaintedContent& content) {
+  const ViewState& state = session.state;
+  const float screen_px = state.adjustment.zero_parallax_px;
+  if (!content.photograph) {
+    if (shows_display_views(find_output_mode(state.mode)))
+      return fmt::format("wheatstone paint{} --display {} --zero-parallax {:.2f} -o painted", files_of(item),
+                         shell_word(state.display), screen_px);
+    const std::string pack = packed(state, shell_word(item.front().string()), screen_px * state.adjustment.separation);
+    return pack.empty() ? fmt::format("wheatstone paint{} -o painted", files_of(item)) : pack;
+  }
+  const std::string display = shows_display_views(find_output_mode(state.mode))
+                                  ? fmt::format(" --display {}", shell_word(state.display))
+                                  : std::string();
+  const std::string paint = fmt::format("wheatstone paint{}{} --zero-parallax {:.2f}{} -o painted", files_of(item),
+                                        style_options(state.style), screen_px, display);
+  if (!display.empty()) return paint;
+  const std::string pack = packed(state, "painted/painting.wst", screen_px * state.adjustment.separation);
+  return pack.empty() ? paint : fmt::format("{} && {}", paint, pack);
+}
+
+struct LineOf {
+  const Session& session;
+  const Item& item;
+
+  std::string operator()(std::monostate) const { return {}; }
+  std::string operator()(const PaintedContent& content) const { return for_painting(session, item, content); }
+  std::string operator()(const ViewsContent& /*content*/) const {
+    return packed(session.state, shell_word(item.front().string()), 0);
+  }
+  std::string operator()(const SlicesContent& /*content*/) const {
+    return packed(session.state, shell_word(item.front().string()),
+                  session.state.adjustment.zero_parallax_px * session.state.adjustment.separation);
+  }
+  std::string operator()(const ParticlesContent& /*content*/) const {
+    const Framing& orbit = session.state.orbit;
+    return fmt::format("wheatstone render{} --azimuth {:.6g} --elevation {:.6g} --zoom {:.6g} --views 2 -o views",
+                       files_of(item), orbit.azimuth_deg, orbit.elevation_deg, orbit.zoom);
+  }
+};
+
+}  // namespace
+
+std::string command_line_of(const Session& session) {
+  const Item* const item = open_item(session);
+  return item == nullptr ? std::string() : std::visit(LineOf{session, *item}, session.opened.content);
+}
+
+}  // namespace wheatstone::viewer

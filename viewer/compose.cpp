@@ -1,0 +1,94 @@
+#include "compose.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "wheatstone/display/anaglyph.h"
+#include "wheatstone/stereo/packed_pair.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+const LayoutTraits* layout_of(const OutputMode& mode) {
+  const auto* const layout = std::get_if<StereoLayout>(&mode.kind);
+  return layout == nullptr ? nullptr : &traits_of(*layout);
+}
+
+int even(int value) { return std::max(value - value % 2, 2); }
+
+Image<Rgb8> put_in_layout(StereoLayout layout, const Image<Rgb8>& left, const Image<Rgb8>& right,
+                          const Viewport& viewport) {
+  return put_together(left, right, layout_from(layout, viewport.screen_x, viewport.screen_y));
+}
+
+}  // namespace
+
+EyeSize eye_size(const OutputMode& mode, const Viewport& viewport) {
+  const LayoutTraits* const layout = layout_of(mode);
+  if (layout == nullptr) return {viewport.width, viewport.height};
+  switch (layout->arrangement) {
+    case Arrangement::side_by_side:
+      return {layout->half ? even(viewport.width) : std::max(viewport.width / 2, 1), viewport.height};
+    case Arrangement::over_under:
+      return {viewport.width, layout->half ? even(viewport.height) : std::max(viewport.height / 2, 1)};
+    default:
+      return {viewport.width, viewport.height};
+  }
+}
+
+Frame compose(const OutputMode& mode, Image<Rgb8> left, Image<Rgb8> right, const Viewport& viewport) {
+  Frame frame;
+  if (const auto* const eye = std::get_if<SingleEye>(&mode.kind)) {
+    frame.picture = std::move(*eye == SingleEye::left ? left : right);
+  } else if (const auto* const kind = std::get_if<const AnaglyphKind*>(&mode.kind)) {
+    frame.picture = anaglyph({left, right}, **kind);
+  } else if (const auto* const layout = std::get_if<StereoLayout>(&mode.kind)) {
+    frame.picture = put_in_layout(*layout, left, right, viewport);
+  } else {
+    frame.picture = std::move(left);
+    if (std::holds_alternative<PageFlip>(mode.kind)) frame.right = std::move(right);
+  }
+  if (frame.picture.width() != viewport.width || frame.picture.height() != viewport.height)
+    frame.picture = centred(frame.picture, viewport);
+  return frame;
+}
+
+Image<Rgb8> centred(ImageView<const Rgb8> picture, const Viewport& viewport) {
+  Image<Rgb8> whole(viewport.width, viewport.height);
+  const int width = std::min(picture.width(), viewport.width), height = std::min(picture.height(), viewport.height);
+  const int from_x = (picture.width() - width) / 2, from_y = (picture.height() - height) / 2;
+  const int to_x = (viewport.width - width) / 2, to_y = (viewport.height - height) / 2;
+  for (int y = 0; y < height; ++y)
+    std::ranges::copy(picture.row(from_y + y).subspan(from_x, width), whole.row(to_y + y).begin() + to_x);
+  return whole;
+}
+
+std::vector<ViewPlace> places_in_frame(const OutputMode& mode, ViewPlace left, ViewPlace right,
+                                       const Viewport& viewport) {
+  if (const auto* const eye = std::get_if<SingleEye>(&mode.kind)) return {*eye == SingleEye::left ? left : right};
+  const LayoutTraits* const layout = layout_of(mode);
+  const bool beside = layout != nullptr && layout->arrangement == Arrangement::side_by_side;
+  const bool above = layout != nullptr && layout->arrangement == Arrangement::over_under;
+  if (!beside && !above) {
+    // Both eyes' pictures lie over each other. A place on the screen is the middle view's.
+    left.view = ViewPosition((left.view.eye_separations() + right.view.eye_separations()) / 2);
+    left.origin_x = (left.origin_x + right.origin_x) / 2;
+    left.origin_y = (left.origin_y + right.origin_y) / 2;
+    return {left};
+  }
+  if (layout->half) {
+    (beside ? left.squeeze_x : left.squeeze_y) = 0.5;
+    (beside ? right.squeeze_x : right.squeeze_y) = 0.5;
+    (beside ? left.width : left.height) /= 2;
+    (beside ? right.width : right.height) /= 2;
+  }
+  const int rest_x = (viewport.width - (beside ? 2 : 1) * left.width) / 2;
+  const int rest_y = (viewport.height - (above ? 2 : 1) * left.height) / 2;
+  ViewPlace& second = layout->right_first ? left : right;
+  left.left = right.left = rest_x;
+  left.top = right.top = rest_y;
+  (beside ? second.left : second.top) += beside ? left.width : left.height;
+  return {left, right};
+}
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "frame_geometry.h"
+#include "output_mode.h"
+#include "view_state.h"
+#include "wheatstone/image/image.h"
+
+namespace wheatstone::viewer {
+
+/// A picture of what is open, as a viewport shows it.
+struct Frame {
+  Image<Rgb8> picture;            ///< of the viewport's size
+  Image<Rgb8> right;              ///< of a page flip: `picture` is the left eye's; else empty
+  std::vector<ViewPlace> places;  ///< where views lie in it; of what covers the whole frame, that of the middle view
+  double scale = 1;               ///< screen pixels for one of the content
+};
+
+/// The size of the picture that each eye is to have, before a mode puts both in one.
+struct EyeSize {
+  int width = 0, height = 0;
+};
+EyeSize eye_size(const OutputMode& mode, const Viewport& viewport);
+
+/// Puts the eyes' pictures, each of eye_size, on the screen.
+Frame compose(const OutputMode& mode, Image<Rgb8> left, Image<Rgb8> right, const Viewport& viewport);
+
+/// The picture in the middle of the viewport, cut off or with black around it.
+Image<Rgb8> centred(ImageView<const Rgb8> picture, const Viewport& viewport);
+
+/// Where the eyes of such a frame lie in it: `left` and `right` are places in the eyes' own pictures.
+std::vector<ViewPlace> places_in_frame(const OutputMode& mode, ViewPlace left, ViewPlace right,
+                                       const Viewport& viewport);
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wheatstone/marks/painting.h"
+#include "wheatstone/multiview/slice_stack.h"
+#include "wheatstone/particles/cloud.h"
+#include "wheatstone/particles/cloud_statistics.h"
+#include "wheatstone/stereo/stereo_pair.h"
+
+namespace wheatstone::viewer {
+
+/// A photograph that is painted from.
+struct Photograph {
+  StereoPair pictures;
+  std::optional<StereoGeometry> geometry;  ///< once it was found
+};
+
+/// A painting, and what it was painted from. Either may be missing: a painting that was read has no photograph, and a
+/// photograph has no painting yet.
+struct PaintedContent {
+  std::shared_ptr<const Painting> painting;
+  std::shared_ptr<const Photograph> photograph;
+  friend bool operator==(const PaintedContent&, const PaintedContent&) = default;
+};
+
+/// Pictures of so many views, from left to right.
+struct ViewsContent {
+  std::shared_ptr<const std::vector<Image<Rgb8>>> views;
+  float span = 1;  ///< eye separations from the first view to the last
+  friend bool operator==(const ViewsContent&, const ViewsContent&) = default;
+};
+
+struct SlicesContent {
+  std::shared_ptr<const SliceStack> slices;
+  friend bool operator==(const SlicesContent&, const SlicesContent&) = default;
+};
+
+/// Particles, ready to be rendered: with densities, and what is known of all of them.
+struct Particles {
+  Cloud cloud;
+  CloudStatistics statistics;
+};
+struct ParticlesContent {
+  std::shared_ptr<const Particles> particles;
+  friend bool operator==(const ParticlesContent&, const ParticlesContent&) = default;
+};
+
+/// What is open, as the stage draws it; shared between threads, never changed.
+using Content = std::variant<std::monostate, PaintedContent, ViewsContent, SlicesContent, ParticlesContent>;
+
+/// Size of what is open, in its own pixels; {0, 0} where it has none of its own, as particles.
+struct ContentSize {
+  int width = 0, height = 0;
+};
+ContentSize size_of(const Content& content);
+
+/// Disparities of the scene from its farthest point to its nearest, but for outliers, in pixels of a view at full eye
+/// separation; none where they are not known.
+struct ContentDepth {
+  float farthest_px = 0, nearest_px = 0;
+};
+std::optional<ContentDepth> depth_of(const Content& content);
+
+/// What was opened, and what to tell about it.
+struct Opened {
+  Content content;
+  std::string kind;                ///< "painting", "photograph", "slices" …, for people
+  std::vector<std::string> notes;  ///< one line each
+};
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,136 @@
+#include "open_content.h"
+
+#include <fmt/format.h>
+
+#include <regex>
+#include <utility>
+
+#include "wheatstone/calibration/prepare_pair.h"
+#include "wheatstone/display/multiview_exr.h"
+#include "wheatstone/display/quilt.h"
+#include "wheatstone/error.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/matching/not_a_pair.h"
+#include "wheatstone/multiview/slice_file.h"
+#include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/particles/select.h"
+#include "wheatstone/particles/sph_density.h"
+#include "wheatstone/photograph/carried_depth.h"
+#include "wheatstone/photograph/read_views.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/disparity_from_depth.h"
+#include "wheatstone/stereo/single_view.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+Opened opened_photograph(StereoPair pictures, const std::string& name, const Progress& progress) {
+  PreparedPair prepared;
+  try {
+    prepared = prepare_pair(std::move(pictures), {}, progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_input) throw;
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+  }
+  Opened opened{.kind = "photograph"};
+  for (const std::string& note : {rectified_note(prepared), row_warning(prepared)})
+    if (!note.empty()) opened.notes.push_back(note);
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = std::move(prepared.pictures);
+  opened.content = PaintedContent{nullptr, std::move(photograph)};
+  return opened;
+}
+
+Opened opened_with_depth(CarriedDepth found, const fs::path& path) {
+  Image<float> disparity;
+  try {
+    disparity = disparity_from_depth(found.depth, found.picture, {.kind = found.kind});
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
+  }
+  MadePair pair = make_pair_from_single_view(std::move(found.picture), std::move(disparity));
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = std::move(pair.pictures);
+  photograph->geometry = std::move(pair.geometry);
+  return {PaintedContent{nullptr, std::move(photograph)}, "picture with depth", {"with the depth of " + found.how}};
+}
+
+/// The layout that a quilt's name tells, as "gas_qs8x6a0.75.png".
+std::optional<QuiltLayout> layout_in_name(const fs::path& path) {
+  static const std::regex pattern("_qs([0-9]{1,3})x([0-9]{1,3})a[0-9.]+$");
+  const std::string stem = path.stem().string();
+  std::smatch found;
+  if (!std::regex_search(stem, found, pattern)) return {};
+  const QuiltLayout layout{std::stoi(found[1]), std::stoi(found[2])};
+  if (layout.columns == 0 || layout.rows == 0) return {};
+  return layout;
+}
+
+Opened opened_views(std::vector<Image<Rgb8>> views, std::string kind) {
+  // Neighbours are an eye separation apart where nothing tells otherwise.
+  const float span = kind == "quilt" ? 1.f : static_cast<float>(views.size() - 1);
+  return {ViewsContent{std::make_shared<const std::vector<Image<Rgb8>>>(std::move(views)), span}, std::move(kind), {}};
+}
+
+Opened open_picture(const fs::path& path, const Progress& progress) {
+  if (const std::optional<QuiltLayout> layout = layout_in_name(path))
+    return opened_views(views_of_quilt(read_image(path), *layout), "quilt");
+  if (std::optional<CarriedDepth> depth = find_carried_depth(path)) return opened_with_depth(std::move(*depth), path);
+  std::optional<ViewsFile> found = find_views(path);
+  if (!found) {
+    std::vector<Image<Rgb8>> one;
+    one.push_back(read_image(path));
+    return {ViewsContent{std::make_shared<const std::vector<Image<Rgb8>>>(std::move(one)), 0}, "picture", {}};
+  }
+  const std::string how = describe_views(*found);
+  if (found->views.size() > 2) return opened_views(std::move(found->views), "views");
+  Opened opened = opened_photograph({std::move(found->views[0]), std::move(found->views[1])}, path.string(), progress);
+  opened.notes.insert(opened.notes.begin(), how);
+  return opened;
+}
+
+Opened open_particles(const fs::path& path, const Progress& progress) {
+  auto particles = std::make_shared<Particles>();
+  particles->cloud = read_cloud(path, {}, progress);
+  select_particles(particles->cloud, {});
+  if (particles->cloud.size() == 0)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no particle with a finite position", path.string()));
+  if (particles->cloud.density.empty() && particles->cloud.colour.empty())
+    estimate_density(particles->cloud, 32, progress);
+  particles->statistics.add(particles->cloud);
+  return {ParticlesContent{std::move(particles)}, "particles", {}};
+}
+
+}  // namespace
+
+Opened open_content(std::span<const fs::path> files, const Progress& progress) {
+  const fs::path& path = files.front();
+  report(progress, "reading", 0);
+  if (files.size() == 2)
+    return opened_photograph({read_image(path), read_image(files[1])},
+                             fmt::format("{}, {}", path.string(), files[1].string()), progress);
+  if (path.extension() == ".wst")
+    return {PaintedContent{std::make_shared<const Painting>(read_painting(path)), nullptr}, "painting", {}};
+  if (path.extension() == ".exr") {
+    if (is_multiview_exr(path)) return opened_views(read_multiview_exr(path), "views");
+    return {SlicesContent{std::make_shared<const SliceStack>(read_slices(path))}, "slices", {}};
+  }
+  if (holds_particles(path)) return open_particles(path, progress);
+  return open_picture(path, progress);
+}
+
+bool are_eyes_of_one(const fs::path& left, const fs::path& right) {
+  for (const fs::path* path : {&left, &right})
+    if (path->extension() == ".wst" || path->extension() == ".exr" || holds_particles(*path) || layout_in_name(*path))
+      return false;
+  try {
+    const StereoPair pair{read_image(left), read_image(right)};
+    return same_size(pair.left, pair.right) && !find_views(left) && !find_views(right) && !not_a_pair(pair);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace wheatstone::viewer

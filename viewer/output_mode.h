@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "wheatstone/display/anaglyph.h"
+#include "wheatstone/stereo/stereo_layout.h"
+
+namespace wheatstone::viewer {
+
+/// One eye's picture alone.
+enum class SingleEye { left, right };
+/// Views one after the other, there and back.
+struct Wiggle {};
+/// Every other picture that the screen shows is the other eye's.
+struct PageFlip {};
+/// All views of a display side by side, or under its lenses.
+struct Quilt {};
+struct Lenticular {};
+
+/// A way in which what is open is put on the screen.
+struct OutputMode {
+  std::string_view name;  ///< as `wheatstone pack --to` has it, where it has it
+  std::string text;       ///< for people
+  std::variant<SingleEye, StereoLayout, const AnaglyphKind*, Wiggle, PageFlip, Quilt, Lenticular> kind;
+};
+
+/// All modes, in the order in which they are stepped through.
+std::span<const OutputMode> output_modes();
+
+/// Throws Error{wrong_usage} that lists the names.
+const OutputMode& find_output_mode(std::string_view name);
+
+/// Whether the mode shows all views of a display instead of two eyes.
+bool shows_display_views(const OutputMode& mode);
+
+/// What the mode puts rows, columns or squares of both eyes on a screen as; none where it does not.
+std::optional<StereoLayout> interlaced_layout(const OutputMode& mode);
+
+/// The same layout as it is to be filled from pixel (x, y) of a screen on, so that the eyes keep their places on it.
+StereoLayout layout_from(StereoLayout layout, int x, int y);
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,51 @@
+#include "pointing.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "wheatstone/depth/warp_row.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+/// The nearest surfaces of one row, as a view sees them: those of photographs first.
+std::vector<float> seen_row(const Surfaces& surfaces, ViewPosition view, int y, int width) {
+  std::vector<float> nearest(width, unknown);
+  std::vector<float> continued(width, unknown);
+  for (const Surface& surface : surfaces.seen)
+    if (y < surface.disparity.height())
+      warp_disparity_row_over(surface.disparity.row(y), view - surface.view, surface.left_px,
+                              surface.continued ? continued : nearest);
+  close_cracks(nearest);
+  for (int x = 0; x < width; ++x)
+    if (std::isnan(nearest[x])) nearest[x] = continued[x];
+  return nearest;
+}
+
+std::vector<float> seen_row(const StereoGeometry& geometry, ViewPosition view, int y) {
+  std::vector<float> nearest(geometry.left_disparity.width(), unknown);
+  warp_disparity_row_over(geometry.left_disparity.row(y), view - left_eye, 0, nearest);
+  warp_disparity_row_over(geometry.right_disparity.row(y), view - right_eye, 0, nearest);
+  return nearest;
+}
+
+}  // namespace
+
+std::optional<float> disparity_at(const Content& content, const PlaceInView& place) {
+  const ContentSize size = size_of(content);
+  const int x = static_cast<int>(std::floor(place.x)), y = static_cast<int>(std::floor(place.y));
+  const auto* const painted = std::get_if<PaintedContent>(&content);
+  if (painted == nullptr || x < 0 || y < 0 || x >= size.width || y >= size.height) return {};
+  float disparity = unknown;
+  if (painted->painting && !painted->painting->surfaces.seen.empty())
+    disparity = seen_row(painted->painting->surfaces, place.view, y, size.width)[x];
+  else if (painted->photograph && painted->photograph->geometry)
+    disparity = seen_row(*painted->photograph->geometry, place.view, y)[x];
+  if (std::isnan(disparity)) return {};
+  return disparity;
+}
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+
+#include "content.h"
+#include "frame_geometry.h"
+
+namespace wheatstone::viewer {
+
+/// The disparity of what is seen at a place, in pixels of the content; none where it is not known.
+std::optional<float> disparity_at(const Content& content, const PlaceInView& place);
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,227 @@
+#include "stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/depth/rig.h"
+#include "wheatstone/display/lenticular.h"
+#include "wheatstone/display/quilt.h"
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/stereo/reduced_pair.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+constexpr int wiggle_views = 5;
+
+/// The number of the view that a wiggle shows in a step: there and back.
+int wiggle_view(int step) {
+  constexpr int period = 2 * (wiggle_views - 1);
+  const int at = ((step % period) + period) % period;
+  return at < wiggle_views ? at : period - at;
+}
+
+std::vector<ViewPosition> wanted_positions(const OutputMode& mode, const ViewState& state) {
+  const EyePositions eyes = eye_positions(state);
+  if (!std::holds_alternative<Wiggle>(mode.kind)) return {eyes.left, eyes.right};
+  std::vector<ViewPosition> positions = evenly_spaced(0, 0, wiggle_views, state.adjustment.separation).positions;
+  for (ViewPosition& position : positions) position = ViewPosition(position.eye_separations() + state.head);
+  return positions;
+}
+
+/// How a picture of the content's size lies in an eye's: its scale, and where its corner stands.
+struct Fit {
+  double scale = 1;
+  double origin_x = 0, origin_y = 0;
+};
+
+Fit fit_in(const EyeSize& eye, const ContentSize& content, const Framed& framed) {
+  Fit fit;
+  fit.scale = framed.zoom > 0 ? framed.zoom
+                              : std::min(static_cast<double>(eye.width) / content.width,
+                                         static_cast<double>(eye.height) / content.height);
+  fit.origin_x = std::round(eye.width / 2. - (content.width / 2. + framed.pan_x) * fit.scale);
+  fit.origin_y = std::round(eye.height / 2. - (content.height / 2. + framed.pan_y) * fit.scale);
+  return fit;
+}
+
+/// What is to be drawn so that an eye's picture is full wherever the content reaches, also when the eyes' pictures are
+/// moved a little.
+WantedPart wanted_part(const Fit& fit, const EyeSize& eye, const ContentSize& content) {
+  constexpr int margin_px = 96;
+  const int width = std::max(static_cast<int>(std::lround(content.width * fit.scale)), 1);
+  const int height = std::max(static_cast<int>(std::lround(content.height * fit.scale)), 1);
+  WantedPart part{fit.scale, 0, 0, width, height};
+  if (width > eye.width + 2 * margin_px) {
+    part.left = std::clamp(static_cast<int>(-fit.origin_x) - margin_px, 0, width - 1);
+    part.width = std::min(eye.width + 2 * margin_px, width - part.left);
+  }
+  if (height > eye.height + 2 * margin_px) {
+    part.top = std::clamp(static_cast<int>(-fit.origin_y) - margin_px, 0, height - 1);
+    part.height = std::min(eye.height + 2 * margin_px, height - part.top);
+  }
+  return part;
+}
+
+/// How an eye's picture is moved against where it fits.
+struct Move {
+  double x = 0, y = 0, roll_deg = 0;
+};
+
+Image<Rgb8> laid_on(const EyeSize& eye, const DrawnViews& drawn, std::size_t view, const Fit& fit, const Move& move) {
+  Image<Rgb8> laid(eye.width, eye.height);
+  const double ratio = fit.scale / drawn.scale;
+  const double left = fit.origin_x + move.x + drawn.left * ratio, top = fit.origin_y + move.y + drawn.top * ratio;
+  const Image<Rgb8>& picture = drawn.pictures[view];
+  if (move.roll_deg == 0 && ratio == 1) {
+    const int to_x = static_cast<int>(std::lround(left)), to_y = static_cast<int>(std::lround(top));
+    const int first_x = std::max(0, -to_x), last_x = std::min(picture.width(), eye.width - to_x);
+    for (int y = std::max(0, -to_y); y < std::min(picture.height(), eye.height - to_y) && first_x < last_x; ++y)
+      std::ranges::copy(picture.row(y).subspan(first_x, last_x - first_x), laid.row(to_y + y).begin() + to_x + first_x);
+    return laid;
+  }
+  cv::Mat turn = cv::getRotationMatrix2D({static_cast<float>(eye.width) / 2, static_cast<float>(eye.height) / 2},
+                                         -move.roll_deg, 1);
+  // A pixel's centre is half a pixel from its number: (x + ½)·ratio + left − ½, and then the turn.
+  const double at_x = left + ratio / 2 - 0.5, at_y = top + ratio / 2 - 0.5;
+  for (int row = 0; row < 2; ++row) {
+    turn.at<double>(row, 2) += turn.at<double>(row, 0) * at_x + turn.at<double>(row, 1) * at_y;
+    turn.at<double>(row, 0) *= ratio;
+    turn.at<double>(row, 1) *= ratio;
+  }
+  cv::Mat target = as_mat(laid);
+  cv::warpAffine(as_mat(picture), target, turn, target.size(), cv::INTER_LINEAR);
+  return laid;
+}
+
+void put_photograph_on_the_left(const Image<Rgb8>& photograph, Image<Rgb8>& painting) {
+  for (int y = 0; y < painting.height(); ++y)
+    std::ranges::copy(photograph.row(y).subspan(0, photograph.width() / 2), painting.row(y).begin());
+}
+
+/// Blackens what only one eye shows at its sides: the picture's edge lies in the same columns for both.
+void show_what_both_show(const ContentSize& content, const Fit& fit, double shift_left, double shift_right,
+                         Image<Rgb8>& left, Image<Rgb8>& right) {
+  const double first = fit.origin_x + std::max(shift_left, shift_right);
+  const double last = fit.origin_x + std::min(shift_left, shift_right) + content.width * fit.scale;
+  const int from = std::clamp(static_cast<int>(std::lround(first)), 0, left.width());
+  const int to = std::clamp(static_cast<int>(std::lround(last)), from, left.width());
+  for (Image<Rgb8>* eye : {&left, &right})
+    for (int y = 0; y < eye->height(); ++y) {
+      std::ranges::fill(eye->row(y).subspan(0, from), Rgb8());
+      std::ranges::fill(eye->row(y).subspan(to), Rgb8());
+    }
+}
+
+/// What a viewport shows of a picture that covers its whole screen.
+Image<Rgb8> part_of_screen(const Image<Rgb8>& whole, const Viewport& viewport) {
+  Image<Rgb8> part(viewport.width, viewport.height);
+  const int first_x = std::max(0, -viewport.screen_x);
+  const int last_x = std::min(viewport.width, whole.width() - viewport.screen_x);
+  for (int y = 0; y < viewport.height && first_x < last_x; ++y)
+    if (whole.contains(0, y + viewport.screen_y))
+      std::ranges::copy(whole.row(y + viewport.screen_y).subspan(viewport.screen_x + first_x, last_x - first_x),
+                        part.row(y).begin() + first_x);
+  return part;
+}
+
+}  // namespace
+
+EyePositions eye_positions(const ViewState& state) {
+  const float half = state.adjustment.separation / 2;
+  EyePositions eyes{ViewPosition(state.head - half), ViewPosition(state.head + half)};
+  if (!state.quantised) return eyes;
+  const DisplayPreset& display = find_display(state.display);
+  const Rig rig = evenly_spaced(0, 0, display.views, std::max(span_of(display), 1.f));
+  const auto nearest = [&rig](ViewPosition eye) {
+    return *std::ranges::min_element(rig.positions, {}, [eye](ViewPosition view) { return std::abs(view - eye); });
+  };
+  return {nearest(eyes.left), nearest(eyes.right)};
+}
+
+Frame Stage::draw(const Content& content, const ViewState& state, const Viewport& viewport) {
+  if (std::holds_alternative<std::monostate>(content))
+    return {.picture = {viewport.width, viewport.height}, .right = {}, .places = {}};
+  return shows_display_views(find_output_mode(state.mode)) ? draw_display(content, state, viewport)
+                                                           : draw_eyes(content, state, viewport);
+}
+
+Frame Stage::draw_display(const Content& content, const ViewState& state, const Viewport& viewport) {
+  const std::vector<Image<Rgb8>>& views = drawer_.display_views(content, state);
+  if (state.mode == "lenticular") {
+    const LenticularScreen screen =
+        state.screen.empty() ? lenticular_screen_of(find_display(state.display)) : find_lenticular(state.screen);
+    return {.picture = part_of_screen(interleave(views, screen), viewport), .right = {}, .places = {}};
+  }
+  const DisplayPreset& display = find_display(state.display);
+  QuiltLayout layout{display.quilt_columns, display.quilt_rows};
+  if (layout.columns * layout.rows != static_cast<int>(views.size()))
+    layout = {static_cast<int>(std::ceil(std::sqrt(static_cast<double>(views.size())))), 1};
+  while (layout.columns * layout.rows < static_cast<int>(views.size())) ++layout.rows;
+  std::vector<Image<Rgb8>> filled = views;
+  filled.resize(static_cast<std::size_t>(layout.columns) * layout.rows,
+                Image<Rgb8>(views.front().width(), views.front().height()));
+  const Image<Rgb8> quilt = make_quilt(filled, layout);
+  const double scale = std::min(
+      {static_cast<double>(viewport.width) / quilt.width(), static_cast<double>(viewport.height) / quilt.height(), 1.});
+  const PictureSize size{std::max(static_cast<int>(quilt.width() * scale), 1),
+                         std::max(static_cast<int>(quilt.height() * scale), 1)};
+  return {.picture = centred(reduced(quilt, size), viewport), .right = {}, .places = {}, .scale = scale};
+}
+
+Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport) {
+  const OutputMode& mode = find_output_mode(state.mode);
+  const EyeSize eye = eye_size(mode, viewport);
+  ContentSize size = size_of(content);
+  const bool has_no_size = size.width == 0;
+  if (has_no_size) size = {eye.width, eye.height};
+  const Fit fit = has_no_size ? Fit() : fit_in(eye, size, state.framed);
+  const WantedPart part = wanted_part(fit, eye, size);
+  const std::vector<ViewPosition> positions = wanted_positions(mode, state);
+  const bool photograph_only = state.comparison == Comparison::photograph;
+  const DrawnViews* const photographs =
+      state.comparison == Comparison::painting ? nullptr : drawer_.photographed(content, part, positions);
+  const DrawnViews& drawn =
+      photograph_only && photographs != nullptr ? *photographs : drawer_.painted(content, state, part, positions);
+
+  const bool wiggles = std::holds_alternative<Wiggle>(mode.kind);
+  const std::size_t first = wiggles ? static_cast<std::size_t>(wiggle_view(state.step)) : 0;
+  const std::size_t last = wiggles ? first : 1;
+  const Adjustment& adjustment = state.adjustment;
+  const double zero_parallax_px = adjustment.zero_parallax_px * fit.scale;
+  // The eyes' distance on the screen is rounded once, so that the plane is met to half a pixel.
+  const double shift_left = std::round(drawn.positions[first].eye_separations() * zero_parallax_px);
+  const double shift_right =
+      shift_left + std::round((drawn.positions[last] - drawn.positions[first]) * zero_parallax_px);
+  const auto lay = [&](std::size_t view, double shift, double share) {
+    const Move move{shift, share * adjustment.vertical_px, share * adjustment.roll_deg};
+    Image<Rgb8> laid = laid_on(eye, drawn, view, fit, move);
+    if (state.comparison == Comparison::split && photographs != nullptr)
+      put_photograph_on_the_left(laid_on(eye, *photographs, view, fit, move), laid);
+    return laid;
+  };
+  Image<Rgb8> left = lay(first, shift_left, -0.5), right = lay(last, shift_right, 0.5);
+  if (first != last) show_what_both_show(size, fit, shift_left, shift_right, left, right);
+  const auto place_of = [&](std::size_t view, double shift) {
+    return ViewPlace{.view = drawn.positions[view],
+                     .width = eye.width,
+                     .height = eye.height,
+                     .scale = fit.scale,
+                     .origin_x = fit.origin_x + shift,
+                     .origin_y = fit.origin_y};
+  };
+  ViewPlace left_place = place_of(first, shift_left), right_place = place_of(last, shift_right);
+  if (state.swap) {
+    std::swap(left, right);
+    std::swap(left_place, right_place);
+  }
+  Frame frame = compose(mode, std::move(left), std::move(right), viewport);
+  frame.places = places_in_frame(mode, left_place, right_place, viewport);
+  frame.scale = fit.scale;
+  return frame;
+}
+
+}  // namespace wheatstone::viewer

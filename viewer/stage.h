@@ -1,0 +1,31 @@
+#pragma once
+
+#include "compose.h"
+#include "content.h"
+#include "frame_geometry.h"
+#include "view_drawer.h"
+#include "view_state.h"
+
+namespace wheatstone::viewer {
+
+/// Draws what is open as a state has it. Keeps drawn views, so that what moves pictures only (zero parallax, output
+/// mode, the window's place) draws none anew. Of one thread.
+class Stage {
+ public:
+  /// Throws Error where the mode cannot show the content.
+  Frame draw(const Content& content, const ViewState& state, const Viewport& viewport);
+
+ private:
+  Frame draw_display(const Content& content, const ViewState& state, const Viewport& viewport);
+  Frame draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport);
+
+  ViewDrawer drawer_;
+};
+
+/// The positions from which a state's two eyes look.
+struct EyePositions {
+  ViewPosition left, right;
+};
+EyePositions eye_positions(const ViewState& state);
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,136 @@
+#include "view_drawer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "particle_scene.h"
+#include "wheatstone/app/display_views.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/depth/rig.h"
+#include "wheatstone/error.h"
+#include "wheatstone/multiview/render.h"
+#include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/stereo/reduced_pair.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+/// The pictures nearest to the positions, of those that stand evenly over `span`; reduced where they are shown smaller.
+DrawnViews nearest_pictures(std::span<const ImageView<const Rgb8>> pictures, float span, const WantedPart& part,
+                            const std::vector<ViewPosition>& wanted) {
+  const std::vector<ViewPosition> at = evenly_spaced(0, 0, static_cast<int>(pictures.size()), span).positions;
+  DrawnViews drawn;
+  drawn.scale = std::min(part.scale, 1.);
+  for (const ViewPosition position : wanted) {
+    const auto nearest = std::ranges::min_element(at, {}, [&](ViewPosition here) { return std::abs(here - position); });
+    const ImageView<const Rgb8>& picture = pictures[static_cast<std::size_t>(nearest - at.begin())];
+    drawn.positions.push_back(*nearest);
+    const PictureSize size{std::max(static_cast<int>(std::lround(picture.width() * drawn.scale)), 1),
+                           std::max(static_cast<int>(std::lround(picture.height() * drawn.scale)), 1)};
+    drawn.pictures.push_back(reduced(picture, size));
+  }
+  return drawn;
+}
+
+DrawnViews photographs(const Photograph& photograph, const WantedPart& part, const std::vector<ViewPosition>& wanted) {
+  std::vector<ImageView<const Rgb8>> pictures{photograph.pictures.left};
+  if (!photograph.pictures.right.empty()) pictures.emplace_back(photograph.pictures.right);
+  return nearest_pictures(pictures, 1, part, wanted);
+}
+
+DrawnViews sliced(const SliceStack& stack, const std::vector<ViewPosition>& positions) {
+  const Rig rig{stack.width, stack.height, positions};
+  return {.pictures = render_slices(stack, rig), .positions = positions};
+}
+
+DrawnViews rendered(const Particles& particles, const ViewState& state, const WantedPart& part,
+                    const std::vector<ViewPosition>& positions) {
+  const Rig rig{part.width, part.height, positions};
+  const Scene scene = particle_scene(particles, state.orbit, rig);
+  return {.pictures = render(particles.cloud, scene, rig).views, .positions = positions};
+}
+
+}  // namespace
+
+DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& painting, int finest_layer,
+                                     const WantedPart& part, const std::vector<ViewPosition>& positions) {
+  if (!prepared_ || prepared_->painting != painting || prepared_->part != part ||
+      prepared_->finest_layer != finest_layer) {
+    const bool as_it_is = part == WantedPart{1, 0, 0, width_of(*painting), height_of(*painting)};
+    const Placement placement = as_it_is ? Placement{}
+                                         : Placement{.width = part.width,
+                                                     .height = part.height,
+                                                     .scale = part.scale,
+                                                     .left = part.left / part.scale,
+                                                     .top = part.top / part.scale};
+    prepared_.reset();
+    prepared_ = Prepared{painting, part, finest_layer,
+                         prepare(*painting, {.placement = placement, .finest_layer = finest_layer})};
+  }
+  DrawnViews drawn{.positions = positions, .scale = part.scale, .left = part.left, .top = part.top};
+  for (DrawnView& view : draw(prepared_->ready, positions)) drawn.pictures.push_back(std::move(view.picture));
+  return drawn;
+}
+
+const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& state, const WantedPart& part,
+                                      const std::vector<ViewPosition>& positions) {
+  if (drawn_ && drawn_->content == content && drawn_->part == part && drawn_->wanted == positions &&
+      drawn_->finest_layer == state.finest_layer && drawn_->orbit == state.orbit)
+    return drawn_->views;
+  DrawnViews views;
+  if (const auto* const painted = std::get_if<PaintedContent>(&content)) {
+    views = painted->painting ? draw_painting(painted->painting, state.finest_layer, part, positions)
+                              : photographs(*painted->photograph, part, positions);
+  } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
+    const std::vector<ImageView<const Rgb8>> lent(pictures->views->begin(), pictures->views->end());
+    views = nearest_pictures(lent, pictures->span, part, positions);
+  } else if (const auto* const slices = std::get_if<SlicesContent>(&content)) {
+    views = sliced(*slices->slices, positions);
+  } else if (const auto* const particles = std::get_if<ParticlesContent>(&content)) {
+    views = rendered(*particles->particles, state, part, positions);
+  }
+  drawn_ = Drawn{content, part, state.finest_layer, state.orbit, positions, std::move(views)};
+  return drawn_->views;
+}
+
+const DrawnViews* ViewDrawer::photographed(const Content& content, const WantedPart& part,
+                                           const std::vector<ViewPosition>& positions) {
+  const auto* const painted = std::get_if<PaintedContent>(&content);
+  if (painted == nullptr || !painted->photograph) return nullptr;
+  if (!photographed_ || photographed_->content != content || photographed_->part.scale != part.scale ||
+      photographed_->wanted != positions)
+    photographed_ = Drawn{content, part, 0, {}, positions, photographs(*painted->photograph, part, positions)};
+  return &photographed_->views;
+}
+
+const std::vector<Image<Rgb8>>& ViewDrawer::display_views(const Content& content, const ViewState& state) {
+  const float zero_parallax_px = state.adjustment.zero_parallax_px;
+  if (display_ && display_->content == content && display_->display == state.display &&
+      display_->zero_parallax_px == zero_parallax_px && display_->orbit == state.orbit)
+    return display_->views;
+  const DisplayPreset& display = find_display(state.display);
+  std::vector<Image<Rgb8>> views;
+  const Rig rig =
+      evenly_spaced(display.view_width_px, display.view_height_px, display.views, std::max(span_of(display), 1.f));
+  if (const auto* const painted = std::get_if<PaintedContent>(&content)) {
+    if (!painted->painting) throw Error(ErrorKind::bad_input, "the photograph is not painted yet");
+    const DisplayViewsOptions options{.views = display.views,
+                                      .width = display.view_width_px,
+                                      .height = display.view_height_px,
+                                      .widest_span = std::max(span_of(display), 1.f),
+                                      .zero_parallax_px = zero_parallax_px};
+    views = draw_display_views(*painted->painting, options).views;
+  } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
+    views = *pictures->views;
+  } else if (const auto* const slices = std::get_if<SlicesContent>(&content)) {
+    const SliceStack& stack = *slices->slices;
+    views = render_slices(stack, {stack.width, stack.height, rig.positions});
+  } else if (const auto* const particles = std::get_if<ParticlesContent>(&content)) {
+    views = render(particles->particles->cloud, particle_scene(*particles->particles, state.orbit, rig), rig).views;
+  }
+  display_ = DisplayDrawn{content, state.display, zero_parallax_px, state.orbit, std::move(views)};
+  return display_->views;
+}
+
+}  // namespace wheatstone::viewer

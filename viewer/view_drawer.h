@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "content.h"
+#include "view_state.h"
+#include "wheatstone/depth/view_position.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/multiview/scene.h"
+
+namespace wheatstone::viewer {
+
+/// Which part of the views is wanted: pixels of the picture, `scale` times as large.
+struct WantedPart {
+  double scale = 1;
+  int left = 0, top = 0, width = 0, height = 0;
+  friend bool operator==(const WantedPart&, const WantedPart&) = default;
+};
+
+/// Pictures of views, with disparity 0 where it is in the content. They show at least what was wanted where the content
+/// reaches so far.
+struct DrawnViews {
+  std::vector<Image<Rgb8>> pictures;    ///< of one size
+  std::vector<ViewPosition> positions;  ///< that they show: where there are pictures only, the nearest to those wanted
+  double scale = 1;
+  int left = 0, top = 0;  ///< of the pictures' corner, in pixels of the content `scale` times as large
+};
+
+/// Draws views of what is open, and keeps what the next drawing can use again. Of one thread.
+class ViewDrawer {
+ public:
+  /// The painting, or where there is none what it would be painted from.
+  const DrawnViews& painted(const Content& content, const ViewState& state, const WantedPart& part,
+                            const std::vector<ViewPosition>& positions);
+
+  /// The photograph; none where the content has none.
+  const DrawnViews* photographed(const Content& content, const WantedPart& part,
+                                 const std::vector<ViewPosition>& positions);
+
+  /// All views of the state's display, of its size, as `wheatstone paint --display` makes them. Throws Error where the
+  /// content cannot be drawn for more than two views.
+  const std::vector<Image<Rgb8>>& display_views(const Content& content, const ViewState& state);
+
+ private:
+  DrawnViews draw_painting(const std::shared_ptr<const Painting>& painting, int finest_layer, const WantedPart& part,
+                           const std::vector<ViewPosition>& positions);
+
+  struct Prepared {
+    std::shared_ptr<const Painting> painting;
+    WantedPart part;
+    int finest_layer = 0;
+    PreparedPainting ready;
+  };
+  struct Drawn {
+    Content content;
+    WantedPart part;
+    int finest_layer = 0;
+    wheatstone::Framing orbit;
+    std::vector<ViewPosition> wanted;
+    DrawnViews views;
+  };
+  struct DisplayDrawn {
+    Content content;
+    std::string display;
+    float zero_parallax_px = 0;
+    wheatstone::Framing orbit;
+    std::vector<Image<Rgb8>> views;
+  };
+  std::optional<Prepared> prepared_;
+  std::optional<Drawn> drawn_, photographed_;
+  std::optional<DisplayDrawn> display_;
+};
+
+}  // namespace wheatstone::viewer

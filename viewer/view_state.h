@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+
+#include "wheatstone/depth/camera.h"
+#include "wheatstone/marks/style.h"
+
+namespace wheatstone::viewer {
+
+/// What is seen of a photograph beside its painting.
+enum class Comparison {
+  painting,    ///< the painting alone
+  photograph,  ///< the photograph instead
+  split,       ///< the photograph in the left half of the screen
+};
+
+/// How the two eyes are brought onto the screen.
+struct Adjustment {
+  float zero_parallax_px = 0;  ///< disparity, in pixels of the picture, that lies on the screen plane
+  float separation = 1;        ///< of the two eyes that look, in eye separations of the picture
+  float vertical_px = 0;       ///< the right eye's picture lies so many screen pixels lower
+  float roll_deg = 0;          ///< and is turned so far clockwise
+  friend bool operator==(const Adjustment&, const Adjustment&) = default;
+};
+
+/// Which part of the picture is seen, and how large.
+struct Framed {
+  double zoom = 0;              ///< screen pixels for one of the picture; 0: as fits
+  double pan_x = 0, pan_y = 0;  ///< of the picture's middle from the screen's, in pixels of the picture
+  friend bool operator==(const Framed&, const Framed&) = default;
+};
+
+/// Everything that decides what is seen of what is open: plain data, which can be compared, kept and brought back.
+struct ViewState {
+  std::string mode = "red-cyan";  ///< an output mode
+  bool swap = false;
+  Adjustment adjustment;
+  Framed framed;
+  float head = 0;                       ///< of the viewer, in eye separations to the right of the middle
+  bool quantised = false;               ///< eyes see the nearest of the display's views, as under its lenses
+  std::string display = "desk-stereo";  ///< a display preset
+  std::string screen;                   ///< calibration or name of a lenticular screen; empty: the display's
+  int finest_layer = 1 << 20;           ///< of strokes, from the coarsest, 0, on
+  bool layers_apart = false;            ///< a look from the side at the layers of detail
+  Comparison comparison = Comparison::painting;
+  Style style;
+  wheatstone::Framing orbit{.zoom = 1.2f};  ///< of particles
+  int step = 0;                             ///< of a wiggle
+  friend bool operator==(const ViewState&, const ViewState&) = default;
+};
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,191 @@
+#include "viewer.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "open_content.h"
+#include "paint_in_steps.h"
+#include "wheatstone/app/present_pair.h"
+#include "wheatstone/depth/comfort.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+constexpr double easing_s = 0.08;  ///< after which a third of the way is left
+constexpr double step_of_easing_s = 0.02;
+constexpr double step_of_wiggle_s = 0.08;
+
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+bool same_viewport(const Viewport& a, const Viewport& b) {
+  return a.width == b.width && a.height == b.height && a.screen_x == b.screen_x && a.screen_y == b.screen_y;
+}
+
+}  // namespace
+
+const Item* open_item(const Session& session) {
+  return session.item < session.items.size() ? &session.items[session.item] : nullptr;
+}
+
+Viewer::Viewer(std::function<void()> wake) : mailbox_(std::move(wake)) {}
+
+Viewer::~Viewer() = default;
+
+void Viewer::open(std::size_t item) {
+  if (item >= session_.items.size()) return;
+  session_.item = item;
+  session_.opened = {};
+  session_.zero_parallax_target_px.reset();
+  session_.opening = Activity{"reading", 0};
+  const std::uint64_t job = ++job_;
+  making_.start([this, job, files = session_.items[item]](const std::stop_token& stop) {
+    try {
+      Opened opened = open_content(files, progress_of(job, stop));
+      mailbox_.post([this, job, opened = std::move(opened)]() mutable {
+        if (job == job_) take_opened(std::move(opened));
+      });
+    } catch (const std::exception& error) {
+      post_failure(error, job);
+    }
+  });
+}
+
+void Viewer::paint() {
+  const auto* const content = std::get_if<PaintedContent>(&session_.opened.content);
+  if (content == nullptr || !content->photograph) return;
+  session_.opening = Activity{"painting", 0};
+  const std::uint64_t job = ++job_;
+  making_.start(
+      [this, job, photograph = content->photograph, style = session_.state.style](const std::stop_token& stop) {
+        try {
+          paint_in_steps(photograph, style, progress_of(job, stop), [this, job](PaintedContent painted) {
+            mailbox_.post([this, job, painted = std::move(painted)] {
+              if (job == job_) take_painted(painted);
+            });
+          });
+          mailbox_.post([this, job] {
+            if (job == job_) session_.opening.reset();
+          });
+        } catch (const std::exception& error) {
+          post_failure(error, job);
+        }
+      });
+}
+
+Progress Viewer::progress_of(std::uint64_t job, const std::stop_token& stop) {
+  return [this, job, stop](std::string_view step, double done) {
+    if (stop.stop_requested()) throw Error(ErrorKind::interrupted, "stopped");
+    mailbox_.post([this, job, activity = Activity{std::string(step), done}] {
+      if (job == job_ && session_.opening) session_.opening = activity;
+    });
+  };
+}
+
+void Viewer::post_failure(const std::exception& error, std::uint64_t job) {
+  mailbox_.post([this, job, message = std::string(error.what())] {
+    if (job != job_) return;
+    session_.opening.reset();
+    tell(message, true);
+  });
+}
+
+void Viewer::take_opened(Opened opened) {
+  session_.opening.reset();
+  session_.opened = std::move(opened);
+  for (const std::string& note : session_.opened.notes) tell(note);
+  show_comfortably();
+  paint();
+}
+
+void Viewer::take_painted(PaintedContent content) {
+  const bool depth_was_known = depth_of(session_.opened.content).has_value();
+  auto& open = std::get<PaintedContent>(session_.opened.content);
+  open.photograph = std::move(content.photograph);
+  if (content.painting) open.painting = std::move(content.painting);
+  if (!depth_was_known) show_comfortably();
+}
+
+void Viewer::show_comfortably() {
+  const std::optional<ContentDepth> depth = depth_of(session_.opened.content);
+  if (!depth) return;
+  Adjustment& adjustment = session_.state.adjustment;
+  adjustment.zero_parallax_px = depth->nearest_px;
+  const float budget_px = comfortable_parallax_share * static_cast<float>(size_of(session_.opened.content).width);
+  adjustment.separation = std::min(1.f, budget_px / std::max(depth->nearest_px - depth->farthest_px, 1e-3f));
+}
+
+void Viewer::set_viewport(const Viewport& viewport) { viewport_ = viewport; }
+
+void Viewer::tell(std::string message, bool is_error) {
+  session_.message = std::move(message);
+  session_.message_is_error = is_error;
+}
+
+void Viewer::collect() {
+  mailbox_.open();
+  move_on();
+  draw_if_changed();
+}
+
+void Viewer::move_on() {
+  const double now = now_s();
+  const double passed_s = now - std::exchange(moved_at_s_, now);
+  if (session_.zero_parallax_target_px) {
+    constexpr float near_enough_px = 0.05f;
+    float& zero_parallax_px = session_.state.adjustment.zero_parallax_px;
+    const float rest = *session_.zero_parallax_target_px - zero_parallax_px;
+    zero_parallax_px += rest * static_cast<float>(1 - std::exp(-std::min(passed_s, easing_s) / easing_s));
+    if (std::abs(*session_.zero_parallax_target_px - zero_parallax_px) < near_enough_px) {
+      zero_parallax_px = *session_.zero_parallax_target_px;
+      session_.zero_parallax_target_px.reset();
+    }
+  }
+  if (session_.state.mode == "wiggle" && now - wiggled_at_s_ >= step_of_wiggle_s) {
+    ++session_.state.step;
+    wiggled_at_s_ = now;
+  }
+}
+
+std::optional<double> Viewer::next_step_s() const {
+  if (session_.zero_parallax_target_px) return step_of_easing_s;
+  if (session_.state.mode == "wiggle") return step_of_wiggle_s;
+  return {};
+}
+
+void Viewer::draw_if_changed() {
+  const bool changed = !asked_ || asked_->content != session_.opened.content || asked_->state != session_.state ||
+                       !same_viewport(asked_->viewport, viewport_);
+  if (!changed || viewport_.width < 1 || viewport_.height < 1) return;
+  asked_ = Asked{session_.opened.content, session_.state, viewport_};
+  drawing_.start([this, asked = *asked_](const std::stop_token&) {
+    try {
+      auto frame = std::make_shared<Frame>(stage_.draw(asked.content, asked.state, asked.viewport));
+      mailbox_.post([this, frame] {
+        frame_ = std::move(*frame);
+        ++frames_drawn_;
+      });
+    } catch (const std::exception& error) {
+      mailbox_.post([this, message = std::string(error.what())] { tell(message, true); });
+    }
+  });
+}
+
+bool Viewer::is_busy() const {
+  return session_.opening || session_.zero_parallax_target_px || making_.is_busy() || drawing_.is_busy() ||
+         !mailbox_.is_empty();
+}
+
+void Viewer::wait() {
+  while (true) {
+    collect();
+    if (!is_busy()) return;
+    mailbox_.wait_for(std::chrono::milliseconds(10));
+  }
+}
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "mailbox.h"
+#include "newest_job.h"
+#include "session.h"
+#include "stage.h"
+#include "wheatstone/progress.h"
+
+namespace wheatstone::viewer {
+
+/// A session and the threads that work for it. All functions are for the thread that owns it; none of them blocks, but
+/// for `wait`.
+class Viewer {
+ public:
+  /// `wake` is called on any thread when `collect` has something to do.
+  explicit Viewer(std::function<void()> wake = {});
+  ~Viewer();
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  const Session& session() const { return session_; }
+  /// For the commands: what they change is drawn by the next `collect`.
+  Session& session() { return session_; }
+
+  /// Opens the item of that number.
+  void open(std::size_t item);
+  /// Paints what is open with the session's style, where there is a photograph.
+  void paint();
+  /// Brings the scene's depth within what is comfortable, with the nearest point on the screen plane.
+  void show_comfortably();
+  /// The place in which frames are shown.
+  void set_viewport(const Viewport& viewport);
+  const Viewport& viewport() const { return viewport_; }
+
+  /// Takes over what threads have finished, moves on what moves by itself, and has drawn what has changed. To be called
+  /// after every command and when woken, and at `next_step_s` where there is one.
+  void collect();
+  /// Seconds after which `collect` is to be called, though nothing wakes it.
+  std::optional<double> next_step_s() const;
+
+  /// The newest frame; none before the first.
+  const Frame* frame() const { return frame_ ? &*frame_ : nullptr; }
+  /// Counts frames.
+  std::uint64_t frames_drawn() const { return frames_drawn_; }
+  /// Something is being opened, painted, moved or drawn.
+  bool is_busy() const;
+  /// Collects until nothing is busy. For scripts without a window.
+  void wait();
+
+  /// Says something to the user.
+  void tell(std::string message, bool is_error = false);
+
+ private:
+  void move_on();
+  void draw_if_changed();
+  void take_opened(Opened opened);
+  void take_painted(PaintedContent content);
+
+  Progress progress_of(std::uint64_t job, const std::stop_token& stop);
+  void post_failure(const std::exception& error, std::uint64_t job);
+
+  Session session_;
+  Viewport viewport_{640, 480};
+  std::optional<Frame> frame_;
+  std::uint64_t frames_drawn_ = 0;
+
+  struct Asked {
+    Content content;
+    ViewState state;
+    Viewport viewport;
+  };
+  std::optional<Asked> asked_;  ///< for the newest frame that was asked for
+  std::uint64_t job_ = 0;       ///< number of the newest opening or painting; what older ones deliver is left aside
+  double moved_at_s_ = 0, wiggled_at_s_ = 0;
+
+  Stage stage_;  ///< of the drawing thread
+  Mailbox mailbox_;
+  NewestJob making_, drawing_;  ///< last: they end first
+};
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,260 @@
+#include "viewer.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "cli/run.h"
+#include "command_line.h"
+#include "command_table.h"
+#include "pointing.h"
+#include "script.h"
+#include "temporary_folder.h"
+#include "throws_error.h"
+#include "wheatstone/display/lenticular.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/synthetic_still.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const SyntheticStill& still() {
+  static const SyntheticStill made = make_synthetic_still({.width = 240, .height = 160, .samples_a_side = 1});
+  return made;
+}
+
+/// A painting of the still, from its exact geometry.
+const Painting& painting() {
+  static const Painting planned = plan_painting(still().pictures, still().geometry, {});
+  return planned;
+}
+
+/// A viewer in which the painting is open.
+class OpenPainting : public testing::Test {
+ protected:
+  OpenPainting() {
+    write_painting(folder / "still.wst", painting());
+    viewer.session().items.push_back({folder / "still.wst"});
+    viewer.set_viewport({240, 160});
+    viewer.open(0);
+    viewer.wait();
+  }
+  void run(std::string_view line) {
+    run_line(viewer, line);
+    viewer.wait();
+  }
+  const Image<Rgb8>& picture() const { return viewer.frame()->picture; }
+
+  const TemporaryFolder folder;
+  Viewer viewer;
+};
+
+TEST_F(OpenPainting, AClickBringsWhatLiesThereOntoTheScreen) {
+  run("separation 1");
+  run("mode left");
+  double worst = 0;
+  for (int y = 20; y < 160; y += 30)
+    for (int x = 40; x < 220; x += 30) {
+      const std::optional<PlaceInView> place = place_at(viewer.frame()->places, x + 0.5, y + 0.5);
+      ASSERT_TRUE(place);
+      run(fmt::format("zero-parallax-at {} {}", x + 0.5, y + 0.5));
+      const int column = static_cast<int>(place->x), row = static_cast<int>(place->y);
+      if (!still().geometry.left_disparity.contains(column, row)) continue;
+      const double truth = still().geometry.left_disparity(column, row);
+      worst = std::max(worst, std::abs(viewer.session().state.adjustment.zero_parallax_px - truth));
+    }
+  EXPECT_LE(worst, 0.5);
+}
+
+TEST_F(OpenPainting, WhatIsOnTheScreenPlaneLiesInTheSamePlaceForBothEyes) {
+  run("separation 1");
+  run("mode left-right");
+  run("zero-parallax 9.4");
+  const std::vector<ViewPlace>& places = viewer.frame()->places;
+  ASSERT_EQ(places.size(), 2u);
+  // A point of that disparity lies at x in the left view and at x - 9.4 in the right one.
+  const double on_left = places[0].origin_x + places[0].scale * 100;
+  const double on_right = places[1].origin_x + places[1].scale * (100 - 9.4);
+  EXPECT_NEAR(on_left, on_right, 0.5);
+}
+
+TEST_F(OpenPainting, IsShownAsItIsDrawn) {
+  run("separation 1");
+  run("mode left");
+  run("zero-parallax 0");
+  EXPECT_EQ(picture(), draw(painting(), left_eye).picture);
+  run("finest-layer 0");
+  EXPECT_EQ(picture(), draw(prepare(painting(), {.finest_layer = 0}), left_eye).picture);
+  run("more-detail");
+  run("more-detail");
+  EXPECT_EQ(picture(), draw(painting(), left_eye).picture);
+}
+
+TEST_F(OpenPainting, FollowsTheHead) {
+  run("mode left");
+  run("zero-parallax 0");
+  const Image<Rgb8> before = picture();
+  run("head 0.3");
+  EXPECT_NE(picture(), before);
+  run("separation 0");
+  EXPECT_EQ(picture(), draw(painting(), ViewPosition(0.3)).picture);
+}
+
+TEST_F(OpenPainting, IsInterleavedForALenticularScreenAsPackAndPaintDoIt) {
+  run("display step-9");
+  run("zero-parallax 8");
+  const LenticularScreen screen = find_lenticular("step-9");
+  viewer.set_viewport({screen.width, screen.height});
+  run("mode lenticular");
+  std::ostringstream output, errors;
+  const std::vector<std::string> words{"paint", folder / "still.wst", "--display", "step-9", "--zero-parallax", "8",
+                                       "-o",    folder / "screen.png"};
+  ASSERT_EQ(cli::run_command_line(words, output, errors), 0) << errors.str();
+  EXPECT_EQ(picture(), read_image(folder / "screen.png"));
+}
+
+TEST_F(OpenPainting, UndoesAndRedoesWhatWasSet) {
+  run("zero-parallax 5");
+  run("mode left");
+  run("pan 10 10");
+  run("undo");
+  EXPECT_EQ(viewer.session().state.mode, "red-cyan");
+  EXPECT_NE(viewer.session().state.framed.pan_x, 0) << "where one looks is not a parameter";
+  run("undo");
+  EXPECT_NE(viewer.session().state.adjustment.zero_parallax_px, 5);
+  run("redo");
+  EXPECT_EQ(viewer.session().state.adjustment.zero_parallax_px, 5);
+}
+
+TEST_F(OpenPainting, ZoomsAroundThePointer) {
+  run("mode left");
+  run("actual-size");
+  const PlaceInView before = *place_at(viewer.frame()->places, 60, 50);
+  run("zoom-at 2 60 50");
+  const PlaceInView after = *place_at(viewer.frame()->places, 60, 50);
+  EXPECT_NEAR(before.x, after.x, 1);
+  EXPECT_NEAR(before.y, after.y, 1);
+  EXPECT_DOUBLE_EQ(viewer.frame()->scale, 2);
+}
+
+TEST_F(OpenPainting, IsTheCommandThatItTells) {
+  for (const char* mode : {"red-cyan", "left-right", "wiggle"}) {
+    run(fmt::format("mode {}", mode));
+    std::string line = command_line_of(viewer.session());
+    Words words = words_of(line);
+    ASSERT_EQ(words.front(), "wheatstone");
+    words.erase(words.begin());
+    words.back() = folder / words.back();
+    std::ostringstream output, errors;
+    EXPECT_EQ(cli::run_command_line(words, output, errors), 0) << line << '\n' << errors.str();
+  }
+}
+
+TEST_F(OpenPainting, SaysWhatADamagedFileIsAndGoesOn) {
+  write_whole_file(folder / "damaged.wst", "no painting");
+  run_command(viewer, find_command("open"), {folder / "damaged.wst"});
+  viewer.wait();
+  EXPECT_TRUE(viewer.session().message_is_error);
+  EXPECT_THAT(viewer.session().message, HasSubstr("damaged.wst"));
+  run("previous-file");
+  EXPECT_EQ(viewer.session().opened.kind, "painting");
+}
+
+TEST_F(OpenPainting, RefusesWhatCommandsDoNotTake) {
+  const auto running = [this](const char* line) { return [this, line] { run_line(viewer, line); }; };
+  expect_error(ErrorKind::wrong_usage, "'jump' is no command", running("jump"));
+  expect_error(ErrorKind::wrong_usage, "pan: has 1 arguments, expected X Y", running("pan 3"));
+  expect_error(ErrorKind::wrong_usage, "zoom: 'nan' is no number", running("zoom nan"));
+  expect_error(ErrorKind::wrong_usage, "expected one of", running("mode teleport"));
+  expect_error(ErrorKind::wrong_usage, "expected PARAMETER VALUE", running("set jitter-hue"));
+  expect_error(ErrorKind::wrong_usage, "quote", running("open \"a"));
+}
+
+TEST(CommandTable, HasEachNameAndEachKeyOnce) {
+  std::set<std::string_view> names;
+  std::set<std::string> keys;
+  for (const Command& command : command_table()) {
+    EXPECT_TRUE(names.insert(command.name).second) << command.name;
+    EXPECT_FALSE(command.text.empty());
+    std::istringstream text{std::string(command.keys)};
+    for (std::string key; text >> key;) {
+      if (key.size() > 1 && key.ends_with(',')) key.pop_back();
+      EXPECT_TRUE(keys.insert(key).second) << key;
+    }
+  }
+}
+
+TEST(Script, RunsItsLinesAndNamesTheOneThatFails) {
+  const TemporaryFolder folder;
+  write_painting(folder / "still.wst", painting());
+  write_whole_file(
+      folder / "tour.txt",
+      fmt::format("# a tour\nopen \"{}\"\nwait\n\nmode left-right\nwait\nprint\nsave-picture \"{}\"\nfly\n",
+                  (folder / "still.wst").string(), (folder / "tour.png").string()));
+  Viewer viewer;
+  viewer.set_viewport({300, 200});
+  std::vector<std::string> printed;
+  const auto run = [&] {
+    run_script(viewer, folder / "tour.txt", {.print = [&](const std::string& line) { printed.push_back(line); }});
+  };
+  expect_error(ErrorKind::wrong_usage, "tour.txt:9: 'fly' is no command", run);
+  ASSERT_EQ(printed.size(), 1u);
+  EXPECT_THAT(printed.front(), HasSubstr(R"("kind":"painting","mode":"left-right")"));
+  EXPECT_EQ(read_image(folder / "tour.png").width(), 300);
+}
+
+TEST(Script, EndsWhereAFileCannotBeOpened) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "damaged.wst", "no painting");
+  write_whole_file(folder / "tour.txt", fmt::format("open \"{}\"\nwait\nprint\n", (folder / "damaged.wst").string()));
+  Viewer viewer;
+  expect_error(ErrorKind::bad_input, "tour.txt:2: ", [&] { run_script(viewer, folder / "tour.txt"); });
+}
+
+TEST(Viewer, PaintsAPhotographAsPaintDoes) {
+  const TemporaryFolder folder;
+  write_image(folder / "left.png", still().pictures.left);
+  write_image(folder / "right.png", still().pictures.right);
+  Viewer viewer;
+  viewer.session().items.push_back({folder / "left.png", folder / "right.png"});
+  viewer.open(0);
+  viewer.wait();
+  EXPECT_THAT(viewer.session().message, IsEmpty());
+  run_line(viewer, "style posterise");
+  viewer.wait();
+  run_command(viewer, find_command("save-painting"), {folder / "shown.wst"});
+  std::ostringstream output, errors;
+  const std::vector<std::string> words{"paint", folder / "left.png", folder / "right.png", "--style", "posterise",
+                                       "-o",    folder / "painted"};
+  ASSERT_EQ(cli::run_command_line(words, output, errors), 0) << errors.str();
+  EXPECT_TRUE(read_painting(folder / "shown.wst") == read_painting(folder / "painted/painting.wst"));
+}
+
+TEST(Viewer, ShowsNothingWhereNothingIsOpen) {
+  Viewer viewer;
+  viewer.set_viewport({20, 10});
+  viewer.wait();
+  ASSERT_NE(viewer.frame(), nullptr);
+  EXPECT_EQ(viewer.frame()->picture, Image<Rgb8>(20, 10));
+  for (const Command& command : command_table())
+    if (command.arguments.empty() && command.name != "quit" && command.name != "save-picture")
+      run_command(viewer, command, {});
+  viewer.wait();
+}
+
+}  // namespace
+}  // namespace wheatstone::viewer

@@ -1,0 +1,80 @@
+#include "information.h"
+
+#include <fmt/format.h>
+
+#include <QApplication>
+#include <QClipboard>
+#include <QLabel>
+#include <QTextBrowser>
+
+#include "viewer/command_table.h"
+#include "viewer/session.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+std::string information_of(const Session& session) {
+  const Item* const item = open_item(session);
+  if (item == nullptr) return "nothing is open";
+  std::string text;
+  for (const auto& file : *item) text += file.filename().string() + "\n";
+  const ContentSize size = size_of(session.opened.content);
+  text += session.opened.kind;
+  if (size.width > 0) text += fmt::format(", {}×{} pixels", size.width, size.height);
+  if (const auto* const content = std::get_if<PaintedContent>(&session.opened.content); content && content->painting) {
+    const MarkCount marks = count_marks(*content->painting);
+    text += fmt::format("\n{}: {} {}", session.state.style.name, marks.count, marks.kind);
+  }
+  text +=
+      fmt::format("\n{}, zero parallax {:.1f} px, eyes {:.2f} apart, head {:.2f}", session.state.mode,
+                  session.state.adjustment.zero_parallax_px, session.state.adjustment.separation, session.state.head);
+  for (const std::string& note : session.opened.notes) text += "\n" + note;
+  return text;
+}
+
+QString html(std::string_view text) {
+  return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())).toHtmlEscaped();
+}
+
+}  // namespace
+
+QLabel* make_information(QWidget* parent) {
+  auto* const label = new QLabel(parent);
+  label->setAttribute(Qt::WA_TransparentForMouseEvents);
+  label->setStyleSheet("background: rgba(0, 0, 0, 190); color: white; padding: 6px");
+  label->hide();
+  return label;
+}
+
+void show_information(QLabel& label, const Session& session) {
+  label.setVisible(session.information);
+  if (!session.information) return;
+  label.setText(QString::fromStdString(information_of(session)));
+  label.adjustSize();
+  label.move(8, 8);
+  label.raise();
+}
+
+QWidget* make_help(QWidget* parent) {
+  auto* const page = new QTextBrowser(parent);
+  page->setWindowFlags(Qt::Tool);
+  page->setWindowTitle("Keys and commands");
+  QString text = "<table cellpadding=3>";
+  std::string_view menu;
+  for (const Command& command : command_table()) {
+    if (command.menu != menu) text += "<tr><th align=left colspan=3>" + html(command.menu) + "</th></tr>";
+    menu = command.menu;
+    text += "<tr><td>" + html(command.keys) + "</td><td><code>" + html(command.name) + " " + html(command.arguments) +
+            "</code></td><td>" + html(command.text) + "</td></tr>";
+  }
+  page->setHtml(text +
+                "</table><p>Wheel: zoom. Ctrl + wheel: detail. Drag: pan, or turn particles. Click: what lies "
+                "there comes onto the screen plane. Double click: full screen.</p>");
+  page->resize(640, 560);
+  page->hide();
+  return page;
+}
+
+void copy_to_clipboard(const std::string& text) { QApplication::clipboard()->setText(QString::fromStdString(text)); }
+
+}  // namespace wheatstone::viewer

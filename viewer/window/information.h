@@ -1,0 +1,21 @@
+#pragma once
+
+#include <QWidget>
+#include <string>
+
+class QLabel;
+
+namespace wheatstone::viewer {
+
+struct Session;
+
+/// A label in the upper left corner that tells what is open and how it is shown.
+QLabel* make_information(QWidget* parent);
+void show_information(QLabel& label, const Session& session);
+
+/// A page of all commands and their keys.
+QWidget* make_help(QWidget* parent);
+
+void copy_to_clipboard(const std::string& text);
+
+}  // namespace wheatstone::viewer

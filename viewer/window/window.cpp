@@ -1,0 +1,314 @@
+#include "window.h"
+
+#include <fmt/format.h>
+
+#include <QActionGroup>
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QMouseEvent>
+#include <QProgressBar>
+#include <QStatusBar>
+#include <cmath>
+#include <map>
+
+#include "information.h"
+#include "viewer/pointing.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/error.h"
+#include "wheatstone/marks/style.h"
+#include "wheatstone/pictures/write_image.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+constexpr int drag_begins_px = 4;
+constexpr int click_delay_ms = 200;  ///< in which a second click makes it a double click
+constexpr double degrees_a_pixel = 0.4;
+
+QString text_of(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
+
+Image<Rgb8> image_of(const QImage& grabbed) {
+  const QImage plain = grabbed.convertToFormat(QImage::Format_RGB888);
+  Image<Rgb8> image(plain.width(), plain.height());
+  for (int y = 0; y < plain.height(); ++y)
+    std::memcpy(image.row(y).data(), plain.constScanLine(y), static_cast<std::size_t>(plain.width()) * sizeof(Rgb8));
+  return image;
+}
+
+}  // namespace
+
+Window::Window(const WindowOptions& options)
+    : options_(options), viewer_([this] {
+        QMetaObject::invokeMethod(
+            this, [this] { refresh(); }, Qt::QueuedConnection);
+      }) {
+  setWindowTitle("Wheatstone");
+  setAcceptDrops(true);
+  QString why_not;
+  surface_ = make_surface(options.with_opengl, why_not);
+  QWidget* const picture = surface_->widget();
+  picture->setMinimumSize(64, 48);
+  picture->setMouseTracking(true);
+  picture->setFocusPolicy(Qt::StrongFocus);
+  picture->setAccessibleName("Picture");
+  picture->installEventFilter(this);
+  setCentralWidget(picture);
+  information_ = make_information(picture);
+  help_ = make_help(this);
+  make_menus();
+  make_status_bar();
+  if (!why_not.isEmpty()) {
+    viewer_.tell(why_not.toStdString() + "; the processor draws instead", true);
+    if (options.with_dialogs) QMessageBox::warning(this, "Wheatstone", why_not + ". The processor draws instead.");
+  }
+  for (QTimer* timer : {&step_timer_, &click_timer_}) timer->setSingleShot(true);
+  connect(&step_timer_, &QTimer::timeout, this, [this] { refresh(); });
+  connect(&script_timer_, &QTimer::timeout, this, [this] { go_on_with_script(); });
+  connect(&click_timer_, &QTimer::timeout, this, [this] {
+    do_line("zero-parallax-at", {fmt::format("{}", pressed_at_.x()), fmt::format("{}", pressed_at_.y())});
+  });
+}
+
+void Window::make_menus() {
+  std::map<std::string_view, QMenu*> menus;
+  for (const Command& command : command_table()) {
+    QMenu*& menu = menus[command.menu];
+    if (menu == nullptr) menu = menuBar()->addMenu(text_of(command.menu));
+    auto* const action = new QAction(text_of(command.text), this);
+    action->setObjectName(text_of(command.name));
+    QList<QKeySequence> keys;
+    for (const QString& key : text_of(command.keys).split(", ", Qt::SkipEmptyParts))
+      keys.append(QKeySequence(key, QKeySequence::PortableText));
+    action->setShortcuts(keys);
+    connect(action, &QAction::triggered, this, [this, &command] {
+      if (const std::optional<Words> arguments = ask_for_arguments(command)) do_command(command, *arguments);
+    });
+    menu->addAction(action);
+    addAction(action);  // its keys work in full screen, too, where there is no menu
+  }
+}
+
+void Window::make_status_bar() {
+  message_ = new QLabel(this);
+  message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  message_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  depth_ = new QLabel(this);
+  progress_ = new QProgressBar(this);
+  progress_->setMaximumWidth(220);
+  progress_->hide();
+  statusBar()->addWidget(message_, 1);
+  statusBar()->addPermanentWidget(progress_);
+  statusBar()->addPermanentWidget(depth_);
+}
+
+std::optional<Words> Window::ask_for_arguments(const Command& command) {
+  if (command.arguments.empty()) return Words();
+  const QString title = text_of(command.text);
+  const auto one = [](const QString& word) -> std::optional<Words> {
+    if (word.isEmpty()) return {};
+    return Words{word.toStdString()};
+  };
+  if (command.name == "open") {
+    Words words;
+    for (const QString& name : QFileDialog::getOpenFileNames(this, title)) words.push_back(name.toStdString());
+    if (words.empty()) return {};
+    return words;
+  }
+  if (command.arguments == "FILE") return one(QFileDialog::getSaveFileName(this, title));
+  QStringList choices;
+  if (command.name == "mode")
+    for (const OutputMode& mode : output_modes()) choices << text_of(mode.name);
+  if (command.name == "style")
+    for (const std::string_view name : style_names()) choices << text_of(name);
+  if (command.name == "display")
+    for (const DisplayPreset& display : display_presets()) choices << text_of(display.name);
+  if (text_of(command.arguments).contains('|')) choices = text_of(command.arguments).split('|');
+  bool accepted = false;
+  const QString answer =
+      choices.empty() ? QInputDialog::getText(this, title, text_of(command.arguments), QLineEdit::Normal, {}, &accepted)
+                      : QInputDialog::getItem(this, title, text_of(command.arguments), choices, 0, true, &accepted);
+  if (!accepted) return {};
+  try {
+    return words_of(answer.toStdString());
+  } catch (const Error& error) {
+    viewer_.tell(error.what(), true);
+    return {};
+  }
+}
+
+void Window::do_command(const Command& command, const Words& arguments) {
+  try {
+    run_command(viewer_, command, arguments);
+    if (command.name == "copy-command") copy_to_clipboard(viewer_.session().message);
+  } catch (const Error& error) {
+    viewer_.tell(error.what(), true);
+  }
+  refresh();
+}
+
+void Window::do_line(const std::string& name, const Words& arguments) { do_command(find_command(name), arguments); }
+
+void Window::refresh() {
+  viewer_.set_viewport(viewport_of(*surface_->widget()));
+  viewer_.collect();
+  if (viewer_.frames_drawn() != shown_frame_) {
+    shown_frame_ = viewer_.frames_drawn();
+    surface_->show(*viewer_.frame());
+    show_depth_under_pointer();
+  }
+  show_session();
+  if (const std::optional<double> next_s = viewer_.next_step_s()) step_timer_.start(static_cast<int>(*next_s * 1000));
+}
+
+void Window::show_session() {
+  const Session& session = viewer_.session();
+  const Item* const item = open_item(session);
+  setWindowTitle(item == nullptr ? QString("Wheatstone")
+                                 : QString::fromStdString(item->front().filename().string()) + " – Wheatstone");
+  message_->setText(QString::fromStdString(session.message));
+  message_->setToolTip(message_->text());
+  progress_->setVisible(session.opening.has_value());
+  if (session.opening) {
+    progress_->setFormat(QString::fromStdString(session.opening->step));
+    progress_->setValue(static_cast<int>(100 * session.opening->done));
+  }
+  if (session.full_screen != isFullScreen()) {
+    menuBar()->setVisible(!session.full_screen);
+    statusBar()->setVisible(!session.full_screen);
+    if (session.full_screen) {
+      showFullScreen();
+    } else {
+      showNormal();
+    }
+  }
+  show_information(*information_, session);
+  help_->setVisible(session.help);
+  if (session.ends) close();
+}
+
+void Window::show_depth_under_pointer() {
+  std::optional<float> disparity;
+  if (const Frame* const frame = viewer_.frame())
+    if (const std::optional<PlaceInView> place = place_at(frame->places, pointer_.x(), pointer_.y()))
+      disparity = disparity_at(viewer_.session().opened.content, *place);
+  depth_->setText(disparity ? QString("%1 px").arg(*disparity, 0, 'f', 1) : QString());
+  depth_->setToolTip("Disparity under the pointer");
+}
+
+bool Window::eventFilter(QObject* watched, QEvent* event) {
+  if (watched != surface_->widget()) return QMainWindow::eventFilter(watched, event);
+  if (event->type() == QEvent::Resize) refresh();
+  return pointer_event(event) || QMainWindow::eventFilter(watched, event);
+}
+
+bool Window::pointer_event(QEvent* event) {
+  const double ratio = surface_->widget()->devicePixelRatioF();
+  switch (event->type()) {
+    case QEvent::MouseButtonPress: {
+      is_pressed_ = true;
+      is_dragged_ = false;
+      pressed_at_ = dragged_to_ = static_cast<QMouseEvent*>(event)->position() * ratio;
+      return true;
+    }
+    case QEvent::MouseMove: {
+      pointer_ = static_cast<QMouseEvent*>(event)->position() * ratio;
+      if (is_pressed_) drag_to(pointer_);
+      show_depth_under_pointer();
+      return true;
+    }
+    case QEvent::MouseButtonRelease: {
+      if (std::exchange(is_pressed_, false) && !is_dragged_) click_timer_.start(click_delay_ms);
+      return true;
+    }
+    case QEvent::MouseButtonDblClick: {
+      click_timer_.stop();
+      is_pressed_ = false;
+      do_line("full-screen", {});
+      return true;
+    }
+    case QEvent::Wheel: {
+      const auto* const wheel = static_cast<QWheelEvent*>(event);
+      const double steps = wheel->angleDelta().y() / 120.;
+      if (wheel->modifiers().testFlag(Qt::ControlModifier)) {
+        do_line(steps > 0 ? "more-detail" : "less-detail", {});
+      } else if (steps != 0) {
+        const QPointF place = wheel->position() * ratio;
+        do_line("zoom-at",
+                {fmt::format("{}", std::pow(1.25, steps)), fmt::format("{}", place.x()), fmt::format("{}", place.y())});
+      }
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
+void Window::drag_to(const QPointF& place) {
+  if (!is_dragged_ && (place - pressed_at_).manhattanLength() < drag_begins_px) return;
+  is_dragged_ = true;
+  const QPointF moved = place - std::exchange(dragged_to_, place);
+  const bool orbits = std::holds_alternative<ParticlesContent>(viewer_.session().opened.content);
+  const double scale = orbits ? degrees_a_pixel : 1;
+  do_line(orbits ? "orbit" : "pan",
+          {fmt::format("{}", (orbits ? -1 : 1) * scale * moved.x()), fmt::format("{}", scale * moved.y())});
+}
+
+void Window::moveEvent(QMoveEvent* event) {
+  QMainWindow::moveEvent(event);
+  refresh();
+}
+
+void Window::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void Window::dropEvent(QDropEvent* event) {
+  Words files;
+  for (const QUrl& url : event->mimeData()->urls())
+    if (url.isLocalFile()) files.push_back(url.toLocalFile().toStdString());
+  if (!files.empty() && files.size() <= 2) do_line("open", files);
+}
+
+void Window::closeEvent(QCloseEvent* event) {
+  viewer_.session().ends = true;
+  event->accept();
+}
+
+void Window::save_screenshot(const std::filesystem::path& path) { write_image(path, image_of(grab().toImage())); }
+
+ScriptHost Window::script_host() {
+  return {.screenshot = [this](const std::filesystem::path& path) { save_screenshot(path); },
+          .resize = [this](int width, int height) { resize(width, height); },
+          .print =
+              [](const std::string& line) {
+                fmt::print("{}\n", line);
+                std::fflush(stdout);
+              }};
+}
+
+void Window::run(std::unique_ptr<Script> script) {
+  script_ = std::move(script);
+  script_timer_.start(2);
+}
+
+void Window::go_on_with_script() {
+  refresh();
+  try {
+    if (!script_->go_on(viewer_)) return;
+  } catch (const Error& error) {
+    fmt::print(stderr, "wheatstone: {}\n", error.what());
+    exit_code_ = static_cast<int>(error.kind());
+  }
+  script_timer_.stop();
+  viewer_.session().ends = true;
+  close();
+}
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <QMainWindow>
+#include <QPointF>
+#include <QTimer>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "picture_surface.h"
+#include "viewer/command_table.h"
+#include "viewer/script.h"
+#include "viewer/viewer.h"
+
+class QDockWidget;
+class QLabel;
+class QProgressBar;
+
+namespace wheatstone::viewer {
+
+struct WindowOptions {
+  bool with_opengl = true;
+  bool with_dialogs = true;  ///< errors and missing OpenGL are told in dialogs; a script has none
+};
+
+/// The window: what the user does becomes commands of the table, and what the session shows is shown. Nothing is
+/// decided here.
+class Window final : public QMainWindow {
+ public:
+  explicit Window(const WindowOptions& options);
+
+  Viewer& viewer() { return viewer_; }
+  /// Runs a script, and ends the program behind it; `exit_code` then says how.
+  void run(std::unique_ptr<Script> script);
+  int exit_code() const { return exit_code_; }
+  /// What the script asks of the window.
+  ScriptHost script_host();
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void moveEvent(QMoveEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void make_menus();
+  void add_choices();
+  void make_status_bar();
+  /// Does a command of the table; what it throws is told.
+  void do_command(const Command& command, const Words& arguments);
+  void do_line(const std::string& name, const Words& arguments);
+  /// Asks for what a command needs.
+  std::optional<Words> ask_for_arguments(const Command& command);
+
+  void refresh();
+  void show_session();
+  void show_depth_under_pointer();
+  void go_on_with_script();
+  bool pointer_event(QEvent* event);
+  void drag_to(const QPointF& place);
+  void save_screenshot(const std::filesystem::path& path);
+
+  WindowOptions options_;
+  std::unique_ptr<PictureSurface> surface_;
+  std::unique_ptr<Script> script_;
+  int exit_code_ = 0;
+
+  QTimer step_timer_, script_timer_, click_timer_;
+  QLabel* message_ = nullptr;
+  QLabel* depth_ = nullptr;
+  QProgressBar* progress_ = nullptr;
+  QLabel* information_ = nullptr;
+  QWidget* help_ = nullptr;
+
+  QPointF pressed_at_, dragged_to_, pointer_;
+  bool is_pressed_ = false, is_dragged_ = false;
+  std::uint64_t shown_frame_ = 0;
+
+  Viewer viewer_;  ///< last: its threads end before what they wake
+};
+
+}  // namespace wheatstone::viewer

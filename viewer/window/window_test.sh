@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# The window's program, without a screen and, where Xvfb is installed, with one: the same picture, one line of error,
+# the exit code of what went wrong.
+#
+#   window_test.sh WHEATSTONE_VIEW WHEATSTONE
+set -euo pipefail
+view=$1 wheatstone=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+unset DISPLAY WAYLAND_DISPLAY QT_QPA_PLATFORM
+export XDG_RUNTIME_DIR=$folder
+
+fail() {
+  echo "window_test: $1" >&2
+  exit 1
+}
+
+"$wheatstone" synth still --size 160x120 --samples 1 -o still --quiet >made.txt
+"$wheatstone" paint still/left.png still/right.png -o painted --quiet >made.txt
+
+cat >tour.txt <<'END'
+resize 480 400
+wait
+mode left-right
+save-picture ignored.png
+wait
+screenshot WINDOW
+print
+END
+sed 's/WINDOW/offscreen.png/' tour.txt >offscreen.txt
+"$view" painted/painting.wst --script offscreen.txt >state.json
+grep --quiet '"mode":"left-right"' state.json || fail "the state does not tell the mode: $(cat state.json)"
+[[ -s offscreen.png ]] || fail "there is no picture of the window"
+
+if "$view" painted/missing.wst --script offscreen.txt >out.txt 2>err.txt; then fail "a missing file is no error"; fi
+echo 'fly' >bad.txt
+code=0
+"$wheatstone" view painted/painting.wst --script bad.txt 2>err.txt || code=$?
+[[ $code == 2 ]] || fail "a script that fails ends with $code"
+[[ $(wc -l <err.txt) == 1 ]] && grep --quiet "bad.txt:1: 'fly' is no command" err.txt || fail "the error is: $(cat err.txt)"
+code=0
+"$wheatstone" view painted/painting.wst 2>err.txt || code=$?
+[[ $code == 4 ]] && grep --quiet 'there is no screen' err.txt || fail "without a screen it ends with $code: $(cat err.txt)"
+
+if ! command -v xvfb-run >/dev/null; then
+  echo "window_test: Xvfb is not installed, so that the window on a screen is not tested"
+  exit 0
+fi
+sed 's/WINDOW/onscreen.png/' tour.txt >onscreen.txt
+xvfb-run --auto-servernum --server-args='-screen 0 1024x768x24' "$view" painted/painting.wst --script onscreen.txt >state.json
+"$wheatstone" measure views offscreen.png --against onscreen.png --noticeable 8 >difference.txt
+# Text may be drawn a little differently, the picture may not.
+grep --quiet --extended-regexp '^offscreen.png +(equal|[3-9][0-9]\.)' difference.txt ||
+  fail "the window on a screen looks different: $(cat difference.txt)"
