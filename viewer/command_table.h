@@ -1,15 +1,12 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
+#include "command_words.h"
 #include "viewer.h"
 
 namespace wheatstone::viewer {
-
-using Words = std::vector<std::string>;
 
 /// One line of the table of commands, from which the menus, the keys, the help and scripts are made.
 struct Command {
@@ -30,10 +27,6 @@ const Command& find_command(std::string_view name);
 /// Does a command with its arguments. What it changes of the state can be undone. Throws as the command does, and
 /// Error{wrong_usage} where there are too few or too many arguments.
 void run_command(Viewer& viewer, const Command& command, const Words& arguments);
-
-/// The words of a line: separated by white space, but for what stands in double quotes. Throws Error{wrong_usage} where
-/// a quote is not closed.
-Words words_of(std::string_view line);
 
 /// Does what a line says: a command's name and its arguments. Empty lines, and those that begin with #, say nothing.
 void run_line(Viewer& viewer, std::string_view line);

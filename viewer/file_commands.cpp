@@ -1,0 +1,56 @@
+#include "command_groups_internal.h"
+#include "command_line.h"
+#include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/pictures/write_image.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+void step_item(Viewer& viewer, int by) {
+  const auto count = static_cast<int>(viewer.session().items.size());
+  if (count > 0) viewer.open(static_cast<std::size_t>((static_cast<int>(viewer.session().item) + by + count) % count));
+}
+
+void open_files(Viewer& viewer, const Words& words) {
+  Session& session = viewer.session();
+  session.items.push_back({words.begin(), words.end()});
+  viewer.open(session.items.size() - 1);
+}
+
+void save_painting(Viewer& viewer, const Words& words) {
+  const auto* const content = std::get_if<PaintedContent>(&viewer.session().opened.content);
+  if (content == nullptr || !content->painting) throw Error(ErrorKind::wrong_usage, "there is no painting to save");
+  write_painting(words[0], *content->painting);
+  viewer.tell("saved " + words[0]);
+}
+
+void save_style(Viewer& viewer, const Words& words) {
+  write_whole_file(words[0], style_to_toml(state_of(viewer).style));
+  viewer.tell("saved " + words[0]);
+}
+
+constexpr Command table[] = {
+    // name, arguments, menu, text, keys
+    {"open", "FILE [RIGHT]", "File", "Open…", "Ctrl+O", open_files},
+    {"next-file", "", "File", "Next file", "PgDown", [](Viewer& v, const Words&) { step_item(v, 1); }},
+    {"previous-file", "", "File", "Previous file", "PgUp", [](Viewer& v, const Words&) { step_item(v, -1); }},
+    {"save-picture", "FILE", "File", "Save picture…", "Ctrl+S",
+     [](Viewer& v, const Words& w) {
+       write_image(w[0], frame_of(v).picture);
+       v.tell("saved " + w[0]);
+     }},
+    {"save-painting", "FILE", "File", "Save painting…", "Ctrl+Shift+S", save_painting},
+    {"save-style", "FILE", "File", "Save style…", "", save_style},
+    {"copy-command", "", "File", "Copy command", "Ctrl+Shift+C",
+     [](Viewer& v, const Words&) { v.tell(command_line_of(v.session())); }},
+    {"quit", "", "File", "Quit", "Q, Ctrl+Q", [](Viewer& v, const Words&) { v.session().ends = true; }},
+};
+
+}  // namespace
+
+std::span<const Command> file_commands() { return table; }
+
+}  // namespace wheatstone::viewer

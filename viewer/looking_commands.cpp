@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "command_groups_internal.h"
+#include "undo.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/display/lenticular.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+void set_mode(Viewer& viewer, const Words& words) {
+  const OutputMode& mode = find_output_mode(words[0]);
+  ViewState& state = state_of(viewer);
+  if (std::holds_alternative<Lenticular>(mode.kind) && state.screen.empty())
+    lenticular_screen_of(find_display(state.display));
+  state.mode = mode.name;
+}
+
+void step_mode(Viewer& viewer, int by) {
+  const auto modes = output_modes();
+  const auto count = static_cast<int>(modes.size());
+  auto at = static_cast<int>(&find_output_mode(state_of(viewer).mode) - modes.data());
+  // What the display cannot show is passed over.
+  for (int tried = 0; tried < count; ++tried) {
+    at = (at + by + count) % count;
+    const bool needs_display = shows_display_views(modes[static_cast<std::size_t>(at)]) ||
+                               std::holds_alternative<PageFlip>(modes[static_cast<std::size_t>(at)].kind);
+    if (!needs_display) break;
+  }
+  state_of(viewer).mode = modes[static_cast<std::size_t>(at)].name;
+}
+
+/// The place in the content that lies in the middle stays there.
+void zoom_by(Viewer& viewer, double factor) {
+  const double now = viewer.frame() != nullptr ? viewer.frame()->scale : 1;
+  state_of(viewer).framed.zoom = std::clamp(now * factor, 1. / 64, 64.);
+}
+
+void zoom_at(Viewer& viewer, const Words& words) {
+  const double factor = number_of(words[0], 1. / 64, 64), x = number_of(words[1]), y = number_of(words[2]);
+  const Frame& frame = frame_of(viewer);
+  const double before = frame.scale;
+  zoom_by(viewer, factor);
+  Framed& framed = state_of(viewer).framed;
+  for (const ViewPlace& place : frame.places) {
+    const double in_x = (x - place.left) / place.squeeze_x, in_y = (y - place.top) / place.squeeze_y;
+    const double width = place.width / place.squeeze_x, height = place.height / place.squeeze_y;
+    if (in_x < 0 || in_y < 0 || in_x >= width || in_y >= height) continue;
+    // What is at the pointer stays at the pointer.
+    framed.pan_x += (in_x - width / 2) * (1 / before - 1 / framed.zoom);
+    framed.pan_y += (in_y - height / 2) * (1 / before - 1 / framed.zoom);
+    return;
+  }
+}
+
+void pan(Viewer& viewer, const Words& words) {
+  const double scale = viewer.frame() != nullptr ? viewer.frame()->scale : 1;
+  Framed& framed = state_of(viewer).framed;
+  framed.pan_x -= number_of(words[0]) / scale;
+  framed.pan_y -= number_of(words[1]) / scale;
+}
+
+void reset(Viewer& viewer, const Words& /*words*/) {
+  ViewState& state = state_of(viewer);
+  const ViewState as_new;
+  state.framed = as_new.framed;
+  state.head = as_new.head;
+  state.orbit = as_new.orbit;
+  state.finest_layer = as_new.finest_layer;
+  state.swap = false;
+  state.comparison = as_new.comparison;
+  viewer.show_comfortably();
+}
+
+constexpr double zoom_step = 1.25;
+
+constexpr Command table[] = {
+    // name, arguments, menu, text, keys
+    {"mode", "NAME", "View", "Output mode", "", set_mode},
+    {"next-mode", "", "View", "Next output mode", "T", [](Viewer& v, const Words&) { step_mode(v, 1); }},
+    {"previous-mode", "", "View", "Previous output mode", "Shift+T", [](Viewer& v, const Words&) { step_mode(v, -1); }},
+    {"swap", "", "View", "Swap eyes", "W", [](Viewer& v, const Words&) { state_of(v).swap = !state_of(v).swap; }},
+    {"full-screen", "", "View", "Full screen", "F, F11",
+     [](Viewer& v, const Words&) { v.session().full_screen = !v.session().full_screen; }},
+    {"zoom", "FACTOR", "View", "Zoom: screen pixels for one of the picture", "",
+     [](Viewer& v, const Words& w) { state_of(v).framed.zoom = number_of(w[0], 1. / 64, 64); }},
+    {"zoom-at", "FACTOR X Y", "View", "Zoom around a place on the screen", "", zoom_at},
+    {"zoom-in", "", "View", "Zoom in", "+, =", [](Viewer& v, const Words&) { zoom_by(v, zoom_step); }},
+    {"zoom-out", "", "View", "Zoom out", "-", [](Viewer& v, const Words&) { zoom_by(v, 1 / zoom_step); }},
+    {"fit", "", "View", "Fit into the window", "0", [](Viewer& v, const Words&) { state_of(v).framed = {}; }},
+    {"actual-size", "", "View", "Actual size", "1", [](Viewer& v, const Words&) { state_of(v).framed.zoom = 1; }},
+    {"pan", "X Y", "View", "Move the picture, in screen pixels", "", pan},
+    {"reset", "", "View", "Reset the view", "Backspace", reset},
+    {"leave", "", "View", "Leave full screen, or quit", "Esc",
+     [](Viewer& v, const Words&) {
+       Session& session = v.session();
+       (session.full_screen ? session.full_screen : session.ends) = !session.full_screen;
+     }},
+    {"information", "", "View", "Information", "I",
+     [](Viewer& v, const Words&) { v.session().information = !v.session().information; }},
+    {"help", "", "Help", "Keys and commands", "?, F1",
+     [](Viewer& v, const Words&) { v.session().help = !v.session().help; }},
+};
+
+}  // namespace
+
+std::span<const Command> looking_commands() { return table; }
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,47 @@
+#include "undo.h"
+
+#include <utility>
+
+namespace wheatstone::viewer {
+namespace {
+
+/// What can be undone of a state: not where one looks from.
+ViewState parameters_of(ViewState state) {
+  const ViewState as_new;
+  state.framed = as_new.framed;
+  state.head = as_new.head;
+  state.orbit = as_new.orbit;
+  state.step = as_new.step;
+  return state;
+}
+
+void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState>& to) {
+  if (from.empty()) return;
+  Session& session = viewer.session();
+  const bool painted_anew = from.back().style != session.state.style;
+  const ViewState now = session.state;
+  session.state = from.back();
+  session.state.framed = now.framed;
+  session.state.head = now.head;
+  session.state.orbit = now.orbit;
+  to.push_back(now);
+  from.pop_back();
+  session.zero_parallax_target_px.reset();
+  if (painted_anew) viewer.paint();
+}
+
+}  // namespace
+
+void Change::keep(Session& session) const {
+  const bool is_moving = session.zero_parallax_target_px && session.zero_parallax_target_px != target_before_;
+  if (!is_moving && parameters_of(session.state) == parameters_of(before_)) return;
+  constexpr std::size_t most_states = 200;
+  if (session.done.size() == most_states) session.done.erase(session.done.begin());
+  session.done.push_back(before_);
+  session.undone.clear();
+}
+
+void undo(Viewer& viewer) { go_back(viewer, viewer.session().done, viewer.session().undone); }
+void redo(Viewer& viewer) { go_back(viewer, viewer.session().undone, viewer.session().done); }
+
+}  // namespace wheatstone::viewer
