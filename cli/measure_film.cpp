@@ -18,6 +18,7 @@
 #include "measure_kinds.h"
 #include "print_facts.h"
 #include "typed_options.h"
+#include "wheatstone/app/film_eyes.h"
 #include "wheatstone/app/report.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
@@ -167,6 +168,18 @@ Json to_json(const MeasuredFilm& film) {
   return facts;
 }
 
+/// Which films were not drawn for the eyes of their source: a sentence each.
+std::vector<std::string> notes_of_moved_eyes(const std::vector<MeasuredFilm>& films) {
+  std::vector<std::string> notes;
+  for (const MeasuredFilm& film : films)
+    if (tells_moved_eyes(film.reader.facts().comment))
+      notes.push_back(
+          fmt::format("{}: {}; its eyes do not fit the source's disparities, so paint it with --depth-budget full to "
+                      "measure it",
+                      film.name, film.reader.facts().comment));
+  return notes;
+}
+
 Json to_json(const Arguments& arguments, const std::vector<MeasuredFilm>& films, int frames,
              const std::vector<int>& cuts) {
   Json facts{{"frames", frames},
@@ -274,16 +287,19 @@ void run(const Arguments& arguments, const Session& session) {
   const std::vector<std::string> shorter = names_of_shorter(films);
   if (frame == 0 && !shorter.empty())
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no frame to compare", shorter.front()));
+  const std::vector<std::string> moved = notes_of_moved_eyes(films);
   std::optional<MarksOfFilm> marks;
   if (!arguments.marks.empty()) marks = measure_marks(arguments, two_eyes, frame, cuts, session);
   if (session.json) {
     Json facts = to_json(arguments, films, frame, cuts);
     if (!shorter.empty()) facts["shorter"] = shorter;
+    if (!moved.empty()) facts["notes"] = moved;
     if (marks) facts["marks"] = to_json(*marks);
     print_facts(facts, session);
     return;
   }
   print_table(films, cuts, session);
+  for (const std::string& note : moved) fmt::print(session.output, "{}\n", note);
   if (!shorter.empty())
     fmt::print(session.output, "only the first {} frames are compared: {} {} there\n", frame, fmt::join(shorter, ", "),
                shorter.size() == 1 ? "ends" : "end");
@@ -326,7 +342,7 @@ void add_measure_film(CLI::App& measure, const Session& session) {
       "and so are cuts. Blurring a film reduces E_warp: compare the gradient energy in --json, too. With --marks, the\n"
       "shares of strokes that are kept and that pop are printed.\n\n"
       "Example:\n  wheatstone synth film -o film\n"
-      "  wheatstone rotoscope film --truth film -o painted.mkv\n"
+      "  wheatstone rotoscope film --truth film --depth-budget full -o painted.mkv\n"
       "  wheatstone measure film painted.mkv --against film --truth film");
   command.callback([arguments, &session] { run(*arguments, session); });
 }

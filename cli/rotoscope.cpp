@@ -50,6 +50,7 @@ struct Arguments {
   std::string rate;
   std::string truth;
   DisplayArguments display;
+  std::string depth_budget = "3%";
   RotoscopeFilmOptions options;
   MatchArguments matching;
   StyleArguments style;
@@ -130,6 +131,10 @@ nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm&
   facts["flow_seconds_a_frame"] = film.times.flow_s / painted;
   facts["planning_seconds_a_frame"] = film.painting_times.planning_s / painted;
   facts["drawing_seconds_a_frame"] = film.painting_times.rasterising_s / painted;
+  if (!arguments.options.frames.display) {
+    facts["moved_frames"] = totals.moved_frames;
+    facts["presented_separation"] = totals.least_separation;
+  }
   facts["notes"] = film.notes;
   if (film.loss) facts["loss"] = *film.loss;
   return facts;
@@ -147,6 +152,9 @@ void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const
                100 * static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes),
                totals.popped_strokes);
   fmt::print(session.output, "left bare        at most {:.3f} % of an eye\n", 100 * totals.worst_bare_share);
+  if (totals.moved_frames > 0)
+    fmt::print(session.output, "to look at       {} frames with eyes down to {:.2f} of their distance apart\n",
+               totals.moved_frames, totals.least_separation);
   if (film.loss) fmt::print(session.output, "source           {}\n", *film.loss);
   for (const std::string& note : film.notes) fmt::print(session.output, "note             {}\n", note);
   fmt::print(session.output, "written to       {}\n", arguments.output);
@@ -181,6 +189,17 @@ RotoscopedFilm begin_or_resume(StereoFilmReader& source, const fs::path& output,
   }
 }
 
+/// The depth of what two eyes look at. Of marks, and of a display with more views, it is that of the film.
+void take_depth_budget(const CLI::App& command, Arguments& arguments) {
+  const std::vector<std::string> option{"--depth-budget"};
+  if (arguments.options.frames.display)
+    return refuse_options(command, option, "with --display", "--span sets how deep it looks");
+  if (fs::path(arguments.output).extension() == ".wst")
+    return refuse_options(command, option, "on marks (.wst)", "they have the depth of the film");
+  if (arguments.depth_budget != "full")
+    arguments.options.frames.depth_budget = parse_share("--depth-budget", arguments.depth_budget, {0.1, 100});
+}
+
 /// What a display asks for, where the user does not say otherwise.
 void take_display(const CLI::App& command, Arguments& arguments) {
   arguments.options.frames.display = film_display_from(arguments.display);
@@ -202,6 +221,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.style = style_from(arguments.style, session.seed);
   arguments.options.frames.matching = match_options_from(arguments.matching);
   take_display(command, arguments);
+  take_depth_budget(command, arguments);
   refuse_options_without_effect(command, arguments);
   tell_what_is_kept([output = fs::path(arguments.output), marks = arguments.options.marks] {
     const std::optional<std::string> kept = unfinished_film(output, marks);
@@ -238,7 +258,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
                   fmt::format("{}: has one eye, expected two for a display of more views (--layout says how they lie)",
                               film.film.string()));
     refuse_group(command, match_options_group, {}, "on a film of one eye", {});
-    refuse_options(command, {"--central", "--rectify"}, "on a film of one eye", {});
+    refuse_options(command, {"--central", "--rectify", "--depth-budget"}, "on a film of one eye", {});
   }
   if (session.verbose && film.right.empty())
     fmt::print(session.errors, "layout: {} ({})\n", layout_name(source.layout()), source.layout_how());
@@ -321,6 +341,14 @@ void add_time_options(CLI::App& command, Arguments& arguments) {
       ->group(group);
   add_number(command, "--fade-out", frames.carrying.fade_out_frames, {1, 1000},
              "Number of frames over which strokes that no longer fit fade out")
+      ->group(group);
+  command
+      .add_option(
+          "--depth-budget", arguments.depth_budget,
+          "Depth of the painted film from the farthest point to the nearest, at most, in % of the width; 'full' "
+          "for that of the source. The film is drawn for eyes that are nearer together")
+      ->type_name("SHARE")
+      ->capture_default_str()
       ->group(group);
   command.add_flag("--frame-by-frame", frames.anew, "Paint every frame separately, which flickers; for comparison")
       ->group(group);

@@ -1,4 +1,5 @@
-// What `wheatstone rotoscope --display` gives: names, sizes, codecs; what info and pack say of it.
+// What `wheatstone rotoscope` makes for looking at: films for displays, their names, sizes and codecs, what info and
+// pack say of them; and the depth budget of two eyes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,6 +52,43 @@ TEST(DisplayFilm, AQuiltFilmHasTheNameSizeAndFramesThatTheDisplayTakes) {
   EXPECT_EQ(told["codec"], "h264");
   expect_refused(folder, {"pack", "painted_qs8x6a0.75.mp4", "--to", "views", "-o", "views"}, 3,
                  "painted_qs8x6a0.75.mp4: is a film, expected pictures; of a film a single frame can be packed");
+}
+
+TEST(DepthBudgetOfAFilm, IsComfortableByDefaultAndMeasuringTellsOfIt) {
+  const TemporaryFolder folder;
+  make_synthetic(folder, 3);
+  const auto output_of = [&](const Words& words) {
+    const ProgramResult result = run_program(words, {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return result.output;
+  };
+  const Words measure{"measure", "film", "o.mp4", "--against", "film", "--quiet"};
+  const auto facts = facts_of(folder, {"rotoscope", "film", "--preset", "ultrafast", "-o", "o.mp4"});
+  EXPECT_EQ(facts["moved_frames"], 3);
+  EXPECT_LT(facts["presented_separation"], 1);
+  EXPECT_THAT(output_of(measure),
+              testing::HasSubstr("\no.mp4: The eyes were moved for looking at in 3 frames, nearest together at 0."));
+  EXPECT_EQ(facts_of(folder, measure)["notes"].size(), 1u);
+  fs::remove(folder / "o.mp4");
+  const auto full =
+      facts_of(folder, {"rotoscope", "film", "--preset", "ultrafast", "--depth-budget", "full", "-o", "o.mp4"});
+  EXPECT_EQ(full["moved_frames"], 0);
+  EXPECT_EQ(full["presented_separation"], 1);
+  EXPECT_THAT(output_of(measure), testing::Not(testing::HasSubstr("moved")));
+}
+
+TEST(DepthBudgetOfAFilm, IsRefusedWhereItHasNoEffect) {
+  const TemporaryFolder folder;
+  make_film(folder / "one.mp4", 3, {.preset = "ultrafast"});
+  const auto refused = [&](const Words& words, int exit_code, const std::string& part) {
+    Words line{"rotoscope", "one.mp4", "--layout", "mono", "--quiet", "--depth-budget"};
+    line.insert(line.end(), words.begin(), words.end());
+    expect_refused(folder, line, exit_code, part);
+  };
+  refused({"3%"}, 2, "--depth-budget: has no effect on a film of one eye");
+  refused({"3%", "--display", "step-9"}, 2, "--depth-budget: has no effect with --display; --span sets");
+  refused({"full", "-o", "m_%04d.wst"}, 2, "--depth-budget: has no effect on marks (.wst)");
+  refused({"deep"}, 2, "--depth-budget");
 }
 
 TEST(DisplayFilm, ATypedEndingKeepsItsName) {

@@ -159,16 +159,18 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
     return;
   }
   frame.views = scene_from_centre(frame.centre, task.eyes, frame.geometry);
+  if (task.options.display || task.options.depth_budget)
+    follow_depth(depth_ends(frame.centre.disparity), scene_begins, state.depth);
   if (!task.options.display) return;
-  follow_depth(depth_ends(frame.centre.disparity), scene_begins, state.depth);
   const ViewRange wanted =
       planned_views({task.eyes.left.width(), task.eyes.left.height()}, state.depth, task.options.display->views);
   frame.outer = make_outer_views(task.eyes, frame.geometry, wanted, state.depth.first.middle_px());
   append_views(frame.outer, frame.views);
 }
 
-/// Plans the frame and draws it for the display.
-PaintedFrame paint_for_display(const FilmFrame& frame, const FrameTask& task, RotoscopeState& state) {
+/// Plans the frame and draws it for the display, or for eyes other than the film's own.
+PaintedFrame paint_presented(const FilmFrame& frame, const FrameTask& task, const FilmEyes& eyes,
+                             RotoscopeState& state) {
   PaintedFrame result;
   PaintedPair& painted = result.painted;
   {
@@ -179,9 +181,16 @@ PaintedFrame paint_for_display(const FilmFrame& frame, const FrameTask& task, Ro
   }
   report(task.progress, "drawing", 0);
   const Stopwatch watch(painted.times.rasterising_s);
-  DisplayedFrame shown = draw_for_display(painted.painting, state.depth, *task.options.display);
-  painted.pictures.left = std::move(shown.picture);
-  painted.left_bare_share = shown.worst_bare_share;
+  if (task.options.display) {
+    DisplayedFrame shown = draw_for_display(painted.painting, state.depth, *task.options.display);
+    painted.pictures.left = std::move(shown.picture);
+    painted.left_bare_share = shown.worst_bare_share;
+  } else {
+    FilmEyePictures drawn = draw_for_eyes(painted.painting, eyes);
+    painted.pictures = {std::move(drawn.left), std::move(drawn.right)};
+    painted.left_bare_share = drawn.left_bare_share;
+    painted.right_bare_share = drawn.right_bare_share;
+  }
   return result;
 }
 
@@ -199,6 +208,8 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
   for (const Layer& layer : layers) totals.strokes += static_cast<std::int64_t>(layer.strokes.size());
   totals.worst_bare_share =
       std::max({totals.worst_bare_share, result.painted.left_bare_share, result.painted.right_bare_share});
+  totals.moved_frames += are_moved(result.eyes) ? 1 : 0;
+  totals.least_separation = std::min(totals.least_separation, static_cast<double>(result.eyes.separation));
   state.layers_before.assign(layers.begin(), layers.end());
 }
 
@@ -224,8 +235,10 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   }
   report(progress, "painting", 0);
   const FilmFrame to_paint{frame.views, carries ? &state.flow_before : nullptr};
-  PaintedFrame painted = options.display
-                             ? paint_for_display(to_paint, task, state)
+  if (options.depth_budget && !eyes.right.empty() && !options.display)
+    result.eyes = comfortable_eyes({eyes.left.width(), eyes.left.height()}, state.depth.ends, *options.depth_budget);
+  PaintedFrame painted = options.display || are_moved(result.eyes)
+                             ? paint_presented(to_paint, task, result.eyes, state)
                              : paint_frame(to_paint, options.style, options.carrying, state.memory, progress);
   result.painted = std::move(painted.painted);
   result.counts = painted.counts;

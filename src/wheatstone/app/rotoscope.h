@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wheatstone/app/film_display.h"
+#include "wheatstone/app/film_eyes.h"
 #include "wheatstone/app/scene_rectification.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/motion/flow.h"
@@ -27,7 +28,8 @@ struct RotoscopeOptions {
   FlowMethod flow = FlowMethod::farneback;
   CentralMerge central = CentralMerge::visible;
   CarryOptions carrying;
-  std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for the eyes
+  std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for two eyes
+  std::optional<float> depth_budget;   ///< of two eyes, as comfortable_eyes; none: they are the film's own
   bool anew = false;                   ///< every frame as if a scene began: the naive method, to be measured against
 };
 
@@ -45,7 +47,9 @@ struct RotoscopeTotals {
   std::int64_t survived_strokes = 0;  ///< of these
   std::int64_t popped_strokes = 0;
   std::int64_t strokes = 0;
-  double worst_bare_share = 0;  ///< of an eye's pixels, 0..1
+  double worst_bare_share = 0;    ///< of an eye's pixels, 0..1
+  std::int64_t moved_frames = 0;  ///< that were drawn for other eyes than the film's own
+  double least_separation = 1;    ///< of these eyes
   friend bool operator==(const RotoscopeTotals&, const RotoscopeTotals&) = default;
 };
 
@@ -59,7 +63,7 @@ struct RotoscopeState {
   FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
   std::optional<DisparityRange> range;
   SceneRectification rectification;
-  SceneDepth depth;  ///< where the frames are drawn for a display
+  SceneDepth depth;  ///< where the frames are drawn for a display or a depth budget
   PaintingMemory memory;
   std::vector<Layer> layers_before;  ///< the strokes as they were drawn, to tell what became of them
   RotoscopeTotals totals;
@@ -77,6 +81,7 @@ struct RotoscopedFrame {
   StrokeCounts counts;
   StrokeChanges changes;  ///< from the frame before; nothing where a scene begins
   bool scene_begins = false;
+  FilmEyes eyes;          ///< that it was drawn for, where it was drawn for two
   std::string rows_note;  ///< as MeasuredScene has it, where the frame was measured
   RotoscopeTimes times;   ///< beside those of painting
 };

@@ -88,6 +88,8 @@ class Output {
       // Joining closes the last segment, and may be stopped, too.
       if (state.frames > frames_done()) write_rotoscope_state(state_file(state.frames), state);
       if (marks_) marks_->check(state.frames);
+      const RotoscopeTotals& totals = state.totals;
+      if (totals.moved_frames > 0) film_->set_comment(moved_eyes_note(totals.moved_frames, totals.least_separation));
       film_->finish(progress);
     }
     if (marks_) marks_->give_names(state.frames);

@@ -24,7 +24,7 @@ using Builder = flatbuffers::FlatBufferBuilder;
 static_assert(field_count<RotoscopeState>() == 13 && field_count<SceneDepth>() == 2 && field_count<DepthEnds>() == 2 &&
               field_count<SceneRectification>() == 3 && field_count<Rectification>() == 4 &&
               field_count<RectifyingMap>() == 5 && field_count<ColourTransfer>() == 2 &&
-              field_count<RotoscopeTotals>() == 6 && field_count<PaintingMemory>() == 4 &&
+              field_count<RotoscopeTotals>() == 8 && field_count<PaintingMemory>() == 4 &&
               field_count<StrokeMemory>() == 3 && field_count<TrackedLayer>() == 2 && field_count<StrokeTrack>() == 5 &&
               field_count<Layer>() == 3 && field_count<Stroke>() == 9 && field_count<PosterisedMemory>() == 3 &&
               field_count<MosaicTile>() == 8 && field_count<MosaicMemory>() == 1 &&
@@ -322,8 +322,8 @@ RotoscopeState Decoder::state(const state::RotoscopeState& from) const {
   state.frames_of_scene = from.frames_of_scene();
   expect(state.frames >= 0 && state.frames_of_scene >= 0 && state.frames_of_scene <= state.frames);
   const state::Totals& totals = *from.totals();
-  state.totals = {totals.scenes(),         totals.whole_strokes(), totals.survived_strokes(),
-                  totals.popped_strokes(), totals.strokes(),       totals.worst_bare_share()};
+  state.totals = {totals.scenes(),  totals.whole_strokes(),    totals.survived_strokes(), totals.popped_strokes(),
+                  totals.strokes(), totals.worst_bare_share(), totals.moved_frames(),     totals.least_separation()};
   if (from.range() != nullptr) state.range = DisparityRange{from.range()->least(), from.range()->largest()};
   state.left_before = image<Rgb8>(*from.left_before());
   const Image<Rgb8>& frame = state.left_before;
@@ -371,7 +371,7 @@ std::string encode_rotoscope_state(const RotoscopeState& state) {
   const auto rectification = encode(state.rectification, builder);
   const RotoscopeTotals& t = state.totals;
   const state::Totals totals(t.scenes, t.whole_strokes, t.survived_strokes, t.popped_strokes, t.strokes,
-                             t.worst_bare_share);
+                             t.worst_bare_share, t.moved_frames, t.least_separation);
   const DisparityRange found = state.range.value_or(DisparityRange{});
   const state::Range range(found.least, found.largest);
   const auto [first, ends] = state.depth;

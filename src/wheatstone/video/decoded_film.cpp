@@ -118,6 +118,7 @@ void DecodedFilm::gather_facts() {
   facts_.duration_s = stated_end_s();
   if (stream_->nb_frames > 0) facts_.frame_count = stream_->nb_frames;
   facts_.colour = colour_tags_of(ahead_->colorspace, ahead_->color_range, ahead_->color_primaries, ahead_->color_trc);
+  facts_.comment = tag_of(input_->metadata, "comment");
   facts_.side_streams = side_streams_of(*input_);
   gather_layout();
 }

@@ -91,6 +91,7 @@ void FilmFile::begin(const AVCodecParameters& coded, Rational time_base) {
   stream_->time_base = time_base_;
   shift_ = std::llround(options_.start_s / av_q2d(time_base_));
   say_layout(*stream_);
+  if (!options_.comment.empty()) av_dict_set(&output_->metadata, "comment", options_.comment.c_str(), 0);
   if (!options_.side_streams_from.empty()) side_streams_.emplace(options_, *output_, notes_);
 
   check(avio_open(&output_->pb, ("file:" + file_.path().string()).c_str(), AVIO_FLAG_WRITE));

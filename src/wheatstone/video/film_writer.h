@@ -21,6 +21,7 @@ struct FilmWriterOptions {
   StereoLayout layout = StereoLayout::mono;  ///< written wherever the container and the codec can say it
   Rational frame_rate;          ///< on average, for the encoder's planning; each frame's own time is what counts
   Rational pixel_aspect{1, 1};  ///< what the layout asks for goes before it
+  std::string comment;          ///< that the film carries; empty: none
   ColourTags colour;            ///< RGB is converted with this matrix and range, and tagged so
 
   std::filesystem::path side_streams_from;  ///< film whose audio and subtitles are copied, bit for bit; empty: none

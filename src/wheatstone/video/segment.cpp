@@ -29,6 +29,7 @@ FilmWriterOptions bare(FilmWriterOptions options) {
   options.start_s = 0;
   options.end_s.reset();
   options.layout = StereoLayout::mono;
+  options.comment.clear();
   return options;
 }
 

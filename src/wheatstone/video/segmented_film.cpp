@@ -158,6 +158,8 @@ void SegmentedFilm::write(const Frame& frame) {
   if (own.segment->size() >= static_cast<std::size_t>(own.frames_per_segment)) own.close_segment();
 }
 
+void SegmentedFilm::set_comment(const std::string& comment) { implementation_->options.comment = comment; }
+
 void SegmentedFilm::finish(const Progress& progress) {
   Implementation& own = *implementation_;
   own.close_segment();

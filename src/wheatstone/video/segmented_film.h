@@ -50,6 +50,9 @@ class SegmentedFilm {
   /// As FilmWriter::write.
   void write(const Frame& frame);
 
+  /// A comment that the film is to carry, where it cannot be told before all frames are there.
+  void set_comment(const std::string& comment);
+
   /// As FilmWriter::finish. A failure leaves the folder: what is done is not lost.
   void finish(const Progress& progress = {});
 
