@@ -6,10 +6,10 @@
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
+
 void write_svg(const std::filesystem::path& path, const Painting& painting, ViewPosition view) {
-  // Between lines there is what only a picture shows.
-  const bool has_ground = std::holds_alternative<DiffusionPainting>(painting.marks);
-  write_whole_file(path, svg_of(painting, view, has_ground ? encode_png(draw(painting, view).picture) : ""));
+  write_whole_file(path,
+                   svg_of(painting, view, svg_has_ground(painting) ? encode_png(draw(painting, view).picture) : ""));
 }
 
 }  // namespace wheatstone

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <variant>
 
 #include "wheatstone/drawing/draw.h"
@@ -34,5 +35,17 @@ struct ViewToDraw {
 void draw_marks(const PreparedStrokes& painting, std::span<const ViewToDraw> views);
 void draw_marks(const RegionPainting& painting, std::span<const ViewToDraw> views);
 void draw_marks(const DiffusionPainting& painting, std::span<const ViewToDraw> views);
+
+// The same as SVG (svg.h). What has a ground shows between its marks what only a picture of the view can.
+
+std::string svg_of_marks(const StrokePainting& painting, ViewPosition view, const Hiding& hiding,
+                         const std::string& ground_png);
+std::string svg_of_marks(const RegionPainting& painting, ViewPosition view, const Hiding& hiding,
+                         const std::string& ground_png);
+std::string svg_of_marks(const DiffusionPainting& painting, ViewPosition view, const Hiding& hiding,
+                         const std::string& ground_png);
+inline bool svg_marks_have_ground(const StrokePainting& /*painting*/) { return false; }
+inline bool svg_marks_have_ground(const RegionPainting& /*painting*/) { return false; }
+inline bool svg_marks_have_ground(const DiffusionPainting& /*painting*/) { return true; }
 
 }  // namespace wheatstone

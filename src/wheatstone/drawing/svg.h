@@ -9,6 +9,9 @@ namespace wheatstone {
 /// How far a stroke's outline in an SVG document may be from the stroke's own, before it is rounded to tenths.
 inline constexpr float svg_tolerance_px = 0.1f;
 
+/// Whether what lies between a painting's marks is shown by a picture beneath them.
+bool svg_has_ground(const Painting& painting);
+
 /// A painting as one view sees it, as an SVG document, in tenths of a pixel.
 ///
 /// Strokes lie over the canvas colour. Every stroke is a path with round ends of as few Bézier curves as stay within

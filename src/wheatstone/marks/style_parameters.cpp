@@ -53,7 +53,7 @@ Rgb8 parse_colour(std::string_view name, std::string_view text) {
   return *colour;
 }
 
-constexpr std::array every_kind{Marks::strokes, Marks::regions, Marks::tiles, Marks::curves};
+constexpr std::span<const Marks> every_kind;
 constexpr std::array strokes_only{Marks::strokes};
 constexpr std::array regions_only{Marks::regions};
 constexpr std::array tiles_only{Marks::tiles};
@@ -198,7 +198,7 @@ std::span<const StyleParameter> style_parameters() {
 }
 
 bool is_read_by(const StyleParameter& parameter, Marks marks) {
-  return std::ranges::find(parameter.read_by, marks) != parameter.read_by.end();
+  return parameter.read_by.empty() || std::ranges::find(parameter.read_by, marks) != parameter.read_by.end();
 }
 
 std::string style_to_toml(const Style& style) {

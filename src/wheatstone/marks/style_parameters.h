@@ -17,7 +17,7 @@ struct StyleParameter {
   bool is_switch;                                       ///< true or false
   std::function<std::string(const Style&)> toml_value;  ///< as it stands in a TOML file
   std::function<void(Style&, std::string_view)> set;    ///< from "4", "8,4,2", "true", "median"; throws wrong_usage
-  std::span<const Marks> read_by;  ///< the kinds of marks that it changes; on others it has no effect
+  std::span<const Marks> read_by;  ///< the kinds of marks that it changes, empty: all; on others it has no effect
 };
 
 /// Whether a parameter changes paintings of these marks.

@@ -3,11 +3,9 @@
 #include <exception>
 #include <utility>
 
-#include "wheatstone/curves/plan_diffusion.h"
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/painting/naive_planning_internal.h"
-#include "wheatstone/regions/mosaic.h"
-#include "wheatstone/regions/posterise.h"
+#include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/layer_planner.h"
 #include "wheatstone/strokes/occluded_part.h"
@@ -69,26 +67,16 @@ StrokePainting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const 
 
 Painting plan_eyes_apart(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                          const Progress& progress) {
-  const std::vector<SceneView> views = scene_from_left(photographs, geometry);
-  const FilmFrame frame{.views = views};
   Painting painting;
-  PosterisedMemory no_palette;
-  MosaicMemory no_tiles;
-  switch (style.marks) {
-    case Marks::strokes:
-      painting.marks = plan_strokes_of_each(photographs, geometry, style, progress);
-      break;
-    case Marks::regions:
-      painting.marks = plan_posterised(frame, style, no_palette);
-      break;
-    case Marks::tiles:
-      painting.marks = plan_mosaic(frame, style, no_tiles);
-      break;
-    case Marks::curves:
-      painting.marks = plan_diffusion(views, style);
-      break;
+  if (style.marks == Marks::strokes) {
+    painting.marks = plan_strokes_of_each(photographs, geometry, style, progress);
+    painting.relief = relief_for(style, width_of(painting));
+    return painting;
   }
-  painting.relief = relief_for(style, width_of(painting));
+  const std::vector<SceneView> views = scene_from_left(photographs, geometry);
+  PaintingMemory nothing;
+  painting = plan_painting({.views = views}, style, {}, nothing, progress).painting;
+  painting.surfaces = {};
   return painting;
 }
 
