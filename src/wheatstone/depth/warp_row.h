@@ -53,11 +53,13 @@ void warp_row(std::span<const float> disparity, float separation, int shown_widt
 /// The disparity of a part of a scan line, whose first pixel is the column `left_px` of another view's line, carried
 /// over what is there already: what is nearer stays; NaN is farther than anything. That view is `separation` eye
 /// separations to the right.
-inline void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px,
-                                    std::span<float> nearest) {
-  warp_row(disparity, separation, static_cast<int>(nearest.size()), left_px, [&](int target, float d, int, float) {
-    if (!(nearest[target] >= d)) nearest[target] = d;
-  });
+template <bool every_pixel = true>
+void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px,
+                             std::span<float> nearest) {
+  warp_row<every_pixel>(disparity, separation, static_cast<int>(nearest.size()), left_px,
+                        [&](int target, float d, int, float) {
+                          if (!(nearest[target] >= d)) nearest[target] = d;
+                        });
 }
 
 /// Gives unknown runs of a scan line of at most two pixels, which a surface that is stretched leaves, the smaller

@@ -55,26 +55,24 @@ PreparedPainting prepare(const Painting& painting, const DrawOptions& options, D
 void draw(const PreparedPainting& painting, std::span<const ViewPosition> views, const ViewSink& take,
           std::span<const ImageView<const Rgb8>> backgrounds) {
   const PreparedPainting::Contents& contents = painting.contents();
-  // The surfaces of so many views are held at once.
-  constexpr std::size_t most_pixels = 16u << 20;
+  // The pictures of so many views are held at once.
+  constexpr std::size_t most_pixels = 48u << 20;
   const std::size_t pixels = static_cast<std::size_t>(contents.width) * static_cast<std::size_t>(contents.height);
   const std::size_t at_once = std::max<std::size_t>(most_pixels / std::max<std::size_t>(pixels, 1), 1);
   for (std::size_t first = 0; first < views.size(); first += at_once) {
     const std::size_t count = std::min(at_once, views.size() - first);
     std::vector<DrawnView> drawn(count);
-    std::vector<SeenSurfaces> seen(count);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      seen[i] = seen_surfaces(contents.surfaces, views[first + i], contents.width, contents.height);
-    });
     std::vector<ViewToDraw> to_draw;
     for (std::size_t i = 0; i < count; ++i)
-      to_draw.push_back({views[first + i], seen[i].hiding,
-                         backgrounds.empty() ? ImageView<const Rgb8>() : backgrounds[first + i], drawn[i]});
-    std::visit([&](const auto& marks) { draw_marks(marks, to_draw); }, contents.marks);
+      to_draw.push_back(
+          {views[first + i], backgrounds.empty() ? ImageView<const Rgb8>() : backgrounds[first + i], drawn[i]});
+    std::visit([&](const auto& marks) { draw_marks(marks, contents.surfaces, to_draw); }, contents.marks);
     const auto* const strokes = std::get_if<PreparedStrokes>(&contents.marks);
-    if (strokes != nullptr)
+    if (strokes != nullptr && contents.relief.depth_px > 0)
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        light_paint(*strokes, to_draw[i].position, to_draw[i].hiding, contents.relief, to_draw[i].drawn.picture);
+        const SeenSurfaces seen =
+            seen_surfaces(contents.surfaces, to_draw[i].position, {contents.width, 0, contents.height});
+        light_paint(*strokes, to_draw[i].position, seen.hiding, contents.relief, to_draw[i].drawn.picture);
       });
     for (std::size_t i = 0; i < count; ++i) take(first + i, std::move(drawn[i]));
   }

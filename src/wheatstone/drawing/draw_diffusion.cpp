@@ -220,9 +220,12 @@ DrawnView draw_view(const DiffusionPainting& painting, ViewPosition view, const 
 
 }  // namespace
 
-void draw_marks(const DiffusionPainting& painting, std::span<const ViewToDraw> views) {
-  tbb::parallel_for(std::size_t{0}, views.size(),
-                    [&](std::size_t i) { views[i].drawn = draw_view(painting, views[i].position, views[i].hiding); });
+void draw_marks(const DiffusionPainting& painting, const PreparedSurfaces& surfaces,
+                std::span<const ViewToDraw> views) {
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    const SeenSurfaces seen = seen_surfaces(surfaces, views[i].position, {painting.width, 0, painting.height});
+    views[i].drawn = draw_view(painting, views[i].position, seen.hiding);
+  });
 }
 
 }  // namespace wheatstone

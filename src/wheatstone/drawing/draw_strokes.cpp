@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <span>
+#include <tuple>
 
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/prepared_painting_internal.h"
@@ -12,26 +13,35 @@
 
 namespace wheatstone {
 
-void TransmittanceMask::clamp(int row, int& begin, int& end) const {
-  int first = begin / FrontToBackAccumulator::block_px;
-  int last = (end - 1) / FrontToBackAccumulator::block_px;
-  while (first <= last && !is_open(row, first)) ++first;
-  while (last > first && !is_open(row, last)) --last;
-  begin = std::max(begin, first * FrontToBackAccumulator::block_px);
-  end = std::min(end, (last + 1) * FrontToBackAccumulator::block_px);
+FrontToBackAccumulator::FrontToBackAccumulator(int row_count, int canvas_width)
+    : width_(canvas_width),
+      rows_(row_count),
+      blocks_(static_cast<std::size_t>(row_count) * static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)),
+      open_columns_(blocks_.size()),
+      open_rows_(static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)) {
+  clear();
 }
 
-FrontToBackAccumulator::FrontToBackAccumulator(int row_count, int canvas_width)
-    : width(canvas_width),
-      stride(canvas_width + 2 * Canvas::widest_vector),
-      red(static_cast<std::size_t>(row_count) * stride),
-      green(red.size()),
-      blue(red.size()),
-      light(red.size(), 1.f),
-      open(row_count, stride / block_px + 1) {
-  // Nothing is to be drawn in the padding.
-  for (int row = 0; row < row_count; ++row)
-    std::fill_n(light.begin() + static_cast<std::ptrdiff_t>(row) * stride + width, stride - width, 0.f);
+void FrontToBackAccumulator::clear() {
+  for (int number = 0; number < block_count(); ++number) {
+    // Nothing is to be drawn in the columns after the last one.
+    const int columns = std::min(width_ - number * block_px, block_px);
+    for (int row = 0; row < rows_; ++row) {
+      Block& cleared = block(row, number);
+      cleared = {};
+      std::fill_n(cleared.light, columns, 1.f);
+      set_open_columns(row, number, (std::uint32_t{1} << columns) - 1);
+    }
+    open_rows_[static_cast<std::size_t>(number)] = ~std::uint32_t{0} >> (32 - rows_);
+  }
+}
+
+void FrontToBackAccumulator::clamp(int row, int& begin, int& end) const {
+  int first = begin / block_px, last = (end - 1) / block_px;
+  while (first <= last && open_columns(row, first) == 0) ++first;
+  while (last > first && open_columns(row, last) == 0) --last;
+  begin = std::max(begin, first * block_px);
+  end = std::min(end, (last + 1) * block_px);
 }
 
 namespace {
@@ -55,161 +65,246 @@ void continue_paint(std::span<const float> light, std::span<const float> surface
   }
 }
 
-/// A band of a view, drawn from the nearest stroke to the farthest.
-struct DrawnBand {
-  const PreparedStrokes& painting;
-  const ViewToDraw& view;
-  const FrontToBackAccumulator& accumulator;
+/// A row of a view, drawn from the nearest stroke to the farthest.
+struct DrawnRow {
+  std::vector<float> red, green, blue, light;
+
+  void take(const FrontToBackAccumulator& accumulator, int row) {
+    constexpr int block_px = FrontToBackAccumulator::block_px;
+    const auto columns = static_cast<std::size_t>(accumulator.block_count() * block_px);
+    for (std::vector<float>* plane : {&red, &green, &blue, &light}) plane->resize(columns);
+    for (int number = 0; number < accumulator.block_count(); ++number) {
+      const FrontToBackAccumulator::Block& block = accumulator.block(row, number);
+      const auto to = static_cast<std::ptrdiff_t>(number * block_px);
+      std::copy_n(block.red, block_px, red.begin() + to);
+      std::copy_n(block.green, block_px, green.begin() + to);
+      std::copy_n(block.blue, block_px, blue.begin() + to);
+      std::copy_n(block.light, block_px, light.begin() + to);
+    }
+  }
 };
 
-/// Writes a finished row over the background; `offset` is its place in the accumulator.
-void finish_row(const DrawnBand& band, std::size_t offset, int y) {
-  const PreparedStrokes& painting = band.painting;
-  const ViewToDraw& work = band.view;
-  const FrontToBackAccumulator& accumulator = band.accumulator;
-  const std::span light = std::span(accumulator.light).subspan(offset, accumulator.width);
-  const auto to = work.drawn.picture.row(y);
-  const auto paint = [&](int x) {
-    const std::size_t i = offset + static_cast<std::size_t>(x);
-    return std::array{accumulator.red[i], accumulator.green[i], accumulator.blue[i]};
-  };
-  if (work.background.empty() && !painting.canvas_shows) {
-    for (int x = 0; x < painting.width; ++x) {
-      const auto [red, green, blue] = paint(x);
-      const float whole = 1 / std::max(1 - light[x], 1e-6f);
-      to[x] = {rounded(red * whole), rounded(green * whole), rounded(blue * whole)};
+/// A row of a view that is finished: its place, and the nearest surfaces in it, which may be unknown.
+struct RowOfView {
+  const ViewToDraw& view;
+  int y;
+  std::span<const float> surface;
+};
+
+/// Writes a finished row over the background.
+void finish_row(const PreparedStrokes& painting, const DrawnRow& drawn, const RowOfView& of) {
+  const std::span<Rgb8> to = of.view.drawn.picture.row(of.y);
+  const ImageView<const Rgb8>& background = of.view.background;
+  if (background.empty() && !painting.canvas_shows) {
+    for (std::size_t x = 0; x < to.size(); ++x) {
+      const float whole = 1 / std::max(1 - drawn.light[x], 1e-6f);
+      to[x] = {rounded(drawn.red[x] * whole), rounded(drawn.green[x] * whole), rounded(drawn.blue[x] * whole)};
     }
-    const ImageView<const float> surface = work.hiding.surface;
-    continue_paint(light, surface.empty() ? std::span<const float>() : surface.row(y), to);
+    continue_paint(drawn.light, of.surface, to);
     return;
   }
-  for (int x = 0; x < painting.width; ++x) {
-    const auto [red, green, blue] = paint(x);
-    const Rgb8 behind = work.background.empty() ? painting.canvas_colour : work.background(x, y);
-    to[x] = {rounded(red + light[x] * behind.r), rounded(green + light[x] * behind.g),
-             rounded(blue + light[x] * behind.b)};
+  for (std::size_t x = 0; x < to.size(); ++x) {
+    const Rgb8 behind = background.empty() ? painting.canvas_colour : background(static_cast<int>(x), of.y);
+    const float light = drawn.light[x];
+    to[x] = {rounded(drawn.red[x] + light * behind.r), rounded(drawn.green[x] + light * behind.g),
+             rounded(drawn.blue[x] + light * behind.b)};
   }
 }
 
-/// Writes a finished band and returns how many of its pixels are bare.
-std::size_t finish_band(const DrawnBand& band, int top, int row_count) {
-  const FrontToBackAccumulator& accumulator = band.accumulator;
+/// Marks what is bare in a row, and returns how many pixels that are.
+std::size_t mark_bare(const DrawnRow& drawn, float bare_light, std::span<std::uint8_t> to) {
   std::size_t bare = 0;
-  for (int row = 0; row < row_count; ++row) {
-    const std::size_t offset = static_cast<std::size_t>(row) * accumulator.stride;
-    finish_row(band, offset, top + row);
-    const auto bare_to = band.view.drawn.bare.row(top + row);
-    for (int x = 0; x < accumulator.width; ++x) {
-      const bool is_bare = accumulator.light[offset + static_cast<std::size_t>(x)] > band.painting.bare_light;
-      bare_to[x] = is_bare ? 255 : 0;
-      bare += is_bare ? 1 : 0;
-    }
+  for (std::size_t x = 0; x < to.size(); ++x) {
+    const bool is_bare = drawn.light[x] > bare_light;
+    to[x] = is_bare ? 255 : 0;
+    bare += is_bare ? 1 : 0;
   }
   return bare;
 }
+
+/// Some columns of a band.
+struct Columns {
+  int begin, end;
+};
+
+/// By what the surfaces may hide a stroke.
+enum class PlannedIn : std::uint8_t { reference_view, photographed_view, other_view };
+
+/// What of a stroke lies in a band, with all that its stamps need: the strokes themselves are far apart in memory.
+struct Piece {
+  std::uint32_t stroke;
+  std::uint32_t rows;       ///< a bit each
+  float left, right;        ///< columns in the central view, brush and all
+  float farthest, nearest;  ///< disparities
+  StampPaint paint;
+  ViewRange views;
+  PlannedIn planned_in;
+  bool is_rigid, is_thin;
+  float middle;  ///< row
+
+  Columns columns_in(float view, int width) const {
+    const auto [least, most] = std::minmax({view * farthest, view * nearest});
+    return {std::max(static_cast<int>(left - most), 0), std::min(static_cast<int>(right - least) + 1, width)};
+  }
+
+  /// The rims of thin strokes are too round to be interpolated far: there are two stamps of them, half a pixel apart.
+  bool lies_between(float view) const {
+    if (!is_thin) return false;
+    const float moved = view * (paint.disparity + paint.depth_slope * middle);
+    const float fraction = moved - std::floor(moved);
+    return fraction > 0.25f && fraction < 0.75f;
+  }
+
+  /// Whether surfaces may hide some of it, or hide all.
+  bool may_be_hidden(const Columns& columns, const HiddenBelow& below) const {
+    return std::any_of(blocks(below.most, columns.begin), blocks(below.most, columns.end - 1) + 1,
+                       [this](float most) { return farthest < most; });
+  }
+  bool is_hidden(const Columns& columns, const HiddenBelow& below) const {
+    return std::all_of(blocks(below.least, columns.begin), blocks(below.least, columns.end - 1) + 1,
+                       [this](float least) { return nearest < least; });
+  }
+
+ private:
+  static std::vector<float>::const_iterator blocks(const std::vector<float>& of, int column) {
+    return of.begin() + column / HiddenBelow::block_px;
+  }
+};
+
+PlannedIn kind_of(ViewPosition planned_in, const PreparedSurfaces& surfaces) {
+  if (surfaces.seen.empty() || planned_in == surfaces.seen.front().view) return PlannedIn::reference_view;
+  return surfaces.photographed.contains(planned_in) ? PlannedIn::photographed_view : PlannedIn::other_view;
+}
+
+Piece piece_of(const FlatStroke& stroke, std::uint32_t index, const PreparedSurfaces& surfaces,
+               const DistanceBand& band) {
+  constexpr float thin_px = 1.25f;
+  const float reach = BrushProfile(stroke.radius_px).reach_px + 1;
+  const int first = std::max(static_cast<int>(stroke.top - reach) - band.top, 0);
+  const int end = std::min(static_cast<int>(stroke.bottom + reach) - band.top + 1, band.row_count);
+  Piece piece{
+      .stroke = index,
+      .rows = 0,
+      .left = stroke.left - reach,
+      .right = stroke.right + reach,
+      .farthest = stroke.farthest_disparity,
+      .nearest = stroke.nearest_disparity,
+      .paint = {stroke.red, stroke.green, stroke.blue, stroke.opacity, stroke.disparity, stroke.depth_slope},
+      .views = stroke.views,
+      .planned_in = kind_of(stroke.reference_view, surfaces),
+      .is_rigid = stroke.is_rigid,
+      .is_thin = stroke.radius_px < thin_px,
+      .middle = (stroke.top + stroke.bottom) / 2,
+  };
+  for (int row = first; row < end; ++row) piece.rows |= std::uint32_t{1} << row;
+  if (!stroke.is_rigid) return piece;
+  const float top = stroke.disparity + stroke.depth_slope * (stroke.top - reach),
+              bottom = stroke.disparity + stroke.depth_slope * (stroke.bottom + reach);
+  std::tie(piece.farthest, piece.nearest) = std::minmax({top, bottom});
+  return piece;
+}
+
+/// The pieces of a layer in a band, in drawing order.
+struct PiecesOfLayer {
+  std::vector<Piece> pieces;
+  std::vector<std::uint32_t> of_other_views;  ///< those of strokes that were not planned in the reference view
+  std::vector<Stamp> stamps;
+  std::vector<Stamp> stamps_between;  ///< half a pixel to the side
+};
 
 /// One band of a painting, drawn for many views: the parts of strokes in it are made once, when a view first needs
 /// them.
 class BandOfViews {
  public:
-  BandOfViews(const PreparedStrokes& painting, int number)
+  BandOfViews(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, int number)
       : painting_(painting),
-        number_(static_cast<std::size_t>(number)),
+        surfaces_(surfaces),
         band_(number * band_rows, painting.width, painting.height),
-        scratch_(band_.top, 0, painting.height) {
-    for (const BandedLayer& layer : painting.layers) stamps_.emplace_back(layer.bands[number_].size());
+        scratch_(band_.top, 0, painting.height),
+        accumulator_(band_.row_count, painting.width) {
+    for (const BandedLayer& layer : painting.layers) {
+      PiecesOfLayer& of_layer = layers_.emplace_back();
+      for (const std::uint32_t index : layer.bands[static_cast<std::size_t>(number)]) {
+        const Piece& piece = of_layer.pieces.emplace_back(piece_of(layer.flat.strokes[index], index, surfaces, band_));
+        if (piece.planned_in != PlannedIn::reference_view)
+          of_layer.of_other_views.push_back(static_cast<std::uint32_t>(of_layer.pieces.size() - 1));
+      }
+      of_layer.stamps.resize(of_layer.pieces.size());
+      of_layer.stamps_between.resize(of_layer.pieces.size());
+    }
   }
 
   /// Returns how many pixels are bare.
   std::size_t draw(const ViewToDraw& view) {
-    const BandHiding hides(view.hiding, band_, painting_.width);
-    FrontToBackAccumulator accumulator(band_.row_count, painting_.width);
-    draw_strokes(
-        view, [&](const FlatStroke& stroke) { return &hides.of(stroke, view.hiding); }, accumulator);
-    if (!view.hiding.reference.empty())
-      draw_strokes(
-          view,
-          [&](const FlatStroke& stroke) { return view.hiding.is_own(stroke.reference_view) ? nullptr : &hides.gaps; },
-          accumulator);
-    return finish_band({painting_, view, accumulator}, band_.top, band_.row_count);
+    const SeenSurfaces seen = seen_surfaces(surfaces_, view.position, {painting_.width, band_.top, band_.row_count});
+    const BandHiding hides(seen.hiding, band_, painting_.width);
+    accumulator_.clear();
+    const std::array by_kind{&hides.own, &hides.other, &hides.continued};
+    for (std::size_t above = layers_.size(); above-- > 0;)
+      for (std::size_t nearer = layers_[above].pieces.size(); nearer-- > 0;)
+        draw_piece(above, nearer, view.position,
+                   *by_kind[static_cast<std::size_t>(layers_[above].pieces[nearer].planned_in)]);
+    for (std::size_t above = layers_.size(); above-- > 0;) {
+      const std::vector<std::uint32_t>& others = layers_[above].of_other_views;
+      for (std::size_t nearer = others.size(); nearer-- > 0;)
+        draw_piece(above, others[nearer], view.position, hides.gaps);
+    }
+    return finish(view, seen.hiding.surface);
   }
 
  private:
-  /// `hidden_below(stroke)` tells what hides it; null: it is not drawn.
-  template <class HiddenBelowOf>
-  void draw_strokes(const ViewToDraw& view, HiddenBelowOf hidden_below, FrontToBackAccumulator& accumulator) {
-    for (std::size_t above = painting_.layers.size(); above-- > 0;) {
-      const FlatLayer& layer = painting_.layers[above].flat;
-      const std::vector<std::uint32_t>& strokes = painting_.layers[above].bands[number_];
-      const SeenLayer seen(layer, view.position);
-      for (std::size_t nearer = strokes.size(); nearer-- > 0;) {
-        const FlatStroke& stroke = layer.strokes[strokes[nearer]];
-        if (!stroke.views.contains(view.position)) continue;
-        const HiddenBelow* const below = hidden_below(stroke);
-        if (below == nullptr) continue;
-        if (!stroke.is_rigid) {
-          draw_stroke_under({seen, stroke, *below}, band_, accumulator);
-        } else if (const StampPlace place = place_of(stroke, seen.shift); is_open(place, accumulator)) {
-          const Stamp& stamp = stamp_of(layer, stroke, stamps_[above][nearer]);
-          lay_stamp_under({stamp, values_.data() + stamp.first_value, stroke, *below, seen.shift, band_.top,
-                           may_be_hidden(place, *below)},
-                          accumulator);
-        }
-      }
+  /// `below`: what hides it.
+  void draw_piece(std::size_t above, std::size_t number, ViewPosition view, const HiddenBelow& below) {
+    PiecesOfLayer& of_layer = layers_[above];
+    const Piece& piece = of_layer.pieces[number];
+    const float shift = view - central_view;
+    const Columns columns = piece.columns_in(shift, painting_.width);
+    if (columns.begin >= columns.end || !piece.views.contains(view)) return;
+    std::uint32_t rows = piece.rows & accumulator_.open_rows(columns.begin, columns.end);
+    if (rows == 0) return;
+    const bool may_be_hidden = !below.pixels.empty() && piece.may_be_hidden(columns, below);
+    if (may_be_hidden) rows &= below.shown_rows_within(columns.begin, columns.end);
+    if (rows == 0 || (may_be_hidden && piece.is_hidden(columns, below))) return;
+    const FlatLayer& layer = painting_.layers[above].flat;
+    if (!piece.is_rigid) {
+      draw_stroke_under({SeenLayer(layer, view), layer.strokes[piece.stroke], below}, band_, accumulator_);
+      return;
     }
+    const bool between = piece.lies_between(shift);
+    Stamp& stamp = (between ? of_layer.stamps_between : of_layer.stamps)[number];
+    if (!stamp.is_made) make(layer, layer.strokes[piece.stroke], between, stamp);
+    lay_stamp_under({stamp, stamps_, piece.paint, below, band_, shift, rows, may_be_hidden}, accumulator_);
   }
 
-  /// Where a stamp may lie in a view: rows of the band, and columns.
-  struct StampPlace {
-    int first_row, end_row, begin, end;
-    float farthest_disparity;
-  };
-
-  StampPlace place_of(const FlatStroke& stroke, float view) const {
-    const float reach = BrushProfile(stroke.radius_px).reach_px + 1;
-    const float top = stroke.disparity + stroke.depth_slope * (stroke.top - reach),
-                bottom = stroke.disparity + stroke.depth_slope * (stroke.bottom + reach);
-    const auto [least, most] = std::minmax({view * top, view * bottom});
-    return {std::max(static_cast<int>(stroke.top - reach) - band_.top, 0),
-            std::min(static_cast<int>(stroke.bottom + reach) - band_.top + 1, band_.row_count),
-            std::max(static_cast<int>(stroke.left - reach - most), 0),
-            std::min(static_cast<int>(stroke.right + reach - least) + 1, painting_.width), std::min(top, bottom)};
-  }
-
-  /// Whether light comes through anywhere in a place.
-  static bool is_open(const StampPlace& place, const FrontToBackAccumulator& accumulator) {
-    if (place.begin >= place.end) return false;
-    constexpr int block_px = FrontToBackAccumulator::block_px;
-    for (int row = place.first_row; row < place.end_row; ++row)
-      if (accumulator.open.is_any_open(row, place.begin / block_px, (place.end - 1) / block_px)) return true;
-    return false;
-  }
-
-  static bool may_be_hidden(const StampPlace& place, const HiddenBelow& below) {
-    if (below.pixels.empty()) return false;
-    for (int block = place.begin / HiddenBelow::block_px; block * HiddenBelow::block_px < place.end; ++block)
-      if (place.farthest_disparity < below.blocks[static_cast<std::size_t>(block)]) return true;
-    return false;
-  }
-
-  const Stamp& stamp_of(const FlatLayer& layer, const FlatStroke& stroke, Stamp& stamp) {
-    if (stamp.width > 0) return stamp;
+  void make(const FlatLayer& layer, const FlatStroke& stroke, bool between, Stamp& stamp) {
     const float reach = BrushProfile(stroke.radius_px).reach_px;
-    stamp.left = static_cast<int>(std::floor(stroke.left - reach));
-    stamp.width = static_cast<int>(std::ceil(stroke.right + reach)) - stamp.left + 1;
-    if (scratch_.stride < stamp.width + 2 * Canvas::widest_vector)
-      scratch_ = DistanceBand(band_.top, stamp.width, painting_.height);
-    make_stamp({SeenLayer(layer, central_view, stamp.left), stroke, nothing_hides_}, scratch_, stamp, values_);
-    return stamp;
+    stamp.left = std::floor(stroke.left - reach) - (between ? 0.5f : 0);
+    const int width = static_cast<int>(std::ceil(stroke.right + reach - stamp.left)) + 1;
+    if (scratch_.stride < width + 2 * Canvas::widest_vector)
+      scratch_ = DistanceBand(band_.top, width, painting_.height);
+    make_stamp({SeenLayer(layer, central_view, stamp.left), stroke, nothing_hides_}, width, scratch_, stamp, stamps_);
+  }
+
+  std::size_t finish(const ViewToDraw& view, ImageView<const float> surface) {
+    std::size_t bare = 0;
+    for (int row = 0; row < band_.row_count; ++row) {
+      const int y = band_.top + row;
+      row_.take(accumulator_, row);
+      finish_row(painting_, row_, {view, y, surface.empty() ? std::span<const float>() : surface.row(row)});
+      bare += mark_bare(row_, painting_.bare_light, view.drawn.bare.row(y));
+    }
+    return bare;
   }
 
   const PreparedStrokes& painting_;
-  std::size_t number_;
+  const PreparedSurfaces& surfaces_;
   DistanceBand band_;
   DistanceBand scratch_;  ///< as wide as the widest stamp so far
   HiddenBelow nothing_hides_;
-  std::vector<std::vector<Stamp>> stamps_;  ///< of each layer, of the strokes in this band
-  std::vector<std::uint16_t> values_;
+  std::vector<PiecesOfLayer> layers_;
+  Stamps stamps_;
+  FrontToBackAccumulator accumulator_;
+  DrawnRow row_;
 };
 
 /// One stroke that covers half a pixel leaves this much light. Strokes that are fading do not say how opaque the paint
@@ -235,7 +330,7 @@ PreparedStrokes prepare_marks(const StrokePainting& painting) {
   return prepared;
 }
 
-void draw_marks(const PreparedStrokes& painting, std::span<const ViewToDraw> views) {
+void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views) {
   for (const ViewToDraw& view : views) {
     assert(view.background.empty() ||
            (view.background.width() == painting.width && view.background.height() == painting.height));
@@ -245,7 +340,7 @@ void draw_marks(const PreparedStrokes& painting, std::span<const ViewToDraw> vie
   const int bands = (painting.height + band_rows - 1) / band_rows;
   std::vector<std::vector<std::size_t>> bare(static_cast<std::size_t>(bands), std::vector<std::size_t>(views.size()));
   tbb::parallel_for(0, bands, [&](int i) {
-    BandOfViews band(painting, i);
+    BandOfViews band(painting, surfaces, i);
     for (std::size_t v = 0; v < views.size(); ++v) bare[static_cast<std::size_t>(i)][v] = band.draw(views[v]);
   });
   for (std::size_t v = 0; v < views.size(); ++v) {

@@ -50,11 +50,12 @@ void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& 
     stroke.left = std::min(stroke.left, p.x);
     stroke.right = std::max(stroke.right, p.x);
     stroke.farthest_disparity = std::min(stroke.farthest_disparity, p.disparity);
+    stroke.nearest_disparity = std::max(stroke.nearest_disparity, p.disparity);
   };
   const SpatialPoint begin = spline.control(0);
   stroke.top = stroke.bottom = begin.y;
   stroke.left = stroke.right = begin.x;
-  stroke.farthest_disparity = begin.disparity;
+  stroke.farthest_disparity = stroke.nearest_disparity = begin.disparity;
   add(begin);
   for (int span = 0; span < spline.span_count(); ++span) {
     const int segments = segment_count(spline, span);
@@ -65,7 +66,7 @@ void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& 
 
 /// Fits a plane that slopes along the columns to a stroke's disparities.
 void fit_depth(const FlatLayer& flat, FlatStroke& stroke) {
-  constexpr float rigid_px = 0.5f, least_radius_px = 1.25f;  // the rims of thinner strokes are too round to interpolate
+  constexpr float rigid_px = 0.5f;
   const auto disparities = std::span(flat.disparity).subspan(stroke.first_vertex, stroke.vertex_count);
   const auto rows = std::span(flat.y).subspan(stroke.first_vertex, stroke.vertex_count);
   const auto count = static_cast<float>(stroke.vertex_count);
@@ -82,7 +83,7 @@ void fit_depth(const FlatLayer& flat, FlatStroke& stroke) {
   const bool is_long = row_variance > count;  // the rows of a stroke that is not do not tell a slope
   stroke.depth_slope = is_long ? covariance / row_variance : 0;
   stroke.disparity = mean - stroke.depth_slope * mean_row;
-  stroke.is_rigid = stroke.radius_px >= least_radius_px;
+  stroke.is_rigid = true;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (std::abs(disparities[i] - stroke.disparity - stroke.depth_slope * rows[i]) > rigid_px) stroke.is_rigid = false;
 }

@@ -13,10 +13,10 @@ struct FlatStroke {
   std::uint32_t vertex_count = 0;  ///< one for a dot
   float radius_px = 0;
   float opacity = 1;
-  float red = 0, green = 0, blue = 0;    ///< 0..255
-  float farthest_disparity = 0;          ///< of its points
-  float top = 0, bottom = 0;             ///< the rows its chain spans, without the radius
-  float left = 0, right = 0;             ///< the columns, in the central view
+  float red = 0, green = 0, blue = 0;                   ///< 0..255
+  float farthest_disparity = 0, nearest_disparity = 0;  ///< of its points
+  float top = 0, bottom = 0;                            ///< the rows its chain spans, without the radius
+  float left = 0, right = 0;                            ///< the columns, in the central view
   float disparity = 0, depth_slope = 0;  ///< disparity + depth_slope · y is about that of all of its points
   bool is_rigid = false;                 ///< … so nearly that the views see its rows shifted
   ViewRange views;
@@ -37,8 +37,8 @@ FlatLayer flatten(const Layer& layer);
 
 /// A flat layer as one view sees it, in columns that are counted from `left_px`.
 struct SeenLayer {
-  SeenLayer(const FlatLayer& layer, ViewPosition view, int left = 0)
-      : flat(layer), shift(view - central_view), left_px(static_cast<float>(left)) {}
+  SeenLayer(const FlatLayer& layer, ViewPosition view, float left = 0)
+      : flat(layer), shift(view - central_view), left_px(left) {}
   float x(std::size_t vertex) const { return flat.x[vertex] - shift * flat.disparity[vertex] - left_px; }
 
   const FlatLayer& flat;

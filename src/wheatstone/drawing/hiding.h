@@ -20,6 +20,7 @@ struct Hiding {
   ViewPosition reference_view;
   ImageView<const float> photographed;  ///< the nearest that photographs show; of all views where that is empty
   ViewRange photographed_views;         ///< marks of other views go on where no photograph shows anything
+  int first_row = 0;                    ///< of the picture, that is the surfaces' first
 
   bool is_continued(ViewPosition planned_in) const {
     return !photographed.empty() && !photographed_views.contains(planned_in);
@@ -47,7 +48,7 @@ inline float least_seen_of_other(float surface, float reference, float tolerance
 
 /// Whether surfaces hide what a mark of this disparity has at a place, in pixels.
 inline bool is_hidden(float x, float y, float disparity, ViewPosition planned_in, const Hiding& hiding) {
-  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y)) - hiding.first_row;
   if (!hiding.surface.contains(column, row)) return false;
   const float surface = hiding.surface(column, row);
   if (hiding.is_own(planned_in)) return disparity < least_seen_disparity(surface, hiding.tolerance_px);

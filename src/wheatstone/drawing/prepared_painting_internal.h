@@ -27,14 +27,13 @@ inline DiffusionPainting prepare_marks(DiffusionPainting painting) { return pain
 /// A view that is to be drawn.
 struct ViewToDraw {
   ViewPosition position;
-  const Hiding& hiding;
   ImageView<const Rgb8> background;  ///< may be empty
   DrawnView& drawn;
 };
 
-void draw_marks(const PreparedStrokes& painting, std::span<const ViewToDraw> views);
-void draw_marks(const RegionPainting& painting, std::span<const ViewToDraw> views);
-void draw_marks(const DiffusionPainting& painting, std::span<const ViewToDraw> views);
+void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
+void draw_marks(const RegionPainting& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
+void draw_marks(const DiffusionPainting& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
 
 // The same as SVG (svg.h). What has a ground shows between its marks what only a picture of the view can.
 

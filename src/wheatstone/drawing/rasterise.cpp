@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 
@@ -32,35 +31,6 @@ DistanceBand::DistanceBand(int top_, int canvas_width, int canvas_height)
       squared(static_cast<std::size_t>(row_count) * stride),
       begin(row_count),
       end(row_count) {}
-
-BandHiding::BandHiding(const Hiding& hiding, const DistanceBand& band, int canvas_width) {
-  if (hiding.surface.empty()) return;
-  constexpr float everything = std::numeric_limits<float>::infinity();
-  const auto fill = [&](HiddenBelow& below, auto least_seen) {
-    below.pixels.resize(band.squared.size(), -everything);
-    below.blocks.resize(static_cast<std::size_t>(band.stride / HiddenBelow::block_px + 1), -everything);
-    for (int row = 0; row < band.row_count; ++row) {
-      float* pixels = below.pixels.data() + static_cast<std::size_t>(row) * band.stride;
-      for (int x = 0; x < canvas_width; ++x) {
-        pixels[x] = least_seen(x, band.top + row);
-        float& block = below.blocks[static_cast<std::size_t>(x / HiddenBelow::block_px)];
-        block = std::max(block, pixels[x]);
-      }
-    }
-  };
-  const ImageView<const float>&surface = hiding.surface, &reference = hiding.reference;
-  const float tolerance_px = hiding.tolerance_px;
-  fill(own, [&](int x, int y) { return least_seen_disparity(surface(x, y), tolerance_px); });
-  if (reference.empty()) return;
-  fill(other, [&](int x, int y) { return least_seen_of_other(surface(x, y), reference(x, y), tolerance_px); });
-  if (!hiding.photographed.empty())
-    fill(continued,
-         [&](int x, int y) { return least_seen_of_other(surface(x, y), hiding.photographed(x, y), tolerance_px); });
-  const ImageView<const float>& known = hiding.photographed.empty() ? reference : hiding.photographed;
-  fill(gaps, [&](int x, int y) {
-    return std::isnan(known(x, y)) ? everything : least_seen_disparity(surface(x, y), tolerance_px);
-  });
-}
 
 void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas) {
   const FlatLayer flat = flatten(layer);

@@ -42,8 +42,19 @@ struct SegmentBox {
 /// Below which disparity paint is hidden, in a band; empty where nothing hides it.
 struct HiddenBelow {
   static constexpr int block_px = Canvas::widest_vector;
-  std::vector<float> pixels;  ///< row_count × stride of the band
-  std::vector<float> blocks;  ///< the largest of each block of columns
+  std::vector<float> pixels;       ///< row_count × stride of the band
+  std::vector<float> most, least;  ///< of each block of columns
+
+  // Where not everything is hidden, a bit each, from the lowest.
+  std::vector<std::uint16_t> shown_columns;  ///< of a block: row_count × blocks
+  std::vector<std::uint32_t> shown_rows;     ///< of each block
+
+  std::uint32_t shown_rows_within(int begin, int end) const {
+    std::uint32_t rows = 0;
+    for (int number = begin / block_px; number * block_px < end; ++number)
+      rows |= shown_rows[static_cast<std::size_t>(number)];
+    return rows;
+  }
 };
 
 /// Squared distances to one stroke's chain within one band, reused from stroke to stroke.
@@ -75,52 +86,60 @@ struct BandHiding {
   }
 };
 
-/// Which blocks of columns still let light through, a bit each.
-class TransmittanceMask {
+/// A band that is drawn from the nearest stroke to the farthest: what is drawn, times what it covers, and how much
+/// light still comes through. A stroke that lies wholly behind opaque paint costs next to nothing. The pixels of a band
+/// stand in blocks of columns, whose rows follow each other in memory: a stroke touches few places of it.
+class FrontToBackAccumulator {
  public:
-  TransmittanceMask(int rows, int blocks)
-      : words_(static_cast<std::size_t>(rows) * words_for(blocks), ~std::uint64_t{0}), stride_(words_for(blocks)) {}
+  static constexpr int block_px = Canvas::widest_vector;
+  static constexpr float dark = 1.f / 1024;  ///< light below this changes an 8-bit value by less than a quarter step
 
-  void close(int row, int block) { word(row, block) &= ~(std::uint64_t{1} << (block % 64)); }
+  /// The columns of a block in one row.
+  struct alignas(64) Block {
+    float red[block_px], green[block_px], blue[block_px], light[block_px];
+  };
 
-  bool is_open(int row, int block) const { return (words_[row * stride_ + block / 64] >> (block % 64) & 1) != 0; }
+  FrontToBackAccumulator(int row_count, int canvas_width);
 
-  /// Whether any of the blocks from `first` to `last` is.
-  bool is_any_open(int row, int first, int last) const {
-    const std::uint64_t* words = words_.data() + static_cast<std::ptrdiff_t>(row) * stride_;
-    for (int word = first / 64; word <= last / 64; ++word) {
-      std::uint64_t bits = words[word];
-      if (word == first / 64) bits &= ~std::uint64_t{0} << (first % 64);
-      if (word == last / 64) bits &= ~std::uint64_t{0} >> (63 - last % 64);
-      if (bits != 0) return true;
-    }
-    return false;
+  /// Nothing is drawn.
+  void clear();
+
+  int width() const { return width_; }
+  int rows() const { return rows_; }
+  int block_count() const { return static_cast<int>(open_rows_.size()); }
+  Block& block(int row, int number) { return blocks_[static_cast<std::size_t>(number * rows_ + row)]; }
+  const Block& block(int row, int number) const { return blocks_[static_cast<std::size_t>(number * rows_ + row)]; }
+  float light(int row, int x) const { return block(row, x / block_px).light[x % block_px]; }
+
+  // Where light still comes through: bits, from the lowest.
+
+  /// The columns of a block.
+  std::uint32_t open_columns(int row, int number) const {
+    return open_columns_[static_cast<std::size_t>(number * rows_ + row)];
+  }
+  void set_open_columns(int row, int number, std::uint32_t columns) {
+    open_columns_[static_cast<std::size_t>(number * rows_ + row)] = static_cast<std::uint16_t>(columns);
+    if (columns == 0) open_rows_[static_cast<std::size_t>(number)] &= ~(std::uint32_t{1} << row);
+  }
+
+  /// The rows in which light may come through any of the columns [begin, end).
+  std::uint32_t open_rows(int begin, int end) const {
+    std::uint32_t rows = 0;
+    for (int number = begin / block_px; number * block_px < end; ++number)
+      rows |= open_rows_[static_cast<std::size_t>(number)];
+    return rows;
   }
 
   /// Shrinks the columns [begin, end) to those between the first and the last open block; begin ≥ end where none is.
   void clamp(int row, int& begin, int& end) const;
 
  private:
-  static int words_for(int blocks) { return (blocks + 63) / 64; }
-  std::uint64_t& word(int row, int block) { return words_[row * stride_ + block / 64]; }
-
-  std::vector<std::uint64_t> words_;
-  int stride_;
+  int width_, rows_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint16_t> open_columns_;
+  std::vector<std::uint32_t> open_rows_;  ///< of each block
 };
-
-/// A band that is drawn from the nearest stroke to the farthest: what is drawn, times what it covers, and how much
-/// light still comes through. A stroke that lies wholly behind opaque paint costs next to nothing.
-struct FrontToBackAccumulator {
-  static constexpr int block_px = Canvas::widest_vector;
-  static constexpr float dark = 1.f / 1024;  ///< light below this changes an 8-bit value by less than a quarter step
-
-  FrontToBackAccumulator(int row_count, int canvas_width);
-
-  int width;
-  int stride;
-  std::vector<float> red, green, blue, light;
-  TransmittanceMask open;
-};
+static_assert(band_rows <= 32 && FrontToBackAccumulator::block_px <= 16);
 
 /// A stroke of a layer as a view sees it, and what hides it in the band at hand.
 struct StrokeInBand {
@@ -140,29 +159,47 @@ void draw_stroke_under(const StrokeInBand& stroke, DistanceBand& band, FrontToBa
 struct Stamp {
   // Levels: cover 0 is `zero`, cover 1 is `steps` more; they go on beyond both, so that rims are interpolated rightly.
   static constexpr float steps = 20000, zero = 20000, most = 3 * steps;
-  static constexpr int margin = 2;  ///< columns without cover before the first one
-  static constexpr std::size_t slack =
-      Canvas::widest_vector + margin + 1;  ///< values after the last one, which hold nothing
 
-  std::size_t first_value = 0;
+  std::uint32_t first_line = 0;    ///< of the stroke's rows
   int first_row = 0, end_row = 0;  ///< of the band
-  int left = 0;                    ///< column of the central view
-  int width = 0;                   ///< columns; 0: not made yet
-  std::size_t stride() const { return static_cast<std::size_t>(width) + margin + 1; }
+  float left = 0;                  ///< place in the central view from which the columns of the lines are counted
+  bool is_made = false;
 };
 
-/// Makes the stamp of a stroke, whose layer is seen in columns from stamp.left on; `band` is as wide as the stamp.
-void make_stamp(const StrokeInBand& stroke, DistanceBand& band, Stamp& stamp, std::vector<std::uint16_t>& values);
+/// The stamps of a band.
+struct Stamps {
+  static constexpr int margin = 2;                                 ///< columns without cover between the lines
+  static constexpr std::size_t slack = 2 * Canvas::widest_vector;  ///< values before the first and after the last one
+
+  /// One row of a stamp.
+  struct Line {
+    std::uint32_t first_value = 0;    ///< of the margin before it
+    std::int32_t begin = 0, end = 0;  ///< the columns that it may cover
+  };
+
+  std::vector<Line> lines;
+  std::vector<std::uint16_t> values = std::vector<std::uint16_t>(2 * slack);
+};
+
+/// Makes the stamp of a stroke, whose layer is seen in columns from stamp.left on; `band` is `width` columns wide.
+void make_stamp(const StrokeInBand& stroke, int width, DistanceBand& band, Stamp& stamp, Stamps& stamps);
+
+/// What of a stroke its stamps do not hold.
+struct StampPaint {
+  float red, green, blue, opacity;
+  float disparity, depth_slope;
+};
 
 /// A stamp as a view sees it.
 struct StampInBand {
   const Stamp& stamp;
-  const std::uint16_t* values;  ///< its first
-  const FlatStroke& stroke;
+  const Stamps& stamps;
+  const StampPaint& paint;
   const HiddenBelow& hidden_below;
-  float view;   ///< eye separations to the right of the central view
-  int top;      ///< the picture's row that is the band's first
-  bool tested;  ///< a surface may hide some of it
+  const DistanceBand& band;
+  float view;          ///< eye separations to the right of the central view
+  std::uint32_t rows;  ///< the open ones, a bit each
+  bool tested;         ///< a surface may hide some of it
 };
 
 /// Draws what is seen of a stamp under everything that was drawn before.

@@ -116,7 +116,7 @@ bool may_be_hidden(const FlatStroke& stroke, const HiddenBelow& below, const Dis
     end = std::max(end, box.end);
   }
   for (int block = begin / HiddenBelow::block_px; block * HiddenBelow::block_px < end; ++block)
-    if (stroke.farthest_disparity < below.blocks[static_cast<std::size_t>(block)]) return true;
+    if (stroke.farthest_disparity < below.most[static_cast<std::size_t>(block)]) return true;
   return false;
 }
 
@@ -190,50 +190,70 @@ void lay_over_row(const FlatStroke& stroke, const Cover& cover, const DistanceBa
   }
 }
 
-/// Slides the stroke's colour under one row of what is drawn already, as far as that lets light through.
-void slide_under_row(const FlatStroke& stroke, const Cover& cover, const DistanceBand& band, int row,
-                     FrontToBackAccumulator& accumulator) {
-  const Floats f;
-  const int lanes = static_cast<int>(hn::Lanes(f));
-  const float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
-  const std::size_t offset = static_cast<std::size_t>(row) * accumulator.stride;
-  float* red = accumulator.red.data() + offset;
-  float* green = accumulator.green.data() + offset;
-  float* blue = accumulator.blue.data() + offset;
-  float* light = accumulator.light.data() + offset;
-  const auto opacity = hn::Set(f, stroke.opacity);
-  const auto stroke_red = hn::Set(f, stroke.red);
-  const auto stroke_green = hn::Set(f, stroke.green);
-  const auto stroke_blue = hn::Set(f, stroke.blue);
-  for (int x = band.begin[row]; x < band.end[row]; x += lanes) {
-    const auto distance = hn::LoadU(f, squared + x);
-    if (cover.is_zero(distance)) continue;
-    const auto alpha = hn::Mul(cover.of(distance), opacity);
-    const auto through = hn::LoadU(f, light + x);
-    const auto share = hn::Mul(alpha, through);
-    const auto lay = [&](float* plane, auto colour) {
-      hn::StoreU(hn::MulAdd(colour, share, hn::LoadU(f, plane + x)), f, plane + x);
-    };
-    lay(red, stroke_red);
-    lay(green, stroke_green);
-    lay(blue, stroke_blue);
-    hn::StoreU(hn::Sub(through, share), f, light + x);
+/// A stroke's colour, which is slid under what is drawn already.
+struct Paint {
+  template <class Stroke>
+  explicit Paint(const Stroke& stroke)
+      : red(hn::Set(Floats(), stroke.red)),
+        green(hn::Set(Floats(), stroke.green)),
+        blue(hn::Set(Floats(), stroke.blue)),
+        opacity(hn::Set(Floats(), stroke.opacity)) {}
+
+  /// Part of a block, from its column `i` on, as far as it lets light through. Returns which columns still do.
+  HWY_INLINE std::uint32_t slide_under(hn::Vec<Floats> cover, FrontToBackAccumulator::Block& block, int i) const {
+    const Floats f;
+    const auto through = hn::Load(f, block.light + i);
+    const auto share = hn::Mul(hn::Mul(cover, opacity), through);
+    hn::Store(hn::MulAdd(red, share, hn::Load(f, block.red + i)), f, block.red + i);
+    hn::Store(hn::MulAdd(green, share, hn::Load(f, block.green + i)), f, block.green + i);
+    hn::Store(hn::MulAdd(blue, share, hn::Load(f, block.blue + i)), f, block.blue + i);
+    const auto left = hn::Sub(through, share);
+    hn::Store(left, f, block.light + i);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(f, hn::Gt(left, hn::Set(f, FrontToBackAccumulator::dark)), bits);
+    return static_cast<std::uint32_t>(bits[0] | bits[1] << 8) << i;
   }
+
+  hn::Vec<Floats> red, green, blue, opacity;
+};
+
+/// Where a row of a stroke may be seen.
+struct RowPart {
+  int row, begin, end;              ///< columns
+  const HiddenBelow* hidden_below;  ///< may be null
+};
+
+/// The columns of a block that are open in the part of a row, a bit each.
+HWY_INLINE std::uint32_t open_within(const FrontToBackAccumulator& accumulator, const RowPart& part, int number) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
+  const int first = std::max(part.begin - number * block_px, 0),
+            last = std::min(part.end - number * block_px, block_px);
+  const std::uint32_t open =
+      accumulator.open_columns(part.row, number) & ((std::uint32_t{1} << last) - (std::uint32_t{1} << first));
+  if (part.hidden_below == nullptr) return open;
+  return open & part.hidden_below->shown_columns[static_cast<std::size_t>(number * accumulator.rows() + part.row)];
 }
 
-/// Notes which blocks of some columns of a row still let light through.
-void close_dark_blocks(int row, int begin, int columns_end, FrontToBackAccumulator& accumulator) {
-  const Floats f;
-  const int lanes = static_cast<int>(hn::Lanes(f));
-  const float* light = accumulator.light.data() + static_cast<std::size_t>(row) * accumulator.stride;
-  const auto dark = hn::Set(f, FrontToBackAccumulator::dark);
-  for (int block = begin / FrontToBackAccumulator::block_px; block * FrontToBackAccumulator::block_px < columns_end;
-       ++block) {
-    const int end = (block + 1) * FrontToBackAccumulator::block_px;
-    bool is_open = false;
-    for (int x = block * FrontToBackAccumulator::block_px; x < end; x += lanes)
-      is_open = is_open || !hn::AllFalse(f, hn::Gt(hn::LoadU(f, light + x), dark));
-    if (!is_open) accumulator.open.close(row, block);
+HWY_INLINE bool is_any_open(const FrontToBackAccumulator& accumulator, const RowPart& part) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
+  for (int number = part.begin / block_px; number * block_px < part.end; ++number)
+    if (open_within(accumulator, part, number) != 0) return true;
+  return false;
+}
+
+/// Calls `cover_at(x)` for the vectors of the blocks that are open in the part of a row, and slides the paint under
+/// them.
+template <class CoverAt>
+HWY_INLINE void slide_under_row(const Paint& paint, const RowPart& part, FrontToBackAccumulator& accumulator,
+                                CoverAt cover_at) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
+  const int lanes = static_cast<int>(hn::Lanes(Floats()));
+  for (int number = part.begin / block_px; number * block_px < part.end; ++number) {
+    if (open_within(accumulator, part, number) == 0) continue;
+    FrontToBackAccumulator::Block& block = accumulator.block(part.row, number);
+    std::uint32_t open = 0;
+    for (int i = 0; i < block_px; i += lanes) open |= paint.slide_under(cover_at(number * block_px + i), block, i);
+    accumulator.set_open_columns(part.row, number, open);
   }
 }
 
@@ -250,29 +270,30 @@ void draw_under(const StrokeInBand& of, DistanceBand& band, FrontToBackAccumulat
   const auto& [layer, stroke, below] = of;
   const BrushProfile brush(stroke.radius_px);
   const Cover cover(brush);
-  find_extents(layer, stroke, brush.reach_px, accumulator.width, band);
+  find_extents(layer, stroke, brush.reach_px, accumulator.width(), band);
   bool is_seen = false;
   for (int row = band.first_row; row < band.end_row; ++row) {
     if (band.begin[row] >= band.end[row]) continue;
-    accumulator.open.clamp(row, band.begin[row], band.end[row]);
-    is_seen = is_seen || band.begin[row] < band.end[row];
+    accumulator.clamp(row, band.begin[row], band.end[row]);
+    if (band.begin[row] >= band.end[row]) continue;
+    is_seen = true;
+    // Whole blocks are looked at.
+    constexpr int block_px = FrontToBackAccumulator::block_px;
+    band.begin[row] -= band.begin[row] % block_px;
+    band.end[row] += block_px - 1 - (band.end[row] - 1) % block_px;
   }
   if (!is_seen) return;
   measure_distances(of, band);
+  const Paint paint(stroke);
   for (int row = band.first_row; row < band.end_row; ++row) {
-    if (band.begin[row] >= band.end[row]) continue;
-    slide_under_row(stroke, cover, band, row, accumulator);
-    close_dark_blocks(row, band.begin[row], band.end[row], accumulator);
+    const float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
+    slide_under_row(paint, {row, band.begin[row], band.end[row], nullptr}, accumulator,
+                    [&](int x) { return cover.of(hn::LoadU(Floats(), squared + x)); });
   }
 }
 
-void make_stamp(const StrokeInBand& of, DistanceBand& band, Stamp& stamp, std::vector<std::uint16_t>& values) {
-  const auto& [layer, stroke, below] = of;
-  const BrushProfile brush(stroke.radius_px);
-  find_extents(layer, stroke, brush.reach_px, stamp.width, band);
-  measure_distances(of, band);
-  stamp.first_row = band.first_row;
-  stamp.end_row = std::max(band.end_row, band.first_row);
+/// Appends the levels of the columns [begin, end) of a row, but for those at its ends that are far from all cover.
+void add_line(const float* squared, const BrushProfile& brush, int begin, int end, Stamps& stamps) {
   const Floats f;
   const hn::Rebind<std::uint16_t, Floats> halves;
   const hn::RebindToSigned<Floats> integers;
@@ -280,99 +301,111 @@ void make_stamp(const StrokeInBand& of, DistanceBand& band, Stamp& stamp, std::v
   const auto slope = hn::Set(f, -Stamp::steps / brush.rim_px);
   const auto offset = hn::Set(f, Stamp::steps * (brush.middle_px / brush.rim_px + 0.5f) + Stamp::zero + 0.5f);
   const auto least = hn::Zero(f), most = hn::Set(f, Stamp::most);
-  // Rows follow each other with columns without cover between them; vectors are written and read beyond their ends.
-  stamp.first_value = values.size() - std::min<std::size_t>(values.size(), Stamp::slack);
-  values.resize(stamp.first_value + static_cast<std::size_t>(stamp.end_row - stamp.first_row) * stamp.stride() +
-                Stamp::slack);
-  for (int row = stamp.first_row; row < stamp.end_row; ++row) {
-    const float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
-    std::uint16_t* to =
-        values.data() + stamp.first_value + static_cast<std::size_t>(row - stamp.first_row) * stamp.stride();
-    std::fill_n(to, stamp.stride(), std::uint16_t{0});
-    for (int x = band.begin[row]; x < band.end[row]; x += lanes) {
-      const auto cover = hn::MulAdd(hn::Sqrt(hn::LoadU(f, squared + x)), slope, offset);
-      const auto rounded = hn::ConvertTo(integers, hn::Min(hn::Max(cover, least), most));
-      hn::StoreU(hn::DemoteTo(halves, rounded), halves, to + Stamp::margin + x);
-    }
-    for (int x = std::min(std::max(band.begin[row], band.end[row]), stamp.width); x < stamp.width + lanes; ++x)
-      to[Stamp::margin + x] = 0;
+  // Lines are written in vectors, beyond their ends.
+  const std::size_t first = stamps.values.size() - Stamps::slack;
+  stamps.values.resize(first + Stamps::margin + static_cast<std::size_t>(std::max(end - begin, 0)) + Stamps::slack +
+                       Stamps::margin);
+  std::uint16_t* levels = stamps.values.data() + first + Stamps::margin;
+  for (int x = begin; x < end; x += lanes) {
+    const auto cover = hn::MulAdd(hn::Sqrt(hn::LoadU(f, squared + x)), slope, offset);
+    const auto rounded = hn::ConvertTo(integers, hn::Min(hn::Max(cover, least), most));
+    hn::StoreU(hn::DemoteTo(halves, rounded), halves, levels + (x - begin));
   }
+  int from = 0, to = std::max(end - begin, 0);
+  while (from < to && levels[from] == 0) ++from;
+  while (to > from && levels[to - 1] == 0) --to;
+  std::copy(levels + from, levels + to, levels);
+  const auto length = static_cast<std::size_t>(to - from);
+  std::fill(levels + length, stamps.values.data() + stamps.values.size(), std::uint16_t{0});
+  stamps.lines.push_back({static_cast<std::uint32_t>(first), begin + from, begin + to});
+  stamps.values.resize(first + Stamps::margin + length + Stamps::slack);
 }
 
-/// One row of a stamp as a view sees it.
-struct StampRow {
-  const std::uint16_t* values;  ///< of its row, the columns without cover before its first included
-  int left;                     ///< column at which the first lies, rounded down
-  int begin, end;               ///< columns that it covers
-  float fraction;               ///< by which it lies farther to the right
-  float disparity;
+void make_stamp(const StrokeInBand& of, int width, DistanceBand& band, Stamp& stamp, Stamps& stamps) {
+  const auto& [layer, stroke, below] = of;
+  const BrushProfile brush(stroke.radius_px);
+  find_extents(layer, stroke, brush.reach_px, width, band);
+  measure_distances(of, band);
+  stamp.first_row = band.first_row;
+  stamp.end_row = std::max(band.end_row, band.first_row);
+  stamp.first_line = static_cast<std::uint32_t>(stamps.lines.size());
+  stamp.is_made = true;
+  for (int row = stamp.first_row; row < stamp.end_row; ++row)
+    add_line(band.squared.data() + static_cast<std::size_t>(row) * band.stride, brush, band.begin[row], band.end[row],
+             stamps);
+}
+
+/// By how much of a pixel a line lies farther to the right: the weights of four neighbouring columns, those of
+/// Catmull-Rom's spline.
+struct Fraction {
+  explicit Fraction(float s) {
+    const Floats f;
+    const float t = 1 - s, steps = Stamp::steps;
+    first = hn::Set(f, -t * s * s / (2 * steps));
+    second = hn::Set(f, (2 - 5 * t * t + 3 * t * t * t) / (2 * steps));
+    third = hn::Set(f, (2 - 5 * s * s + 3 * s * s * s) / (2 * steps));
+    fourth = hn::Set(f, -s * t * t / (2 * steps));
+  }
+
+  /// The cover that follows from the columns before, at and behind a vector's.
+  HWY_INLINE hn::Vec<Floats> cover(const std::uint16_t* from) const {
+    const Floats f;
+    const hn::Rebind<std::uint16_t, Floats> halves;
+    const hn::RebindToSigned<Floats> integers;
+    const auto column = [&](int i) { return hn::ConvertTo(f, hn::PromoteTo(integers, hn::LoadU(halves, from + i))); };
+    auto level = hn::MulAdd(first, column(0), hn::Set(f, -Stamp::zero / Stamp::steps));
+    level = hn::MulAdd(second, column(1), level);
+    level = hn::MulAdd(third, column(2), level);
+    level = hn::MulAdd(fourth, column(3), level);
+    return hn::Min(hn::Max(level, hn::Zero(f)), hn::Set(f, 1.f));
+  }
+
+  hn::Vec<Floats> first, second, third, fourth;
 };
 
-/// Slides a row of a stamp under what is drawn already. `tested`: a surface may hide some of it.
-template <bool tested>
-void slide_stamp_under_row(const StampInBand& of, const StampRow& stamp, int row, FrontToBackAccumulator& accumulator) {
+/// The lanes of a vector at x that lie in the columns [begin, end).
+HWY_INLINE hn::Mask<Floats> lanes_within(int x, int begin, int end) {
   const Floats f;
-  const hn::Rebind<std::uint16_t, Floats> halves;
-  const hn::RebindToSigned<Floats> integers;
-  const int lanes = static_cast<int>(hn::Lanes(f));
-  const std::size_t offset = static_cast<std::size_t>(row) * accumulator.stride;
-  float* red = accumulator.red.data() + offset;
-  float* green = accumulator.green.data() + offset;
-  float* blue = accumulator.blue.data() + offset;
-  float* light = accumulator.light.data() + offset;
-  const FlatStroke& stroke = of.stroke;
-  // Catmull-Rom's spline through four columns.
-  const float t = 1 - stamp.fraction, s = stamp.fraction;
-  const auto first_share = hn::Set(f, -t * s * s / 2), second_share = hn::Set(f, (2 - 5 * t * t + 3 * t * t * t) / 2),
-             third_share = hn::Set(f, (2 - 5 * s * s + 3 * s * s * s) / 2), fourth_share = hn::Set(f, -s * t * t / 2);
-  const auto scale = hn::Set(f, 1 / Stamp::steps), zero_level = hn::Set(f, -Stamp::zero / Stamp::steps);
-  for (int x = stamp.begin; x < stamp.end; x += lanes) {
-    const std::uint16_t* from = stamp.values + (x - stamp.left);
-    const auto column = [&](int i) { return hn::ConvertTo(f, hn::PromoteTo(integers, hn::LoadU(halves, from + i))); };
-    auto level = hn::Mul(first_share, column(0));
-    level = hn::MulAdd(second_share, column(1), level);
-    level = hn::MulAdd(third_share, column(2), level);
-    level = hn::MulAdd(fourth_share, column(3), level);
-    auto cover = hn::Min(hn::Max(hn::MulAdd(level, scale, zero_level), hn::Zero(f)), hn::Set(f, 1.f));
-    cover = hn::IfThenElseZero(hn::FirstN(f, static_cast<std::size_t>(std::min(stamp.end - x, lanes))), cover);
-    if constexpr (tested) {
-      const auto least = hn::LoadU(f, of.hidden_below.pixels.data() + offset + x);
-      cover = hn::IfThenElseZero(hn::Ge(hn::Set(f, stamp.disparity), least), cover);
-    }
-    const auto through = hn::LoadU(f, light + x);
-    const auto share = hn::Mul(hn::Mul(cover, hn::Set(f, stroke.opacity)), through);
-    hn::StoreU(hn::MulAdd(hn::Set(f, stroke.red), share, hn::LoadU(f, red + x)), f, red + x);
-    hn::StoreU(hn::MulAdd(hn::Set(f, stroke.green), share, hn::LoadU(f, green + x)), f, green + x);
-    hn::StoreU(hn::MulAdd(hn::Set(f, stroke.blue), share, hn::LoadU(f, blue + x)), f, blue + x);
-    const auto left = hn::Sub(through, share);
-    hn::StoreU(left, f, light + x);
-    // A block can only have become dark where this part of it has.
-    const auto is_light = hn::Gt(left, hn::Set(f, FrontToBackAccumulator::dark));
-    if (hn::AllFalse(f, is_light)) close_dark_blocks(row, x, std::min(x + lanes, accumulator.width), accumulator);
+  const auto lanes = static_cast<int>(hn::Lanes(f));
+  const auto until = [&](int column) {
+    return hn::FirstN(f, static_cast<std::size_t>(std::clamp(column - x, 0, lanes)));
+  };
+  return hn::AndNot(until(begin), until(end));
+}
+
+/// `tested`: a surface may hide some of the stamp.
+template <bool tested>
+void lay_lines_under(const StampInBand& of, FrontToBackAccumulator& accumulator) {
+  const Floats f;
+  const Paint paint(of.paint);
+  const Stamps::Line* line = of.stamps.lines.data() + of.stamp.first_line;
+  for (int row = of.stamp.first_row; row < of.stamp.end_row; ++row, ++line) {
+    if ((of.rows >> row & 1) == 0 || line->begin >= line->end) continue;
+    const float disparity = of.paint.disparity + of.paint.depth_slope * (static_cast<float>(of.band.top + row) + 0.5f);
+    const float left = of.stamp.left - of.view * disparity;
+    const float whole = std::floor(left);
+    const int begin = static_cast<int>(whole) + line->begin, end = static_cast<int>(whole) + line->end + 1;
+    const int seen_begin = std::max(begin, 0), seen_end = std::min(end, accumulator.width());
+    const RowPart part{row, seen_begin, seen_end, tested ? &of.hidden_below : nullptr};
+    if (seen_begin >= seen_end || !is_any_open(accumulator, part)) continue;
+    const Fraction fraction(left - whole);
+    const std::uint16_t* values = of.stamps.values.data() + line->first_value;
+    const float* hidden_below =
+        tested ? of.hidden_below.pixels.data() + static_cast<std::size_t>(row) * of.band.stride : nullptr;
+    slide_under_row(paint, part, accumulator, [&](int x) {
+      auto cover = hn::IfThenElseZero(lanes_within(x, begin, end), fraction.cover(values + (x - begin)));
+      if constexpr (tested)
+        cover = hn::IfThenElseZero(hn::Ge(hn::Set(f, disparity), hn::LoadU(f, hidden_below + x)), cover);
+      return cover;
+    });
   }
 }
 
-void lay_stamp_under(const StampInBand& of, FrontToBackAccumulator& accumulator) {
-  const auto& [stamp, values, stroke, below, view, top, tested] = of;
-  constexpr int block_px = FrontToBackAccumulator::block_px;
-  for (int row = stamp.first_row; row < stamp.end_row; ++row) {
-    const float disparity = stroke.disparity + stroke.depth_slope * (static_cast<float>(top + row) + 0.5f);
-    const float left = static_cast<float>(stamp.left) - view * disparity;
-    const float whole = std::floor(left);
-    const int first = static_cast<int>(whole);
-    const int begin = std::max(first, 0), end = std::min(first + stamp.width + 1, accumulator.width);
-    if (begin >= end || !accumulator.open.is_any_open(row, begin / block_px, (end - 1) / block_px)) continue;
-    const StampRow stamp_row{values + static_cast<std::size_t>(row - stamp.first_row) * stamp.stride(),
-                             first,
-                             begin,
-                             end,
-                             left - whole,
-                             disparity};
-    if (tested) {
-      slide_stamp_under_row<true>(of, stamp_row, row, accumulator);
-    } else {
-      slide_stamp_under_row<false>(of, stamp_row, row, accumulator);
-    }
+void lay_stamp_under(const StampInBand& stamp, FrontToBackAccumulator& accumulator) {
+  if (stamp.tested) {
+    lay_lines_under<true>(stamp, accumulator);
+  } else {
+    lay_lines_under<false>(stamp, accumulator);
   }
 }
 
@@ -395,8 +428,8 @@ void draw_stroke_under(const StrokeInBand& stroke, DistanceBand& band, FrontToBa
   HWY_DYNAMIC_DISPATCH(draw_under)(stroke, band, accumulator);
 }
 
-void make_stamp(const StrokeInBand& stroke, DistanceBand& band, Stamp& stamp, std::vector<std::uint16_t>& values) {
-  HWY_DYNAMIC_DISPATCH(make_stamp)(stroke, band, stamp, values);
+void make_stamp(const StrokeInBand& stroke, int width, DistanceBand& band, Stamp& stamp, Stamps& stamps) {
+  HWY_DYNAMIC_DISPATCH(make_stamp)(stroke, width, band, stamp, stamps);
 }
 
 void lay_stamp_under(const StampInBand& stamp, FrontToBackAccumulator& accumulator) {

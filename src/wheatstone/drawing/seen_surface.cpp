@@ -1,3 +1,4 @@
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -38,19 +39,20 @@ PreparedSurfaces::PreparedSurfaces(const Surfaces& surfaces)
   for (const Surface& surface : surfaces.seen) seen.push_back(known_part(surface));
 }
 
-SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, int width, int height) {
+SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, const RowsOfView& rows) {
   constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
   SeenSurfaces seen;
   if (surfaces.seen.empty()) return seen;
-  seen.reference = Image<float>(width, height, unknown);
-  seen.nearest = seen.photographed = Image<float>(width, height, unknown);
-  tbb::parallel_for(0, height, [&](int y) {
-    const auto reference = seen.reference.row(y), nearest = seen.nearest.row(y),
-               photographed = seen.photographed.row(y);
+  seen.reference = Image<float>(rows.width, rows.row_count, unknown);
+  seen.nearest = seen.photographed = seen.reference;
+  const auto see_row = [&](int row) {
+    const int y = rows.first_row + row;
+    const auto reference = seen.reference.row(row), nearest = seen.nearest.row(row),
+               photographed = seen.photographed.row(row);
     const auto warp = [&](const PreparedSurfaces::KnownPart& part, std::span<float> over) {
       if (y >= part.rows()) return;
       for (const PreparedSurfaces::Run& run : part.runs_of(y))
-        warp_disparity_row_over(part.disparities_of(run), view - part.view, part.left_px + run.begin, over);
+        warp_disparity_row_over<false>(part.disparities_of(run), view - part.view, part.left_px + run.begin, over);
     };
     warp(surfaces.seen.front(), reference);
     close_cracks(reference);
@@ -60,9 +62,14 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, 
       warp(part, part.continued ? std::span<float>(continued) : photographed);
     for (std::size_t x = 0; x < nearest.size(); ++x)
       nearest[x] = std::isnan(photographed[x]) ? continued[x] : photographed[x];
-  });
-  seen.hiding = {seen.nearest,      seen.reference,       surfaces.tolerance_px, surfaces.seen.front().view,
-                 seen.photographed, surfaces.photographed};
+  };
+  constexpr int rows_at_once = 32;
+  tbb::parallel_for(tbb::blocked_range<int>(0, rows.row_count, rows_at_once),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int row = range.begin(); row < range.end(); ++row) see_row(row);
+                    });
+  seen.hiding = {seen.nearest,      seen.reference,        surfaces.tolerance_px, surfaces.seen.front().view,
+                 seen.photographed, surfaces.photographed, rows.first_row};
   return seen;
 }
 

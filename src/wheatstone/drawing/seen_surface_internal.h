@@ -41,13 +41,19 @@ class PreparedSurfaces {
   ViewRange photographed;
 };
 
-/// What hides a painting's marks in one view.
+/// What hides a painting's marks in some rows of one view.
 struct SeenSurfaces {
   Image<float> nearest, reference, photographed;
   Hiding hiding;  ///< refers to them
 };
 
+/// Some rows of a view.
+struct RowsOfView {
+  int width;
+  int first_row, row_count;
+};
+
 /// Empty where the painting has no surfaces.
-SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, int width, int height);
+SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, const RowsOfView& rows);
 
 }  // namespace wheatstone

@@ -27,12 +27,11 @@ class LightBefore {
     const auto top = static_cast<float>(band.top);
     first_row_ = clamped(stroke.top - reach - top, band.row_count);
     end_row_ = clamped(stroke.bottom + reach + 1 - top, band.row_count);
-    begin_ = clamped(left - reach, accumulator.width);
-    end_ = clamped(right + reach + 1, accumulator.width);
+    begin_ = clamped(left - reach, accumulator.width());
+    end_ = clamped(right + reach + 1, accumulator.width());
     light_.clear();
     for (int row = first_row_; row < end_row_; ++row) {
-      const float* from = accumulator.light.data() + static_cast<std::size_t>(row) * accumulator.stride;
-      light_.insert(light_.end(), from + begin_, from + end_);
+      for (int x = begin_; x < end_; ++x) light_.push_back(accumulator.light(row, x));
     }
   }
 
@@ -41,8 +40,7 @@ class LightBefore {
     float largest = 0;
     const float* before = light_.data();
     for (int row = first_row_; row < end_row_; ++row) {
-      const float* now = accumulator.light.data() + static_cast<std::size_t>(row) * accumulator.stride;
-      for (int x = begin_; x < end_; ++x) largest = std::max(largest, *before++ - now[x]);
+      for (int x = begin_; x < end_; ++x) largest = std::max(largest, *before++ - accumulator.light(row, x));
     }
     return largest;
   }
