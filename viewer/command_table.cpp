@@ -16,6 +16,7 @@ std::vector<Command> all_commands() {
   for (const std::span<const Command> group :
        {file_commands(), looking_commands(), depth_commands(), painting_commands(), particle_commands()})
     all.insert(all.end(), group.begin(), group.end());
+  std::ranges::stable_partition(all, [](const Command& command) { return command.menu != "Help"; });
   return all;
 }
 

@@ -70,6 +70,7 @@ Window::Window(const WindowOptions& options)
   }
   for (QTimer* timer : {&step_timer_, &click_timer_}) timer->setSingleShot(true);
   connect(&step_timer_, &QTimer::timeout, this, [this] { refresh(); });
+  script_timer_.setInterval(2);
   connect(&script_timer_, &QTimer::timeout, this, [this] { go_on_with_script(); });
   connect(&click_timer_, &QTimer::timeout, this, [this] {
     do_line("zero-parallax-at", {fmt::format("{}", pressed_at_.x()), fmt::format("{}", pressed_at_.y())});
@@ -295,7 +296,7 @@ ScriptHost Window::script_host() {
 
 void Window::run(std::unique_ptr<Script> script) {
   script_ = std::move(script);
-  script_timer_.start(2);
+  script_timer_.start();
 }
 
 void Window::go_on_with_script() {
