@@ -282,7 +282,14 @@ void Window::closeEvent(QCloseEvent* event) {
   event->accept();
 }
 
-void Window::save_screenshot(const std::filesystem::path& path) { write_image(path, image_of(grab().toImage())); }
+void Window::save_screenshot(const std::filesystem::path& path) {
+  refresh();
+  // What has just been shown is laid out by its events; the script is not to go on within them.
+  script_timer_.stop();
+  QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
+  if (script_) script_timer_.start();
+  write_image(path, image_of(grab().toImage()));
+}
 
 ScriptHost Window::script_host() {
   return {.screenshot = [this](const std::filesystem::path& path) { save_screenshot(path); },
