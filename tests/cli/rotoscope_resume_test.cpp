@@ -29,7 +29,7 @@ class Workplace {
   Workplace() {
     FilmWriter writer(folder_ / "source.mp4", {.preset = "ultrafast", .layout = StereoLayout::left_right});
     for (int i = 0; i < frame_count; ++i) {
-      const Image<Rgb8> left = moving_picture(128, 80, i), right = moving_picture(128, 80, i, 4);
+      const Image<Rgb8> left = moving_picture(80, 48, i), right = moving_picture(80, 48, i, 4);
       writer.write({put_together(left, right, StereoLayout::left_right), i, {1, 25}, 1});
     }
     writer.finish();
