@@ -43,6 +43,19 @@ CarriedDepth read_both(const StereoArguments& photograph, const DepthArguments& 
   return std::move(*found);
 }
 
+void add_depth_meaning(CLI::App& command, DepthArguments& arguments) {
+  add_choice<DepthKind>(command, "--depth-is", arguments.kind, depth_kinds,
+                        "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger")
+      ->group(depth_options_group);
+  command
+      .add_option(
+          "--strength", arguments.strength,
+          "Disparity from the farthest point to the nearest, in % of the width; 3% is comfortable on any screen")
+      ->type_name("SHARE")
+      ->capture_default_str()
+      ->group(depth_options_group);
+}
+
 }  // namespace
 
 void add_depth_options(CLI::App& command, DepthArguments& arguments) {
@@ -58,23 +71,33 @@ void add_depth_options(CLI::App& command, DepthArguments& arguments) {
           "Network (.onnx) that finds the depth of the one picture that is given, as MiDaS and Depth Anything do")
       ->excludes("--depth")
       ->group(depth_options_group);
-  add_choice<DepthKind>(command, "--depth-is", arguments.kind, depth_kinds,
-                        "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger")
+  add_depth_meaning(command, arguments);
+}
+
+void add_film_depth_options(CLI::App& command, DepthArguments& arguments) {
+  command
+      .add_option("--depth", arguments.file,
+                  "Depth of a film of one eye: a film in grey, or numbered pictures, with as many frames")
       ->group(depth_options_group);
   command
       .add_option(
-          "--strength", arguments.strength,
-          "Disparity from the farthest point to the nearest, in % of the width; 3% is comfortable on any screen")
-      ->type_name("SHARE")
-      ->capture_default_str()
+          "--depth-model", arguments.model,
+          "Network (.onnx) that finds the depth of each frame of a film of one eye, as MiDaS and Depth Anything "
+          "do")
+      ->excludes("--depth")
       ->group(depth_options_group);
+  add_depth_meaning(command, arguments);
 }
+
+bool has_depth(const DepthArguments& arguments) { return !arguments.file.empty() || !arguments.model.empty(); }
+
+float parse_strength(const std::string& text) { return parse_share("--strength", text, {0.1, 30}); }
 
 SinglePicture read_single_picture(const StereoArguments& photograph, const DepthArguments& arguments,
                                   const Session& session) {
   report(session.progress, "reading", 0);
   SinglePicture read;
-  read.strength = parse_share("--strength", arguments.strength, {0.1, 30});
+  read.strength = parse_strength(arguments.strength);
   CarriedDepth found = read_both(photograph, arguments, session);
   check_size(found.picture, photograph.left);
   if (photograph.max_size > 0 && std::max(found.picture.width(), found.picture.height()) > photograph.max_size) {

@@ -28,6 +28,12 @@ inline constexpr auto depth_layout = "rgbd";
 /// Adds --depth, --depth-model, --depth-is and --strength.
 void add_depth_options(CLI::App& command, DepthArguments& arguments);
 
+/// The same for the frames of a film of one eye.
+void add_film_depth_options(CLI::App& command, DepthArguments& arguments);
+
+/// Whether a file or a network gives the depth.
+bool has_depth(const DepthArguments& arguments);
+
 /// "3%" or ".03" as a share. Throws Error{wrong_usage}.
 float parse_strength(const std::string& text);
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "command.h"
+#include "depth_argument.h"
 #include "display_argument.h"
 #include "film_argument.h"
 #include "interrupt.h"
@@ -51,6 +52,7 @@ struct Arguments {
   std::string truth;
   DisplayArguments display;
   std::string depth_budget = "3%";
+  DepthArguments depth;
   RotoscopeFilmOptions options;
   MatchArguments matching;
   StyleArguments style;
@@ -73,6 +75,7 @@ KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
 /// How the eyes lie in a painted frame: as in the source, where a frame can hold them so.
 StereoLayout layout_of_output(const Arguments& arguments, const StereoFilmReader& source, bool two_films) {
   if (arguments.options.frames.display) return StereoLayout::mono;
+  two_films = two_films || has_depth(arguments.depth);
   if (const auto asked = film_layout_option("--output-layout", arguments.output_layout)) {
     if (source.layout() == StereoLayout::mono && !two_films && *asked != StereoLayout::mono)
       throw Error(ErrorKind::wrong_usage,
@@ -162,8 +165,9 @@ void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const
 
 /// Refuses options that change nothing in this run, as far as that is known before the film is opened.
 void refuse_options_without_effect(const CLI::App& command, const Arguments& arguments) {
-  const bool known = !arguments.truth.empty();
-  refuse_match_options_without_effect(command, arguments.matching, known ? "with --truth" : "");
+  const bool known = !arguments.truth.empty(), deep = has_depth(arguments.depth);
+  const std::string with_depth = arguments.depth.model.empty() ? "with --depth" : "with --depth-model";
+  refuse_match_options_without_effect(command, arguments.matching, known ? "with --truth" : deep ? with_depth : "");
   const Style& style = arguments.options.frames.style;
   const auto refuse = [&](const std::vector<std::string>& options, std::string_view situation, std::string_view where) {
     refuse_options(command, options, situation, where);
@@ -175,7 +179,29 @@ void refuse_options_without_effect(const CLI::App& command, const Arguments& arg
            "it works with strokes");
   if (arguments.options.frames.anew)
     refuse({"--flow", "--fade-in", "--fade-out"}, "with --frame-by-frame", "nothing is carried from frame to frame");
+  if (deep) refuse({"--truth", "--rectify"}, with_depth, "it works where there are two eyes");
+  if (!arguments.depth.model.empty()) refuse({"--depth-is"}, with_depth, "a network gives inverse depth");
+  if (!deep) refuse({"--depth-is", "--strength"}, "without --depth", "");
   if (known) refuse({"--flow", "--rectify"}, "with --truth", "the exact flow and disparity are read");
+}
+
+/// Depth makes a pair of a film of one eye.
+void take_depth(const Arguments& arguments, const FilmArgument& film, const StereoFilmReader& source,
+                RotoscopeFilmOptions& options) {
+  const std::string option = arguments.depth.model.empty() ? "--depth" : "--depth-model";
+  const FilmFacts& facts = source.facts();
+  const bool says_two = !facts.layout_how.empty() && facts.layout != StereoLayout::mono && arguments.layout.empty();
+  if (source.layout() != StereoLayout::mono || !film.right.empty() || says_two)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: belongs to a film of one eye, but {} has two", option, film.film.string()));
+  const DepthArguments& depth = arguments.depth;
+  const FilmDepth depth_of = depth.model.empty()
+                                 ? depth_of_film(depth.file, {film.film, source.facts(), options.reading}, depth.kind)
+                                 : depth_of_network(depth.model);
+  options.known = [depth_of](std::int64_t frame, const Image<Rgb8>& left) {
+    return KnownFrame{{}, {}, depth_of(frame, left)};
+  };
+  options.made_from.emplace_back(depth.model.empty() ? depth.file : depth.model);
 }
 
 constexpr std::string_view how_to_continue = "use --resume to continue that run";
@@ -222,6 +248,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.matching = match_options_from(arguments.matching);
   take_display(command, arguments);
   take_depth_budget(command, arguments);
+  arguments.options.frames.depth = {.kind = arguments.depth.kind, .strength = parse_strength(arguments.depth.strength)};
   refuse_options_without_effect(command, arguments);
   tell_what_is_kept([output = fs::path(arguments.output), marks = arguments.options.marks] {
     const std::optional<std::string> kept = unfinished_film(output, marks);
@@ -232,14 +259,20 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
     if (!arguments.from.empty() || arguments.frame_step != 1)
       throw Error(ErrorKind::wrong_usage,
                   "--truth counts all frames from the first: leave out --from and --frame-step");
-    options.known = [folder = arguments.truth](std::int64_t frame) { return read_known_frame(folder, frame); };
+    options.known = [folder = arguments.truth](std::int64_t frame, const Image<Rgb8>& /*left*/) {
+      return read_known_frame(folder, frame);
+    };
     for (const char* file :
          {"left_disparity_%04d.pfm", "right_disparity_%04d.pfm", "flow_forward_%04d.flo", "flow_backward_%04d.flo"})
       options.made_from.push_back(fs::path(arguments.truth) / file);
   }
-  FilmArgument film = find_film(arguments.film, film_layout_option("--layout", arguments.layout));
+  const bool deep = has_depth(arguments.depth);
+  std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
+  if (deep && !layout) layout = StereoLayout::mono;
+  FilmArgument film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
-  check_not_an_input(arguments.output, std::array{film.film, film.right});
+  check_not_an_input(arguments.output, std::array{film.film, film.right, fs::path(arguments.depth.file),
+                                                  fs::path(arguments.depth.model)});
   FilmReaderOptions reading{.from_s = parse_time_s("--from", arguments.from),
                             .to_s = parse_time_s("--to", arguments.to),
                             .every = arguments.frame_step};
@@ -252,11 +285,15 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   reading.threads = session.threads;
   options.reading = reading;
   StereoFilmReader source = open_film(film, reading);
-  if (source.layout() == StereoLayout::mono && film.right.empty()) {
+  if (deep) {
+    take_depth(arguments, film, source, options);
+  } else if (source.layout() == StereoLayout::mono && film.right.empty()) {
     if (options.frames.display)
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: has one eye, expected two for a display of more views (--layout says how they lie)",
-                              film.film.string()));
+      throw Error(
+          ErrorKind::bad_input,
+          fmt::format(
+              "{}: has one eye, expected two, or --depth, for a display of more views (--layout says how they lie)",
+              film.film.string()));
     refuse_group(command, match_options_group, {}, "on a film of one eye", {});
     refuse_options(command, {"--central", "--rectify", "--depth-budget"}, "on a film of one eye", {});
   }
@@ -376,6 +413,7 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
       "the name with --display");
   add_film_options(command, *arguments);
   add_time_options(command, *arguments);
+  add_film_depth_options(command, arguments->depth);
   add_film_display_options(command, arguments->display);
   add_style_options(command, arguments->style);
   arguments->matching.matcher = name_of(RotoscopeOptions().matching.matcher);  // films need a quick one
@@ -386,6 +424,7 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
       "Examples:\n  wheatstone rotoscope film.mp4 -o painted.mp4\n"
       "  wheatstone rotoscope film.mp4 --from 0:10 --to 0:12 --style expressionist -o try.mp4\n"
       "  wheatstone rotoscope film.mp4 --display looking-glass-portrait -o painted\n"
+      "  wheatstone rotoscope walk.mp4 --depth depth.mp4 -o painted.mp4\n"
       "  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4");
   command.callback([arguments, &command, &session] { run(*arguments, command, session); });
 }

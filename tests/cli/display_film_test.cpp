@@ -123,7 +123,7 @@ TEST(DisplayFilm, WhatCannotBeShownIsRefusedInOneLine) {
     line.insert(line.end(), words.begin(), words.end());
     expect_refused(folder, line, exit_code, part);
   };
-  refused({"--display", "looking-glass-portrait"}, 3, "one.mp4: has one eye, expected two for a display");
+  refused({"--display", "looking-glass-portrait"}, 3, "one.mp4: has one eye, expected two, or --depth, for a display");
   refused({"--display", "desk-stereo"}, 2, "--display: desk-stereo takes neither quilts nor lenticular pictures");
   refused({"--display", "moon"}, 2, "no display 'moon'");
   refused({"--display", "step-9", "--output-layout", "sbs"}, 2, "--output-layout: has no effect with --display");

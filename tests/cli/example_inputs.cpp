@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <map>
@@ -71,6 +72,23 @@ void make_film(const fs::path& path) {
   writer.finish();
 }
 
+/// Four frames for one eye, and their depth, as networks give it.
+void make_walk(const fs::path& path, bool depth) {
+  const SyntheticFilmOptions options{.still = {.width = 96, .height = 64, .samples_a_side = 1}, .frames = 4, .cut = 0};
+  FilmWriter writer(path, {.preset = "ultrafast"});
+  for (int i = 0; i < options.frames; ++i) {
+    const SyntheticFilmFrame frame = make_synthetic_film_frame(options, i);
+    Image<Rgb8> picture = frame.pictures.left;
+    for (std::size_t k = 0; depth && k < picture.pixels().size(); ++k) {
+      const auto level =
+          static_cast<std::uint8_t>(std::clamp(20 * frame.geometry.left_disparity.pixels()[k], 0.f, 255.f));
+      picture.pixels()[k] = {level, level, level};
+    }
+    writer.write({.picture = std::move(picture), .pts = i, .time_base = {1, 24}, .duration = 1});
+  }
+  writer.finish();
+}
+
 void make_universe(const fs::path& path) {
   make_with_program({"synth", "universe", "--particles", "2000", "-o", path.string()});
 }
@@ -132,6 +150,8 @@ const std::map<std::string, Maker>& makers() {
       {"tour.txt", [](const fs::path& path) { put_bytes(path, "wait\nmode right\nwait\n"); }},
       {"rig", make_rig},
       {"film.mp4", make_film},
+      {"walk.mp4", [](const fs::path& path) { make_walk(path, false); }},
+      {"depth.mp4", [](const fs::path& path) { make_walk(path, true); }},
       {"universe.hdf5", make_universe},
       {"gas.hdf5", make_universe},
       {"snapshot.hdf5", make_universe},

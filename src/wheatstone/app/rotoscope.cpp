@@ -36,8 +36,8 @@ struct FrameAtWork {
   std::vector<SceneView> views;
 };
 
-void check_eyes(const StereoPair& eyes, const RotoscopeOptions& options, const RotoscopeState& state) {
-  if (eyes.right.empty() && options.display)
+void check_eyes(const StereoPair& eyes, const RotoscopeOptions& options, const RotoscopeState& state, bool has_depth) {
+  if (eyes.right.empty() && options.display && !has_depth)
     throw Error(ErrorKind::bad_input, "the film has one eye, expected two for a display of more views");
   if (!eyes.right.empty() && !same_size(eyes.left, eyes.right))
     throw Error(ErrorKind::bad_input,
@@ -217,12 +217,20 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
 
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known, const Progress& progress) {
-  check_eyes(photographed, options, state);
+  const bool has_depth = known != nullptr && known->depth;
+  check_eyes(photographed, options, state, has_depth);
   RotoscopedFrame result;
-  const StereoPair eyes = rectify_frame({photographed, options, known, progress}, state, result);
+  StereoPair eyes = rectify_frame({photographed, options, known, progress}, state, result);
   if (result.scene_begins) {
     state.frames_of_scene = 0;
     state.flow_before = {};
+  }
+  KnownFrame made;
+  if (has_depth) {
+    MadePair pair = make_film_pair(eyes.left, *known->depth, options.depth, result.scene_begins, state.depth_range);
+    eyes = std::move(pair.pictures);
+    made = {std::move(pair.geometry), known->flow};
+    known = &made;
   }
   const FrameTask task{eyes, options, known, progress};
   FrameAtWork frame = look_at(task, state, result.times);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/app/film_depth.h"
 #include "wheatstone/app/film_display.h"
 #include "wheatstone/app/film_eyes.h"
 #include "wheatstone/app/scene_rectification.h"
@@ -29,6 +30,7 @@ struct RotoscopeOptions {
   CentralMerge central = CentralMerge::visible;
   CarryOptions carrying;
   std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for two eyes
+  DisparityFromDepthOptions depth;     ///< of the frames of one eye whose depth is known
   std::optional<float> depth_budget;   ///< of two eyes, as comfortable_eyes; none: they are the film's own
   bool anew = false;                   ///< every frame as if a scene began: the naive method, to be measured against
 };
@@ -38,6 +40,8 @@ struct KnownFrame {
   StereoGeometry geometry;
   /// Of the left view: forward from the frame before, backward to it. All unknown where a scene begins.
   std::optional<FlowPair> flow;
+  /// Of a frame of one eye, in place of the geometry: as disparity_from_depth takes it.
+  std::optional<Image<float>> depth = std::nullopt;
 };
 
 /// Sums over the frames of a film so far; a cut's first frame has nothing to be compared with.
@@ -63,7 +67,8 @@ struct RotoscopeState {
   FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
   std::optional<DisparityRange> range;
   SceneRectification rectification;
-  SceneDepth depth;  ///< where the frames are drawn for a display or a depth budget
+  SceneDepth depth;                              ///< where the frames are drawn for a display or a depth budget
+  std::optional<InverseDepthRange> depth_range;  ///< of the scene, where the frames' depth is known
   PaintingMemory memory;
   std::vector<Layer> layers_before;  ///< the strokes as they were drawn, to tell what became of them
   RotoscopeTotals totals;
@@ -89,10 +94,10 @@ struct RotoscopedFrame {
 /// Paints the next frame of a film (Bukenberger et al. 2015): rectifies it as its scene's first frame asks for, finds
 /// its disparity, merges the eyes into the central
 /// view, finds the flow there from the frame before, and paints what that flow carries on. `photographed.right` is
-/// empty for a film of one eye. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size,
-/// or a film of one eye is to be shown on a display,
-/// wrong_usage for options that make no sense. What `progress` throws, between its steps and while it matches, ends it:
-/// then `state` is of no further use.
+/// empty for a film of one eye; where its depth is known, it is painted as the left eye of a pair. Throws
+/// Error{bad_input} where the eyes, or this frame and the last, differ in size, or a film of one eye is to be shown on
+/// a display, wrong_usage for options that make no sense. What `progress` throws, between its steps and while it
+/// matches, ends it: then `state` is of no further use.
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known = nullptr, const Progress& progress = {});
 

@@ -169,7 +169,7 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const Roto
     within("", 0);
     StereoPair eyes{std::move(frame.left), std::move(frame.right)};
     std::optional<KnownFrame> known;
-    if (options.known) known = options.known(film.frames);
+    if (options.known) known = options.known(film.frames, eyes.left);
     const RotoscopedFrame painted = rotoscope_frame(eyes, options.frames, state, known ? &*known : nullptr, within);
     output.write(painted, frame, state);
     add(painted, film);

@@ -25,7 +25,7 @@ struct RotoscopeFilmOptions {
   std::vector<std::filesystem::path> made_from;  ///< the sources' files
   std::int64_t expected_frames = 0;              ///< of all, for telling how long it takes; 0: not known
   /// What is known of a frame, counted from 0; empty: nothing is.
-  std::function<KnownFrame(std::int64_t frame)> known;
+  std::function<KnownFrame(std::int64_t frame, const Image<Rgb8>& left)> known;
 };
 
 struct RotoscopedFilm {

@@ -21,7 +21,7 @@ using flatbuffers::Offset;
 using Builder = flatbuffers::FlatBufferBuilder;
 
 // Whoever adds a member to one of these adds it to the schema, to `encode` and to `decode`.
-static_assert(field_count<RotoscopeState>() == 13 && field_count<SceneDepth>() == 2 && field_count<DepthEnds>() == 2 &&
+static_assert(field_count<RotoscopeState>() == 14 && field_count<SceneDepth>() == 2 && field_count<DepthEnds>() == 2 &&
               field_count<SceneRectification>() == 3 && field_count<Rectification>() == 4 &&
               field_count<RectifyingMap>() == 5 && field_count<ColourTransfer>() == 2 &&
               field_count<RotoscopeTotals>() == 8 && field_count<PaintingMemory>() == 4 &&
@@ -329,6 +329,8 @@ RotoscopeState Decoder::state(const state::RotoscopeState& from) const {
   const Image<Rgb8>& frame = state.left_before;
   const state::SceneDepth& depth = *from.depth();
   state.depth = {{depth.first_farthest_px(), depth.first_nearest_px()}, {depth.farthest_px(), depth.nearest_px()}};
+  if (const state::DepthRange* range = from.depth_range())
+    state.depth_range = InverseDepthRange{range->farthest(), range->nearest()};
   state.rectification = rectification(*from.rectification(), frame);
   state.central_before = frame_image<Rgb8>(*from.central_before(), frame);
   state.left_disparity_before = frame_image<float>(*from.left_disparity_before(), frame);
@@ -375,12 +377,14 @@ std::string encode_rotoscope_state(const RotoscopeState& state) {
   const DisparityRange found = state.range.value_or(DisparityRange{});
   const state::Range range(found.least, found.largest);
   const auto [first, ends] = state.depth;
+  const auto [farthest, nearest] = state.depth_range.value_or(InverseDepthRange{});
+  const state::DepthRange depth_range(farthest, nearest);
   const state::SceneDepth depth(first.farthest_px, first.nearest_px, ends.farthest_px, ends.nearest_px);
   builder.Finish(state::CreateRotoscopeState(
       builder, state.frames, state.frames_of_scene, &totals, state.range ? &range : nullptr, rectification, &depth,
-      left, central, left_disparity, central_disparity, forward, backward, layers_before, views, reference_disparity,
-      memory.strokes.last_number, palette, colour_of, posterised_mean, posterised_frames, tiles, diffusion_mean,
-      diffusion_frames, diffusion_disparity, diffusion_edges, edges));
+      state.depth_range ? &depth_range : nullptr, left, central, left_disparity, central_disparity, forward, backward,
+      layers_before, views, reference_disparity, memory.strokes.last_number, palette, colour_of, posterised_mean,
+      posterised_frames, tiles, diffusion_mean, diffusion_frames, diffusion_disparity, diffusion_edges, edges));
   return rotoscope_state_with_checksum(
       {reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize()});  // NOLINT: bytes as text
 }

@@ -7,6 +7,7 @@
 #include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/error.h"
@@ -37,13 +38,18 @@ int side_for(const std::filesystem::path& model, std::int64_t wanted, int pictur
   return std::min(static_cast<int>(std::lround(scaled / step)) * step, longest_side);
 }
 
-cv::Size size_for(const std::filesystem::path& model, std::string_view bytes, ImageView<const Rgb8> picture) {
+NetworkInput input_of(const std::filesystem::path& model, std::string_view bytes) {
   const std::vector<NetworkInput> inputs = network_inputs(bytes);
   if (inputs.empty()) refuse(model, "is not an ONNX network");
   if (inputs.size() != 1) refuse(model, fmt::format("has {} inputs", inputs.size()));
   const auto& sides = inputs.front().sides;
   if (sides.size() != 4 || sides[0] > 1 || (sides[1] != 3 && sides[1] != 0))
     refuse(model, fmt::format("its input '{}' has another shape", inputs.front().name));
+  return inputs.front();
+}
+
+cv::Size size_for(const std::filesystem::path& model, const NetworkInput& input, ImageView<const Rgb8> picture) {
+  const auto& sides = input.sides;
   const int shorter = std::min(picture.width(), picture.height());
   return {side_for(model, sides[3], picture.width(), shorter), side_for(model, sides[2], picture.height(), shorter)};
 }
@@ -55,11 +61,11 @@ cv::Mat as_input(ImageView<const Rgb8> picture, cv::Size size) {
   return network_picture(sized, NetworkValues::imagenet);
 }
 
-cv::Mat run(const std::filesystem::path& model, const std::string& bytes, const cv::Mat& input) {
+/// What OpenCV says goes into the message.
+template <class Work>
+auto with_opencv(const std::filesystem::path& model, Work work) {
   try {
-    cv::dnn::Net network = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());
-    network.setInput(input);
-    return network.forward(network.getUnconnectedOutLayersNames().back()).clone();
+    return work();
   } catch (const cv::Exception& error) {
     refuse(model, fmt::format("OpenCV cannot run it ({})", error.err.substr(0, error.err.find('\n'))));
   }
@@ -67,9 +73,34 @@ cv::Mat run(const std::filesystem::path& model, const std::string& bytes, const 
 
 }  // namespace
 
-Image<float> depth_by_network(ImageView<const Rgb8> picture, const std::filesystem::path& model) {
+struct MonocularNetwork::Implementation {
+  std::filesystem::path model;
+  NetworkInput input;
+  cv::dnn::Net network;
+};
+
+MonocularNetwork::MonocularNetwork(const std::filesystem::path& model) {
   const std::string bytes = read_whole_file(model, most_bytes);
-  const cv::Mat answer = run(model, bytes, as_input(picture, size_for(model, bytes, picture)));
+  NetworkInput input = input_of(model, bytes);
+  cv::dnn::Net network = with_opencv(model, [&] { return cv::dnn::readNetFromONNX(bytes.data(), bytes.size()); });
+  implementation_ = std::make_unique<Implementation>(Implementation{model, std::move(input), std::move(network)});
+}
+MonocularNetwork::MonocularNetwork(MonocularNetwork&&) noexcept = default;
+MonocularNetwork& MonocularNetwork::operator=(MonocularNetwork&&) noexcept = default;
+MonocularNetwork::~MonocularNetwork() = default;
+
+Image<float> depth_by_network(ImageView<const Rgb8> picture, const std::filesystem::path& model) {
+  return MonocularNetwork(model).depth_of(picture);
+}
+
+Image<float> MonocularNetwork::depth_of(ImageView<const Rgb8> picture) {
+  const std::filesystem::path& model = implementation_->model;
+  cv::dnn::Net& network = implementation_->network;
+  const cv::Mat sized = as_input(picture, size_for(model, implementation_->input, picture));
+  const cv::Mat answer = with_opencv(model, [&] {
+    network.setInput(sized);
+    return network.forward(network.getUnconnectedOutLayersNames().back()).clone();
+  });
   const int dimensions = answer.dims;
   const bool is_map = answer.type() == CV_32F && dimensions >= 2 && answer.size[dimensions - 1] > 1 &&
                       answer.size[dimensions - 2] > 1 &&

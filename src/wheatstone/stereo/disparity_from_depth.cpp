@@ -39,21 +39,27 @@ Image<float> inverse_depth(ImageView<const float> depth, DepthKind kind) {
       if (kind == DepthKind::metric) value = value > 0 ? 1 / value : unknown;
       return std::isfinite(value) ? value : unknown;
     });
-  if (std::ranges::none_of(inverse.pixels(), [](float value) { return std::isfinite(value); }))
-    throw Error(ErrorKind::bad_input, "the depth is unknown everywhere, expected at least one known value");
   return inverse;
 }
 
-/// Brings the farthest point to 0 and the nearest to `nearest_px`.
-void scale_to(float nearest_px, Image<float>& inverse) {
+bool is_known_anywhere(const Image<float>& inverse) {
+  return std::ranges::any_of(inverse.pixels(), [](float value) { return std::isfinite(value); });
+}
+
+std::optional<InverseDepthRange> range_of(const Image<float>& inverse) {
   constexpr double outliers = 0.005;
   float far = disparity_percentile(inverse, outliers), near = disparity_percentile(inverse, 1 - outliers);
   if (!(near > far)) {
     far = disparity_percentile(inverse, 0);
     near = disparity_percentile(inverse, 1);
   }
-  if (!(near - far > 1e-6f * std::max(std::abs(near), std::abs(far))))
-    throw Error(ErrorKind::bad_input, "the depth is the same everywhere, expected near and far points");
+  if (!(near - far > 1e-6f * std::max(std::abs(near), std::abs(far)))) return {};
+  return InverseDepthRange{far, near};
+}
+
+/// Brings the farthest point to 0 and the nearest to `nearest_px`.
+void scale_to(float nearest_px, const InverseDepthRange& range, Image<float>& inverse) {
+  const auto [far, near] = range;
   for (float& value : inverse.pixels()) value = nearest_px * std::clamp((value - far) / (near - far), 0.f, 1.f);
 }
 
@@ -168,6 +174,12 @@ Image<float> resampled(const Image<float>& small, ImageView<const Rgb8> picture)
 
 }  // namespace
 
+std::optional<InverseDepthRange> inverse_depth_range(ImageView<const float> depth, DepthKind kind) {
+  const Image<float> inverse = inverse_depth(depth, kind);
+  if (!is_known_anywhere(inverse)) return {};
+  return range_of(inverse);
+}
+
 Image<float> disparity_from_depth(ImageView<const float> depth, ImageView<const Rgb8> picture,
                                   const DisparityFromDepthOptions& options) {
   if (!(options.strength > 0 && options.strength < 1))
@@ -175,7 +187,11 @@ Image<float> disparity_from_depth(ImageView<const float> depth, ImageView<const 
                 fmt::format("the strength is {}, expected a share of the width between 0 and 1", options.strength));
   check_shape(depth, picture);
   Image<float> disparity = inverse_depth(depth, options.kind);
-  scale_to(options.strength * static_cast<float>(picture.width()), disparity);
+  if (!is_known_anywhere(disparity))
+    throw Error(ErrorKind::bad_input, "the depth is unknown everywhere, expected at least one known value");
+  const std::optional<InverseDepthRange> range = options.range ? options.range : range_of(disparity);
+  if (!range) throw Error(ErrorKind::bad_input, "the depth is the same everywhere, expected near and far points");
+  scale_to(options.strength * static_cast<float>(picture.width()), *range, disparity);
   fill_from_farther_side(disparity);
   sharpen_edges(disparity, picture);
   return same_size(disparity, picture) ? std::move(disparity) : resampled(disparity, picture);

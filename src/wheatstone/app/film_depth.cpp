@@ -1,0 +1,124 @@
+#include "wheatstone/app/film_depth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "wheatstone/error.h"
+#include "wheatstone/matching/monocular_network.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The depth of a grey picture.
+Image<float> depth_of_picture(const Image<Rgb8>& picture) {
+  Image<float> depth(picture.width(), picture.height());
+  std::ranges::transform(picture.pixels(), depth.pixels().begin(),
+                         [](Rgb8 pixel) { return static_cast<float>(pixel.r + pixel.g + pixel.b) / 3; });
+  return depth;
+}
+
+bool is_grey(const Image<Rgb8>& picture) {
+  // What the coding of chroma leaves of grey.
+  constexpr double most_levels = 6;
+  double sum = 0;
+  for (const Rgb8 pixel : picture.pixels())
+    sum += std::max({pixel.r, pixel.g, pixel.b}) - std::min({pixel.r, pixel.g, pixel.b});
+  return sum <= most_levels * static_cast<double>(picture.pixels().size());
+}
+
+[[noreturn]] void refuse(const fs::path& depth, const std::string& why) {
+  throw Error(ErrorKind::bad_input, fmt::format("{}: {}", depth.string(), why));
+}
+
+void check_shape(const fs::path& depth, const FilmFacts& found, const FilmOfDepth& of) {
+  const auto shape = [](const FilmFacts& facts) { return static_cast<double>(facts.width) / facts.height; };
+  const double rounding = 1.0 / std::min(found.width, found.height);
+  if (std::abs(shape(found) / shape(of.facts) - 1) > std::max(0.01, rounding))
+    refuse(depth, fmt::format("is {}x{} pixels, expected the shape of {}, {}x{}", found.width, found.height,
+                              of.film.string(), of.facts.width, of.facts.height));
+}
+
+void check_length(const fs::path& depth, const FilmFacts& found, const FilmOfDepth& of) {
+  const FilmFacts& film = of.facts;
+  if (found.frame_count && film.frame_count) {
+    if (*found.frame_count != *film.frame_count)
+      refuse(depth,
+             fmt::format("has {} frames, expected {} as {}", *found.frame_count, *film.frame_count, of.film.string()));
+    return;
+  }
+  const double frame_s = film.frame_rate.value() > 0 ? 1 / film.frame_rate.value() : 0.04;
+  if (found.duration_s > 0 && film.duration_s > 0 && std::abs(found.duration_s - film.duration_s) > 1.5 * frame_s)
+    refuse(depth, fmt::format("is {:.2f} s long, expected {:.2f} s as {}", found.duration_s, film.duration_s,
+                              of.film.string()));
+}
+
+/// Looks for a frame with near and far points: most often the first.
+void check_any_depth(const fs::path& depth, const FilmReaderOptions& reading, DepthKind kind) {
+  FilmReader film = open_film(depth, reading);
+  for (Frame frame; film.read(frame);) {
+    if (!is_grey(frame.picture)) refuse(depth, "is in colour, expected grey for depth");
+    if (inverse_depth_range(depth_of_picture(frame.picture), kind)) return;
+  }
+  refuse(depth, "its depth is the same everywhere, expected near and far points");
+}
+
+/// A film of depth that is being read beside its film.
+struct DepthFilm {
+  fs::path path, film;
+  FilmReader reader;
+  std::int64_t next = 0;  ///< frame
+  Frame frame{};
+};
+
+}  // namespace
+
+MadePair make_film_pair(const Image<Rgb8>& picture, ImageView<const float> depth,
+                        const DisparityFromDepthOptions& options, bool scene_begins,
+                        std::optional<InverseDepthRange>& scene) {
+  constexpr float frames_to_reach = 24;
+  const std::optional<InverseDepthRange> now = inverse_depth_range(depth, options.kind);
+  if (!now) return make_pair_from_single_view(picture, Image<float>(picture.width(), picture.height(), 0));
+  if (!scene || scene_begins) {
+    scene = now;
+  } else {
+    scene->farthest += std::min(now->farthest - scene->farthest, 0.f) / frames_to_reach;
+    scene->nearest += std::max(now->nearest - scene->nearest, 0.f) / frames_to_reach;
+  }
+  DisparityFromDepthOptions of_scene = options;
+  of_scene.range = scene;
+  return make_pair_from_single_view(picture, disparity_from_depth(depth, picture, of_scene));
+}
+
+FilmDepth depth_of_film(const fs::path& depth, const FilmOfDepth& of, DepthKind kind) {
+  check_any_depth(depth, of.reading, kind);
+  // A std::function can be copied; a reader cannot.
+  const auto film = std::make_shared<DepthFilm>(DepthFilm{depth, of.film, open_film(depth, of.reading)});
+  check_shape(depth, film->reader.facts(), of);
+  check_length(depth, film->reader.facts(), of);
+  return [film](std::int64_t frame, const Image<Rgb8>& /*picture*/) {
+    if (frame > film->next) film->next += film->reader.skip(frame - film->next);
+    if (frame != film->next || !film->reader.read(film->frame))
+      refuse(film->path, fmt::format("has {} frames, expected as many as {}", film->next, film->film.string()));
+    ++film->next;
+    return depth_of_picture(film->frame.picture);
+  };
+}
+
+FilmDepth depth_of_network(const fs::path& model) {
+  const auto network = std::make_shared<MonocularNetwork>(model);
+  return [network, model](std::int64_t frame, const Image<Rgb8>& picture) {
+    Image<float> depth = network->depth_of(picture);
+    if (frame == 0 && !inverse_depth_range(depth, DepthKind::inverse))
+      refuse(model, "finds the same depth everywhere in the first frame, expected near and far points");
+    return depth;
+  };
+}
+
+}  // namespace wheatstone
