@@ -141,6 +141,11 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
 }
 
 void add_camera_options(CLI::App& command, RenderArguments& arguments) {
+  command
+      .add_option("--look-at", arguments.look_at,
+                  "Point X,Y,Z in the middle of the views, around which the camera turns; that of all particles by "
+                  "default")
+      ->group(views_group);
   Framing& framing = arguments.options.framing;
   const auto number = [&](const char* name, float& value, NumberRange range, const char* help) {
     add_number(command, name, value, range, help)->group(views_group);
@@ -243,6 +248,8 @@ void refuse_for_particles(const CLI::App& command, const RenderArguments& argume
     refuse_options(command, {"--filter"}, "with --opaque", "it works on particles that add their light");
   if (arguments.options.stream)
     refuse_options(command, {"--neighbours"}, "with --stream", "streamed particles have no density estimate");
+  if (!arguments.centre.empty())
+    refuse_options(command, {"--look-at"}, "with --centre", "the centre is what the views look at");
   if (!arguments.depth_mapping.empty())
     refuse_options(command, {"--near", "--far"}, "with --depth-mapping", "the mapping says where the depth ends");
 }
@@ -288,8 +295,7 @@ RenderArguments for_display(const RenderArguments& given, const CLI::App& comman
   unless_given("--size", arguments.size, fmt::format("{}x{}", display.view_width_px, display.view_height_px));
   unless_given("--distance", viewing.viewing_distance_mm, display.viewing_distance_mm);
   unless_given("--screen-width", viewing.screen_width_mm, display.screen_width_mm);
-  // Depth that a small screen can show: as much of the width as a desk's screen has with 10 cm either way.
-  const float depth_mm = std::min(100.f, 0.27f * display.screen_width_mm);
+  const float depth_mm = usual_depth_mm(display.screen_width_mm);
   unless_given("--near", options.depth.near_mm, depth_mm);
   unless_given("--far", options.depth.far_mm, depth_mm);
   arguments.aspect = display.aspect;
@@ -313,6 +319,10 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   if (!arguments.centre.empty()) {
     const auto centre = parse_numbers("--centre", arguments.centre, {',', 3, coordinates, "X,Y,Z"});
     options.selection.centre = {centre[0], centre[1], centre[2]};
+  }
+  if (!arguments.look_at.empty()) {
+    const auto point = parse_numbers("--look-at", arguments.look_at, {',', 3, coordinates, "X,Y,Z"});
+    options.look_at = {point[0], point[1], point[2]};
   }
   if (!arguments.selection.empty()) options.selection.cut = parse_selection(arguments.selection);
   if (!arguments.depth_mapping.empty()) options.depth.regions = parse_depth_mapping(arguments.depth_mapping);

@@ -14,7 +14,7 @@ struct RenderArguments {
   RenderParticlesOptions options;
   std::string size = "640x360";
   std::string splat = "2,6";
-  std::string display, centre, selection, depth_mapping;
+  std::string display, centre, look_at, selection, depth_mapping;
   std::string cold, hot;
   std::string quilt, interleave, save_slices;
   std::string format = "png";

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "output_mode.h"
+#include "particle_scene.h"
 #include "wheatstone/marks/style_parameters.h"
 
 namespace wheatstone::viewer {
@@ -89,6 +91,46 @@ std::string for_painting(const Session& session, const Item& item, const Painted
   return pack.empty() ? paint : fmt::format("{} && {}", paint, pack);
 }
 
+/// The options of `render` that make particles or slices as deep.
+std::string depth_options(const ViewState& state) {
+  const PerceivedDepth depth = perceived_depth(state);
+  return fmt::format(" --distance {} --screen-width {} --near {} --far {}", depth.viewing.viewing_distance_mm,
+                     depth.viewing.screen_width_mm, depth.near_mm, depth.far_mm);
+}
+
+/// The options of `render` that make these views of particles.
+std::string view_options(const Session& session, const std::array<double, 3>& origin) {
+  const ViewState& state = session.state;
+  const Framing& orbit = state.orbit;
+  std::string text =
+      fmt::format(" --azimuth {} --elevation {} --zoom {}", orbit.azimuth_deg, orbit.elevation_deg, orbit.zoom);
+  if (const auto& at = orbit.look_at)
+    text += fmt::format(" --look-at={},{},{}", (*at)[0] + origin[0], (*at)[1] + origin[1], (*at)[2] + origin[2]);
+  if (shows_display_views(find_output_mode(state.mode))) {
+    text += fmt::format(" --display {}", state.display);
+  } else {
+    text += fmt::format(" --views 2 --span {} --size {}x{}", state.adjustment.separation, session.eye.width,
+                        session.eye.height);
+  }
+  return text + depth_options(state);
+}
+
+/// The options of `render` that make particles look so.
+std::string look_options(const ViewState& state) {
+  const ParticleLook& look = state.look;
+  const ParticleLook usual;
+  std::string text;
+  if (look.exposure) text += fmt::format(" --exposure {}", *look.exposure);
+  if (look.coldest) text += fmt::format(" --coldest {}", *look.coldest);
+  if (look.hottest) text += fmt::format(" --hottest {}", *look.hottest);
+  if (!look.colours.empty()) text += fmt::format(" --colours {}", look.colours);
+  if (look.smallest_px != usual.smallest_px || look.largest_px != usual.largest_px)
+    text += fmt::format(" --splat {},{}", look.smallest_px, look.largest_px);
+  if (look.opacity != usual.opacity) text += fmt::format(" --opacity {}", look.opacity);
+  if (look.opaque) text += " --opaque";
+  return text;
+}
+
 struct LineOf {
   const Session& session;
   const Item& item;
@@ -99,13 +141,17 @@ struct LineOf {
     return packed(session.state, shell_word(item.front().string()), 0);
   }
   std::string operator()(const SlicesContent& /*content*/) const {
+    const ViewState& state = session.state;
+    if (state.look.near_mm || state.look.far_mm)
+      return fmt::format("wheatstone render{} --filter centroid --views 2 --span {}{} -o views", files_of(item),
+                         state.adjustment.separation, depth_options(state));
     return packed(session.state, shell_word(item.front().string()),
                   session.state.adjustment.zero_parallax_px * session.state.adjustment.separation);
   }
-  std::string operator()(const ParticlesContent& /*content*/) const {
-    const Framing& orbit = session.state.orbit;
-    return fmt::format("wheatstone render{} --azimuth {:.6g} --elevation {:.6g} --zoom {:.6g} --views 2 -o views",
-                       files_of(item), orbit.azimuth_deg, orbit.elevation_deg, orbit.zoom);
+  std::string operator()(const ParticlesContent& content) const {
+    const std::array<double, 3>& origin = content.particles->cloud.origin;
+    return fmt::format("wheatstone render{}{}{} -o views", files_of(item), view_options(session, origin),
+                       look_options(session.state));
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "frame_geometry.h"
@@ -15,6 +16,8 @@ struct Frame {
   Image<Rgb8> right;              ///< of a page flip: `picture` is the left eye's; else empty
   std::vector<ViewPlace> places;  ///< where views lie in it; of what covers the whole frame, that of the middle view
   double scale = 1;               ///< screen pixels for one of the content
+  bool preliminary = false;       ///< drawn quickly: another drawing with all effort shows more
+  std::optional<float> exposure;  ///< of particles, as all of them have it
 };
 
 /// The size of the picture that each eye is to have, before a mode puts both in one.

@@ -11,9 +11,8 @@ namespace {
 void ease_zero_parallax(Viewer& viewer, float disparity_px) { viewer.session().zero_parallax_target_px = disparity_px; }
 
 void zero_parallax_at(Viewer& viewer, const Words& words) {
-  const std::optional<PlaceInView> place = place_at(frame_of(viewer).places, number_of(words[0]), number_of(words[1]));
-  const std::optional<float> disparity =
-      place ? disparity_at(viewer.session().opened.content, *place) : std::optional<float>();
+  frame_of(viewer);
+  const std::optional<float> disparity = disparity_under(viewer, number_of(words[0]), number_of(words[1]));
   if (!disparity) {
     viewer.tell("the depth is not known there");
     return;

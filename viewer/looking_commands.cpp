@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "command_groups_internal.h"
+#include "particle_moves.h"
 #include "undo.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/lenticular.h"
@@ -35,6 +36,7 @@ void step_mode(Viewer& viewer, int by) {
 
 /// The place in the content that lies in the middle stays there.
 void zoom_by(Viewer& viewer, double factor) {
+  if (magnify_particles(viewer, factor)) return;
   const double now = viewer.frame() != nullptr ? viewer.frame()->scale : 1;
   state_of(viewer).framed.zoom = std::clamp(now * factor, 1. / 64, 64.);
 }
@@ -43,13 +45,14 @@ void zoom_at(Viewer& viewer, const Words& words) {
   const double factor = number_of(words[0], 1. / 64, 64), x = number_of(words[1]), y = number_of(words[2]);
   const Frame& frame = frame_of(viewer);
   const double before = frame.scale;
-  zoom_by(viewer, factor);
+  if (open_particles(viewer) == nullptr) zoom_by(viewer, factor);
   Framed& framed = state_of(viewer).framed;
   for (const ViewPlace& place : frame.places) {
     const double in_x = (x - place.left) / place.squeeze_x, in_y = (y - place.top) / place.squeeze_y;
     const double width = place.width / place.squeeze_x, height = place.height / place.squeeze_y;
     if (in_x < 0 || in_y < 0 || in_x >= width || in_y >= height) continue;
     // What is at the pointer stays at the pointer.
+    if (magnify_particles(viewer, factor, in_x - width / 2, in_y - height / 2)) return;
     framed.pan_x += (in_x - width / 2) * (1 / before - 1 / framed.zoom);
     framed.pan_y += (in_y - height / 2) * (1 / before - 1 / framed.zoom);
     return;
@@ -57,6 +60,7 @@ void zoom_at(Viewer& viewer, const Words& words) {
 }
 
 void pan(Viewer& viewer, const Words& words) {
+  if (pan_particles(viewer, number_of(words[0]), number_of(words[1]))) return;
   const double scale = viewer.frame() != nullptr ? viewer.frame()->scale : 1;
   Framed& framed = state_of(viewer).framed;
   framed.pan_x -= number_of(words[0]) / scale;
@@ -90,7 +94,10 @@ constexpr Command table[] = {
     {"zoom-at", "FACTOR X Y", "View", "Zoom around a place on the screen", "", zoom_at},
     {"zoom-in", "", "View", "Zoom in", "+, =", [](Viewer& v, const Words&) { zoom_by(v, zoom_step); }},
     {"zoom-out", "", "View", "Zoom out", "-", [](Viewer& v, const Words&) { zoom_by(v, 1 / zoom_step); }},
-    {"fit", "", "View", "Fit into the window", "0", [](Viewer& v, const Words&) { state_of(v).framed = {}; }},
+    {"fit", "", "View", "Fit into the window", "0",
+     [](Viewer& v, const Words&) {
+       if (!fit_particles(v)) state_of(v).framed = {};
+     }},
     {"actual-size", "", "View", "Actual size", "1", [](Viewer& v, const Words&) { state_of(v).framed.zoom = 1; }},
     {"pan", "X Y", "View", "Move the picture, in screen pixels", "", pan},
     {"reset", "", "View", "Reset the view", "Backspace", reset},

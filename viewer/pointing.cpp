@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "particle_moves.h"
+#include "particle_scene.h"
 #include "wheatstone/depth/warp_row.h"
 
 namespace wheatstone::viewer {
@@ -46,6 +48,18 @@ std::optional<float> disparity_at(const Content& content, const PlaceInView& pla
     disparity = seen_row(*painted->photograph->geometry, place.view, y)[x];
   if (std::isnan(disparity)) return {};
   return disparity;
+}
+
+std::optional<float> disparity_under(const Viewer& viewer, double x, double y) {
+  const Frame* const frame = viewer.frame();
+  const std::optional<PlaceInView> place = frame != nullptr ? place_at(frame->places, x, y) : std::nullopt;
+  if (!place) return {};
+  const Session& session = viewer.session();
+  const Particles* const particles = open_particles(viewer);
+  if (particles == nullptr) return disparity_at(session.opened.content, *place);
+  const Scene scene = particle_scene(*particles, session.state, eyes_of(viewer));
+  const std::optional<SeenParticle> seen = particle_at(*particles, scene, *place);
+  return seen ? std::optional(-seen->parallax_px) : std::nullopt;
 }
 
 }  // namespace wheatstone::viewer

@@ -24,6 +24,7 @@ struct Session {
   std::vector<Item> items;
   std::size_t item = 0;  ///< that is open
   Opened opened;
+  ContentSize eye;  ///< of the picture that each eye is shown, in screen pixels
   ViewState state;
   std::optional<float> zero_parallax_target_px;  ///< what it moves to
   std::vector<ViewState> done, undone;           ///< states before, for undo and redo

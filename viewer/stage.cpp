@@ -142,11 +142,11 @@ EyePositions eye_positions(const ViewState& state) {
   return {nearest(eyes.left), nearest(eyes.right)};
 }
 
-Frame Stage::draw(const Content& content, const ViewState& state, const Viewport& viewport) {
+Frame Stage::draw(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort) {
   if (std::holds_alternative<std::monostate>(content))
     return {.picture = {viewport.width, viewport.height}, .right = {}, .places = {}};
   return shows_display_views(find_output_mode(state.mode)) ? draw_display(content, state, viewport)
-                                                           : draw_eyes(content, state, viewport);
+                                                           : draw_eyes(content, state, viewport, effort);
 }
 
 Frame Stage::draw_display(const Content& content, const ViewState& state, const Viewport& viewport) {
@@ -172,7 +172,7 @@ Frame Stage::draw_display(const Content& content, const ViewState& state, const 
   return {.picture = centred(reduced(quilt, size), viewport), .right = {}, .places = {}, .scale = scale};
 }
 
-Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport) {
+Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort) {
   const OutputMode& mode = find_output_mode(state.mode);
   const EyeSize eye = eye_size(mode, viewport);
   ContentSize size = size_of(content);
@@ -184,8 +184,9 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
   const bool photograph_only = state.comparison == Comparison::photograph;
   const DrawnViews* const photographs =
       state.comparison == Comparison::painting ? nullptr : drawer_.photographed(content, part, positions);
-  const DrawnViews& drawn =
-      photograph_only && photographs != nullptr ? *photographs : drawer_.painted(content, state, part, positions);
+  const DrawnViews& drawn = photograph_only && photographs != nullptr
+                                ? *photographs
+                                : drawer_.painted(content, state, part, positions, effort);
 
   const bool wiggles = std::holds_alternative<Wiggle>(mode.kind);
   const std::size_t first = wiggles ? static_cast<std::size_t>(wiggle_view(state.step)) : 0;
@@ -221,6 +222,8 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
   Frame frame = compose(mode, std::move(left), std::move(right), viewport);
   frame.places = places_in_frame(mode, left_place, right_place, viewport);
   frame.scale = fit.scale;
+  frame.preliminary = drawn.preliminary;
+  frame.exposure = drawn.exposure;
   return frame;
 }
 

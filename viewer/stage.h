@@ -13,11 +13,11 @@ namespace wheatstone::viewer {
 class Stage {
  public:
   /// Throws Error where the mode cannot show the content.
-  Frame draw(const Content& content, const ViewState& state, const Viewport& viewport);
+  Frame draw(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort = Effort::whole);
 
  private:
   Frame draw_display(const Content& content, const ViewState& state, const Viewport& viewport);
-  Frame draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport);
+  Frame draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort);
 
   ViewDrawer drawer_;
 };

@@ -9,7 +9,6 @@
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/error.h"
-#include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
@@ -44,14 +43,28 @@ DrawnViews sliced(const SliceStack& stack, const std::vector<ViewPosition>& posi
   return {.pictures = render_slices(stack, rig), .positions = positions};
 }
 
-DrawnViews rendered(const Particles& particles, const ViewState& state, const WantedPart& part,
-                    const std::vector<ViewPosition>& positions) {
-  const Rig rig{part.width, part.height, positions};
-  const Scene scene = particle_scene(particles, state.orbit, rig);
-  return {.pictures = render(particles.cloud, scene, rig).views, .positions = positions};
+}  // namespace
+
+ViewDrawer::Placing ViewDrawer::placing_of(const Content& content, const ViewState& state) {
+  const bool has_depth_of_its_own =
+      std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
+  return has_depth_of_its_own ? Placing{state.orbit, state.look, state.display} : Placing{};
 }
 
-}  // namespace
+const SliceStack& ViewDrawer::placed_slices(const SlicesContent& content, const ViewState& state) {
+  if (!state.look.near_mm && !state.look.far_mm) return *content.slices;
+  Placing placing;
+  placing.look.near_mm = state.look.near_mm;
+  placing.look.far_mm = state.look.far_mm;
+  placing.display = state.display;
+  if (!placed_ || placed_->content != content || placed_->placing != placing) {
+    placed_.reset();
+    placed_ = PlacedSlices{content, placing, *content.slices};
+    const DepthMapping mapping = mapping_for(perceived_depth(state), content.slices->width, 1, 2);
+    map_depth(placed_->slices, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
+  }
+  return placed_->slices;
+}
 
 DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& painting, int finest_layer,
                                      const WantedPart& part, const std::vector<ViewPosition>& positions) {
@@ -74,9 +87,11 @@ DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& pain
 }
 
 const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& state, const WantedPart& part,
-                                      const std::vector<ViewPosition>& positions) {
-  if (drawn_ && drawn_->content == content && drawn_->part == part && drawn_->wanted == positions &&
-      drawn_->finest_layer == state.finest_layer && drawn_->orbit == state.orbit)
+                                      const std::vector<ViewPosition>& positions, Effort effort) {
+  Placing placing = placing_of(content, state);
+  const bool good_enough = drawn_ && (effort == Effort::quick || !drawn_->views.preliminary);
+  if (good_enough && drawn_->content == content && drawn_->part == part && drawn_->wanted == positions &&
+      drawn_->finest_layer == state.finest_layer && drawn_->placing == placing)
     return drawn_->views;
   DrawnViews views;
   if (const auto* const painted = std::get_if<PaintedContent>(&content)) {
@@ -86,11 +101,17 @@ const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& s
     const std::vector<ImageView<const Rgb8>> lent(pictures->views->begin(), pictures->views->end());
     views = nearest_pictures(lent, pictures->span, part, positions);
   } else if (const auto* const slices = std::get_if<SlicesContent>(&content)) {
-    views = sliced(*slices->slices, positions);
+    views = sliced(placed_slices(*slices, state), positions);
   } else if (const auto* const particles = std::get_if<ParticlesContent>(&content)) {
-    views = rendered(*particles->particles, state, part, positions);
+    DrawnParticles made = particles_.draw(particles->particles, state, {part.width, part.height, positions}, effort);
+    views = {.pictures = std::move(made.views),
+             .positions = positions,
+             .preliminary = !made.of_all,
+             .exposure = made.exposure};
+    // The state will say what was found.
+    if (made.of_all) placing.look.exposure = made.exposure;
   }
-  drawn_ = Drawn{content, part, state.finest_layer, state.orbit, positions, std::move(views)};
+  drawn_ = Drawn{content, part, state.finest_layer, std::move(placing), positions, std::move(views)};
   return drawn_->views;
 }
 
@@ -99,15 +120,18 @@ const DrawnViews* ViewDrawer::photographed(const Content& content, const WantedP
   const auto* const painted = std::get_if<PaintedContent>(&content);
   if (painted == nullptr || !painted->photograph) return nullptr;
   if (!photographed_ || photographed_->content != content || photographed_->part.scale != part.scale ||
-      photographed_->wanted != positions)
-    photographed_ = Drawn{content, part, 0, {}, positions, photographs(*painted->photograph, part, positions)};
+      photographed_->wanted != positions) {
+    DrawnViews views = photographs(*painted->photograph, part, positions);
+    photographed_ = Drawn{content, part, 0, Placing(), positions, std::move(views)};
+  }
   return &photographed_->views;
 }
 
 const std::vector<Image<Rgb8>>& ViewDrawer::display_views(const Content& content, const ViewState& state) {
   const float zero_parallax_px = state.adjustment.zero_parallax_px;
+  const Placing placing = placing_of(content, state);
   if (display_ && display_->content == content && display_->display == state.display &&
-      display_->zero_parallax_px == zero_parallax_px && display_->orbit == state.orbit)
+      display_->zero_parallax_px == zero_parallax_px && display_->placing == placing)
     return display_->views;
   const DisplayPreset& display = find_display(state.display);
   std::vector<Image<Rgb8>> views;
@@ -124,12 +148,12 @@ const std::vector<Image<Rgb8>>& ViewDrawer::display_views(const Content& content
   } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
     views = *pictures->views;
   } else if (const auto* const slices = std::get_if<SlicesContent>(&content)) {
-    const SliceStack& stack = *slices->slices;
+    const SliceStack& stack = placed_slices(*slices, state);
     views = render_slices(stack, {stack.width, stack.height, rig.positions});
   } else if (const auto* const particles = std::get_if<ParticlesContent>(&content)) {
-    views = render(particles->particles->cloud, particle_scene(*particles->particles, state.orbit, rig), rig).views;
+    views = particles_.draw(particles->particles, state, rig, Effort::whole).views;
   }
-  display_ = DisplayDrawn{content, state.display, zero_parallax_px, state.orbit, std::move(views)};
+  display_ = DisplayDrawn{content, state.display, zero_parallax_px, placing, std::move(views)};
   return display_->views;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "content.h"
+#include "particle_drawer.h"
 #include "view_state.h"
 #include "wheatstone/depth/view_position.h"
 #include "wheatstone/drawing/draw.h"
@@ -25,7 +26,9 @@ struct DrawnViews {
   std::vector<Image<Rgb8>> pictures;    ///< of one size
   std::vector<ViewPosition> positions;  ///< that they show: where there are pictures only, the nearest to those wanted
   double scale = 1;
-  int left = 0, top = 0;  ///< of the pictures' corner, in pixels of the content `scale` times as large
+  int left = 0, top = 0;          ///< of the pictures' corner, in pixels of the content `scale` times as large
+  bool preliminary = false;       ///< drawn quickly: another drawing with all effort shows more
+  std::optional<float> exposure;  ///< of particles
 };
 
 /// Draws views of what is open, and keeps what the next drawing can use again. Of one thread.
@@ -33,7 +36,7 @@ class ViewDrawer {
  public:
   /// The painting, or where there is none what it would be painted from.
   const DrawnViews& painted(const Content& content, const ViewState& state, const WantedPart& part,
-                            const std::vector<ViewPosition>& positions);
+                            const std::vector<ViewPosition>& positions, Effort effort = Effort::whole);
 
   /// The photograph; none where the content has none.
   const DrawnViews* photographed(const Content& content, const WantedPart& part,
@@ -47,6 +50,18 @@ class ViewDrawer {
   DrawnViews draw_painting(const std::shared_ptr<const Painting>& painting, int finest_layer, const WantedPart& part,
                            const std::vector<ViewPosition>& positions);
 
+  /// The slices as deep as the state has them.
+  const SliceStack& placed_slices(const SlicesContent& content, const ViewState& state);
+
+  /// What of a state decides the pictures of particles and slices; of paintings it is the same for all.
+  struct Placing {
+    wheatstone::Framing orbit;
+    ParticleLook look;
+    std::string display;
+    friend bool operator==(const Placing&, const Placing&) = default;
+  };
+  static Placing placing_of(const Content& content, const ViewState& state);
+
   struct Prepared {
     std::shared_ptr<const Painting> painting;
     WantedPart part;
@@ -57,7 +72,7 @@ class ViewDrawer {
     Content content;
     WantedPart part;
     int finest_layer = 0;
-    wheatstone::Framing orbit;
+    Placing placing;
     std::vector<ViewPosition> wanted;
     DrawnViews views;
   };
@@ -65,12 +80,19 @@ class ViewDrawer {
     Content content;
     std::string display;
     float zero_parallax_px = 0;
-    wheatstone::Framing orbit;
+    Placing placing;
     std::vector<Image<Rgb8>> views;
   };
   std::optional<Prepared> prepared_;
   std::optional<Drawn> drawn_, photographed_;
   std::optional<DisplayDrawn> display_;
+  ParticleDrawer particles_;
+  struct PlacedSlices {
+    SlicesContent content;
+    Placing placing;
+    SliceStack slices;
+  };
+  std::optional<PlacedSlices> placed_;
 };
 
 }  // namespace wheatstone::viewer

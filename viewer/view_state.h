@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "particle_look.h"
 #include "wheatstone/depth/camera.h"
 #include "wheatstone/marks/style.h"
 
@@ -45,7 +46,8 @@ struct ViewState {
   Comparison comparison = Comparison::painting;
   Style style;
   wheatstone::Framing orbit{.zoom = 1.2f};  ///< of particles
-  int step = 0;                             ///< of a wiggle
+  ParticleLook look;
+  int step = 0;  ///< of a wiggle
   friend bool operator==(const ViewState&, const ViewState&) = default;
 };
 

@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "open_content.h"
@@ -19,6 +21,17 @@ namespace {
 constexpr double easing_s = 0.08;  ///< after which a third of the way is left
 constexpr double step_of_easing_s = 0.02;
 constexpr double step_of_wiggle_s = 0.08;
+
+constexpr std::chrono::milliseconds settled_after{120};
+
+/// Whether something is asked to stop within so long.
+bool stops_within(const std::stop_token& stop, std::chrono::milliseconds longest) {
+  std::mutex mutex;
+  std::condition_variable_any stopped;
+  std::unique_lock lock(mutex);
+  stopped.wait_for(lock, stop, longest, [] { return false; });
+  return stop.stop_requested();
+}
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -97,6 +110,10 @@ void Viewer::post_failure(const std::exception& error, std::uint64_t job) {
 void Viewer::take_opened(Opened opened) {
   session_.opening.reset();
   session_.opened = std::move(opened);
+  session_.state.look.exposure.reset();
+  session_.state.orbit.look_at.reset();
+  session_.state.adjustment.zero_parallax_px = 0;
+  session_.state.adjustment.separation = 1;
   for (const std::string& note : session_.opened.notes) tell(note);
   show_comfortably();
   paint();
@@ -129,6 +146,8 @@ void Viewer::tell(std::string message, bool is_error) {
 void Viewer::collect() {
   mailbox_.open();
   move_on();
+  const EyeSize eye = eye_size(find_output_mode(session_.state.mode), viewport_);
+  session_.eye = {eye.width, eye.height};
   draw_if_changed();
 }
 
@@ -162,16 +181,35 @@ void Viewer::draw_if_changed() {
                        !same_viewport(asked_->viewport, viewport_);
   if (!changed || viewport_.width < 1 || viewport_.height < 1) return;
   asked_ = Asked{session_.opened.content, session_.state, viewport_};
-  drawing_.start([this, asked = *asked_](const std::stop_token&) {
+  drawing_.start([this, asked = *asked_](const std::stop_token& stop) {
     try {
-      auto frame = std::make_shared<Frame>(stage_.draw(asked.content, asked.state, asked.viewport));
-      mailbox_.post([this, frame] {
-        frame_ = std::move(*frame);
-        ++frames_drawn_;
-      });
+      draw(asked, stop);
     } catch (const std::exception& error) {
       mailbox_.post([this, message = std::string(error.what())] { tell(message, true); });
     }
+  });
+}
+
+void Viewer::draw(const Asked& asked, const std::stop_token& stop) {
+  Frame quick = stage_.draw(asked.content, asked.state, asked.viewport, Effort::quick);
+  const bool preliminary = quick.preliminary;
+  post_frame(std::move(quick), asked);
+  // What moves goes on moving: the rest is worth its while when it stands.
+  if (!preliminary || stops_within(stop, settled_after)) return;
+  post_frame(stage_.draw(asked.content, asked.state, asked.viewport), asked);
+}
+
+void Viewer::post_frame(Frame frame, const Asked& asked) {
+  auto shared = std::make_shared<Frame>(std::move(frame));
+  mailbox_.post([this, shared, asked] {
+    std::optional<float>& exposure = session_.state.look.exposure;
+    // What the first whole picture found stays, so that nothing flickers.
+    if (!exposure && !shared->preliminary && asked.content == session_.opened.content) {
+      exposure = shared->exposure;
+      if (asked_ && asked_->state == asked.state) asked_->state.look.exposure = exposure;
+    }
+    frame_ = std::move(*shared);
+    ++frames_drawn_;
   });
 }
 

@@ -58,6 +58,10 @@ class Viewer {
  private:
   void move_on();
   void draw_if_changed();
+  struct Asked;
+  /// Draws what was asked for on the drawing thread, quickly at first where that is not all.
+  void draw(const Asked& asked, const std::stop_token& stop);
+  void post_frame(Frame frame, const Asked& asked);
   void take_opened(Opened opened);
   void take_painted(PaintedContent content);
 

@@ -127,6 +127,23 @@ TEST(RenderCommand, AsADisplayWantsIt) {
   EXPECT_FALSE(std::filesystem::exists(folder / "three" / "view_003.png"));
 }
 
+TEST(RenderCommand, LooksAtAPoint) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "three.csv", "x,y,z\n1,2,3\n5,2,3\n1,9,-4\n");
+  const auto rendered = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> line{"render", "three.csv", "--views", "1", "--size", "65x49", "-o", "views"};
+    line.insert(line.end(), options.begin(), options.end());
+    run_in(folder, line);
+    return read_image(folder / "views/view_000.png");
+  };
+  for (const char* azimuth : {"10", "130"}) {
+    const Image<Rgb8> seen = rendered({"--look-at", "5,2,3", "--azimuth", azimuth});
+    EXPECT_GT(std::max({seen(32, 24).r, seen(32, 24).g, seen(32, 24).b}), 50) << azimuth;
+  }
+  EXPECT_EQ(rendered({"--look-at", "3,5.5,-0.5"}), rendered({})) << "the middle of all";
+  expect_refused(folder, {"render", "three.csv", "--look-at", "1,2", "-o", "n"}, 2, "--look-at");
+}
+
 TEST(RenderCommand, DrawsOneParticleAndAllInOnePlace) {
   const TemporaryFolder folder;
   put_bytes(folder / "one.csv", "x,y,z\n1,2,3\n");

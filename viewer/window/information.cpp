@@ -68,7 +68,8 @@ QWidget* make_help(QWidget* parent) {
             "</code></td><td>" + html(command.text) + "</td></tr>";
   }
   page->setHtml(text +
-                "</table><p>Wheel: zoom. Ctrl + wheel: detail. Drag: pan, or turn particles. Click: what lies "
+                "</table><p>Wheel: zoom. Ctrl + wheel: detail. Drag: pan, or turn particles, which Shift + drag pans; "
+                "Ctrl + click: look at the particles that lie there. Click: what lies "
                 "there comes onto the screen plane. Double click: full screen.</p>");
   page->resize(640, 560);
   page->hide();

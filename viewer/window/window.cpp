@@ -19,6 +19,7 @@
 #include <map>
 
 #include "information.h"
+#include "viewer/particle_moves.h"
 #include "viewer/pointing.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
@@ -195,10 +196,7 @@ void Window::show_session() {
 }
 
 void Window::show_depth_under_pointer() {
-  std::optional<float> disparity;
-  if (const Frame* const frame = viewer_.frame())
-    if (const std::optional<PlaceInView> place = place_at(frame->places, pointer_.x(), pointer_.y()))
-      disparity = disparity_at(viewer_.session().opened.content, *place);
+  const std::optional<float> disparity = disparity_under(viewer_, pointer_.x(), pointer_.y());
   depth_->setText(disparity ? QString("%1 px").arg(*disparity, 0, 'f', 1) : QString());
   depth_->setToolTip("Disparity under the pointer");
 }
@@ -215,7 +213,9 @@ bool Window::pointer_event(QEvent* event) {
     case QEvent::MouseButtonPress: {
       is_pressed_ = true;
       is_dragged_ = false;
-      pressed_at_ = dragged_to_ = static_cast<QMouseEvent*>(event)->position() * ratio;
+      const auto* const mouse = static_cast<QMouseEvent*>(event);
+      pans_ = mouse->button() == Qt::MiddleButton || mouse->modifiers().testFlag(Qt::ShiftModifier);
+      pressed_at_ = dragged_to_ = mouse->position() * ratio;
       return true;
     }
     case QEvent::MouseMove: {
@@ -225,7 +225,12 @@ bool Window::pointer_event(QEvent* event) {
       return true;
     }
     case QEvent::MouseButtonRelease: {
-      if (std::exchange(is_pressed_, false) && !is_dragged_) click_timer_.start(click_delay_ms);
+      if (!std::exchange(is_pressed_, false) || is_dragged_) return true;
+      if (!static_cast<QMouseEvent*>(event)->modifiers().testFlag(Qt::ControlModifier)) {
+        click_timer_.start(click_delay_ms);
+      } else if (open_particles(viewer_) != nullptr) {
+        do_line("look-at-place", {fmt::format("{}", pressed_at_.x()), fmt::format("{}", pressed_at_.y())});
+      }
       return true;
     }
     case QEvent::MouseButtonDblClick: {
@@ -255,7 +260,7 @@ void Window::drag_to(const QPointF& place) {
   if (!is_dragged_ && (place - pressed_at_).manhattanLength() < drag_begins_px) return;
   is_dragged_ = true;
   const QPointF moved = place - std::exchange(dragged_to_, place);
-  const bool orbits = std::holds_alternative<ParticlesContent>(viewer_.session().opened.content);
+  const bool orbits = !pans_ && open_particles(viewer_) != nullptr;
   const double scale = orbits ? degrees_a_pixel : 1;
   do_line(orbits ? "orbit" : "pan",
           {fmt::format("{}", (orbits ? -1 : 1) * scale * moved.x()), fmt::format("{}", scale * moved.y())});

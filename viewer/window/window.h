@@ -74,7 +74,7 @@ class Window final : public QMainWindow {
   QWidget* help_ = nullptr;
 
   QPointF pressed_at_, dragged_to_, pointer_;
-  bool is_pressed_ = false, is_dragged_ = false;
+  bool is_pressed_ = false, is_dragged_ = false, pans_ = false;
   std::uint64_t shown_frame_ = 0;
 
   Viewer viewer_;  ///< last: its threads end before what they wake

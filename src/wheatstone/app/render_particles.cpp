@@ -30,8 +30,15 @@ ViewingGeometry viewing_of(const RenderParticlesOptions& options) {
   return viewing;
 }
 
-Staged stage(const RenderParticlesOptions& options, const CloudStatistics& statistics) {
-  return {scene_of(statistics, options), evenly_spaced(options.width, options.height, options.views, options.span),
+Staged stage(const RenderParticlesOptions& options, const CloudStatistics& statistics,
+             const std::array<double, 3>& origin) {
+  RenderParticlesOptions placed = options;
+  if (options.look_at) {
+    placed.framing.look_at.emplace();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      (*placed.framing.look_at)[axis] = static_cast<float>((*options.look_at)[axis] - origin[axis]);
+  }
+  return {scene_of(statistics, placed), evenly_spaced(options.width, options.height, options.views, options.span),
           viewing_of(options)};
 }
 
@@ -84,10 +91,13 @@ RenderedParticles stream(const std::filesystem::path& file, const RenderParticle
                          const Progress& progress) {
   RenderedParticles result;
   CloudStatistics statistics;
-  const SelectionCounts counts =
-      for_each_chunk(file, options, "statistics", progress, [&](const Cloud& chunk) { statistics.add(chunk); });
+  std::array<double, 3> origin{};
+  const SelectionCounts counts = for_each_chunk(file, options, "statistics", progress, [&](const Cloud& chunk) {
+    statistics.add(chunk);
+    origin = chunk.origin;
+  });
   if (statistics.count == 0) refuse_nothing(file, counts);
-  const Staged staged = stage(options, statistics);
+  const Staged staged = stage(options, statistics, origin);
   SliceMaker maker(staged.scene, statistics, staged.rig, options.rendering);
   for_each_chunk(file, options, "slices", progress, [&](const Cloud& chunk) { maker.add(chunk); });
   result.stack = maker.finish(staged.viewing);
@@ -117,7 +127,7 @@ RenderedParticles render_whole(const std::filesystem::path& file, const RenderPa
   }
   CloudStatistics statistics;
   statistics.add(cloud);
-  const Staged staged = stage(options, statistics);
+  const Staged staged = stage(options, statistics, cloud.origin);
   result.rig = staged.rig;
   if (options.slices) {
     report(progress, "slices", 0);
@@ -134,15 +144,21 @@ Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& 
   Scene scene;
   scene.camera =
       camera_around(statistics.centre(), statistics.radius(), options.width, options.height, options.framing);
-  float depth = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    depth += (statistics.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
-  scene.mapping = mapping_for(options.depth, options.width, std::max(depth - statistics.radius(), depth * 0.01f),
-                              depth + statistics.radius());
+  const auto depth_of = [&camera = scene.camera](const std::array<float, 3>& point) {
+    float depth = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) depth += (point[axis] - camera.position[axis]) * camera.forward[axis];
+    return depth;
+  };
+  const float distance = depth_of(options.framing.look_at.value_or(statistics.centre())), radius = statistics.radius();
+  // A camera that looks at a point far from the particles may stand among them, or before them all.
+  const float depth = std::max(depth_of(statistics.centre()), distance * 0.01f);
+  scene.mapping = mapping_for(options.depth, options.width, std::max(depth - radius, depth * 0.01f), depth + radius);
   scene.splat_style = make_splat_style(options.appearance, statistics);
-  scene.splat_style.size_depth = depth;
+  scene.splat_style.size_depth = distance;
   return scene;
 }
+
+float usual_depth_mm(float screen_width_mm) { return std::min(100.f, 0.27f * screen_width_mm); }
 
 DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float nearest, float farthest) {
   ViewingGeometry viewing = depth.viewing;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,8 @@ struct RenderParticlesOptions {
   int neighbours = 32;  ///< of the density estimate, where the file has no density
   Appearance appearance;
   Framing framing{.zoom = 1.2f};  ///< a box seldom fills the sphere around it
+  /// As the framing's, in the file's own units, where the cloud has an origin of its own.
+  std::optional<std::array<double, 3>> look_at;
   PerceivedDepth depth;
   int width = 640, height = 360;  ///< of a view
   int views = 2;
@@ -69,6 +73,10 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
 /// The scene as the central camera has it, of particles of which this is known. Throws Error{wrong_usage} for the
 /// options.
 Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options);
+
+/// How far before and behind the screen a scene is to seem where nobody says otherwise, in millimetres: as much of a
+/// screen's width as a desk's screen has with 10 cm either way.
+float usual_depth_mm(float screen_width_mm);
 
 /// The mapping of a scene between these depths, in scene units.
 DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float nearest, float farthest);

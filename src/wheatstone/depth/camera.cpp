@@ -21,7 +21,8 @@ Camera camera_around(const std::array<float, 3>& centre, float radius, int width
                  -std::cos(elevation)};
   // The sphere touches the narrower pair of the frustum's sides.
   const float distance = radius / std::sin(std::atan(std::min(half_width, half_height)));
-  for (std::size_t axis = 0; axis < 3; ++axis) camera.position[axis] = centre[axis] - distance * camera.forward[axis];
+  const std::array<float, 3> middle = framing.look_at.value_or(centre);
+  for (std::size_t axis = 0; axis < 3; ++axis) camera.position[axis] = middle[axis] - distance * camera.forward[axis];
   camera.focal_px = framing.zoom * static_cast<float>(width) / (2 * half_width);
   camera.centre_x_px = static_cast<float>(width) / 2;
   camera.centre_y_px = static_cast<float>(height) / 2;

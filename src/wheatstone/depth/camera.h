@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 namespace wheatstone {
 
@@ -24,10 +25,13 @@ struct Framing {
   float elevation_deg = 20;      ///< above the horizontal plane
   float field_of_view_deg = 40;  ///< across the width of a view
   float zoom = 1;                ///< 2 shows half as much
+  /// The point in the middle of the view, around which the camera turns; none: the scene's own centre.
+  std::optional<std::array<float, 3>> look_at = {};
   friend bool operator==(const Framing&, const Framing&) = default;
 };
 
-/// A camera outside a sphere that sees just all of it, in views of the given size, in pixels.
+/// A camera outside a sphere that sees just all of it, in views of the given size, in pixels. Where the framing looks
+/// at another point than the sphere's centre, the camera is moved with it.
 Camera camera_around(const std::array<float, 3>& centre, float radius, int width, int height,
                      const Framing& framing = {});
 

@@ -1,0 +1,220 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/run.h"
+#include "command_line.h"
+#include "command_table.h"
+#include "particle_drawer.h"
+#include "particle_moves.h"
+#include "particle_scene.h"
+#include "pointing.h"
+#include "temporary_folder.h"
+#include "throws_error.h"
+#include "viewer.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/read_image.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+using testing::HasSubstr;
+
+std::string run_command(const TemporaryFolder& folder, Words words) {
+  words.erase(words.begin());
+  for (std::string& word : words)
+    if (word == "views") word = folder / "views";
+  std::ostringstream output, errors;
+  EXPECT_EQ(cli::run_command_line(words, output, errors), 0) << errors.str();
+  return output.str();
+}
+
+/// A viewer in which particles are open: a cloud around the middle, and one particle far from it.
+class OpenParticles : public testing::Test {
+ protected:
+  OpenParticles() {
+    std::string text = "x,y,z,rho\n9,-8,7,100\n";
+    for (int i = 0; i < 3000; ++i) {
+      const double turn = 2.4 * i, height = 2 * (i + 0.5) / 3000 - 1, width = std::sqrt(1 - height * height);
+      text += fmt::format("{:.4f},{:.4f},{:.4f},{:.3f}\n", 3 * width * std::cos(turn), 3 * width * std::sin(turn),
+                          3 * height, 1 + 0.001 * i);
+    }
+    write_whole_file(folder / "cloud.csv", text);
+    viewer.session().items.push_back({folder / "cloud.csv"});
+    viewer.set_viewport({240, 160});
+    viewer.open(0);
+    viewer.wait();
+    run("mode left-right");
+  }
+  void run(std::string_view line) {
+    run_line(viewer, line);
+    viewer.wait();
+  }
+  const Image<Rgb8>& picture() const { return viewer.frame()->picture; }
+  ViewState& state() { return viewer.session().state; }
+
+  const TemporaryFolder folder;
+  Viewer viewer;
+};
+
+TEST_F(OpenParticles, AreTheViewsOfTheCommandThatTheyTell) {
+  run("orbit 20 -30");
+  run("magnify 1.7");
+  run("pan 11 -7");
+  run("splat 1,5");
+  run("colours inferno");
+  run("opacity 0.8");
+  run("near 40");
+  run("far 60");
+  run("separation 0.8");
+  for (const char* opaque : {"off", "on"}) {
+    run(fmt::format("opaque {}", opaque));
+    const std::string line = command_line_of(viewer.session());
+    run_command(folder, words_of(line));
+    const Image<Rgb8> left = read_image(folder / "views/view_000.png"),
+                      right = read_image(folder / "views/view_001.png");
+    ASSERT_EQ(left.width() * 2, picture().width()) << line;
+    for (int y = 0; y < left.height(); ++y)
+      for (int x = 0; x < left.width(); ++x) {
+        ASSERT_EQ(picture()(x, y), left(x, y)) << line << "\nat " << x << ", " << y;
+        ASSERT_EQ(picture()(x + left.width(), y), right(x, y)) << line << "\nat " << x << ", " << y;
+      }
+  }
+}
+
+TEST_F(OpenParticles, KeepTheirExposureUntilAnotherIsAskedFor) {
+  const std::optional<float> first = state().look.exposure;
+  ASSERT_TRUE(first);
+  run("orbit 100 30");
+  run("magnify 4");
+  EXPECT_EQ(state().look.exposure, first);
+  run("exposure auto");
+  ASSERT_TRUE(state().look.exposure);
+  EXPECT_NE(state().look.exposure, first);
+  run("exposure 0.25");
+  EXPECT_EQ(state().look.exposure, 0.25f);
+}
+
+TEST_F(OpenParticles, AreLookedAtWhereTheyAreSeen) {
+  run("mode left");
+  const Particles& particles = *open_particles(viewer);
+  // Where the particle far from the others is seen.
+  const Camera camera = particle_scene(particles, state(), eyes_of(viewer)).camera;
+  const std::array<float, 3> single{9, -8, 7};
+  std::array<float, 3> seen{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float from_camera = single[axis] - camera.position[axis];
+    seen[0] += from_camera * camera.right[axis];
+    seen[1] += from_camera * camera.down[axis];
+    seen[2] += from_camera * camera.forward[axis];
+  }
+  const Scene scene = particle_scene(particles, state(), eyes_of(viewer));
+  const double x = camera.centre_x_px + camera.focal_px * seen[0] / seen[2] - 0.5 * parallax_px(scene.mapping, seen[2]);
+  const double y = camera.centre_y_px + camera.focal_px * seen[1] / seen[2];
+  run(fmt::format("look-at-place {} {}", x, y));
+  ASSERT_TRUE(state().orbit.look_at);
+  for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR((*state().orbit.look_at)[axis], single[axis], 0.05);
+  // Turned around, it stays in the middle of what both eyes see, and a click brings it onto the screen plane.
+  run("orbit 130 -40");
+  run("separation 1");
+  run("mode left-right");
+  run("zero-parallax-at 60 80");
+  const auto is_lit = [&](int at_x) {
+    return picture()(at_x, 80).r + picture()(at_x, 80).g + picture()(at_x, 80).b > 60;
+  };
+  EXPECT_TRUE(is_lit(60));
+  EXPECT_TRUE(is_lit(180));
+}
+
+TEST_F(OpenParticles, StayAtThePointerWhenMagnified) {
+  run("mode left");
+  run("separation 0");
+  const auto brightest_near = [&](int x, int y) {
+    int best = 0;
+    for (int v = y - 2; v <= y + 2; ++v)
+      for (int u = x - 2; u <= x + 2; ++u) best = std::max<int>(best, picture()(u, v).g);
+    return best;
+  };
+  run("look-at 9 -8 7");
+  ASSERT_GT(brightest_near(120, 80), 40);
+  run("pan 30 -20");
+  EXPECT_GT(brightest_near(150, 60), 40) << "moves with the pointer";
+  run("zoom-at 3 150 60");
+  EXPECT_GT(brightest_near(150, 60), 40) << "stays at the pointer";
+  run("fit");
+  EXPECT_FALSE(state().orbit.look_at);
+}
+
+TEST_F(OpenParticles, AreDrawnQuicklyFromAShareOfAsMuchLight) {
+  auto many = std::make_shared<Particles>();
+  const Particles& few = *open_particles(viewer);
+  for (int copy = 0; copy < 100; ++copy)
+    for (std::size_t i = 1; i < few.cloud.size(); ++i) {
+      const auto jitter = static_cast<float>(copy) * 0.003f;
+      many->cloud.x.push_back(few.cloud.x[i] + jitter);
+      many->cloud.y.push_back(few.cloud.y[i] - jitter);
+      many->cloud.z.push_back(few.cloud.z[i] + jitter);
+      many->cloud.density.push_back(few.cloud.density[i]);
+    }
+  many->statistics.add(many->cloud);
+  ParticleDrawer drawer;
+  const Rig rig{160, 120, {left_eye, right_eye}};
+  ViewState view;
+  view.look.exposure = 0.001f;
+  const auto mean = [](const Image<Rgb8>& image) {
+    double sum = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (const Rgb8& pixel : image.row(y)) sum += pixel.r + pixel.g + pixel.b;
+    return sum / image.width() / image.height();
+  };
+  // Time is what the share is chosen by: a slow machine takes a smaller one.
+  const DrawnParticles whole = drawer.draw(many, view, rig, Effort::whole);
+  EXPECT_TRUE(whole.of_all);
+  drawer.expect_seconds_a_particle(3e-6);
+  const DrawnParticles quick = drawer.draw(many, view, rig, Effort::quick);
+  EXPECT_FALSE(quick.of_all);
+  EXPECT_EQ(quick.exposure, whole.exposure);
+  // Fewer particles lie less evenly, and what the tone map takes from their bright middles their rims do not give back.
+  EXPECT_GT(mean(quick.views[0]) / mean(whole.views[0]), 0.7);
+  EXPECT_LT(mean(quick.views[0]) / mean(whole.views[0]), 1.1);
+}
+
+TEST_F(OpenParticles, RefuseWhatMakesNoSense) {
+  const auto running = [this](const char* line) { return [this, line] { run_line(viewer, line); }; };
+  expect_error(ErrorKind::wrong_usage, "MIN,MAX", running("splat 5"));
+  expect_error(ErrorKind::wrong_usage, "MIN <= MAX", running("splat 5,2"));
+  expect_error(ErrorKind::wrong_usage, "no number", running("exposure bright"));
+  expect_error(ErrorKind::wrong_usage, "colour", running("colours mud"));
+  expect_error(ErrorKind::wrong_usage, "near", running("near 5000"));
+}
+
+TEST(OpenSlices, StandAsDeepAsAsked) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "cloud.csv", "x,y,z\n0,0,0\n4,4,0\n-4,-4,0\n1,0,3\n");
+  run_command(folder, {"wheatstone", "render", folder / "cloud.csv", "--size", "120x80", "--save-slices",
+                       folder / "slices.exr", "-o", folder / "unused"});
+  Viewer viewer;
+  viewer.session().items.push_back({folder / "slices.exr"});
+  viewer.set_viewport({240, 80});
+  viewer.open(0);
+  viewer.wait();
+  run_line(viewer, "mode left-right");
+  run_line(viewer, "zero-parallax 0");
+  run_line(viewer, "near 20");
+  run_line(viewer, "far 20");
+  run_line(viewer, "separation 1");
+  viewer.wait();
+  const std::string line = command_line_of(viewer.session());
+  run_command(folder, words_of(line));
+  const Image<Rgb8> left = read_image(folder / "views/view_000.png");
+  for (int y = 0; y < 80; ++y)
+    for (int x = 20; x < 100; ++x) ASSERT_EQ(viewer.frame()->picture(x, y), left(x, y)) << line;
+}
+
+}  // namespace
+}  // namespace wheatstone::viewer
