@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -13,106 +14,12 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/random.h"
-#include "wheatstone/synthetic/synthetic_still_view_internal.h"
+#include "wheatstone/synthetic/synthetic_film_shot_internal.h"
 
 namespace wheatstone {
 namespace {
 
-using still::Cameras, still::Object, still::Pose, still::Scene, still::Vec3, still::View;
-
-/// A sine of that many frames a wave.
-float wave(int frame, float frames, float phase = 0) {
-  return std::sin(2 * std::numbers::pi_v<float> * (static_cast<float>(frame) / frames + phase));
-}
-
-/// A thing that moves as a whole: its objects, and the point about which they turn.
-struct Mover {
-  std::vector<int> objects;
-  Vec3 pivot;
-  float phase = 0;
-};
-
-bool lies_in_vessel(const Scene& scene, Vec3 point) {
-  return std::ranges::any_of(scene.mouths, [&](const still::Mouth& mouth) {
-    return std::hypot(point.x - mouth.centre.x, point.z - mouth.centre.z) < mouth.radius;
-  });
-}
-
-bool is_fruit(const Object& object) {
-  const still::Material material = object.surface.material;
-  return material == still::Material::apple || material == still::Material::pear || material == still::Material::lemon;
-}
-
-/// The apples, pears and lemons beside the bowl, with their stalks.
-std::vector<Mover> find_movers(const Scene& scene) {
-  std::vector<Mover> movers;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    if (!is_fruit(object) || lies_in_vessel(scene, object.pose.origin)) continue;
-    Mover mover{{}, object.bound_centre, 0.37f * static_cast<float>(movers.size())};
-    for (std::size_t k = i; k < scene.objects.size() && scene.groups[k] == scene.groups[i]; ++k)
-      mover.objects.push_back(static_cast<int>(k));
-    movers.push_back(std::move(mover));
-  }
-  return movers;
-}
-
-/// A scene of the film at rest, lit; things that may move cast no shadow, which would stay behind.
-struct Shot {
-  Scene scene;
-  std::vector<Mover> movers;
-};
-
-Shot make_shot(std::uint64_t seed, FilmMotion motion) {
-  Shot shot{still::compose_still(seed), {}};
-  Scene& scene = shot.scene;
-  for (const Object& object : scene.objects) scene.lit_poses.push_back(object.pose);
-  if (motion == FilmMotion::pan) return shot;
-  shot.movers = find_movers(scene);
-  std::erase_if(scene.casters, [&](const still::ShadowCaster& caster) {
-    return std::ranges::any_of(shot.movers,
-                               [&](const Mover& mover) { return scene.groups[mover.objects[0]] == caster.group; });
-  });
-  scene.reach = still::reach_of(scene.casters);
-  return shot;
-}
-
-Vec3 turned_about_y(Vec3 v, float angle) {
-  const float c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
-}
-
-/// The shot with everything where it is in a frame, counted from the shot's first.
-Scene scene_at(const Shot& shot, int frame) {
-  Scene scene = shot.scene;
-  for (const Mover& mover : shot.movers) {
-    const float hop = 0.030f * (1 - wave(frame, 28, mover.phase + 0.25f));
-    const Vec3 shift{0.022f * wave(frame, 36, mover.phase), hop, 0.012f * wave(frame, 44, mover.phase)};
-    const float turn = 0.03f * static_cast<float>(frame);
-    for (const int index : mover.objects) {
-      Object& object = scene.objects[index];
-      object.pose.origin = mover.pivot + turned_about_y(object.pose.origin - mover.pivot, turn) + shift;
-      for (Vec3& axis : object.pose.axes) axis = turned_about_y(axis, turn);
-      still::set_bounds(object);
-    }
-  }
-  return scene;
-}
-
-Cameras cameras_at(const SyntheticFilmOptions& options, int frame) {
-  Cameras cameras = still::make_cameras(options.still);
-  float yaw = 0;
-  if (options.motion == FilmMotion::pan) {
-    yaw = 0.10f * wave(frame, 800);
-  } else {
-    cameras.eye += {0.07f * wave(frame, 110), 0.012f * wave(frame, 60), 0.06f * wave(frame, 130)};
-    yaw = 0.025f * wave(frame, 90, 0.1f);
-  }
-  cameras.right = turned_about_y(cameras.right, yaw);
-  cameras.down = turned_about_y(cameras.down, yaw);
-  cameras.forward = turned_about_y(cameras.forward, yaw);
-  return cameras;
-}
+using still::Cameras, still::Pose, still::Scene, still::Shot, still::Vec3, still::View;
 
 /// A frame as the left eye sees it, for looking up where points went. Not to be moved: the view borrows the rest.
 struct FilmFrame {
@@ -120,8 +27,11 @@ struct FilmFrame {
   Cameras cameras;
   View left;
 
-  FilmFrame(const Shot& shot, const SyntheticFilmOptions& options, int frame)
-      : scene(scene_at(shot, frame)), cameras(cameras_at(options, frame)), left(scene, cameras, left_eye) {}
+  /// At a time in frames from the shot's first.
+  FilmFrame(const Shot& shot, const SyntheticFilmOptions& options, float time)
+      : scene(scene_at(shot, options, time)),
+        cameras(still::cameras_at(options, time)),
+        left(scene, cameras, left_eye) {}
   FilmFrame(const FilmFrame&) = delete;
   FilmFrame& operator=(const FilmFrame&) = delete;
 };
@@ -154,6 +64,26 @@ void find_flow(const FilmFrame& from, const std::vector<Neighbour>& neighbours) 
   });
 }
 
+/// Both eyes' pictures, during an exposure whose moments are these.
+void expose(const std::deque<FilmFrame>& moments, int samples, SyntheticFilmFrame& result) {
+  std::vector<View> left, right;
+  for (const FilmFrame& moment : moments) {
+    left.push_back(moment.left);
+    right.emplace_back(moment.scene, moment.cameras, right_eye);
+  }
+  const auto render = [&](const std::vector<View>& views) {
+    return views.size() == 1 ? still::render(views.front(), samples) : still::render_exposure(views, samples);
+  };
+  const std::size_t middle = moments.size() / 2;
+  const Cameras& cameras = moments[middle].cameras;
+  SyntheticView of_left = render(left), of_right = render(right);
+  result.geometry.left_occlusion = still::occlusion_of(cameras, left[middle], right[middle], of_left.disparity);
+  result.geometry.right_occlusion = still::occlusion_of(cameras, right[middle], left[middle], of_right.disparity);
+  result.geometry.left_disparity = std::move(of_left.disparity);
+  result.geometry.right_disparity = std::move(of_right.disparity);
+  result.pictures = {std::move(of_left.picture), std::move(of_right.picture)};
+}
+
 /// Normally distributed, two at a time (Box and Muller).
 std::pair<float, float> normal_pair(std::uint64_t hashed) {
   const float radius = std::sqrt(-2 * std::log(1 - unit_float(hashed)));
@@ -177,6 +107,10 @@ void add_noise(Image<Rgb8>& picture, float deviation, std::uint64_t key) {
   });
 }
 
+float noise_of(const SyntheticFilmOptions& options) {
+  return options.noise.value_or(options.scene == FilmScene::still ? 3.f : 0.f);
+}
+
 Flow unknown_flow(int width, int height) {
   const Image<float> unknown(width, height, std::numeric_limits<float>::quiet_NaN());
   return {unknown, unknown};
@@ -189,13 +123,14 @@ int cut_of(const SyntheticFilmOptions& options) {
   if (options.frames < 1 || options.frames > most_frames)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("film of {} frames, expected 1 to {}", options.frames, most_frames));
-  const int cut = options.cut.value_or(options.frames / 2);
+  const int cut = options.cut.value_or(options.scene == FilmScene::still_life ? options.frames / 2 : 0);
   if (cut < 0 || cut >= options.frames)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("cut at frame {}, expected one of {} frames, or 0 for none", cut, options.frames));
   constexpr float most_noise = 255;
-  if (!(options.noise >= 0 && options.noise <= most_noise))
-    throw Error(ErrorKind::wrong_usage, fmt::format("noise of {}, expected 0 to {}", options.noise, most_noise));
+  const float noise = noise_of(options);
+  if (!(noise >= 0 && noise <= most_noise))
+    throw Error(ErrorKind::wrong_usage, fmt::format("noise of {}, expected 0 to {}", noise, most_noise));
   return cut;
 }
 
@@ -205,19 +140,14 @@ SyntheticFilmFrame make_synthetic_film_frame(const SyntheticFilmOptions& options
     throw Error(ErrorKind::wrong_usage, fmt::format("frame {} of a film of {}", frame, options.frames));
   const bool second = cut > 0 && frame >= cut;
   const int first_of_shot = second ? cut : 0, end_of_shot = second || cut == 0 ? options.frames : cut;
-  const Shot shot = make_shot(options.still.seed + (second ? 1 : 0), options.motion);
-  const FilmFrame now(shot, options, frame - first_of_shot);
-  const View right(now.scene, now.cameras, right_eye);
-  const int samples = options.still.samples_a_side, width = now.cameras.width, height = now.cameras.height;
-
+  const Shot shot = still::make_shot(options, options.still.seed + (second ? 1 : 0));
+  const auto time_of = [&](int in_film) { return static_cast<float>(in_film - first_of_shot); };
+  std::deque<FilmFrame> moments;
+  for (const float moment : still::exposure_of(options)) moments.emplace_back(shot, options, time_of(frame) + moment);
+  const FilmFrame& now = moments[moments.size() / 2];
+  const int width = now.cameras.width, height = now.cameras.height;
   SyntheticFilmFrame result;
-  SyntheticView of_left = still::render(now.left, samples);
-  SyntheticView of_right = still::render(right, samples);
-  result.geometry.left_occlusion = still::occlusion_of(now.cameras, now.left, right, of_left.disparity);
-  result.geometry.right_occlusion = still::occlusion_of(now.cameras, right, now.left, of_right.disparity);
-  result.geometry.left_disparity = std::move(of_left.disparity);
-  result.geometry.right_disparity = std::move(of_right.disparity);
-  result.pictures = {std::move(of_left.picture), std::move(of_right.picture)};
+  expose(moments, options.still.samples_a_side, result);
 
   std::optional<FilmFrame> next, previous;
   std::vector<Neighbour> neighbours;
@@ -225,18 +155,18 @@ SyntheticFilmFrame make_synthetic_film_frame(const SyntheticFilmOptions& options
     flow = unknown_flow(width, height);
     occlusion = Image<std::uint8_t>(width, height, 255);
     if (other < first_of_shot || other >= end_of_shot) return;
-    neighbours.push_back({&in.emplace(shot, options, other - first_of_shot), &flow, &occlusion});
+    neighbours.push_back({&in.emplace(shot, options, time_of(other)), &flow, &occlusion});
   };
   follow(frame + 1, next, result.to_next, result.next_occlusion);
   follow(frame - 1, previous, result.to_previous, result.previous_occlusion);
   find_flow(now, neighbours);
 
-  if (options.noise > 0) {
+  if (const float noise = noise_of(options); noise > 0) {
     const auto key = [&](std::uint64_t eye) {
       return hash_keys({options.still.seed, static_cast<std::uint64_t>(frame), eye});
     };
-    add_noise(result.pictures.left, options.noise, key(0));
-    add_noise(result.pictures.right, options.noise, key(1));
+    add_noise(result.pictures.left, noise, key(0));
+    add_noise(result.pictures.right, noise, key(1));
   }
   return result;
 }

@@ -149,6 +149,10 @@ inline constexpr float half_height_of_view = 0.256f;  ///< tangent of half the v
 inline constexpr float wall_z = 2.3f;
 
 Scene compose_still(std::uint64_t seed);
+/// The same room with thin bars, or with little figures on the table, in place of the still life; nothing casts
+/// shadows.
+Scene compose_beams(std::uint64_t seed);
+Scene compose_crowd(std::uint64_t seed);
 CasterReach reach_of(const std::vector<ShadowCaster>& casters);
 
 /// True where the ray meets the object nearer than `hit`, which then tells where.

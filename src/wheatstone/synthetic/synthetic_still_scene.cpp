@@ -54,6 +54,8 @@ class Composer {
   void add_bottle(Vec3 foot);
   void add_cup(Vec3 foot);
   void add_fruit_about();
+  void add_beams();
+  void add_crowd();
   void add_grapes(Vec3 stalk, float direction);
   Scene take() {
     assert(scene_.casters.size() <= most_casters);
@@ -414,7 +416,50 @@ void Composer::add_fruit_about() {
   add_apple({0.060f + vary(0.012f), 0, 1.045f + vary(0.01f)}, 0.040f, {0.15f + vary(0.15f), 1, -0.25f});
 }
 
+/// Bars a few millimetres thick that stand and lean between the camera and the wall.
+void Composer::add_beams() {
+  constexpr int beams = 44;
+  constexpr float half_width = 1.9f, half_length = 0.45f;
+  for (int i = 0; i < beams; ++i) {
+    const float place = (static_cast<float>(i) + uniform()) / beams;
+    const Vec3 centre{half_width * (2 * place - 1), 0.33f, 0.95f + 1.15f * uniform()};
+    const float radius = 0.004f + 0.004f * uniform();
+    const Vec3 colour = pick({0x1c1a18, 0xe8e2d2, 0xa3302a, 0x2c5d86, 0x24221f, 0xe0b040});
+    add(turned(centre, {vary(0.5f), 1, vary(0.05f)}, 0), Ellipsoid{{radius, half_length, radius}},
+        {Material::stem, colour, colour * 0.7f, next_seed()}, new_group());
+  }
+}
+
+/// Little figures on the table, each in a lane of its own.
+void Composer::add_crowd() {
+  constexpr int figures = 70, stride = 27;  // so that neighbouring lanes are far apart in colour and way
+  for (int i = 0; i < figures; ++i) {
+    const float lane = 0.86f + 0.94f * static_cast<float>(i * stride % figures) / figures;
+    const float size = 0.8f + 0.5f * uniform();
+    const int group = new_group();
+    const Vec3 coat = pick({0xa3302a, 0x2c5d86, 0xe8e2d2, 0x35603c, 0x1c1a18, 0xe0b040, 0x8a5a78});
+    add(turned({0, 0.034f * size, lane}, {0, 1, 0}, 0), Ellipsoid{Vec3{0.014f, 0.034f, 0.012f} * size},
+        {Material::stem, coat, coat * 0.7f, next_seed()}, group);
+    add(turned({0, 0.074f * size, lane}, {0, 1, 0}, 0), Ellipsoid{Vec3{0.010f, 0.012f, 0.010f} * size},
+        {Material::stem, linear(0xc89878), linear(0x8a6048), next_seed()}, group);
+  }
+}
+
 }  // namespace
+
+Scene compose_beams(std::uint64_t seed) {
+  Composer composer(seed);
+  composer.add_room();
+  composer.add_beams();
+  return composer.take();
+}
+
+Scene compose_crowd(std::uint64_t seed) {
+  Composer composer(seed);
+  composer.add_room();
+  composer.add_crowd();
+  return composer.take();
+}
 
 Scene compose_still(std::uint64_t seed) {
   Composer composer(seed);

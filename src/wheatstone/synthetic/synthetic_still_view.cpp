@@ -50,6 +50,11 @@ struct PixelSamples {
   }
 };
 
+Rgb8 encoded_mean(Vec3 sum, int count) {
+  const Vec3 mean = sum * (1 / static_cast<float>(count));
+  return {srgb_encoded(mean.x), srgb_encoded(mean.y), srgb_encoded(mean.z)};
+}
+
 /// The mean of a pixel's samples, which stand on a sheared grid: each has its own row and column. Where those on the
 /// diagonal meet the same object they are enough.
 Rgb8 render_pixel(const View& view, int x, int y, int samples) {
@@ -64,8 +69,36 @@ Rgb8 render_pixel(const View& view, int x, int y, int samples) {
   for (int i = 0; i < samples; ++i) add(i, i);
   for (int i = 0; i < samples * samples && !pixel.one_object; ++i)
     if (i % samples != i / samples) add(i % samples, i / samples);
-  const Vec3 mean = pixel.sum * (1 / static_cast<float>(pixel.count));
-  return {srgb_encoded(mean.x), srgb_encoded(mean.y), srgb_encoded(mean.z)};
+  return encoded_mean(pixel.sum, pixel.count);
+}
+
+/// The mean of a pixel's samples, which the moments of an exposure take in turn.
+Rgb8 render_moving_pixel(std::span<const View> moments, int x, int y, int samples) {
+  const auto count = static_cast<int>(moments.size());
+  while (samples * samples < count) ++samples;
+  const float share = 1 / static_cast<float>(samples);
+  Vec3 sum;
+  for (int moment = 0; moment < count; ++moment) {
+    const View& view = moments[moment];
+    PixelSamples pixel{view.scene(), view.cameras(), view};
+    for (int i = moment; i < samples * samples; i += count)
+      pixel.add(static_cast<float>(x) + (static_cast<float>(i % samples) + 0.5f) * share,
+                static_cast<float>(y) + (static_cast<float>(i / samples) + 0.5f) * share);
+    sum += pixel.sum;
+  }
+  return encoded_mean(sum, samples * samples);
+}
+
+Image<float> disparity_of(const View& view) {
+  const Cameras& cameras = view.cameras();
+  Image<float> disparity(cameras.width, cameras.height);
+  tbb::parallel_for(0, cameras.height, [&](int y) {
+    for (int x = 0; x < cameras.width; ++x) {
+      const Hit hit = view.look(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      disparity(x, y) = hit.object < 0 ? std::numeric_limits<float>::quiet_NaN() : cameras.disparity(hit.distance);
+    }
+  });
+  return disparity;
 }
 
 }  // namespace
@@ -117,20 +150,25 @@ void View::enter(int object) {
 
 SyntheticView render(const View& view, int samples_a_side, const Progress& progress) {
   const Cameras& cameras = view.cameras();
-  SyntheticView result{Image<Rgb8>(cameras.width, cameras.height), Image<float>(cameras.width, cameras.height)};
+  SyntheticView result{Image<Rgb8>(cameras.width, cameras.height), disparity_of(view)};
   const auto cast_row = [&](int y) {
-    for (int x = 0; x < cameras.width; ++x) {
-      result.picture(x, y) = render_pixel(view, x, y, samples_a_side);
-      const Hit hit = view.look(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-      result.disparity(x, y) =
-          hit.object < 0 ? std::numeric_limits<float>::quiet_NaN() : cameras.disparity(hit.distance);
-    }
+    for (int x = 0; x < cameras.width; ++x) result.picture(x, y) = render_pixel(view, x, y, samples_a_side);
   };
   const int rows_at_once = std::max(64, cameras.height / 32);
   for (int first = 0; first < cameras.height; first += rows_at_once) {
     report(progress, "casting rays", static_cast<double>(first) / cameras.height);
     tbb::parallel_for(first, std::min(first + rows_at_once, cameras.height), cast_row);
   }
+  return result;
+}
+
+SyntheticView render_exposure(std::span<const View> moments, int samples_a_side) {
+  const View& middle = moments[moments.size() / 2];
+  const Cameras& cameras = middle.cameras();
+  SyntheticView result{Image<Rgb8>(cameras.width, cameras.height), disparity_of(middle)};
+  tbb::parallel_for(0, cameras.height, [&](int y) {
+    for (int x = 0; x < cameras.width; ++x) result.picture(x, y) = render_moving_pixel(moments, x, y, samples_a_side);
+  });
   return result;
 }
 

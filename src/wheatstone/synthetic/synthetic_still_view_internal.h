@@ -2,6 +2,7 @@
 
 // How the still life is looked at: cameras, what each of them meets, and the pictures that they take.
 
+#include <span>
 #include <vector>
 
 #include "wheatstone/image/image.h"
@@ -72,6 +73,10 @@ class View {
 
 /// A view's picture, each pixel the mean of samples_a_side² samples, and its exact disparity; NaN where nothing is.
 SyntheticView render(const View& view, int samples_a_side, const Progress& progress = {});
+
+/// The picture of an exposure during which things move: the views are its moments, of one size, and share a pixel's
+/// samples. The disparity is that of the moment in the middle.
+SyntheticView render_exposure(std::span<const View> moments, int samples_a_side);
 
 /// 255 where the point at a pixel's centre is hidden from another view of the same frame or outside its picture.
 Image<std::uint8_t> occlusion_of(const Cameras& cameras, const View& from, const View& to,
