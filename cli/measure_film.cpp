@@ -25,6 +25,7 @@
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/measures/film_measures.h"
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/motion/flow_file.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/strokes/strokes_between_frames.h"
@@ -55,7 +56,8 @@ struct MeasuredFilm {
   bool ended = false;
   TemporalError temporal{};
   Json pairs = Json::array();
-  std::vector<Json> stereo{};  ///< a frame each
+  std::vector<Json> stereo{};       ///< a frame each
+  std::vector<WrongSpots> wrong{};  ///< against the source, a frame each, of both eyes where there are two
 };
 
 /// The mean of like objects of numbers, number by number.
@@ -144,6 +146,44 @@ void measure_stereo(const Arguments& arguments, std::vector<MeasuredFilm>& films
   }
 }
 
+/// How much of a frame has colours that the source's frame has nowhere near.
+void measure_wrong(std::vector<MeasuredFilm>& films) {
+  const StereoFrame& source = films.front().now;
+  for (std::size_t i = 1; i < films.size(); ++i) {
+    const StereoFrame& now = films[i].now;
+    const bool two_eyes = !now.right.empty() && !source.right.empty();
+    films[i].wrong.push_back(
+        two_eyes ? measure_wrong_spots(StereoPairView{now.left, now.right}, StereoPairView{source.left, source.right})
+                 : measure_wrong_spots(now.left, source.left));
+  }
+}
+
+double mean_wrong_share(const MeasuredFilm& film) {
+  double sum = 0;
+  for (const WrongSpots& spots : film.wrong) sum += spots.share;
+  return sum / static_cast<double>(film.wrong.size());
+}
+
+/// The frame, from 0, that has most wrong pixels.
+std::size_t worst_frame(const MeasuredFilm& film) {
+  return static_cast<std::size_t>(std::ranges::max_element(film.wrong, {}, &WrongSpots::share) - film.wrong.begin());
+}
+
+Json wrong_to_json(const MeasuredFilm& film) {
+  Json frames = Json::array();
+  double spots_sum = 0;
+  for (const WrongSpots& spots : film.wrong) {
+    frames.push_back({{"share", spots.share}, {"spots_per_100000_px", spots.spots_per_100000_px}});
+    spots_sum += spots.spots_per_100000_px;
+  }
+  const std::size_t worst = worst_frame(film);
+  return {{"mean_share", mean_wrong_share(film)},
+          {"worst_share", film.wrong[worst].share},
+          {"worst_frame", worst},
+          {"mean_spots_per_100000_px", spots_sum / static_cast<double>(film.wrong.size())},
+          {"frame", frames}};
+}
+
 void measure_temporal(std::vector<MeasuredFilm>& films, const FramePair& pair, int frame) {
   for (MeasuredFilm& film : films) {
     const std::optional<WarpError> error = film.temporal.add(film.before.left, film.now.left, pair);
@@ -159,6 +199,7 @@ Json to_json(const MeasuredFilm& film) {
     facts["temporal_error"] = film.temporal.mean();
     facts["compared_share"] = film.temporal.compared_share();
   }
+  if (!film.wrong.empty()) facts["wrong"] = wrong_to_json(film);
   if (!film.stereo.empty()) {
     facts["stereo_frames"] = film.stereo.size();
     facts["stereo"] = mean_of(film.stereo);
@@ -194,8 +235,9 @@ Json to_json(const Arguments& arguments, const std::vector<MeasuredFilm>& films,
 void print_table(const std::vector<MeasuredFilm>& films, const std::vector<int>& cuts, const Session& session) {
   std::size_t width = 16;
   for (const MeasuredFilm& film : films) width = std::max(width, film.name.size());
-  constexpr auto line = "{:<{}}{:>14}{:>12}{:>11}{:>14}{:>14}\n";
-  fmt::print(session.output, line, "", width, "E_warp x 1000", "of source", "compared", "left - right", "depth found");
+  constexpr auto line = "{:<{}}{:>14}{:>12}{:>11}{:>14}{:>14}{:>10}{:>10}\n";
+  fmt::print(session.output, line, "", width, "E_warp x 1000", "of source", "compared", "left - right", "depth found",
+             "wrong", "at worst");
   const double source_error = films.front().temporal.mean();
   for (const MeasuredFilm& film : films) {
     const TemporalError& error = film.temporal;
@@ -205,7 +247,9 @@ void print_table(const std::vector<MeasuredFilm>& films, const std::vector<int>&
                source_error > 0 ? fmt::format("{:.2f}", error.mean() / source_error) : "",
                temporal ? fmt::format("{:.1f} %", 100 * error.compared_share()) : "",
                stereo ? fmt::format("{:.2f}", mean.at("left_right_mean_absolute").get<double>()) : "",
-               stereo ? fmt::format("{:.1f} %", 100 * mean.at("survival_density").get<double>()) : "");
+               stereo ? fmt::format("{:.1f} %", 100 * mean.at("survival_density").get<double>()) : "",
+               film.wrong.empty() ? "" : fmt::format("{:.2f} %", 100 * mean_wrong_share(film)),
+               film.wrong.empty() ? "" : fmt::format("{:.2f} %", 100 * film.wrong[worst_frame(film)].share));
   }
   if (!cuts.empty()) fmt::print(session.output, "cuts before frame {}\n", fmt::join(cuts, ", "));
 }
@@ -279,6 +323,7 @@ void run(const Arguments& arguments, const Session& session) {
     two_eyes = !films[1].now.right.empty();
     report(session.progress, "frames", expected > 0 ? std::min(frame / expected, 1.0) : 0);
     if (frame % arguments.stereo_step == 0) measure_stereo(arguments, films, frame);
+    measure_wrong(films);
     if (frame == 0) continue;
     const FramePair pair = pair_of(arguments, films.front(), frame);
     if (pair.cut) cuts.push_back(frame);
@@ -339,8 +384,10 @@ void add_measure_film(CLI::App& measure, const Session& session) {
       "warped\n"
       "back along the optical flow of the source. Pixels whose flow is not confirmed by the backward flow are left "
       "out,\n"
-      "and so are cuts. Blurring a film reduces E_warp: compare the gradient energy in --json, too. With --marks, the\n"
-      "shares of strokes that are kept and that pop are printed.\n\n"
+      "and so are cuts. Blurring a film reduces E_warp: compare the gradient energy in --json, too. A pixel is wrong\n"
+      "if its colour is nowhere near that place in the source; the shares are those of the mean and of the worst "
+      "frame. With\n"
+      "--marks, the shares of strokes that are kept and that pop are printed.\n\n"
       "Example:\n  wheatstone synth film -o film\n"
       "  wheatstone rotoscope film --truth film --depth-budget full -o painted.mkv\n"
       "  wheatstone measure film painted.mkv --against film --truth film");

@@ -361,10 +361,11 @@ void add_time_options(CLI::App& command, Arguments& arguments) {
   constexpr auto group = "Time and depth";
   RotoscopeOptions& frames = arguments.options.frames;
   add_rectify_option(command, frames.rectify)->group(group);
-  static constexpr std::array flows{std::pair{std::string_view("farneback"), FlowMethod::farneback},
-                                    std::pair{std::string_view("dis"), FlowMethod::dis}};
-  add_choice<FlowMethod>(command, "--flow", frames.flow, flows,
-                         "Optical flow method: farneback, or dis, which is faster")
+  static constexpr std::array flows{std::pair{std::string_view("dis"), FlowMethod::dis},
+                                    std::pair{std::string_view("farneback"), FlowMethod::farneback}};
+  add_choice<FlowMethod>(
+      command, "--flow", frames.flow, flows,
+      "Optical flow method: dis (dense inverse search), or farneback (polynomial expansion), which is slower")
       ->group(group);
   static constexpr std::array merges{std::pair{std::string_view("visible"), CentralMerge::visible},
                                      std::pair{std::string_view("average"), CentralMerge::average}};

@@ -69,6 +69,32 @@ TEST(MeasureFilmCommand, FindsFlowAndCutsItself) {
   EXPECT_EQ(eyes["source"]["stereo_frames"], 2);
 }
 
+TEST(MeasureFilmCommand, CountsWrongPixelsOfTheMeanAndTheWorstFrame) {
+  const TemporaryFolder folder;
+  for (const char* name : {"source", "painted"}) std::filesystem::create_directories(folder / name);
+  for (int i = 0; i < 4; ++i) {
+    Image<Rgb8> picture(64, 40, {100, 100, 100});
+    const std::string file = "/f_" + std::to_string(i) + ".png";
+    write_image(folder / ("source" + file), picture);
+    if (i == 2)
+      for (int y = 0; y < 16; ++y) std::fill_n(&picture(8, y), 16, Rgb8{250, 100, 100});
+    write_image(folder / ("painted" + file), picture);
+  }
+  const std::vector<std::string> line{"measure", "film", "painted", "source", "--against", "source"};
+  const ProgramResult table = run_in(folder, line);
+  EXPECT_THAT(table.output, testing::ContainsRegex("painted .* 2\\.50 % +10\\.00 %"));
+  std::vector<std::string> as_json = line;
+  as_json.push_back("--json");
+  const auto facts = nlohmann::json::parse(run_in(folder, as_json).output);
+  const auto& wrong = facts["films"][0]["wrong"];
+  EXPECT_DOUBLE_EQ(wrong["mean_share"], 0.025);
+  EXPECT_DOUBLE_EQ(wrong["worst_share"], 0.1);
+  EXPECT_EQ(wrong["worst_frame"], 2);
+  EXPECT_EQ(wrong["frame"].size(), 4u);
+  EXPECT_EQ(facts["films"][1]["wrong"]["worst_share"], 0);
+  EXPECT_FALSE(facts["source"].contains("wrong"));
+}
+
 TEST(MeasureFilmCommand, ComparesWhatOverlapsAndSaysSo) {
   const TemporaryFolder folder;
   wheatstone::make_film(folder / "a.mkv", 5, {.codec = "ffv1"});

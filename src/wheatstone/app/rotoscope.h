@@ -26,7 +26,7 @@ struct RotoscopeOptions {
   RectifyPolicy rectify = RectifyPolicy::automatic;
   int widest_matched_px = 1280;  ///< wider frames are matched in copies of this width
   int widest_flow_px = 960;      ///< and their flow is found in copies of this one
-  FlowMethod flow = FlowMethod::farneback;
+  FlowMethod flow = FlowMethod::dis;
   CentralMerge central = CentralMerge::visible;
   CarryOptions carrying;
   std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for two eyes
