@@ -114,6 +114,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"particles", result.particles},
                                  {"dropped", result.dropped},
                                  {"mended", result.mended},
+                                 {"extreme", result.extreme},
                                  {"density_estimated", result.density_estimated},
                                  {"views", result.rig.positions.size()},
                                  {"method", name_of(result.rendered.method)},
@@ -130,6 +131,10 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
     fmt::print(session.output,
                "set to the smallest positive value: {} densities or temperatures that are not above 0\n",
                result.mended);
+  if (result.extreme > 0)
+    fmt::print(session.output,
+               "set to the limits of single precision, 1.2e-38 and 3.4e38: {} densities or temperatures beyond them\n",
+               result.extreme);
   if (result.density_estimated) fmt::print(session.output, "density: estimated from the neighbours of each particle\n");
   for (const std::string& warning : result.warnings) fmt::print(session.output, "note: {}\n", warning);
   if (session.verbose)

@@ -49,26 +49,43 @@ Staged stage(const RenderParticlesOptions& options, const CloudStatistics& stati
                   : fmt::format("{}: no particles to draw, no particle is inside the selected region", file.string()));
 }
 
-/// Distances are computed in single precision: their squares must not overflow.
 void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
-  constexpr float largest = 1e18f;
+  constexpr float largest = Cloud::farthest_drawn;
   for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z})
     for (const float value : *axis)
       if (!(std::abs(value) <= largest))
-        throw Error(ErrorKind::bad_input, fmt::format("{}: has a particle at {:g}, expected positions of at most {:g}",
-                                                      file.string(), value, largest));
+        throw Error(ErrorKind::bad_input,
+                    fmt::format("{}: has a particle at {:g}, expected positions of at most {:g}", file.string(),
+                                cloud.farthest != 0 ? cloud.farthest : static_cast<double>(value), largest));
 }
 
 void add(SelectionCounts& sum, const SelectionCounts& more) {
   sum.dropped += more.dropped;
   sum.mended += more.mended;
+  sum.extreme += more.extreme;
+}
+
+/// Of the file, with the middle of what is looked at as the origin, where the options tell it.
+CloudChoice choice_of(const RenderParticlesOptions& options) {
+  CloudChoice choice = options.choice;
+  const Cut& cut = options.selection.cut;
+  if (options.selection.centre) {
+    choice.origin = options.selection.centre;
+  } else if (const Sphere* sphere = std::get_if<Sphere>(&cut)) {
+    choice.origin = sphere->centre;
+  } else if (const Box* box = std::get_if<Box>(&cut)) {
+    choice.origin.emplace();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      (*choice.origin)[axis] = box->lower[axis] + (box->upper[axis] - box->lower[axis]) / 2;
+  }
+  return choice;
 }
 
 /// Calls `visit` with every chunk of the file that has something selected in it.
 template <class Visit>
 SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                const std::string& step, const Progress& progress, Visit visit) {
-  const CloudSource source = open_cloud(file, options.choice);
+  const CloudSource source = open_cloud(file, choice_of(options));
   // The next chunk is read while this one is worked on.
   const auto read_next = [&] { return std::async(std::launch::async, [&] { return source.next(options.chunk); }); };
   std::future<Cloud> pending = read_next();
@@ -108,19 +125,21 @@ RenderedParticles stream(const std::filesystem::path& file, const RenderParticle
   result.particles = statistics.count;
   result.dropped = counts.dropped;
   result.mended = counts.mended;
+  result.extreme = counts.extreme;
   return result;
 }
 
 RenderedParticles render_whole(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                const Progress& progress) {
   RenderedParticles result;
-  Cloud cloud = read_cloud(file, options.choice, progress);
+  Cloud cloud = read_cloud(file, choice_of(options), progress);
   const SelectionCounts counts = select_particles(cloud, options.selection);
   if (cloud.size() == 0) refuse_nothing(file, counts);
   check_positions(file, cloud);
   result.particles = cloud.size();
   result.dropped = counts.dropped;
   result.mended = counts.mended;
+  result.extreme = counts.extreme;
   if (cloud.density.empty() && cloud.colour.empty()) {
     estimate_density(cloud, options.neighbours, progress);
     result.density_estimated = true;

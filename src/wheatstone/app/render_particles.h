@@ -62,6 +62,7 @@ struct RenderedParticles {
   std::uint64_t particles = 0;  ///< drawn
   std::uint64_t dropped = 0;    ///< without a finite position
   std::uint64_t mended = 0;     ///< with a density or temperature that is not above 0, which got the least one
+  std::uint64_t extreme = 0;    ///< densities and temperatures beyond single precision, put at its limits
   bool density_estimated = false;
   std::vector<std::string> warnings;  ///< of comfort and of what is missing, in words for people
 };

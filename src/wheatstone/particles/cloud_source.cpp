@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <system_error>
 
@@ -39,8 +40,8 @@ bool looks_like_table(std::string_view bytes) {
     bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
     if (fields.empty() || fields[0].starts_with('#')) continue;
     if (fields.size() < 3) return false;
-    float number = 0;
-    if (std::ranges::all_of(fields, [&](std::string_view field) { return parse_number(field, number); })) return true;
+    if (std::ranges::all_of(fields, [](std::string_view field) { return parse_number(field).has_value(); }))
+      return true;
     if (names_above) return false;
     names_above = true;
   }
@@ -90,6 +91,7 @@ void append(Cloud& to, const Cloud& more) {
   append(to.smoothing_length, more.smoothing_length);
   to.colour.insert(to.colour.end(), more.colour.begin(), more.colour.end());
   to.origin = more.origin;
+  if (std::abs(more.farthest) > std::abs(to.farthest)) to.farthest = more.farthest;
   to.box_size = more.box_size;
 }
 

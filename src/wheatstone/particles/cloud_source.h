@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/particles/cloud.h"
@@ -19,6 +21,9 @@ struct CloudChoice {
   std::string density;      ///< name of the dataset or column
   std::string temperature;  ///< name of the dataset or column; any scalar
   std::string smoothing_length;  ///< name of the dataset or column
+  /// What the positions are to be relative to (Cloud::origin), where it is known which part of the file is looked at;
+  /// else it is chosen from the first particles.
+  std::optional<std::array<double, 3>> origin;
 };
 
 /// A file of particles, opened, its header checked against its length. Reading goes forward only, chunk by chunk.
@@ -28,7 +33,9 @@ struct CloudSource {
   double box_size = 0;                 ///< of the periodic box, 0 where there is none
   std::optional<double> redshift;      ///< of a snapshot
   std::vector<std::string> fields;     ///< every column that the chosen particles have, as the file names them
-  std::uint64_t bytes = 0;             ///< of all files together
+  /// Units that the file tells, each with the name of a column or of a quantity: "x", "kpc"; "length", "1 kpc/h".
+  std::vector<std::pair<std::string, std::string>> units;
+  std::uint64_t bytes = 0;  ///< of all files together
   /// The next particles, at most so many; an empty cloud at the end. Throws Error{bad_input} where the file is damaged.
   std::function<Cloud(std::size_t most)> next;
 };

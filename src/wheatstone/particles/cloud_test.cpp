@@ -74,8 +74,9 @@ TEST(Select, MovesAPointToTheMiddleOfAPeriodicBox) {
   Cloud cloud = points({9, 1, 5});
   cloud.box_size = 10;
   select_particles(cloud, {.centre = {{0, 0, 0}}});
-  EXPECT_THAT(cloud.x, ElementsAre(4, 6, 0));
-  EXPECT_THAT(cloud.y, ElementsAre(5, 5, 5));
+  EXPECT_THAT(cloud.origin, ElementsAre(5, 5, 5));
+  EXPECT_THAT(cloud.x, ElementsAre(-1, 1, -5));
+  EXPECT_THAT(cloud.y, ElementsAre(0, 0, 0));
 }
 
 TEST(SphDensity, OfALatticeIsOne) {

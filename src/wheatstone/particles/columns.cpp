@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <initializer_list>
 
 #include "wheatstone/error.h"
@@ -12,11 +13,6 @@
 namespace wheatstone {
 namespace {
 
-std::string lower(std::string name) {
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
-
 /// A file's columns by name.
 struct NamedColumns {
   const std::string& path;
@@ -24,7 +20,7 @@ struct NamedColumns {
 
   int find(const std::string& name) const {
     for (std::size_t i = 0; i < names.size(); ++i)
-      if (lower(names[i]) == lower(name)) return static_cast<int>(i);
+      if (lower_case(names[i]) == lower_case(name)) return static_cast<int>(i);
     return -1;
   }
   int required(const std::string& name) const {
@@ -45,6 +41,11 @@ struct NamedColumns {
 
 }  // namespace
 
+std::string lower_case(std::string name) {
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
 std::vector<std::string_view> fields_of(std::string_view line) {
   constexpr std::string_view between = " \t,;\r";
   std::vector<std::string_view> fields;
@@ -57,12 +58,41 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
-bool parse_number(std::string_view field, float& value) {
+std::optional<double> parse_number(std::string_view field) {
+  std::string in_c;  // Fortran writes D or d where C has e
+  if (const std::size_t exponent = field.find_first_of("Dd"); exponent != std::string_view::npos) {
+    in_c = field;
+    in_c[exponent] = 'e';
+    field = in_c;
+  }
+  if (field.starts_with('+')) field.remove_prefix(1);
   double number = 0;
-  const auto [stop, error] =
-      std::from_chars(field.data() + (field.starts_with('+') ? 1 : 0), field.data() + field.size(), number);
-  value = static_cast<float>(number);
-  return error == std::errc{} && stop == field.data() + field.size();
+  const auto [stop, error] = std::from_chars(field.data(), field.data() + field.size(), number);
+  if (stop != field.data() + field.size() || error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    const bool small = field.find("e-") != std::string_view::npos || field.find("E-") != std::string_view::npos;
+    const double infinite = field.starts_with('-') ? -HUGE_VAL : HUGE_VAL;
+    return small ? 0 : infinite;
+  }
+  return number;
+}
+
+bool has_decimal_commas(std::string_view line) {
+  constexpr std::string_view between = " \t;\r";
+  int fields = 0;
+  bool found = false;
+  for (std::size_t at = line.find_first_not_of(between); at != std::string_view::npos;
+       at = line.find_first_not_of(between, at)) {
+    const std::size_t end = std::min(line.find_first_of(between, at), line.size());
+    std::string field(line.substr(at, end - at));
+    at = end;
+    ++fields;
+    const std::size_t comma = field.find(',');
+    if (comma == std::string::npos || comma == 0 || comma + 1 == field.size()) continue;
+    field[comma] = '.';
+    found = found || parse_number(field).has_value();
+  }
+  return found && fields >= 3;
 }
 
 ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +21,16 @@ struct ChosenColumns {
 /// letters or capitals. Throws Error{bad_input} with the file's name where a named one or the position is missing.
 ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names, const CloudChoice& choice);
 
-/// A field as a number; false where it is none, or not only one.
-bool parse_number(std::string_view field, float& value);
+/// A name in small letters.
+std::string lower_case(std::string name);
+
+/// A field as a number, whose exponent may be Fortran's ("1.5D3"). Nothing where it is none, or not only one. What is
+/// too small for double precision is 0, what is too large is infinite.
+std::optional<double> parse_number(std::string_view field);
+
+/// Whether a line of numbers separated by blanks or semicolons has commas where decimal points are expected: "1,5; 2,5;
+/// 3".
+bool has_decimal_commas(std::string_view line);
 
 /// Fields of a line; blanks, commas, semicolons and tabs all stand between them.
 std::vector<std::string_view> fields_of(std::string_view line);

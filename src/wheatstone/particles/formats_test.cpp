@@ -64,65 +64,15 @@ void expect_truncations_refused(const std::string& bytes, const std::string& nam
   }
 }
 
-TEST(TextTable, ReadsNamedColumnsInAnyOrder) {
-  const TemporaryFolder folder;
-  write_whole_file(folder / "a.csv",
-                   "# made by hand\nid,z,y,x,rho,temp\n1,3,2,1,10,1e4\n2,6,5,4,20,2e4\n3,9.5,8,7,+30,3e4\n");
-  const Cloud cloud = read_cloud(folder / "a.csv");
-  expect_three_points(cloud);
-  EXPECT_THAT(cloud.density, ElementsAre(10, 20, 30));
-  EXPECT_THAT(cloud.temperature, ElementsAre(1e4f, 2e4f, 3e4f));
-}
-
-TEST(TextTable, WithoutNamesTakesTheFirstThreeColumns) {
-  const TemporaryFolder folder;
-  write_whole_file(folder / "a.txt", "1 2 3 99\r\n4\t5\t6\t99\r\n\n7 8 9.5 99");
-  expect_three_points(read_cloud(folder / "a.txt"));
-}
-
-TEST(TextTable, WithAByteOrderMarkIsRead) {
-  const TemporaryFolder folder;
-  write_whole_file(folder / "a.csv", "\xEF\xBB\xBFx,y,z\r\n1,2,3\r\n4,5,6\r\n7,8,9.5\r\n");
-  expect_three_points(read_cloud(folder / "a.csv"));
-  write_whole_file(folder / "a.csv", "\xEF\xBB\xBF\"x\";\"y\";\"z\"\n1;2;3\n4;5;6\n7;8;9.5\n");
-  expect_three_points(read_cloud(folder / "a.csv"));
-  write_whole_file(folder / "a.csv",
-                   "\xEF\xBB\xBF"
-                   "1 2 3\n4 5 6\n7 8 9.5\n");
-  expect_three_points(read_cloud(folder / "a.csv"));
-}
-
-TEST(TextTable, APositionNeedsThreeColumns) {
-  const TemporaryFolder folder;
-  write_whole_file(folder / "a.csv", "x,y,z,mass\n1,2,3,4\n");
-  for (const std::string position : {"x", "x,y", "x,,", "x,y,z,mass"})
-    expect_error(ErrorKind::bad_input, "'" + position + "' is not a list of positions, expected three columns",
-                 [&] { read_cloud(folder / "a.csv", {.position = position}); });
-  EXPECT_THAT(read_cloud(folder / "a.csv", {.position = "mass,z,y"}).x, ElementsAre(4));
-}
-
-TEST(TextTable, NamesWhatIsWrongAndWhere) {
-  const TemporaryFolder folder;
-  const auto refused = [&](const std::string& text, const std::string& part, const CloudChoice& choice = {}) {
-    write_whole_file(folder / "a.csv", text);
-    expect_error(ErrorKind::bad_input, part, [&] { read_cloud(folder / "a.csv", choice); });
-  };
-  refused("x,y,z\n1,2,3\n4,five,6\n", "line 3, column 2: 'five'");
-  refused("x,y,z\n1,2\n", "line 2 has 2 columns");
-  refused("x,y,z\n", "no particles");
-  refused("# nothing\n", "no particles");
-  refused("a,b,c\n1,2,3\n", "no column 'x', but a, b, c");
-  refused("x,y,z,rho\n1,2,3,4\n", "no column 'mass', but x, y, z, rho", {.density = "mass"});
-}
-
 TEST(HoldsParticles, ByContentWhateverTheName) {
   const TemporaryFolder folder;
   const auto holds = [&](const std::string& bytes) {
     write_whole_file(folder / "snap_000", bytes);
     return holds_particles(folder / "snap_000");
   };
-  for (const std::string particles : {"x,y,z\n1,2,3\n", "# by hand\n\n1 2 3\n", "ply\nformat ascii 1.0\n", "ply\r\n",
-                                      "LASF", "\x93NUMPY", "\x89HDF\r\n\x1a\n"})
+  for (const std::string particles :
+       {"x,y,z\n1,2,3\n", "# by hand\n\n1 2 3\n", "ply\nformat ascii 1.0\n", "ply\r\n", "LASF",
+        "# x [kpc] y [kpc] z [kpc]\n1.0D0 2.0D0 3.0D0\n", "\x93NUMPY", "\x89HDF\r\n\x1a\n"})
     EXPECT_TRUE(holds(particles)) << particles;
   EXPECT_TRUE(holds(Bytes().put_record(std::string(256, '\1')).text));
   EXPECT_TRUE(holds(Bytes(true).put_record(std::string(256, '\1')).text));
@@ -277,9 +227,11 @@ std::string las(std::uint32_t count, std::uint8_t format = 2) {
 TEST(Las, KeepsCentimetresFarFromTheOrigin) {
   const TemporaryFolder folder;
   write_whole_file(folder / "a.las", las(3));
-  const Cloud cloud = read_cloud(folder / "a.las");
+  const Cloud cloud = read_cloud(folder / "a.las", {.origin = {{4'500'000, 4'500'000, 4'500'000}}});
   expect_three_points(cloud);
-  EXPECT_EQ(cloud.origin[0], 4'500'000);
+  const Cloud chosen = read_cloud(folder / "a.las");
+  EXPECT_EQ(chosen.x[0] + chosen.origin[0], 4'500'001);
+  EXPECT_EQ(chosen.z[2] + chosen.origin[2], 4'500'009.5);
   EXPECT_EQ(cloud.colour[1], (Rgb8{255, 0, 1}));
   EXPECT_THAT(read_cloud(folder / "a.las", {.temperature = "intensity"}).temperature, ElementsAre(100, 200, 300));
   expect_truncations_refused(las(3), "cut.las");

@@ -14,6 +14,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/snapshot_internal.h"
 
 namespace wheatstone {
@@ -162,9 +163,9 @@ struct Column {
   std::size_t width;
 };
 
-/// The numbers of `count` particles from number `first` on, as floats.
-std::vector<float> read_numbers(const BinaryPart& part, std::ifstream& file, const Column& column, std::uint64_t first,
-                                std::size_t count) {
+/// The numbers of `count` particles from number `first` on.
+std::vector<double> read_numbers(const BinaryPart& part, std::ifstream& file, const Column& column, std::uint64_t first,
+                                 std::size_t count) {
   const auto& [block, particles, width] = column;
   const std::uint64_t numbers = particles * width;
   const std::uint64_t bytes = numbers == 0 ? 0 : block.bytes / numbers;
@@ -173,10 +174,10 @@ std::vector<float> read_numbers(const BinaryPart& part, std::ifstream& file, con
   std::vector<char> raw(count * width * bytes);
   file.seekg(static_cast<std::streamoff>(block.begin + first * width * bytes));
   if (!file.read(raw.data(), static_cast<std::streamsize>(raw.size()))) refuse(part, "is cut short");
-  std::vector<float> values(count * width);
+  std::vector<double> values(count * width);
   for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = bytes == 4 ? decode<float>(raw.data() + 4 * i, part.swapped)
-                           : static_cast<float>(decode<double>(raw.data() + 8 * i, part.swapped));
+    values[i] = bytes == 4 ? static_cast<double>(decode<float>(raw.data() + 4 * i, part.swapped))
+                           : decode<double>(raw.data() + 8 * i, part.swapped);
   return values;
 }
 
@@ -187,7 +188,7 @@ struct BinaryReading {
   std::uint64_t at = 0;
   std::ifstream file;
 
-  Cloud next(std::size_t most) {
+  ParticleRows next(std::size_t most) {
     while (part < parts.size() && at >= parts[part].count[type]) {
       ++part;
       at = 0;
@@ -197,32 +198,29 @@ struct BinaryReading {
     const BinaryPart& here = parts[part];
     if (!file.is_open()) file.open(here.path, std::ios::binary);
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, here.count[type] - at));
-    Cloud cloud = read(here, count);
+    ParticleRows rows = read(here, count);
     at += count;
-    return cloud;
+    return rows;
   }
 
-  Cloud read(const BinaryPart& here, std::size_t count) {
-    Cloud cloud;
+  ParticleRows read(const BinaryPart& here, std::size_t count) {
+    ParticleRows rows;
+    Cloud& cloud = rows.others;
     cloud.box_size = here.box_size;
     std::uint64_t before = at;
     for (std::size_t lower = 0; lower < type; ++lower) before += here.count[lower];
-    const std::vector<float> rows = read_numbers(here, file, {*here.find("POS"), here.all(), 3}, before, count);
-    for (std::size_t i = 0; i < count; ++i) {
-      cloud.x.push_back(rows[3 * i]);
-      cloud.y.push_back(rows[3 * i + 1]);
-      cloud.z.push_back(rows[3 * i + 2]);
-    }
-    if (type != 0) return cloud;
+    put_positions(read_numbers(here, file, {*here.find("POS"), here.all(), 3}, before, count), 3, rows);
+    if (type != 0) return rows;
     const auto gas = [&](const char* name) {
       const Block* block = here.find(name);
-      return block == nullptr ? std::vector<float>{} : read_numbers(here, file, {*block, here.count[0], 1}, at, count);
+      return block == nullptr ? std::vector<float>{}
+                              : in_single_precision(read_numbers(here, file, {*block, here.count[0], 1}, at, count));
     };
     cloud.temperature = gas("U");
     for (float& value : cloud.temperature) value = gas_temperature(value);
     cloud.density = gas("RHO");
     cloud.smoothing_length = gas("HSML");
-    return cloud;
+    return rows;
   }
 };
 
@@ -271,7 +269,7 @@ CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudCho
     refuse(first,
            fmt::format("its header says {} particles, but there are only {}", first.total[reading->type], count));
   source.count = count;
-  source.next = [reading](std::size_t most) { return reading->next(most); };
+  source.next = cloud_reader([reading](std::size_t most) { return reading->next(most); }, choice.origin);
   return source;
 }
 

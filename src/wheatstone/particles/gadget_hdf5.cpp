@@ -11,6 +11,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/particles/gas_temperature.h"
 #include "wheatstone/particles/hdf5_internal.h"
+#include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/snapshot_internal.h"
 
 namespace wheatstone {
@@ -84,16 +85,6 @@ Part open_part(const std::filesystem::path& path, int type, const CloudChoice& c
   return part;
 }
 
-void put_positions(const std::vector<float>& rows, Cloud& cloud) {
-  const std::size_t count = rows.size() / 3;
-  for (std::vector<float>* column : {&cloud.x, &cloud.y, &cloud.z}) column->resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    cloud.x[i] = rows[3 * i];
-    cloud.y[i] = rows[3 * i + 1];
-    cloud.z[i] = rows[3 * i + 2];
-  }
-}
-
 /// A column of one number a row; of vectors, their length.
 void put_scalars(const Part& part, const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<float>& to) {
   if (!column.dataset) return;
@@ -132,15 +123,16 @@ void put_smoothing_length(const Part& part, hsize_t first, hsize_t count, Cloud&
   }
 }
 
-Cloud read_part(const Part& part, hsize_t first, hsize_t count) {
-  Cloud cloud;
-  std::vector<float> rows;
-  read_rows(part.position, first, count, rows, part.path);
-  put_positions(rows, cloud);
+ParticleRows read_part(const Part& part, hsize_t first, hsize_t count) {
+  ParticleRows rows;
+  std::vector<double> positions;
+  read_rows(part.position, first, count, positions, part.path);
+  put_positions(positions, 3, rows);
+  Cloud& cloud = rows.others;
   put_scalars(part, part.density, first, count, cloud.density);
   put_temperature(part, first, count, cloud);
   put_smoothing_length(part, first, count, cloud);
-  return cloud;
+  return rows;
 }
 
 /// Which columns a part has: those of one snapshot have the same.
@@ -160,18 +152,18 @@ struct Snapshot {
   Part part;
   hsize_t at = 0;
 
-  Cloud next(std::size_t most) {
+  ParticleRows next(std::size_t most) {
     while (at >= part.count) {
       if (next_file == files.size()) return {};
       part = {};  // closes it before the next one is opened
       part = open_part(files[next_file++], type, choice);
       at = 0;
     }
-    const hsize_t rows = std::min<hsize_t>(most, part.count - at);
-    Cloud cloud = read_part(part, at, rows);
-    cloud.box_size = box_size;
-    at += rows;
-    return cloud;
+    const hsize_t count = std::min<hsize_t>(most, part.count - at);
+    ParticleRows rows = read_part(part, at, count);
+    rows.others.box_size = box_size;
+    at += count;
+    return rows;
   }
 };
 
@@ -250,7 +242,7 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
     throw Error(ErrorKind::bad_input, fmt::format("{}: its header says {} particles, but there are only {}",
                                                   path.string(), header.total, count));
   source.count = count;
-  source.next = [snapshot](std::size_t most) { return snapshot->next(most); };
+  source.next = cloud_reader([snapshot](std::size_t most) { return snapshot->next(most); }, choice.origin);
   return source;
 }
 

@@ -5,6 +5,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/particles/hdf5_internal.h"
+#include "wheatstone/particles/particle_rows_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -29,6 +30,25 @@ bool can_hold(hid_t dataset, hid_t type, hsize_t rows, hsize_t width) {
   constexpr double most_packed = 1100;
   const double bytes = static_cast<double>(rows) * static_cast<double>(width) * static_cast<double>(H5Tget_size(type));
   return bytes <= most_packed * static_cast<double>(H5Dget_storage_size(dataset));
+}
+
+struct RowRange {
+  hsize_t first, count;
+};
+
+template <class Number>
+void read_as(hid_t type, const Hdf5Column& column, const RowRange& rows, std::vector<Number>& to,
+             const std::string& file) {
+  const hsize_t numbers = rows.count * column.width;
+  to.resize(numbers);
+  const Hdf5Handle space(H5Dget_space(column.dataset), H5Sclose);
+  const std::array<hsize_t, 2> start{rows.first, 0};
+  const std::array<hsize_t, 2> extent{rows.count, column.width};
+  const Hdf5Handle memory(H5Screate_simple(1, &numbers, nullptr), H5Sclose);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
+  if (H5Dread(column.dataset, type, memory, space, H5P_DEFAULT, to.data()) < 0)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: rows {} to {} cannot be read, the file is damaged or cut short",
+                                                  file, rows.first, rows.first + rows.count));
 }
 
 }  // namespace
@@ -100,17 +120,21 @@ Hdf5Column open_column(hid_t where, const std::string& name, const std::string& 
   return column;
 }
 
+void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<double>& to,
+               const std::string& file) {
+  read_as(H5T_NATIVE_DOUBLE, column, {first, count}, to, file);
+}
+
 void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<float>& to,
                const std::string& file) {
-  to.resize(count * column.width);
-  const Hdf5Handle space(H5Dget_space(column.dataset), H5Sclose);
-  const std::array<hsize_t, 2> start{first, 0};
-  const std::array<hsize_t, 2> extent{count, column.width};
-  const Hdf5Handle memory(H5Screate_simple(1, std::array<hsize_t, 1>{count * column.width}.data(), nullptr), H5Sclose);
-  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
-  if (H5Dread(column.dataset, H5T_NATIVE_FLOAT, memory, space, H5P_DEFAULT, to.data()) < 0)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: rows {} to {} cannot be read, the file is damaged or cut short",
-                                                  file, first, first + count));
+  const Hdf5Handle type(H5Dget_type(column.dataset), H5Tclose);
+  if (H5Tget_size(type) <= sizeof(float)) {
+    read_as(H5T_NATIVE_FLOAT, column, {first, count}, to, file);
+    return;
+  }
+  std::vector<double> numbers;
+  read_rows(column, first, count, numbers, file);
+  to = in_single_precision(numbers);
 }
 
 }  // namespace wheatstone

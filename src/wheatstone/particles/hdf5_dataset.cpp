@@ -9,6 +9,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/hdf5_internal.h"
+#include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/snapshot_internal.h"
 
 namespace wheatstone {
@@ -66,21 +67,25 @@ std::vector<float> read_scalars(const Datasets& datasets, const Hdf5Column& colu
   return values;
 }
 
-void read_positions(const Datasets& datasets, hsize_t first, hsize_t count, Cloud& cloud) {
+std::vector<double> read_axis(const Datasets& datasets, const Hdf5Column& column, hsize_t first, hsize_t count) {
+  std::vector<double> values;
+  read_rows(column, first, count, values, datasets.path);
+  for (hsize_t i = 1; column.width > 1 && i < count; ++i) values[i] = values[i * column.width];
+  values.resize(count);
+  return values;
+}
+
+void read_positions(const Datasets& datasets, hsize_t first, hsize_t count, ParticleRows& rows) {
   if (datasets.position.size() == 3) {
-    cloud.x = read_scalars(datasets, datasets.position[0], first, count);
-    cloud.y = read_scalars(datasets, datasets.position[1], first, count);
-    cloud.z = read_scalars(datasets, datasets.position[2], first, count);
+    rows.x = read_axis(datasets, datasets.position[0], first, count);
+    rows.y = read_axis(datasets, datasets.position[1], first, count);
+    rows.z = read_axis(datasets, datasets.position[2], first, count);
     return;
   }
-  std::vector<float> rows;
+  std::vector<double> numbers;
   const Hdf5Column& column = datasets.position.front();
-  read_rows(column, first, count, rows, datasets.path);
-  for (hsize_t i = 0; i < count; ++i) {
-    cloud.x.push_back(rows[i * column.width]);
-    cloud.y.push_back(rows[i * column.width + 1]);
-    cloud.z.push_back(rows[i * column.width + 2]);
-  }
+  read_rows(column, first, count, numbers, datasets.path);
+  put_positions(numbers, column.width, rows);
 }
 
 }  // namespace
@@ -114,17 +119,19 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
 
   CloudSource source{.format = "HDF5", .count = datasets->count, .fields = all_datasets(datasets->file)};
   source.bytes = std::filesystem::file_size(path);
-  source.next = [datasets, at = hsize_t{0}](std::size_t most) mutable {
-    Cloud cloud;
+  const auto next = [datasets, at = hsize_t{0}](std::size_t most) mutable {
+    ParticleRows rows;
     const hsize_t count = std::min<hsize_t>(most, datasets->count - at);
-    if (count == 0) return cloud;
-    read_positions(*datasets, at, count, cloud);
+    if (count == 0) return rows;
+    read_positions(*datasets, at, count, rows);
+    Cloud& cloud = rows.others;
     cloud.density = read_scalars(*datasets, datasets->density, at, count);
     cloud.temperature = read_scalars(*datasets, datasets->temperature, at, count);
     cloud.smoothing_length = read_scalars(*datasets, datasets->smoothing_length, at, count);
     at += count;
-    return cloud;
+    return rows;
   };
+  source.next = cloud_reader(next, choice.origin);
   return source;
 }
 

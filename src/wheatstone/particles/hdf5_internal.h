@@ -59,7 +59,10 @@ struct Hdf5Column {
 /// `name` are for the message.
 Hdf5Column open_column(hid_t where, const std::string& name, const std::string& file);
 
-/// Rows `first` … `first + count − 1` as floats, row by row. Throws Error{bad_input} where they cannot be read.
+/// Rows `first` … `first + count − 1`, row by row. As floats they are finite where the file's numbers are. Throws
+/// Error{bad_input} where they cannot be read.
+void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<double>& to,
+               const std::string& file);
 void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<float>& to, const std::string& file);
 
 }  // namespace wheatstone

@@ -83,11 +83,9 @@ CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choic
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto scale = header.at<double>(131 + 8 * axis);
     const auto offset = header.at<double>(155 + 8 * axis);
-    const auto least = header.at<double>(187 + 16 * axis);
     if (!std::isfinite(scale) || !std::isfinite(offset) || scale == 0)
       throw Error(ErrorKind::bad_input, fmt::format("{}: its scale or offset is not a number", name));
     layout.position[axis] = {.at = 4 * axis, .type = NumberType::i32, .scale = scale, .offset = offset};
-    layout.origin[axis] = std::isfinite(least) ? least : offset;
   }
   const RecordField intensity{.at = 12, .type = NumberType::u16};
   std::vector<std::string> fields{"x", "y", "z", "intensity"};
@@ -103,7 +101,7 @@ CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choic
                      RecordField{at + 4, NumberType::u16, scale}};
     fields.insert(fields.end(), {"red", "green", "blue"});
   }
-  return open_records(layout, fmt::format("LAS 1.{}", minor), std::move(fields));
+  return open_records(layout, fmt::format("LAS 1.{}", minor), std::move(fields), choice);
 }
 
 }  // namespace wheatstone

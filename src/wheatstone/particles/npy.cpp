@@ -178,7 +178,7 @@ CloudSource open_rows(RecordLayout layout, const ElementType& element, std::uint
     layout.smoothing_length = field(*column);
   std::vector<std::string> fields;
   for (std::uint64_t column = 0; column < columns; ++column) fields.push_back(std::to_string(column));
-  return open_records(layout, "NumPy", std::move(fields));
+  return open_records(layout, "NumPy", std::move(fields), choice);
 }
 
 /// Records of named numbers.
@@ -192,7 +192,7 @@ CloudSource open_structures(RecordLayout layout, const ElementType& element, con
   if (std::ranges::min(chosen.colour) >= 0)
     layout.colour = {element.fields[chosen.colour[0]], element.fields[chosen.colour[1]],
                      element.fields[chosen.colour[2]]};
-  return open_records(layout, "NumPy", element.names);
+  return open_records(layout, "NumPy", element.names, choice);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/particles/formats_internal.h"
+#include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/records_internal.h"
 
 namespace wheatstone {
@@ -154,14 +155,15 @@ struct AsciiVertices {
   double value(const std::vector<double>& row, const RecordField& field) const {
     return row[field.at] * field.scale + field.offset;
   }
-  void add(const std::vector<double>& row, Cloud& cloud) const {
-    cloud.x.push_back(static_cast<float>(value(row, layout.position[0])));
-    cloud.y.push_back(static_cast<float>(value(row, layout.position[1])));
-    cloud.z.push_back(static_cast<float>(value(row, layout.position[2])));
-    if (layout.density) cloud.density.push_back(static_cast<float>(value(row, *layout.density)));
-    if (layout.temperature) cloud.temperature.push_back(static_cast<float>(value(row, *layout.temperature)));
+  void add(const std::vector<double>& row, ParticleRows& rows) const {
+    rows.x.push_back(value(row, layout.position[0]));
+    rows.y.push_back(value(row, layout.position[1]));
+    rows.z.push_back(value(row, layout.position[2]));
+    Cloud& cloud = rows.others;
+    if (layout.density) cloud.density.push_back(in_single_precision(value(row, *layout.density)));
+    if (layout.temperature) cloud.temperature.push_back(in_single_precision(value(row, *layout.temperature)));
     if (layout.smoothing_length)
-      cloud.smoothing_length.push_back(static_cast<float>(value(row, *layout.smoothing_length)));
+      cloud.smoothing_length.push_back(in_single_precision(value(row, *layout.smoothing_length)));
     if (layout.colour) {
       const auto byte = [&](std::size_t channel) {
         return static_cast<std::uint8_t>(std::clamp(value(row, (*layout.colour)[channel]), 0., 255.));
@@ -169,20 +171,20 @@ struct AsciiVertices {
       cloud.colour.push_back({byte(0), byte(1), byte(2)});
     }
   }
-  Cloud next(std::size_t most) {
-    Cloud cloud;
+  ParticleRows next(std::size_t most) {
+    ParticleRows rows;
     std::vector<double> row(properties);
-    for (; left > 0 && cloud.size() < most; --left) {
+    for (; left > 0 && rows.size() < most; --left) {
       for (double& number : row)
         if (!(file >> number)) refuse(path, fmt::format("is damaged or cut short, {} vertices before its end", left));
-      add(row, cloud);
+      add(row, rows);
     }
-    return cloud;
+    return rows;
   }
 };
 
 CloudSource open_ascii(const std::filesystem::path& path, const PlyHeader& header, const Finder& finder,
-                       RecordLayout layout) {
+                       RecordLayout layout, const CloudChoice& choice) {
   auto vertices = std::make_shared<AsciiVertices>();
   // A field's place is its number within the row.
   const auto number_of = [&](RecordField& field) {
@@ -206,7 +208,7 @@ CloudSource open_ascii(const std::filesystem::path& path, const PlyHeader& heade
     refuse(path, fmt::format("is cut short: its header says {} vertices", header.vertices));
   CloudSource source{.format = "PLY ascii", .count = header.vertices, .fields = finder.names()};
   source.bytes = std::filesystem::file_size(path);
-  source.next = [vertices](std::size_t most) { return vertices->next(most); };
+  source.next = cloud_reader([vertices](std::size_t most) { return vertices->next(most); }, choice.origin);
   return source;
 }
 
@@ -217,12 +219,12 @@ CloudSource open_ply(const std::filesystem::path& path, const CloudChoice& choic
   const PlyHeader header = read_header(path, file);
   const Finder finder(path, header);
   RecordLayout layout = layout_of(path, header, finder, choice);
-  if (header.format == "ascii") return open_ascii(path, header, finder, layout);
+  if (header.format == "ascii") return open_ascii(path, header, finder, layout, choice);
   const bool little = header.format == "binary_little_endian";
   if (!little && header.format != "binary_big_endian")
     refuse(path, fmt::format("is of format '{}', expected ascii or binary", header.format.substr(0, 40)));
   layout.swapped = little != (std::endian::native == std::endian::little);
-  return open_records(layout, "PLY binary", finder.names());
+  return open_records(layout, "PLY binary", finder.names(), choice);
 }
 
 }  // namespace wheatstone

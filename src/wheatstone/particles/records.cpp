@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/records_internal.h"
 
 namespace wheatstone {
@@ -73,20 +74,19 @@ struct Chunk {
   void put(const std::optional<RecordField>& field, std::vector<float>& column) const {
     if (!field) return;
     column.resize(count);
-    for (std::size_t i = 0; i < count; ++i) column[i] = static_cast<float>(value(*field, i));
+    for (std::size_t i = 0; i < count; ++i) column[i] = in_single_precision(value(*field, i));
   }
 };
 
-Cloud cloud_of(const Chunk& chunk) {
+ParticleRows rows_of(const Chunk& chunk) {
   const RecordLayout& layout = chunk.layout;
-  Cloud cloud;
-  cloud.origin = layout.origin;
-  const std::array<std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
+  ParticleRows rows;
+  const std::array<std::vector<double>*, 3> axes{&rows.x, &rows.y, &rows.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     axes[axis]->resize(chunk.count);
-    for (std::size_t i = 0; i < chunk.count; ++i)
-      (*axes[axis])[i] = static_cast<float>(chunk.value(layout.position[axis], i) - layout.origin[axis]);
+    for (std::size_t i = 0; i < chunk.count; ++i) (*axes[axis])[i] = chunk.value(layout.position[axis], i);
   }
+  Cloud& cloud = rows.others;
   chunk.put(layout.density, cloud.density);
   chunk.put(layout.temperature, cloud.temperature);
   chunk.put(layout.smoothing_length, cloud.smoothing_length);
@@ -99,7 +99,7 @@ Cloud cloud_of(const Chunk& chunk) {
     for (std::size_t i = 0; i < chunk.count; ++i)
       cloud.colour[i] = {byte((*layout.colour)[0], i), byte((*layout.colour)[1], i), byte((*layout.colour)[2], i)};
   }
-  return cloud;
+  return rows;
 }
 
 struct Reading {
@@ -124,7 +124,7 @@ std::size_t columns_of(const RecordLayout& layout) {
   return most;
 }
 
-Cloud read_some(Reading& reading, std::size_t most) {
+ParticleRows read_some(Reading& reading, std::size_t most) {
   const RecordLayout& layout = reading.layout;
   const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, layout.count - reading.at));
   if (count == 0) return {};
@@ -140,7 +140,7 @@ Cloud read_some(Reading& reading, std::size_t most) {
     reading.read(layout.begin + reading.at * layout.record_bytes, length, 0);
   }
   reading.at += count;
-  return cloud_of({layout, reading.bytes, count});
+  return rows_of({layout, reading.bytes, count});
 }
 
 }  // namespace
@@ -163,7 +163,8 @@ std::size_t bytes_of(NumberType type) {
   }
 }
 
-CloudSource open_records(const RecordLayout& layout, const std::string& format, std::vector<std::string> fields) {
+CloudSource open_records(const RecordLayout& layout, const std::string& format, std::vector<std::string> fields,
+                         const CloudChoice& choice) {
   const std::uint64_t length = std::filesystem::file_size(layout.path);
   const std::string name = layout.path.string();
   if (layout.count == 0) throw Error(ErrorKind::bad_input, fmt::format("{}: has no particles", name));
@@ -180,7 +181,7 @@ CloudSource open_records(const RecordLayout& layout, const std::string& format, 
   reading->file.open(layout.path, std::ios::binary);
   CloudSource source{.format = format, .count = layout.count, .fields = std::move(fields)};
   source.bytes = length;
-  source.next = [reading](std::size_t most) { return read_some(*reading, most); };
+  source.next = cloud_reader([reading](std::size_t most) { return read_some(*reading, most); }, choice.origin);
   return source;
 }
 

@@ -32,13 +32,14 @@ struct RecordLayout {
   bool swapped = false;            ///< the other byte order than this machine's
   std::uint64_t column_bytes = 0;  ///< not 0: columns of so many bytes each; a field's `at` is its column's number
   std::array<RecordField, 3> position;
-  std::array<double, 3> origin{};  ///< taken off the positions
   std::optional<RecordField> density, temperature, smoothing_length;
   std::optional<std::array<RecordField, 3>> colour;  ///< 0..255 after scaling
 };
 
-/// Checks that the file is as long as its header says, and gives its particles. `format` and `fields` are for people.
+/// Checks that the file is as long as its header says, and gives its particles. `format` and `fields` are for people;
+/// of the choice, the origin counts.
 /// Throws Error{bad_input}.
-CloudSource open_records(const RecordLayout& layout, const std::string& format, std::vector<std::string> fields);
+CloudSource open_records(const RecordLayout& layout, const std::string& format, std::vector<std::string> fields,
+                         const CloudChoice& choice);
 
 }  // namespace wheatstone

@@ -9,17 +9,19 @@ namespace {
 
 constexpr float least = std::numeric_limits<float>::min();
 
-/// Moves positions so that `centre` comes to the middle of the periodic box.
+/// Moves positions so that `centre` comes to the middle of the periodic box, which becomes their origin.
 void wrap(Cloud& cloud, const std::array<double, 3>& centre) {
   const std::array<std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
   const double box = cloud.box_size;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double shift = box / 2 - (centre[axis] - cloud.origin[axis]);
+    const double shift = cloud.origin[axis] - centre[axis];
+    const auto side = static_cast<float>(box / 2);
     for (float& value : *axes[axis]) {
       const double moved = static_cast<double>(value) + shift;
-      value = static_cast<float>(moved - box * std::floor(moved / box));
-      if (value >= static_cast<float>(box)) value = 0;  // rounded up to the far side, which is the near one
+      value = static_cast<float>(moved - box * std::floor(moved / box + 0.5));
+      if (value >= side) value = -side;  // rounded up to the far side, which is the near one
     }
+    cloud.origin[axis] = box / 2;
   }
 }
 
@@ -36,14 +38,14 @@ bool inside(const Cut& cut, const std::array<double, 3>& at) {
   return true;
 }
 
-std::uint64_t mend(std::vector<float>& column) {
-  std::uint64_t mended = 0;
+void mend(std::vector<float>& column, SelectionCounts& counts) {
   for (float& value : column) {
+    // Readers put what single precision cannot hold at its limits.
+    if (value == least || value == std::numeric_limits<float>::max()) ++counts.extreme;
     if (value >= least && std::isfinite(value)) continue;
     value = least;
-    ++mended;
+    ++counts.mended;
   }
-  return mended;
 }
 
 template <class Value>
@@ -78,7 +80,8 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
       keep(*column, kept);
     keep(cloud.colour, kept);
   }
-  counts.mended = mend(cloud.density) + mend(cloud.temperature);
+  mend(cloud.density, counts);
+  mend(cloud.temperature, counts);
   return counts;
 }
 

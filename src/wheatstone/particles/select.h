@@ -29,6 +29,7 @@ struct Selection {
 struct SelectionCounts {
   std::uint64_t dropped = 0;  ///< without a finite position
   std::uint64_t mended = 0;   ///< with a density or temperature that is not above 0: it got the smallest number
+  std::uint64_t extreme = 0;  ///< densities and temperatures too large or too small for single precision
 };
 
 /// Keeps what the selection asks for, in place and in order. `first` is the index of the cloud's first particle in its

@@ -35,6 +35,8 @@ double kernel(double ratio) {
 /// The images, in a periodic box, of particles within `reach` of its sides.
 void add_images(const Cloud& cloud, float reach, Points& points) {
   const auto box = static_cast<float>(cloud.box_size);
+  std::array<float, 3> lower;  // the box's corner, as the positions are
+  for (std::size_t axis = 0; axis < 3; ++axis) lower[axis] = static_cast<float>(-cloud.origin[axis]);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const std::array<float, 3> at{cloud.x[i], cloud.y[i], cloud.z[i]};
     for (int image = 1; image < 27; ++image) {
@@ -42,10 +44,10 @@ void add_images(const Cloud& cloud, float reach, Points& points) {
       bool wanted = true;
       for (int axis = 0, rest = image; axis < 3; ++axis, rest /= 3) {
         if (rest % 3 == 1) {
-          wanted = wanted && at[axis] < reach;
+          wanted = wanted && at[axis] - lower[axis] < reach;
           moved[axis] += box;
         } else if (rest % 3 == 2) {
-          wanted = wanted && at[axis] > box - reach;
+          wanted = wanted && at[axis] - lower[axis] > box - reach;
           moved[axis] -= box;
         }
       }

@@ -114,9 +114,9 @@ void GadgetWriter::add(const Cloud& cloud) {
   std::vector<float> positions(3 * cloud.size());
   std::vector<float> energies(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    positions[3 * i] = cloud.x[i];
-    positions[3 * i + 1] = cloud.y[i];
-    positions[3 * i + 2] = cloud.z[i];
+    positions[3 * i] = static_cast<float>(cloud.x[i] + cloud.origin[0]);
+    positions[3 * i + 1] = static_cast<float>(cloud.y[i] + cloud.origin[1]);
+    positions[3 * i + 2] = static_cast<float>(cloud.z[i] + cloud.origin[2]);
     energies[i] = gas_internal_energy(cloud.temperature[i]);
   }
   state.write(state.position, positions, 3);

@@ -1,0 +1,116 @@
+// Pictures of particle files: what must not change them, and what frames them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "psnr.h"
+#include "temporary_folder.h"
+#include "throws_error.h"
+#include "wheatstone/app/render_particles.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/random.h"
+
+namespace wheatstone {
+namespace {
+
+/// Coordinates of 1500 points, most of them in three clumps, around the offset, as double precision has them there.
+std::vector<double> cluster(double size, double offset) {
+  std::vector<double> numbers;
+  for (std::uint64_t i = 0; i < 4500; ++i) {
+    double spread = 0;
+    for (std::uint64_t k = 0; k < 4; ++k) spread += unit_float(hash_keys({i, k})) - 0.5;
+    const std::uint64_t clump = i / 3 % 4;
+    numbers.push_back(
+        size * (clump == 0 ? spread / 4 : 0.1 * spread + 0.12 * static_cast<double>(clump + i % 3) - 0.3) + offset);
+  }
+  return numbers;
+}
+
+std::string as_text(const std::vector<double>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::array<char, 40> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.17g%c", numbers[i], i % 3 == 2 ? '\n' : ' ');
+    text += digits.data();
+  }
+  return text;
+}
+
+std::string as_ply(const std::vector<double>& numbers) {
+  std::string bytes(numbers.size() * sizeof(double), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(numbers.size() / 3) +
+         "\nproperty double x\nproperty double y\nproperty double z\nend_header\n" + bytes;
+}
+
+/// LAS 1.2 in millimetres, with UTM's eastings and northings as offsets.
+std::string as_las(const std::vector<double>& numbers, const std::array<double, 3>& offset) {
+  std::string bytes(227, '\0');
+  const auto put = [&](std::size_t at, auto value) { std::memcpy(bytes.data() + at, &value, sizeof(value)); };
+  std::memcpy(bytes.data(), "LASF", 4);
+  put(24, std::uint8_t{1});
+  put(25, std::uint8_t{2});
+  put(94, std::uint16_t{227});
+  put(96, std::uint32_t{227});
+  put(105, std::uint16_t{20});
+  put(107, static_cast<std::uint32_t>(numbers.size() / 3));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put(131 + 8 * axis, 0.001);
+    put(155 + 8 * axis, offset[axis]);
+  }
+  for (std::size_t i = 0; i < numbers.size(); i += 3) {
+    bytes.resize(bytes.size() + 20);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      put(bytes.size() - 20 + 4 * axis, static_cast<std::int32_t>(std::lround(numbers[i + axis] * 1000)));
+    put(bytes.size() - 8, static_cast<std::uint16_t>(i % 1000));
+  }
+  return bytes;
+}
+
+RenderedParticles rendered(const std::filesystem::path& file, RenderParticlesOptions options = {}) {
+  options.width = 160;
+  options.height = 90;
+  options.views = 1;
+  options.rendering.exposure = 0.3f;
+  return render_particles(file, options);
+}
+
+Image<Rgb8> picture_of(const std::filesystem::path& file, const RenderParticlesOptions& options = {}) {
+  return rendered(file, options).rendered.views.front();
+}
+
+TEST(RenderParticles, AClusterFarFromZeroLooksLikeTheSameOneAtZero) {
+  const TemporaryFolder folder;
+  for (const auto& [size, offset] : {std::pair{1., 1e8}, std::pair{1000., 1e12}}) {
+    const std::vector<double> far = cluster(size, offset);
+    std::vector<double> near = far;
+    for (double& number : near) number -= offset;
+    write_whole_file(folder / "near.txt", as_text(near));
+    write_whole_file(folder / "far.txt", as_text(far));
+    write_whole_file(folder / "far.ply", as_ply(far));
+    const Image<Rgb8> wanted = picture_of(folder / "near.txt");
+    EXPECT_GE(psnr_db(wanted, picture_of(folder / "far.txt")), 60);
+    EXPECT_GE(psnr_db(wanted, picture_of(folder / "far.ply")), 60);
+    // Nor does it matter how it is read and what of it is asked for.
+    EXPECT_GE(psnr_db(wanted, picture_of(folder / "far.ply",
+                                         {.selection = {.cut = Sphere{{offset, offset, offset}, size * 9}}})),
+              60);
+    const RenderParticlesOptions streamed{.stream = true, .chunk = 1000};
+    EXPECT_GE(psnr_db(picture_of(folder / "near.txt", streamed), picture_of(folder / "far.ply", streamed)), 60);
+  }
+}
+
+TEST(RenderParticles, LasInUtmCoordinatesLooksLikeTheSamePointsAtZero) {
+  const TemporaryFolder folder;
+  const std::vector<double> points = cluster(20, 0);
+  write_whole_file(folder / "near.las", as_las(points, {0, 0, 0}));
+  write_whole_file(folder / "far.las", as_las(points, {500'000, 5'400'000, 300}));
+  EXPECT_GE(psnr_db(picture_of(folder / "near.las"), picture_of(folder / "far.las")), 60);
+}
+
+}  // namespace
+}  // namespace wheatstone
