@@ -14,6 +14,9 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
   command.add_flag("--full-screen", arguments.full_screen, "Begin in full screen");
   command.add_flag("--no-opengl", arguments.no_opengl, "Show pictures without OpenGL");
   command.add_option("--script", arguments.script, "Do the commands in this file, one a line, and end");
+  command.add_option(
+      "--control", arguments.control,
+      "Make a Unix socket on which other programs send commands, one a line; each is answered by a line");
   command.add_flag("--commands", arguments.commands, "List all commands with their keys, and end");
   command.footer(
       "\nClick: what lies there comes onto the screen plane. Drag: pan, or turn particles. Wheel: zoom.\n"
@@ -34,6 +37,7 @@ std::vector<std::string> view_words(const ViewArguments& arguments) {
   add("--display", arguments.display);
   add("--size", arguments.size);
   add("--script", arguments.script);
+  add("--control", arguments.control);
   add("--threads", std::to_string(arguments.threads));
   add("--seed", std::to_string(arguments.seed));
   if (arguments.full_screen) words.emplace_back("--full-screen");

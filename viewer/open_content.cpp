@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <regex>
 #include <utility>
 
 #include "wheatstone/calibration/prepare_pair.h"
@@ -57,17 +56,6 @@ Opened opened_with_depth(CarriedDepth found, const fs::path& path) {
   return {PaintedContent{nullptr, std::move(photograph)}, "picture with depth", {"with the depth of " + found.how}};
 }
 
-/// The layout that a quilt's name tells, as "gas_qs8x6a0.75.png".
-std::optional<QuiltLayout> layout_in_name(const fs::path& path) {
-  static const std::regex pattern("_qs([0-9]{1,3})x([0-9]{1,3})a[0-9.]+$");
-  const std::string stem = path.stem().string();
-  std::smatch found;
-  if (!std::regex_search(stem, found, pattern)) return {};
-  const QuiltLayout layout{std::stoi(found[1]), std::stoi(found[2])};
-  if (layout.columns == 0 || layout.rows == 0) return {};
-  return layout;
-}
-
 Opened opened_views(std::vector<Image<Rgb8>> views, std::string kind) {
   // Neighbours are an eye separation apart where nothing tells otherwise.
   const float span = kind == "quilt" ? 1.f : static_cast<float>(views.size() - 1);
@@ -75,8 +63,8 @@ Opened opened_views(std::vector<Image<Rgb8>> views, std::string kind) {
 }
 
 Opened open_picture(const fs::path& path, const Progress& progress) {
-  if (const std::optional<QuiltLayout> layout = layout_in_name(path))
-    return opened_views(views_of_quilt(read_image(path), *layout), "quilt");
+  if (const std::optional<NamedQuilt> quilt = quilt_of_name(path.filename().string()))
+    return opened_views(views_of_quilt(read_image(path), quilt->layout), "quilt");
   if (std::optional<CarriedDepth> depth = find_carried_depth(path)) return opened_with_depth(std::move(*depth), path);
   std::optional<ViewsFile> found = find_views(path);
   if (!found) {
@@ -123,7 +111,7 @@ Opened open_content(std::span<const fs::path> files, const Progress& progress) {
 
 bool are_eyes_of_one(const fs::path& left, const fs::path& right) {
   for (const fs::path* path : {&left, &right})
-    if (path->extension() == ".wst" || path->extension() == ".exr" || holds_particles(*path) || layout_in_name(*path))
+    if (path->extension() == ".wst" || path->extension() == ".exr" || holds_particles(*path) || quilt_of_name(path->filename().string()))
       return false;
   try {
     const StereoPair pair{read_image(left), read_image(right)};

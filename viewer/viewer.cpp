@@ -49,6 +49,30 @@ Viewer::Viewer(std::function<void()> wake) : mailbox_(std::move(wake)) {}
 
 Viewer::~Viewer() = default;
 
+void Viewer::open_all(const std::vector<std::filesystem::path>& files) {
+  const auto open_each = [this, files] {
+    for (const std::filesystem::path& file : files) session_.items.push_back({file});
+    open(0);
+  };
+  if (files.size() != 2) return open_each();
+  session_.opening = Activity{"reading", 0};
+  const std::uint64_t job = ++job_;
+  // Both are read to find out.
+  making_.start([this, job, files, open_each](const std::stop_token&) {
+    try {
+      const bool is_one = are_eyes_of_one(files[0], files[1]);
+      mailbox_.post([this, job, files, open_each, is_one] {
+        if (job != job_) return;
+        if (!is_one) return open_each();
+        session_.items.push_back(files);
+        open(0);
+      });
+    } catch (const std::exception& error) {
+      post_failure(error, job);
+    }
+  });
+}
+
 void Viewer::open(std::size_t item) {
   if (item >= session_.items.size()) return;
   session_.item = item;
@@ -214,8 +238,14 @@ void Viewer::post_frame(Frame frame, const Asked& asked) {
 }
 
 bool Viewer::is_busy() const {
-  return session_.opening || session_.zero_parallax_target_px || making_.is_busy() || drawing_.is_busy() ||
-         !mailbox_.is_empty();
+  return session_.opening || session_.zero_parallax_target_px || is_working() || !mailbox_.is_empty();
+}
+
+void Viewer::stop() {
+  ++job_;
+  session_.opening.reset();
+  making_.stop();
+  drawing_.stop();
 }
 
 void Viewer::wait() {

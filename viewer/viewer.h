@@ -27,6 +27,8 @@ class Viewer {
   /// For the commands: what they change is drawn by the next `collect`.
   Session& session() { return session_; }
 
+  /// Makes an item of each of the files, or one of two that are the eyes of one photograph, and opens the first.
+  void open_all(const std::vector<std::filesystem::path>& files);
   /// Opens the item of that number.
   void open(std::size_t item);
   /// Paints what is open with the session's style, where there is a photograph.
@@ -51,6 +53,10 @@ class Viewer {
   bool is_busy() const;
   /// Collects until nothing is busy. For scripts without a window.
   void wait();
+  /// Asks the threads to leave what they do.
+  void stop();
+  /// A thread does something.
+  bool is_working() const { return making_.is_busy() || drawing_.is_busy(); }
 
   /// Says something to the user.
   void tell(std::string message, bool is_error = false);

@@ -5,15 +5,19 @@
 
 #include <CLI/CLI.hpp>
 #include <QApplication>
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <optional>
+#include <thread>
 
 #include "cli/view_arguments.h"
+#include "end_signals.h"
 #include "viewer/command_table.h"
-#include "viewer/open_content.h"
+#include "viewer/control.h"
 #include "wheatstone/error.h"
 #include "window.h"
 
@@ -48,12 +52,20 @@ void begin(Window& window, const ViewArguments& arguments) {
   if (!arguments.style.empty()) run_command(window.viewer(), find_command("style"), {arguments.style});
   session.state.style.seed = arguments.seed;
   session.full_screen = arguments.full_screen;
-  if (arguments.files.size() == 2 && are_eyes_of_one(arguments.files[0], arguments.files[1])) {
-    session.items.emplace_back(arguments.files.begin(), arguments.files.end());
-  } else {
-    for (const auto& file : arguments.files) session.items.push_back({std::filesystem::path(file)});
+  window.viewer().open_all({arguments.files.begin(), arguments.files.end()});
+}
+
+/// Leaves what threads do; what cannot be left soon ends with the program.
+void end_threads(Viewer& viewer, int exit_code) {
+  constexpr int longest_ms = 100;
+  viewer.stop();
+  for (int waited_ms = 0; viewer.is_working(); ++waited_ms) {
+    if (waited_ms == longest_ms) {
+      std::fflush(stdout);
+      std::_Exit(exit_code);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  window.viewer().open(0);
 }
 
 /// A script needs no screen. Qt ends the program where it finds none.
@@ -61,25 +73,31 @@ void choose_platform(const ViewArguments& arguments) {
   if (qEnvironmentVariableIsSet("QT_QPA_PLATFORM") || qEnvironmentVariableIsSet("DISPLAY") ||
       qEnvironmentVariableIsSet("WAYLAND_DISPLAY"))
     return;
-  if (arguments.script.empty())
-    throw Error(
-        ErrorKind::cannot_read_write,
-        "view: there is no screen: neither DISPLAY nor WAYLAND_DISPLAY is set; only --script works without one");
+  if (arguments.script.empty() && arguments.control.empty())
+    throw Error(ErrorKind::cannot_read_write,
+                "view: there is no screen: neither DISPLAY nor WAYLAND_DISPLAY is set; only --script and --control "
+                "work without one");
   qputenv("QT_QPA_PLATFORM", "offscreen");
 }
 
-int run(QApplication& application, const ViewArguments& arguments) {
+int run(const ViewArguments& arguments) {
   const QSize size = size_of_window(arguments.size);
   const bool offscreen = QApplication::platformName() == "offscreen";  // which has no OpenGL for widgets
-  Window window({.with_opengl = !arguments.no_opengl && !offscreen, .with_dialogs = arguments.script.empty()});
+  Window window({.with_opengl = !arguments.no_opengl && !offscreen,
+                 .with_dialogs = arguments.script.empty() && arguments.control.empty()});
+  const EndSignals end_signals([&window] { window.end(static_cast<int>(ErrorKind::interrupted)); });
   window.resize(size);
   begin(window, arguments);
   std::unique_ptr<Script> script;
   if (!arguments.script.empty()) script = std::make_unique<Script>(arguments.script, window.script_host());
+  if (!arguments.control.empty()) window.listen(std::make_unique<Control>(arguments.control, window.script_host()));
   window.show();
   if (script) window.run(std::move(script));
-  application.exec();
-  return window.exit_code();
+  if (!window.viewer().session().ends) QApplication::exec();
+  const int exit_code = window.exit_code();
+  window.close_control();
+  end_threads(window.viewer(), exit_code);
+  return exit_code;
 }
 
 }  // namespace
@@ -109,9 +127,9 @@ int main(int argc, char** argv) {
     qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
     choose_platform(arguments);
     int none = 1;
-    QApplication application(none, argv);
+    const QApplication application(none, argv);
     QApplication::setApplicationName("Wheatstone");
-    return run(application, arguments);
+    return run(arguments);
   } catch (const Error& error) {
     fmt::print(stderr, "wheatstone: {}\n", error.what());
     return static_cast<int>(error.kind());

@@ -35,6 +35,7 @@ class OpenglSurface final : public QOpenGLWidget, public PictureSurface {
     doneCurrent();
   }
   QWidget* widget() override { return this; }
+  bool uses_opengl() const override { return functions_ != nullptr; }
 
   void show(const Frame& frame) override {
     picture_ = frame.picture;

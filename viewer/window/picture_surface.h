@@ -15,6 +15,7 @@ class PictureSurface {
   virtual ~PictureSurface() = default;
   virtual QWidget* widget() = 0;
   virtual void show(const Frame& frame) = 0;
+  virtual bool uses_opengl() const { return false; }
 };
 
 /// Draws by OpenGL 4.5 where there is any, and by the processor otherwise; `why_not` then says why, for people.

@@ -66,7 +66,7 @@ Window::Window(const WindowOptions& options)
   make_menus();
   make_status_bar();
   if (!why_not.isEmpty()) {
-    viewer_.tell(why_not.toStdString() + "; the processor draws instead", true);
+    viewer_.tell(why_not.toStdString() + "; the processor draws instead");
     if (options.with_dialogs) QMessageBox::warning(this, "Wheatstone", why_not + ". The processor draws instead.");
   }
   for (QTimer* timer : {&step_timer_, &click_timer_}) timer->setSingleShot(true);
@@ -294,6 +294,7 @@ void Window::save_screenshot(const std::filesystem::path& path) {
   QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
   if (script_) script_timer_.start();
   write_image(path, image_of(grab().toImage()));
+  heartbeat_.forgive();
 }
 
 ScriptHost Window::script_host() {
@@ -303,12 +304,38 @@ ScriptHost Window::script_host() {
               [](const std::string& line) {
                 fmt::print("{}\n", line);
                 std::fflush(stdout);
-              }};
+              },
+          .measured = [this] { return measured(); }};
+}
+
+std::vector<std::pair<std::string, double>> Window::measured() const {
+  const QWidget& picture = *surface_->widget();
+  const double ratio = picture.devicePixelRatioF();
+  const QPoint place = picture.mapToGlobal(QPoint(0, 0));
+  return {{"worst_gap_ms", heartbeat_.worst_gap_ms()},
+          {"opengl", surface_->uses_opengl() ? 1 : 0},
+          {"screen_x", place.x() * ratio},
+          {"screen_y", place.y() * ratio},
+          {"width", picture.width() * ratio},
+          {"height", picture.height() * ratio}};
+}
+
+void Window::listen(std::unique_ptr<Control> control) {
+  control_ = std::make_unique<ControlLink>(std::move(control), viewer_, [this] { refresh(); });
+  heartbeat_.start();
+}
+
+void Window::end(int exit_code) {
+  exit_code_ = exit_code;
+  viewer_.session().ends = true;
+  QApplication::closeAllWindows();
+  QApplication::quit();
 }
 
 void Window::run(std::unique_ptr<Script> script) {
   script_ = std::move(script);
   script_timer_.start();
+  heartbeat_.start();
 }
 
 void Window::go_on_with_script() {

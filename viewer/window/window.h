@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 
+#include "control_link.h"
+#include "heartbeat.h"
 #include "picture_surface.h"
 #include "viewer/command_table.h"
 #include "viewer/script.h"
@@ -33,6 +35,12 @@ class Window final : public QMainWindow {
   /// Runs a script, and ends the program behind it; `exit_code` then says how.
   void run(std::unique_ptr<Script> script);
   int exit_code() const { return exit_code_; }
+  /// Does the lines of other programs.
+  void listen(std::unique_ptr<Control> control);
+  /// Removes their socket.
+  void close_control() { control_.reset(); }
+  /// Closes the window and all its dialogs; the program is to end with that code.
+  void end(int exit_code);
   /// What the script asks of the window.
   ScriptHost script_host();
 
@@ -60,12 +68,15 @@ class Window final : public QMainWindow {
   bool pointer_event(QEvent* event);
   void drag_to(const QPointF& place);
   void save_screenshot(const std::filesystem::path& path);
+  std::vector<std::pair<std::string, double>> measured() const;
 
   WindowOptions options_;
   std::unique_ptr<PictureSurface> surface_;
   std::unique_ptr<Script> script_;
   int exit_code_ = 0;
 
+  std::unique_ptr<ControlLink> control_;
+  Heartbeat heartbeat_;
   QTimer step_timer_, script_timer_, click_timer_;
   QLabel* message_ = nullptr;
   QLabel* depth_ = nullptr;

@@ -1,0 +1,87 @@
+#include "line_runner.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command_table.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double longest_wait_s = 3600;
+
+int pixels_of(const std::string& word) {
+  const double pixels = number_of(word, 1, 16384);
+  if (pixels != static_cast<int>(pixels))
+    throw Error(ErrorKind::wrong_usage, fmt::format("'{}' is no whole number", word));
+  return static_cast<int>(pixels);
+}
+
+}  // namespace
+
+void LineRunner::begin(Viewer& viewer, const std::string& line) {
+  const Words words = words_of(line);
+  if (words.empty()) return;
+  if (words.front() == "wait" && words.size() <= 2) {
+    waits_ = words.size() == 1;
+    if (!waits_)
+      waits_until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(number_of(words[1], 0, longest_wait_s)));
+  } else if (words.front() == "screenshot" && words.size() == 2) {
+    if (host_.screenshot) return host_.screenshot(words[1]);
+    run_command(viewer, find_command("save-picture"), {words[1]});
+  } else if (words.front() == "resize" && words.size() == 3) {
+    const int width = pixels_of(words[1]), height = pixels_of(words[2]);
+    if (host_.resize) return host_.resize(width, height);
+    viewer.set_viewport({width, height});
+  } else if (words.front() == "print" && words.size() == 1) {
+    using Measured = std::vector<std::pair<std::string, double>>;
+    if (host_.print) host_.print(state_json(viewer.session(), host_.measured ? host_.measured() : Measured()));
+  } else {
+    run_line(viewer, line);
+  }
+}
+
+bool LineRunner::is_done(Viewer& viewer) {
+  if (waits_until_ && Clock::now() < *waits_until_) return false;
+  waits_until_.reset();
+  if (waits_ && viewer.is_busy()) return false;
+  Session& session = viewer.session();
+  if (std::exchange(waits_, false) && std::exchange(session.message_is_error, false))
+    throw Error(ErrorKind::bad_input, session.message);
+  return true;
+}
+
+std::string state_json(const Session& session, const std::vector<std::pair<std::string, double>>& measured) {
+  using Json = nlohmann::ordered_json;
+  const ViewState& state = session.state;
+  Json files = Json::array();
+  if (const Item* const item = open_item(session))
+    for (const auto& file : *item) files.push_back(file.string());
+  Json told{{"files", files},
+            {"kind", session.opened.kind},
+            {"mode", state.mode},
+            {"swap", state.swap},
+            {"zero_parallax_px", state.adjustment.zero_parallax_px},
+            {"separation", state.adjustment.separation},
+            {"zoom", state.framed.zoom},
+            {"pan_x", state.framed.pan_x},
+            {"pan_y", state.framed.pan_y},
+            {"head", state.head},
+            {"display", state.display},
+            {"finest_layer", state.finest_layer},
+            {"style", state.style.name},
+            {"full_screen", session.full_screen},
+            {"information", session.information},
+            {"help", session.help},
+            {"message", session.message},
+            {"is_error", session.message_is_error}};
+  for (const auto& [name, value] : measured) told[name] = value;
+  return told.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace wheatstone::viewer

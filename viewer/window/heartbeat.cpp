@@ -1,0 +1,24 @@
+#include "heartbeat.h"
+
+#include <algorithm>
+
+namespace wheatstone::viewer {
+namespace {
+
+constexpr int beat_ms = 5;
+
+}  // namespace
+
+void Heartbeat::start() {
+  timer_.setTimerType(Qt::PreciseTimer);
+  QObject::connect(&timer_, &QTimer::timeout, &timer_, [this] {
+    worst_gap_ms_ = std::max(worst_gap_ms_, static_cast<double>(since_beat_.nsecsElapsed()) / 1e6 - beat_ms);
+    since_beat_.start();
+  });
+  since_beat_.start();
+  timer_.start(beat_ms);
+}
+
+void Heartbeat::forgive() { since_beat_.start(); }
+
+}  // namespace wheatstone::viewer
