@@ -13,6 +13,10 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
   command.add_option("--size", arguments.size, "Size of the window: WIDTHxHEIGHT")->capture_default_str();
   command.add_flag("--full-screen", arguments.full_screen, "Begin in full screen");
   command.add_flag("--no-opengl", arguments.no_opengl, "Show pictures without OpenGL");
+  command
+      .add_flag("--stereo", arguments.stereo,
+                "Have the graphics card show both eyes in turn, for --mode page-flip and shutter glasses")
+      ->excludes("--no-opengl");
   command.add_option("--script", arguments.script, "Do the commands in this file, one a line, and end");
   command.add_option(
       "--control", arguments.control,
@@ -42,6 +46,7 @@ std::vector<std::string> view_words(const ViewArguments& arguments) {
   add("--seed", std::to_string(arguments.seed));
   if (arguments.full_screen) words.emplace_back("--full-screen");
   if (arguments.no_opengl) words.emplace_back("--no-opengl");
+  if (arguments.stereo) words.emplace_back("--stereo");
   if (arguments.commands) words.emplace_back("--commands");
   if (!arguments.files.empty()) words.emplace_back("--");
   words.insert(words.end(), arguments.files.begin(), arguments.files.end());

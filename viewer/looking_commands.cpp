@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +17,8 @@ namespace {
 void set_mode(Viewer& viewer, const Words& words) {
   const OutputMode& mode = find_output_mode(words[0]);
   ViewState& state = state_of(viewer);
+  if (std::holds_alternative<PageFlip>(mode.kind) && !viewer.session().stereo)
+    throw Error(ErrorKind::wrong_usage, "page-flip needs a graphics card with stereo, asked for by --stereo");
   if (std::holds_alternative<Lenticular>(mode.kind) && state.screen.empty())
     lenticular_screen_of(find_display(state.display));
   state.mode = mode.name;
@@ -27,8 +31,9 @@ void step_mode(Viewer& viewer, int by) {
   // What the display cannot show is passed over.
   for (int tried = 0; tried < count; ++tried) {
     at = (at + by + count) % count;
-    const bool needs_display = shows_display_views(modes[static_cast<std::size_t>(at)]) ||
-                               std::holds_alternative<PageFlip>(modes[static_cast<std::size_t>(at)].kind);
+    const bool needs_display =
+        shows_display_views(modes[static_cast<std::size_t>(at)]) ||
+        (std::holds_alternative<PageFlip>(modes[static_cast<std::size_t>(at)].kind) && !viewer.session().stereo);
     if (!needs_display) break;
   }
   state_of(viewer).mode = modes[static_cast<std::size_t>(at)].name;
@@ -79,6 +84,16 @@ void reset(Viewer& viewer, const Words& /*words*/) {
   viewer.show_comfortably();
 }
 
+void fill_screen(Viewer& viewer, const Words& words) {
+  Session& session = viewer.session();
+  const double number = number_of(words[0]);
+  if (number != std::floor(number) || number < 1 || number > session.screens)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("there is no screen {}, expected 1 to {}", words[0], session.screens));
+  session.screen = static_cast<int>(number);
+  session.full_screen = true;
+}
+
 constexpr double zoom_step = 1.25;
 
 constexpr Command table[] = {
@@ -89,6 +104,7 @@ constexpr Command table[] = {
     {"swap", "", "View", "Swap eyes", "W", [](Viewer& v, const Words&) { state_of(v).swap = !state_of(v).swap; }},
     {"full-screen", "", "View", "Full screen", "F, F11",
      [](Viewer& v, const Words&) { v.session().full_screen = !v.session().full_screen; }},
+    {"full-screen-on", "NUMBER", "View", "Full screen on the screen of that number", "", fill_screen},
     {"zoom", "FACTOR", "View", "Zoom: screen pixels for one of the picture", "",
      [](Viewer& v, const Words& w) { state_of(v).framed.zoom = number_of(w[0], 1. / 64, 64); }},
     {"zoom-at", "FACTOR X Y", "View", "Zoom around a place on the screen", "", zoom_at},

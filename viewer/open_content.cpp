@@ -111,7 +111,8 @@ Opened open_content(std::span<const fs::path> files, const Progress& progress) {
 
 bool are_eyes_of_one(const fs::path& left, const fs::path& right) {
   for (const fs::path* path : {&left, &right})
-    if (path->extension() == ".wst" || path->extension() == ".exr" || holds_particles(*path) || quilt_of_name(path->filename().string()))
+    if (path->extension() == ".wst" || path->extension() == ".exr" || holds_particles(*path) ||
+        quilt_of_name(path->filename().string()))
       return false;
   try {
     const StereoPair pair{read_image(left), read_image(right)};

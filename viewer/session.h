@@ -32,6 +32,9 @@ struct Session {
   std::string message;                           ///< the last error or remark, one line
   bool message_is_error = false;
   bool full_screen = false, information = false, help = false;
+  int screens = 1;      ///< that there are
+  int screen = 0;       ///< that is filled, from 1; 0: the display's own, or the window's
+  bool stereo = false;  ///< the graphics card shows a picture for each eye in turn
   bool ends = false;
   int exit_code = 0;
 };

@@ -9,6 +9,7 @@
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
+#include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
@@ -116,6 +117,10 @@ void show_what_both_show(const ContentSize& content, const Fit& fit, double shif
     }
 }
 
+LenticularScreen screen_of(const ViewState& state) {
+  return state.screen.empty() ? lenticular_screen_of(find_display(state.display)) : find_lenticular(state.screen);
+}
+
 /// What a viewport shows of a picture that covers its whole screen.
 Image<Rgb8> part_of_screen(const Image<Rgb8>& whole, const Viewport& viewport) {
   Image<Rgb8> part(viewport.width, viewport.height);
@@ -129,6 +134,16 @@ Image<Rgb8> part_of_screen(const Image<Rgb8>& whole, const Viewport& viewport) {
 }
 
 }  // namespace
+
+std::optional<PictureSize> screen_size_of(const ViewState& state) {
+  if (!shows_display_views(find_output_mode(state.mode))) return {};
+  try {
+    const LenticularScreen screen = screen_of(state);
+    return PictureSize{screen.width, screen.height};
+  } catch (const Error&) {
+    return {};  // a display without lenses
+  }
+}
 
 EyePositions eye_positions(const ViewState& state) {
   const float half = state.adjustment.separation / 2;
@@ -152,8 +167,7 @@ Frame Stage::draw(const Content& content, const ViewState& state, const Viewport
 Frame Stage::draw_display(const Content& content, const ViewState& state, const Viewport& viewport) {
   const std::vector<Image<Rgb8>>& views = drawer_.display_views(content, state);
   if (state.mode == "lenticular") {
-    const LenticularScreen screen =
-        state.screen.empty() ? lenticular_screen_of(find_display(state.display)) : find_lenticular(state.screen);
+    const LenticularScreen screen = screen_of(state);
     return {.picture = part_of_screen(interleave(views, screen), viewport), .right = {}, .places = {}};
   }
   const DisplayPreset& display = find_display(state.display);

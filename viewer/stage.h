@@ -1,10 +1,13 @@
 #pragma once
 
+#include <optional>
+
 #include "compose.h"
 #include "content.h"
 #include "frame_geometry.h"
 #include "view_drawer.h"
 #include "view_state.h"
+#include "wheatstone/stereo/reduced_pair.h"
 
 namespace wheatstone::viewer {
 
@@ -21,6 +24,10 @@ class Stage {
 
   ViewDrawer drawer_;
 };
+
+/// The size of the screen whose lenses a state fills with views, in pixels; none where it shows no such views, or where
+/// the size is not known.
+std::optional<PictureSize> screen_size_of(const ViewState& state);
 
 /// The positions from which a state's two eyes look.
 struct EyePositions {

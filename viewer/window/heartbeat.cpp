@@ -1,6 +1,7 @@
 #include "heartbeat.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace wheatstone::viewer {
 namespace {
@@ -18,6 +19,8 @@ void Heartbeat::start() {
   since_beat_.start();
   timer_.start(beat_ms);
 }
+
+double Heartbeat::take_worst_gap_ms() { return std::exchange(worst_gap_ms_, 0); }
 
 void Heartbeat::forgive() { since_beat_.start(); }
 

@@ -12,8 +12,8 @@ class Heartbeat {
   void start();
   /// Leaves out what was blocked since the last beat: it was asked for.
   void forgive();
-  /// The longest so far.
-  double worst_gap_ms() const { return worst_gap_ms_; }
+  /// The longest since this was last asked.
+  double take_worst_gap_ms();
 
  private:
   QTimer timer_;

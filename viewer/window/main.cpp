@@ -84,6 +84,7 @@ int run(const ViewArguments& arguments) {
   const QSize size = size_of_window(arguments.size);
   const bool offscreen = QApplication::platformName() == "offscreen";  // which has no OpenGL for widgets
   Window window({.with_opengl = !arguments.no_opengl && !offscreen,
+                 .stereo = arguments.stereo,
                  .with_dialogs = arguments.script.empty() && arguments.control.empty()});
   const EndSignals end_signals([&window] { window.end(static_cast<int>(ErrorKind::interrupted)); });
   window.resize(size);

@@ -14,6 +14,8 @@ class PictureSurface {
  public:
   virtual ~PictureSurface() = default;
   virtual QWidget* widget() = 0;
+  /// What the pointer's events come to.
+  virtual QObject* pointed_at() { return widget(); }
   virtual void show(const Frame& frame) = 0;
   virtual bool uses_opengl() const { return false; }
 };

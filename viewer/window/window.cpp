@@ -20,6 +20,7 @@
 
 #include "information.h"
 #include "viewer/particle_moves.h"
+#include "stereo_surface.h"
 #include "viewer/pointing.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
@@ -53,13 +54,14 @@ Window::Window(const WindowOptions& options)
   setWindowTitle("Wheatstone");
   setAcceptDrops(true);
   QString why_not;
-  surface_ = make_surface(options.with_opengl, why_not);
+  surface_ = options.stereo ? make_stereo_surface() : make_surface(options.with_opengl, why_not);
   QWidget* const picture = surface_->widget();
   picture->setMinimumSize(64, 48);
   picture->setMouseTracking(true);
   picture->setFocusPolicy(Qt::StrongFocus);
   picture->setAccessibleName("Picture");
   picture->installEventFilter(this);
+  if (surface_->pointed_at() != picture) surface_->pointed_at()->installEventFilter(this);
   setCentralWidget(picture);
   information_ = make_information(picture);
   help_ = make_help(this);
@@ -73,6 +75,19 @@ Window::Window(const WindowOptions& options)
   connect(&step_timer_, &QTimer::timeout, this, [this] { refresh(); });
   script_timer_.setInterval(2);
   connect(&script_timer_, &QTimer::timeout, this, [this] { go_on_with_script(); });
+  viewer_.session().stereo = options.stereo;
+  const auto count_screens = [this] {
+    viewer_.session().screens = static_cast<int>(QGuiApplication::screens().size());
+    viewer_.session().screen = 0;
+    filled_screen_ = 0;
+  };
+  count_screens();
+  connect(qApp, &QGuiApplication::screenAdded, this, count_screens);
+  connect(qApp, &QGuiApplication::screenRemoved, this, [this, count_screens](const QScreen* removed) {
+    count_screens();
+    full_screen_.screen_removed(*this, removed);
+    refresh();
+  });
   connect(&click_timer_, &QTimer::timeout, this, [this] {
     do_line("zero-parallax-at", {fmt::format("{}", pressed_at_.x()), fmt::format("{}", pressed_at_.y())});
   });
@@ -181,13 +196,15 @@ void Window::show_session() {
     progress_->setFormat(QString::fromStdString(session.opening->step));
     progress_->setValue(static_cast<int>(100 * session.opening->done));
   }
-  if (session.full_screen != isFullScreen()) {
+  if (session.full_screen != full_screen_.is_on() || (session.full_screen && session.screen != filled_screen_)) {
+    filled_screen_ = session.screen;
     menuBar()->setVisible(!session.full_screen);
     statusBar()->setVisible(!session.full_screen);
     if (session.full_screen) {
-      showFullScreen();
+      full_screen_.enter(*this, *screen_to_fill(session, *this));
     } else {
-      showNormal();
+      full_screen_.leave(*this);
+      viewer_.session().screen = 0;
     }
   }
   show_information(*information_, session);
@@ -202,7 +219,8 @@ void Window::show_depth_under_pointer() {
 }
 
 bool Window::eventFilter(QObject* watched, QEvent* event) {
-  if (watched != surface_->widget()) return QMainWindow::eventFilter(watched, event);
+  if (watched != surface_->widget() && watched != surface_->pointed_at())
+    return QMainWindow::eventFilter(watched, event);
   if (event->type() == QEvent::Resize) refresh();
   return pointer_event(event) || QMainWindow::eventFilter(watched, event);
 }
@@ -308,11 +326,11 @@ ScriptHost Window::script_host() {
           .measured = [this] { return measured(); }};
 }
 
-std::vector<std::pair<std::string, double>> Window::measured() const {
+std::vector<std::pair<std::string, double>> Window::measured() {
   const QWidget& picture = *surface_->widget();
   const double ratio = picture.devicePixelRatioF();
   const QPoint place = picture.mapToGlobal(QPoint(0, 0));
-  return {{"worst_gap_ms", heartbeat_.worst_gap_ms()},
+  return {{"worst_gap_ms", heartbeat_.take_worst_gap_ms()},
           {"opengl", surface_->uses_opengl() ? 1 : 0},
           {"screen_x", place.x() * ratio},
           {"screen_y", place.y() * ratio},

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "control_link.h"
+#include "full_screen.h"
 #include "heartbeat.h"
 #include "picture_surface.h"
 #include "viewer/command_table.h"
@@ -22,6 +23,7 @@ namespace wheatstone::viewer {
 
 struct WindowOptions {
   bool with_opengl = true;
+  bool stereo = false;       ///< a picture for each eye in turn, by the graphics card
   bool with_dialogs = true;  ///< errors and missing OpenGL are told in dialogs; a script has none
 };
 
@@ -68,7 +70,7 @@ class Window final : public QMainWindow {
   bool pointer_event(QEvent* event);
   void drag_to(const QPointF& place);
   void save_screenshot(const std::filesystem::path& path);
-  std::vector<std::pair<std::string, double>> measured() const;
+  std::vector<std::pair<std::string, double>> measured();
 
   WindowOptions options_;
   std::unique_ptr<PictureSurface> surface_;
@@ -77,6 +79,8 @@ class Window final : public QMainWindow {
 
   std::unique_ptr<ControlLink> control_;
   Heartbeat heartbeat_;
+  FullScreen full_screen_;
+  int filled_screen_ = 0;  ///< number
   QTimer step_timer_, script_timer_, click_timer_;
   QLabel* message_ = nullptr;
   QLabel* depth_ = nullptr;
