@@ -19,8 +19,8 @@
 #include <map>
 
 #include "information.h"
-#include "viewer/particle_moves.h"
 #include "stereo_surface.h"
+#include "viewer/particle_moves.h"
 #include "viewer/pointing.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
