@@ -217,6 +217,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   results.photographs = subject.strength || photograph.pair.rectification;
   if (!arguments.display.empty()) return paint_for_display(arguments, job, subject, options, session);
 
+  options.depth_budget = depth_budget_from(arguments);
   const PaintedPhotograph result = paint_photograph(pictures, options, session.progress);
   if (result.confidence) tell_of_match(photograph, *result.confidence, session);
   std::optional<PaintingMeasures> measures;
@@ -224,12 +225,8 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
     measures = measure_painting(pictures, result, options.left_disparity.value_or(result.geometry.left_disparity),
                                 session.progress);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
-  const PaintingReport told{result,
-                            options.style,
-                            subject.strength ? nullptr : &photograph.pair,
-                            measured,
-                            depth_budget_from(arguments),
-                            photograph.whole};
+  const PaintingReport told{result,   options.style,        subject.strength ? nullptr : &photograph.pair,
+                            measured, options.depth_budget, photograph.whole};
   write_results(*folder, pictures, told, results, session.progress);
   return {Json::parse(report_json(told)), summary_of(told), job.output};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "wheatstone/app/present_pair.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/error.h"
 #include "wheatstone/stereo/fitting_pair.h"
@@ -54,7 +55,10 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   result.geometry = std::move(found.geometry);
   result.matched = std::move(found.matched);
   result.confidence = found.confidence;
-  result.painted = paint(photographs, result.geometry, options.style, progress);
+  const auto presented = [&](const Painting& painting) {
+    return presented_views(comfortable_separation(painting, options.depth_budget));
+  };
+  result.painted = paint(photographs, result.geometry, options.style, progress, presented);
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
   return result;
 }

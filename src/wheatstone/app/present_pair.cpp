@@ -1,7 +1,6 @@
 #include "wheatstone/app/present_pair.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -19,13 +18,24 @@ float comfortable_separation(const Painting& painting, std::optional<float> dept
   return depth_px > budget_px ? budget_px / depth_px : 1;
 }
 
+std::vector<ViewPosition> presented_views(float separation) {
+  if (separation >= 1) return {};
+  return {ViewPosition(-separation / 2), ViewPosition(separation / 2)};
+}
+
 StereoPair present_pair(const Painting& painting, const StereoPairView& eyes, float separation,
                         float zero_parallax_px) {
-  if (separation >= 1) return set_convergence(eyes, zero_parallax_px);
-  const std::array views{ViewPosition(-separation / 2), ViewPosition(separation / 2)};
-  std::vector<DrawnView> drawn = draw(prepare(painting), views);
-  const StereoPair nearer{std::move(drawn.front().picture), std::move(drawn.back().picture)};
-  return set_convergence(nearer, separation * zero_parallax_px);
+  std::vector<Image<Rgb8>> presented;
+  if (separation < 1)
+    for (DrawnView& view : draw(prepare(painting), presented_views(separation)))
+      presented.push_back(std::move(view.picture));
+  return present_pair(presented, eyes, separation, zero_parallax_px);
+}
+
+StereoPair present_pair(std::span<const Image<Rgb8>> presented, const StereoPairView& eyes, float separation,
+                        float zero_parallax_px) {
+  if (presented.empty()) return set_convergence(eyes, zero_parallax_px);
+  return set_convergence({presented.front(), presented.back()}, separation * zero_parallax_px);
 }
 
 }  // namespace wheatstone

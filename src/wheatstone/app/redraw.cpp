@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,11 +45,15 @@ void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOpti
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   report(progress, "drawing", 0);
   const PreparedPainting prepared = prepare(sized);
-  const std::array eyes{left_eye, right_eye};
-  std::vector<DrawnView> drawn = draw(prepared, eyes);
-  const StereoPair pictures{std::move(drawn.front().picture), std::move(drawn.back().picture)};
-  const StereoPair presented = present_pair(sized, pictures, comfortable_separation(sized, options.depth_budget),
-                                            options.zero_parallax_px.value_or(nearest_disparity(sized)));
+  const float separation = comfortable_separation(sized, options.depth_budget);
+  std::vector<ViewPosition> views{left_eye, right_eye};
+  std::ranges::copy(presented_views(separation), std::back_inserter(views));
+  std::vector<DrawnView> drawn = draw(prepared, views);
+  const StereoPair pictures{std::move(drawn[0].picture), std::move(drawn[1].picture)};
+  std::vector<Image<Rgb8>> nearer;
+  for (DrawnView& view : std::span(drawn).subspan(2)) nearer.push_back(std::move(view.picture));
+  const StereoPair presented =
+      present_pair(nearer, pictures, separation, options.zero_parallax_px.value_or(nearest_disparity(sized)));
   report(progress, "writing", 0);
   write_image(folder.file(picture("left")), pictures.left);
   write_image(folder.file(picture("right")), pictures.right);

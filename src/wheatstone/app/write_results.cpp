@@ -44,8 +44,11 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
   const Painting& painting = result.painted.painting;
-  const StereoPair presented =
-      present_pair(painting, pictures, comfortable_separation(painting, told.depth_budget), result.zero_parallax_px);
+  const float separation = comfortable_separation(painting, told.depth_budget);
+  const std::vector<Image<Rgb8>>& others = result.painted.other_views;
+  const StereoPair presented = separation < 1 && !others.empty()
+                                   ? present_pair(others, pictures, separation, result.zero_parallax_px)
+                                   : present_pair(painting, pictures, separation, result.zero_parallax_px);
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   std::vector<Output> outputs{
       {picture("left"), [&](const Path& path) { write_image(path, pictures.left); }},

@@ -2,6 +2,7 @@
 
 #include <flatbuffers/flatbuffers.h>
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <zlib.h>
 
 #include <cmath>
@@ -93,12 +94,15 @@ struct MarksInFile {
 };
 
 flatbuffers::Offset<file::Surfaces> encode_surfaces(const Surfaces& surfaces, flatbuffers::FlatBufferBuilder& builder) {
+  std::vector<std::vector<std::uint8_t>> bytes(surfaces.seen.size());
+  tbb::parallel_for(std::size_t{0}, bytes.size(),
+                    [&](std::size_t i) { bytes[i] = encode_disparities(surfaces.seen[i].disparity); });
   std::vector<flatbuffers::Offset<file::Surface>> seen;
-  for (const Surface& s : surfaces.seen) {
-    const std::vector<std::uint8_t> bytes = encode_disparities(s.disparity);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const Surface& s = surfaces.seen[i];
     seen.push_back(file::CreateSurfaceDirect(builder, s.view.eye_separations(), s.left_px,
                                              static_cast<std::uint32_t>(s.disparity.width()),
-                                             static_cast<std::uint32_t>(s.disparity.height()), &bytes, s.continued));
+                                             static_cast<std::uint32_t>(s.disparity.height()), &bytes[i], s.continued));
   }
   return file::CreateSurfacesDirect(builder, surfaces.tolerance_px, &seen);
 }

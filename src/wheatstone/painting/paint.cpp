@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,18 +19,22 @@
 namespace wheatstone {
 namespace {
 
-/// Draws both eyes of a planned painting.
-void draw_both(const StereoPairView& photographs, const Style& style, PaintedPair& result) {
+/// Draws both eyes of a planned painting, and other views, which have no photograph to be drawn over.
+void draw_views(const StereoPairView& photographs, const Style& style, std::span<const ViewPosition> others,
+                PaintedPair& result) {
   const PreparedPainting prepared = prepare(result.painting);
-  const bool over_photograph = style.background == Background::photograph;
-  const std::array eyes{left_eye, right_eye};
-  const std::array backgrounds{photographs.left, photographs.right};
-  std::vector<DrawnView> drawn =
-      draw(prepared, eyes, over_photograph ? std::span(backgrounds) : std::span<const ImageView<const Rgb8>>());
-  DrawnView &left = drawn.front(), &right = drawn.back();
-  result.pictures = {std::move(left.picture), std::move(right.picture)};
-  result.left_bare_share = left.bare_share;
-  result.right_bare_share = right.bare_share;
+  std::vector<ViewPosition> views{left_eye, right_eye};
+  std::vector<ImageView<const Rgb8>> backgrounds;
+  if (style.background == Background::photograph) {
+    backgrounds = {photographs.left, photographs.right};
+    backgrounds.resize(views.size() + others.size());
+  }
+  views.insert(views.end(), others.begin(), others.end());
+  std::vector<DrawnView> drawn = draw(prepared, views, backgrounds);
+  result.pictures = {std::move(drawn[0].picture), std::move(drawn[1].picture)};
+  result.left_bare_share = drawn[0].bare_share;
+  result.right_bare_share = drawn[1].bare_share;
+  for (DrawnView& other : std::span(drawn).subspan(2)) result.other_views.push_back(std::move(other.picture));
 }
 
 /// Stavrakis & Gelautz 2004, sec. 3.2: the left picture, warped, covers the right eye's paint. The few pixels that
@@ -62,7 +66,7 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                  const Progress& progress) {
+                  const Progress& progress, const OtherViews& other_views) {
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);
@@ -70,7 +74,7 @@ PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& g
   }
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);
-  draw_both(photographs, style, result);
+  draw_views(photographs, style, other_views ? other_views(result.painting) : std::vector<ViewPosition>(), result);
   if (style.propagation == Propagation::raster && style.marks == Marks::strokes) lay_left_over_right(geometry, result);
   report(progress, "drawing", 1);
   return result;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
@@ -21,8 +24,12 @@ struct PaintedPair {
   StereoPair pictures;
   double left_bare_share = 0;  ///< of the pixels, 0..1, that no mark covers
   double right_bare_share = 0;
+  std::vector<Image<Rgb8>> other_views;  ///< that were asked for
   PaintingTimes times;
 };
+
+/// Which other views of a planned painting are drawn together with its eyes, which costs less than by themselves.
+using OtherViews = std::function<std::vector<ViewPosition>(const Painting&)>;
 
 /// The views that paintings of photographs can be drawn for: five eye separations.
 inline constexpr ViewRange widest_views{ViewPosition(-2.5f), ViewPosition(2.5f)};
@@ -35,7 +42,7 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
 
 /// Paints a rectified pair so that its marks fuse. Takes and throws what plan_painting does.
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                  const Progress& progress = {});
+                  const Progress& progress = {}, const OtherViews& other_views = {});
 
 /// One eye, painted alone.
 struct PaintedView {
