@@ -94,7 +94,10 @@ ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
 
 /// What a display wants, where the user does not say otherwise.
 DisplayViewsOptions views_options(const Arguments& arguments, const DisplayPreset& display) {
-  return display_views_options(display, {arguments.display, arguments.size, arguments.views, arguments.span});
+  DisplayViewsOptions options =
+      display_views_options(display, {arguments.display, arguments.size, arguments.views, arguments.span});
+  options.depth = depth_placing_from(arguments);
+  return options;
 }
 
 /// Writes a quilt or a lenticular picture where the display takes one, and else a picture a view.
@@ -191,6 +194,7 @@ PaintPhotographOptions options_from(const Arguments& arguments, const Session& s
   if (arguments.disparity.empty() && !arguments.right_disparity.empty())
     throw Error(ErrorKind::wrong_usage, "--right-disparity: needs --disparity, that of the left view");
   depth_budget_from(arguments);
+  depth_placing_from(arguments);
   if (!arguments.display.empty()) views_options(arguments, find_display(arguments.display));
   return options;
 }
@@ -217,13 +221,15 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   results.photographs = subject.strength || photograph.pair.rectification;
   if (!arguments.display.empty()) return paint_for_display(arguments, job, subject, options, session);
 
-  options.depth_budget = depth_budget_from(arguments);
-  const PaintedPhotograph result = paint_photograph(pictures, options, session.progress);
+  const DepthPlacing placing = depth_placing_from(arguments);
+  if (placing.regions.empty()) options.depth_budget = depth_budget_from(arguments);
+  PaintedPhotograph result = paint_photograph(pictures, options, session.progress);
   if (result.confidence) tell_of_match(photograph, *result.confidence, session);
   std::optional<PaintingMeasures> measures;
   if (arguments.measure)
     measures = measure_painting(pictures, result, options.left_disparity.value_or(result.geometry.left_disparity),
                                 session.progress);
+  place_depth(placing, result);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
   const PaintingReport told{result,   options.style,        subject.strength ? nullptr : &photograph.pair,
                             measured, options.depth_budget, photograph.whole};
@@ -297,7 +303,8 @@ void draw_painting_again(const Arguments& arguments, const CLI::App& command, co
                               .svg = arguments.svg,
                               .format = arguments.format,
                               .zero_parallax_px = parse_zero_parallax(arguments).disparity_px,
-                              .depth_budget = depth_budget_from(arguments)};
+                              .depth_budget = depth_budget_from(arguments),
+                              .depth = depth_placing_from(arguments)};
   OutputFolder folder(arguments.folder, output_of(arguments, arguments.folder).inputs);
   draw_again(read_painting(arguments.files.front()), folder, options, session.progress);
   if (session.json) {

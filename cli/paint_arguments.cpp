@@ -58,6 +58,24 @@ void add_display_options(CLI::App& command, PaintArguments& arguments) {
       ->needs(display);
 }
 
+void add_depth_mapping_options(CLI::App& command, PaintArguments& arguments) {
+  auto* mapping =
+      command
+          .add_option(
+              "--depth-mapping", arguments.depth_mapping,
+              "Depth at several points, SHARE:MM,SHARE:MM,...: SHARE is from 0, the nearest disparity, to 1, the "
+              "farthest, and MM is the depth behind the screen")
+          ->excludes("--zero-parallax", "--zero-parallax-at", "--depth-budget");
+  add_number(command, "--distance", arguments.distance_mm, {1, 1e6},
+             "Viewing distance of a depth mapping, in mm; the display's by default, 700 without one")
+      ->default_str("")
+      ->needs(mapping);
+  add_number(command, "--screen-width", arguments.screen_width_mm, {1, 1e6},
+             "Width of the screen of a depth mapping, in mm; the display's by default, 376 without one")
+      ->default_str("")
+      ->needs(mapping);
+}
+
 }  // namespace
 
 void add_paint_options(CLI::App& command, PaintArguments& arguments) {
@@ -85,6 +103,7 @@ void add_paint_options(CLI::App& command, PaintArguments& arguments) {
           "'full' for that of the photographs. The pictures are drawn for eyes that are nearer together")
       ->type_name("SHARE")
       ->capture_default_str();
+  add_depth_mapping_options(command, arguments);
   add_number(command, "--scale", arguments.scale, {0.01, 32}, "Scale factor of a painting.wst that is drawn again");
   add_display_options(command, arguments);
   command.add_flag("--report", arguments.measure, "Measure the consistency of the two painted views");
@@ -105,13 +124,17 @@ void refuse_for_printing(const CLI::App& command) {
 
 void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments) {
   if (arguments.display.empty()) {
-    refuse_all_but(command, {"--output", "--format", "--scale", "--svg", "--zero-parallax", "--depth-budget"},
+    refuse_all_but(command,
+                   {"--output", "--format", "--scale", "--svg", "--zero-parallax", "--depth-budget", "--depth-mapping",
+                    "--distance", "--screen-width"},
                    "on a painting (.wst)", "it works on photographs");
     return;
   }
   refuse_options(command, {"--scale", "--svg", "--depth-budget"}, "with --display",
                  "it works where two eyes are drawn");
-  refuse_all_but(command, {"--output", "--format", "--display", "--views", "--size", "--span", "--zero-parallax"},
+  refuse_all_but(command,
+                 {"--output", "--format", "--display", "--views", "--size", "--span", "--zero-parallax",
+                  "--depth-mapping", "--distance", "--screen-width"},
                  "on a painting (.wst)", "it works on photographs");
   if (arguments.zero_parallax == "nearest")
     refuse_options(command, {"--zero-parallax"}, "as 'nearest' with --display", "it works with a disparity in pixels");
@@ -161,6 +184,21 @@ void refuse_for_photographs(const CLI::App& command, const PaintArguments& argum
 std::optional<float> depth_budget_from(const PaintArguments& arguments) {
   if (arguments.depth_budget == "full") return {};
   return parse_share("--depth-budget", arguments.depth_budget, {0.1, 100});
+}
+
+DepthPlacing depth_placing_from(const PaintArguments& arguments) {
+  DepthPlacing placing;
+  if (!arguments.depth_mapping.empty())
+    placing.regions = parse_depth_regions(arguments.depth_mapping, "--depth-mapping");
+  if (!arguments.display.empty()) placing.viewing = viewing_of(find_display(arguments.display));
+  if (arguments.distance_mm > 0) placing.viewing.viewing_distance_mm = arguments.distance_mm;
+  if (arguments.screen_width_mm > 0) placing.viewing.screen_width_mm = arguments.screen_width_mm;
+  for (const DepthRegion& region : placing.regions)
+    if (!(region.behind_mm > -placing.viewing.viewing_distance_mm))
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("--depth-mapping: has {:.0f} mm, which is behind the viewer, who is {:.0f} mm away",
+                              region.behind_mm, placing.viewing.viewing_distance_mm));
+  return placing;
 }
 
 bool finds_depth_in_file(const CLI::App& command, const PaintArguments& arguments) {

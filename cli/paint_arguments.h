@@ -9,6 +9,7 @@
 #include "match_options.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
+#include "wheatstone/app/place_depth.h"
 
 namespace wheatstone::cli {
 
@@ -24,6 +25,8 @@ struct PaintArguments {
   std::string zero_parallax = "nearest";
   std::string zero_parallax_at;
   std::string depth_budget = "3%";
+  std::string depth_mapping;
+  float distance_mm = 0, screen_width_mm = 0;  ///< of a depth mapping's viewer; 0: the display's, or a desk's
   double scale = 1;
   std::string display, size;
   int views = 0;
@@ -44,6 +47,9 @@ void refuse_for_photographs(const CLI::App& command, const PaintArguments& argum
 
 /// Of what is looked at, as a share of the width; none: "full".
 std::optional<float> depth_budget_from(const PaintArguments& arguments);
+
+/// Where a viewer is to see the scene's parts. Throws Error{wrong_usage}.
+DepthPlacing depth_placing_from(const PaintArguments& arguments);
 
 /// Whether the one file that is given is one picture that has its own depth, which is painted.
 bool finds_depth_in_file(const CLI::App& command, const PaintArguments& arguments);

@@ -50,28 +50,6 @@ Cut parse_selection(const std::string& text) {
   throw Error(ErrorKind::wrong_usage, fmt::format("--select: is '{}', expected {}", text, expected));
 }
 
-/// "0:-80,0.4:0,1:80": shares of the scene's depth, and millimetres behind the screen.
-std::vector<PerceivedDepth::Region> parse_depth_mapping(const std::string& text) {
-  std::vector<PerceivedDepth::Region> regions;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    const auto pair =
-        parse_numbers("--depth-mapping", text.substr(at, comma - at), {':', 2, {-1e9, 1e9}, "SHARE:MM,SHARE:MM,..."});
-    regions.push_back({static_cast<float>(pair[0]), static_cast<float>(pair[1])});
-    at = comma + 1;
-  }
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    const bool rises =
-        i == 0 || (regions[i].share > regions[i - 1].share && regions[i].behind_mm >= regions[i - 1].behind_mm);
-    if (!rises || regions[i].share < 0 || regions[i].share > 1)
-      throw Error(
-          ErrorKind::wrong_usage,
-          fmt::format("--depth-mapping: is '{}', expected SHARE:MM pairs in ascending order, shares from 0 to 1",
-                      text));
-  }
-  return regions;
-}
-
 void add_particle_options(CLI::App& command, RenderArguments& arguments) {
   CloudChoice& choice = arguments.options.choice;
   const auto text = [&](const char* name, std::string& value, const char* help) {
@@ -325,7 +303,8 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
     options.look_at = {point[0], point[1], point[2]};
   }
   if (!arguments.selection.empty()) options.selection.cut = parse_selection(arguments.selection);
-  if (!arguments.depth_mapping.empty()) options.depth.regions = parse_depth_mapping(arguments.depth_mapping);
+  if (!arguments.depth_mapping.empty())
+    options.depth.regions = parse_depth_regions(arguments.depth_mapping, "--depth-mapping");
   if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);
   if (!arguments.hot.empty()) options.appearance.hot = parse_colour("--hot", arguments.hot);
   options.slices = !arguments.save_slices.empty() || !arguments.interleave.empty();

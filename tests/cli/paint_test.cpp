@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/depth/viewing_geometry.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
@@ -126,6 +128,36 @@ TEST(PaintCommand, IsComfortableToLookAtUnlessAllDepthIsWanted) {
   EXPECT_EQ(bytes_of(folder / "painted/left.png"), left);
   EXPECT_NE(bytes_of(folder / "painted/anaglyph.png"), near);
   expect_refused(folder, paint_line({"--depth-budget", "much"}), 2, "--depth-budget");
+}
+
+TEST(PaintCommand, PlacesDepthWhereItsMappingHasIt) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  Image<float> disparity(width, height, 2);
+  for (int y = height / 4; y < height / 2; ++y)
+    for (int x = width / 4; x < width / 2; ++x) disparity(x, y) = 10;
+  write_disparity(folder / "deep.pfm", disparity);
+  const auto run = [&](const std::vector<std::string>& line) {
+    const ProgramResult result = run_program(line, {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  };
+  const std::vector<std::string> mapping{"--depth-mapping", "0:-40,1:60", "--distance", "600"};
+  const auto with_mapping = [&](std::vector<std::string> line) {
+    line.insert(line.end(), mapping.begin(), mapping.end());
+    return line;
+  };
+  run({"paint", "left.png", "right.png", "--disparity", "deep.pfm", "-o", "plain"});
+  run(with_mapping({"paint", "left.png", "right.png", "--disparity", "deep.pfm", "-o", "placed"}));
+  run(with_mapping({"paint", "plain/painting.wst", "-o", "again"}));
+  const ViewingGeometry viewing{.viewing_distance_mm = 600, .width_px = width};
+  const DepthEnds ends = depth_ends(read_painting(folder / "placed/painting.wst").surfaces.seen.front().disparity);
+  const float pitch_mm = viewing.pixel_pitch_mm(), step_px = 1 / disparity_steps;
+  EXPECT_NEAR(ends.nearest_px, -screen_parallax_mm(viewing, -40) / pitch_mm, step_px);
+  EXPECT_NEAR(ends.farthest_px, -screen_parallax_mm(viewing, 60) / pitch_mm, step_px);
+  EXPECT_EQ(bytes_of(folder / "again/side_by_side.png"), bytes_of(folder / "placed/side_by_side.png"));
+  EXPECT_NE(bytes_of(folder / "again/side_by_side.png"), bytes_of(folder / "plain/side_by_side.png"));
+  expect_refused(folder, paint_line({"--depth-mapping", "0:-900,1:60"}), 2, "behind the viewer");
+  expect_refused(folder, paint_line({"--depth-mapping", "0:0,1:60", "--depth-budget", "2%"}), 2, "--depth-budget");
 }
 
 TEST(PaintCommand, SaysTheSameForTheSameSeedOnAnyNumberOfThreads) {

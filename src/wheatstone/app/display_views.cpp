@@ -41,6 +41,20 @@ Placement placement_for(PictureSize painting, const DisplayViewsOptions& options
   return placement;
 }
 
+/// A view shows a part of the painting, which is as wide as the screen.
+Painting with_placed_depth(const Painting& painting, const DisplayViewsOptions& options) {
+  const Placement placement = placement_for({width_of(painting), height_of(painting)}, options, 0);
+  return place_depth(painting, options.depth, static_cast<int>(std::lround(options.width / placement.scale)));
+}
+
+/// What has been placed lies as it is to be.
+DisplayViewsOptions for_placed(DisplayViewsOptions options) {
+  options.depth = {};
+  options.zero_parallax_px = 0;
+  if (options.span == 0) options.span = options.widest_span;
+  return options;
+}
+
 }  // namespace
 
 DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options) {
@@ -56,6 +70,8 @@ DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends,
 DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options,
                                 const Progress& progress) {
   check_has_surfaces(painting);
+  if (!options.depth.regions.empty())
+    return draw_display_views(with_placed_depth(painting, options), for_placed(options), progress);
   const DisplayViewsPlan plan = plan_display_views({width_of(painting), height_of(painting)},
                                                    depth_ends(painting.surfaces.seen.front().disparity), options);
   DisplayViews result{.rig = plan.rig, .span = plan.span, .zero_parallax_px = plan.zero_parallax_px};

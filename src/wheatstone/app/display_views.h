@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "wheatstone/app/place_depth.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/marks/painting.h"
@@ -20,6 +21,8 @@ struct DisplayViewsOptions {
   float widest_span = 4;
   float depth_share = 0.2f;
   std::optional<float> zero_parallax_px;  ///< disparity on the screen plane; none: the middle of the scene's
+  DepthPlacing depth =
+      {};  ///< with regions they say what lies on the screen, and `span` is `widest_span` where it is 0
 };
 
 /// Where the views stand, and how the painting lies in them.

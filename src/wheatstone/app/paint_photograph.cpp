@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
+#include <vector>
 
 #include "wheatstone/app/present_pair.h"
 #include "wheatstone/depth/convergence.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
@@ -61,6 +64,17 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   result.painted = paint(photographs, result.geometry, options.style, progress, presented);
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
   return result;
+}
+
+void place_depth(const DepthPlacing& placing, PaintedPhotograph& result) {
+  if (placing.regions.empty()) return;
+  PaintedPair& painted = result.painted;
+  const int width_px = width_of(painted.painting);
+  painted.painting = place_depth(std::move(painted.painting), placing, width_px);
+  const std::array eyes{left_eye, right_eye};
+  std::vector<DrawnView> drawn = draw(prepare(painted.painting), eyes);
+  painted.pictures = {std::move(drawn.front().picture), std::move(drawn.back().picture)};
+  result.zero_parallax_px = 0;
 }
 
 PairMeasures measure_pair(const StereoPair& pair, ImageView<const float> left_disparity) {

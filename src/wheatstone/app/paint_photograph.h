@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "wheatstone/app/place_depth.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/match_confidence.h"
 #include "wheatstone/measures/consistency.h"
@@ -42,6 +43,10 @@ struct PaintedPhotograph {
 /// Throws Error: bad_input where pictures or disparity do not fit together, wrong_usage for options that do not.
 PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
                                    const Progress& progress = {});
+
+/// Places the painting's depth, draws it again for both eyes, over its canvas colour, and has disparity 0 on the
+/// screen; nothing where there are no regions. Throws as place_depth does.
+void place_depth(const DepthPlacing& placing, PaintedPhotograph& result);
 
 /// What there is to paint from, and how it was found.
 struct FoundGeometry {

@@ -41,19 +41,21 @@ Painting scaled(const Painting& painting, double scale) {
 
 void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options,
                 const Progress& progress) {
-  const Painting sized = scaled(painting, options.scale);
+  Painting sized = scaled(painting, options.scale);
+  sized = place_depth(std::move(sized), options.depth, width_of(sized));
+  const bool is_placed = !options.depth.regions.empty();
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   report(progress, "drawing", 0);
   const PreparedPainting prepared = prepare(sized);
-  const float separation = comfortable_separation(sized, options.depth_budget);
+  const float separation = is_placed ? 1 : comfortable_separation(sized, options.depth_budget);
   std::vector<ViewPosition> views{left_eye, right_eye};
   std::ranges::copy(presented_views(separation), std::back_inserter(views));
   std::vector<DrawnView> drawn = draw(prepared, views);
   const StereoPair pictures{std::move(drawn[0].picture), std::move(drawn[1].picture)};
   std::vector<Image<Rgb8>> nearer;
   for (DrawnView& view : std::span(drawn).subspan(2)) nearer.push_back(std::move(view.picture));
-  const StereoPair presented =
-      present_pair(nearer, pictures, separation, options.zero_parallax_px.value_or(nearest_disparity(sized)));
+  const float zero_parallax_px = is_placed ? 0 : options.zero_parallax_px.value_or(nearest_disparity(sized));
+  const StereoPair presented = present_pair(nearer, pictures, separation, zero_parallax_px);
   report(progress, "writing", 0);
   write_image(folder.file(picture("left")), pictures.left);
   write_image(folder.file(picture("right")), pictures.right);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/app/place_depth.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/progress.h"
@@ -21,6 +22,7 @@ struct RedrawOptions {
   /// Disparity on the screen plane, in pixels of the result; none: that of the nearest mark, but for outliers.
   std::optional<float> zero_parallax_px = std::nullopt;
   std::optional<float> depth_budget = comfortable_parallax_share;  ///< of what is looked at, as comfortable_separation
+  DepthPlacing depth = {};  ///< with regions they say what lies on the screen, and there is no budget
 };
 
 /// Draws a painting again, for both eyes, over its canvas colour: left.png, right.png, side_by_side.png and

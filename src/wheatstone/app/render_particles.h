@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheatstone/depth/camera.h"
+#include "wheatstone/depth/depth_regions.h"
 #include "wheatstone/depth/viewing_geometry.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/scene.h"
@@ -26,10 +27,7 @@ struct PerceivedDepth {
   float far_mm = 100;       ///< and the farthest so far behind it
   /// Many regions: share of the scene's depth, 0 the nearest and 1 the farthest particle, and what it becomes, in
   /// millimetres behind the screen. Empty: one region from `near_mm` to `far_mm`.
-  struct Region {
-    float share;
-    float behind_mm;
-  };
+  using Region = DepthRegion;
   std::vector<Region> regions;
   bool smooth = false;  ///< a monotone curve through the regions' ends instead of a corner at each
 };

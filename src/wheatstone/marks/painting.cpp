@@ -4,35 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "wheatstone/marks/visit_points_internal.h"
+
 namespace wheatstone {
 namespace {
 
 int times(int length_px, double factor) { return static_cast<int>(std::round(length_px * factor)); }
-
-// Calls `visit(point, reference view)` for the points of all marks.
-
-template <class Visit>
-void visit_points(StrokePainting& painting, Visit visit) {
-  for (Layer& layer : painting.layers)
-    for (const Stroke& stroke : layer.strokes)
-      for (std::uint32_t i = 0; i < stroke.point_count; ++i)
-        visit(layer.points[stroke.first_point + i], stroke.reference_view);
-}
-
-template <class Visit>
-void visit_points(RegionPainting& painting, Visit visit) {
-  for (const RegionMark& mark : painting.marks)
-    for (const Ring& ring : painting.rings_of(mark))
-      for (std::uint32_t i = 0; i < ring.point_count; ++i)
-        visit(painting.points[ring.first_point + i], mark.reference_view);
-}
-
-template <class Visit>
-void visit_points(DiffusionPainting& painting, Visit visit) {
-  for (const ColourLine& line : painting.lines)
-    for (std::uint32_t i = 0; i < line.point_count; ++i)
-      visit(painting.points[line.first_point + i].at, line.reference_view);
-}
 
 /// Moves marks and surfaces to where they are drawn. A point stands in a reference view, where less disparity is a
 /// shift, too.
