@@ -10,6 +10,7 @@ namespace wheatstone::viewer {
 std::span<const Command> file_commands();
 std::span<const Command> looking_commands();
 std::span<const Command> depth_commands();
+std::span<const Command> input_commands();
 std::span<const Command> painting_commands();
 std::span<const Command> particle_commands();
 

@@ -13,8 +13,8 @@ namespace {
 
 std::vector<Command> all_commands() {
   std::vector<Command> all;
-  for (const std::span<const Command> group :
-       {file_commands(), looking_commands(), depth_commands(), painting_commands(), particle_commands()})
+  for (const std::span<const Command> group : {file_commands(), looking_commands(), depth_commands(), input_commands(),
+                                               painting_commands(), particle_commands()})
     all.insert(all.end(), group.begin(), group.end());
   std::ranges::stable_partition(all, [](const Command& command) { return command.menu != "Help"; });
   return all;
@@ -59,13 +59,14 @@ void run_command(Viewer& viewer, const Command& command, const Words& arguments)
                                                     command.arguments.empty() ? "none" : command.arguments));
   Session& session = viewer.session();
   const Change change(session);
-  const bool travels_in_time = command.name == "undo" || command.name == "redo";
+  // A gaze changes all the time.
+  const bool is_kept = command.name != "undo" && command.name != "redo" && command.name != "gaze";
   try {
     command.run(viewer, arguments);
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("{}: {}", command.name, error.what()));
   }
-  if (!travels_in_time) change.keep(session);
+  if (is_kept) change.keep(session);
 }
 
 void run_line(Viewer& viewer, std::string_view line) {

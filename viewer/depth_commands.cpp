@@ -8,7 +8,10 @@
 namespace wheatstone::viewer {
 namespace {
 
-void ease_zero_parallax(Viewer& viewer, float disparity_px) { viewer.session().zero_parallax_target_px = disparity_px; }
+void ease_zero_parallax(Viewer& viewer, float disparity_px) {
+  viewer.session().zero_parallax_target_px = disparity_px;
+  viewer.session().easing_s = click_easing_s;
+}
 
 void zero_parallax_at(Viewer& viewer, const Words& words) {
   frame_of(viewer);

@@ -80,6 +80,8 @@ std::string state_json(const Session& session, const std::vector<std::pair<std::
             {"help", session.help},
             {"message", session.message},
             {"is_error", session.message_is_error}};
+  if (session.tracked_head)
+    told["head_tracker"] = {{"port", session.tracked_head->port}, {"is_silent", session.tracked_head->is_silent}};
   for (const auto& [name, value] : measured) told[name] = value;
   return told.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "content.h"
+#include "head_filter.h"
 #include "view_state.h"
 
 namespace wheatstone::viewer {
@@ -19,6 +21,19 @@ struct Activity {
   double done = 0;  ///< 0..1
 };
 
+/// A head tracker that is listened to.
+struct TrackedHead {
+  std::uint16_t port = 0;
+  bool is_silent = true;  ///< nothing has come for a second
+};
+
+/// Where a gaze rests, in pixels of the frame.
+struct Fixation {
+  double x = 0, y = 0;
+};
+
+constexpr double click_easing_s = 0.08;  ///< after which a third of the way is left
+
 /// All that a viewer knows: plain data.
 struct Session {
   std::vector<Item> items;
@@ -27,9 +42,14 @@ struct Session {
   ContentSize eye;  ///< of the picture that each eye is shown, in screen pixels
   ViewState state;
   std::optional<float> zero_parallax_target_px;  ///< what it moves to
-  std::vector<ViewState> done, undone;           ///< states before, for undo and redo
-  std::optional<Activity> opening;               ///< reading and painting
-  std::string message;                           ///< the last error or remark, one line
+  double easing_s = click_easing_s;              ///< of that move
+  HeadFilterOptions head_filter;
+  std::optional<TrackedHead> tracked_head;
+  bool gaze_follows_pointer = false;
+  std::optional<Fixation> fixation;
+  std::vector<ViewState> done, undone;  ///< states before, for undo and redo
+  std::optional<Activity> opening;      ///< reading and painting
+  std::string message;                  ///< the last error or remark, one line
   bool message_is_error = false;
   bool full_screen = false, information = false, help = false;
   int screens = 1;      ///< that there are

@@ -18,7 +18,6 @@
 namespace wheatstone::viewer {
 namespace {
 
-constexpr double easing_s = 0.08;  ///< after which a third of the way is left
 constexpr double step_of_easing_s = 0.02;
 constexpr double step_of_wiggle_s = 0.08;
 
@@ -78,6 +77,7 @@ void Viewer::open(std::size_t item) {
   session_.item = item;
   session_.opened = {};
   session_.zero_parallax_target_px.reset();
+  session_.fixation.reset();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
   making_.start([this, job, files = session_.items[item]](const std::stop_token& stop) {
@@ -182,12 +182,15 @@ void Viewer::move_on() {
     constexpr float near_enough_px = 0.05f;
     float& zero_parallax_px = session_.state.adjustment.zero_parallax_px;
     const float rest = *session_.zero_parallax_target_px - zero_parallax_px;
-    zero_parallax_px += rest * static_cast<float>(1 - std::exp(-std::min(passed_s, easing_s) / easing_s));
+    zero_parallax_px +=
+        rest * static_cast<float>(1 - std::exp(-std::min(passed_s, step_of_easing_s * 4) / session_.easing_s));
     if (std::abs(*session_.zero_parallax_target_px - zero_parallax_px) < near_enough_px) {
       zero_parallax_px = *session_.zero_parallax_target_px;
       session_.zero_parallax_target_px.reset();
+      session_.easing_s = click_easing_s;
     }
   }
+  inputs_.go_on(session_, now);
   if (session_.state.mode == "wiggle" && now - wiggled_at_s_ >= step_of_wiggle_s) {
     ++session_.state.step;
     wiggled_at_s_ = now;
@@ -195,6 +198,7 @@ void Viewer::move_on() {
 }
 
 std::optional<double> Viewer::next_step_s() const {
+  if (const std::optional<double> step_s = inputs_.next_step_s()) return step_s;
   if (session_.zero_parallax_target_px) return step_of_easing_s;
   if (session_.state.mode == "wiggle") return step_of_wiggle_s;
   return {};

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "inputs.h"
 #include "mailbox.h"
 #include "newest_job.h"
 #include "session.h"
@@ -58,6 +59,8 @@ class Viewer {
   /// A thread does something.
   bool is_working() const { return making_.is_busy() || drawing_.is_busy(); }
 
+  Inputs& inputs() { return inputs_; }
+
   /// Says something to the user.
   void tell(std::string message, bool is_error = false);
 
@@ -75,6 +78,7 @@ class Viewer {
   void post_failure(const std::exception& error, std::uint64_t job);
 
   Session session_;
+  Inputs inputs_;
   Viewport viewport_{640, 480};
   std::optional<Frame> frame_;
   std::uint64_t frames_drawn_ = 0;

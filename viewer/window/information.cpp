@@ -38,6 +38,12 @@ QString html(std::string_view text) {
 
 }  // namespace
 
+std::string head_tracker_text(const Session& session) {
+  if (!session.tracked_head) return {};
+  return session.tracked_head->is_silent ? fmt::format("head tracker on port {} is silent", session.tracked_head->port)
+                                         : "head is tracked";
+}
+
 QLabel* make_information(QWidget* parent) {
   auto* const label = new QLabel(parent);
   label->setAttribute(Qt::WA_TransparentForMouseEvents);

@@ -121,6 +121,9 @@ void Window::make_status_bar() {
   progress_->setMaximumWidth(220);
   progress_->hide();
   statusBar()->addWidget(message_, 1);
+  tracker_ = new QLabel(this);
+  tracker_->setToolTip("Head tracker");
+  statusBar()->addPermanentWidget(tracker_);
   statusBar()->addPermanentWidget(progress_);
   statusBar()->addPermanentWidget(depth_);
 }
@@ -191,6 +194,7 @@ void Window::show_session() {
                                  : QString::fromStdString(item->front().filename().string()) + " – Wheatstone");
   message_->setText(QString::fromStdString(session.message));
   message_->setToolTip(message_->text());
+  tracker_->setText(QString::fromStdString(head_tracker_text(session)));
   progress_->setVisible(session.opening.has_value());
   if (session.opening) {
     progress_->setFormat(QString::fromStdString(session.opening->step));
@@ -238,7 +242,11 @@ bool Window::pointer_event(QEvent* event) {
     }
     case QEvent::MouseMove: {
       pointer_ = static_cast<QMouseEvent*>(event)->position() * ratio;
-      if (is_pressed_) drag_to(pointer_);
+      if (is_pressed_) {
+        drag_to(pointer_);
+      } else if (viewer_.session().gaze_follows_pointer && viewer_.frame() != nullptr) {
+        do_line("gaze", {fmt::format("{}", pointer_.x()), fmt::format("{}", pointer_.y())});
+      }
       show_depth_under_pointer();
       return true;
     }

@@ -84,6 +84,7 @@ class Window final : public QMainWindow {
   QTimer step_timer_, script_timer_, click_timer_;
   QLabel* message_ = nullptr;
   QLabel* depth_ = nullptr;
+  QLabel* tracker_ = nullptr;
   QProgressBar* progress_ = nullptr;
   QLabel* information_ = nullptr;
   QWidget* help_ = nullptr;

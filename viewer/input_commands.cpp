@@ -1,0 +1,51 @@
+#include <cmath>
+
+#include "command_groups_internal.h"
+#include "inputs.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+void track_head(Viewer& viewer, const Words& words) {
+  std::optional<std::uint16_t> port;
+  if (words[0] != "off") {
+    const double number = number_of(words[0], 0, 65535);
+    if (number != std::floor(number)) throw Error(ErrorKind::wrong_usage, "expected a UDP port or off");
+    port = static_cast<std::uint16_t>(number);
+  }
+  viewer.inputs().track_head(port, viewer.session());
+}
+
+void follow_gaze(Viewer& viewer, const Words& words) {
+  if (words[0] != "pointer" && words[0] != "off")
+    throw Error(ErrorKind::wrong_usage, "'" + words[0] + "' cannot be followed, expected pointer or off");
+  viewer.session().gaze_follows_pointer = words[0] == "pointer";
+  viewer.session().fixation.reset();
+}
+
+constexpr double longest_smoothing_s = 2, longest_prediction_s = 0.5;
+
+constexpr Command table[] = {
+    // name, arguments, menu, text, keys
+    {"head-tracker", "PORT|off", "Depth", "Follow a head that OpenTrack tells of on a UDP port (4242)", "", track_head},
+    {"head-smoothing", "SECONDS", "Depth", "Steady a tracked head over a time", "",
+     [](Viewer& v, const Words& w) { v.session().head_filter.smoothing_s = number_of(w[0], 0, longest_smoothing_s); }},
+    {"head-prediction", "SECONDS", "Depth", "Show where a tracked head will be after a time", "",
+     [](Viewer& v, const Words& w) {
+       v.session().head_filter.prediction_s = number_of(w[0], 0, longest_prediction_s);
+     }},
+    {"gaze", "X Y", "Depth", "Somebody looks at a place of the picture, in its pixels in the window", "",
+     [](Viewer& v, const Words& w) {
+       frame_of(v);
+       look_at(v, number_of(w[0]), number_of(w[1]));
+     }},
+    {"gaze-follows", "pointer|off", "Depth", "The pointer is where one looks: the screen plane follows it", "",
+     follow_gaze},
+};
+
+}  // namespace
+
+std::span<const Command> input_commands() { return table; }
+
+}  // namespace wheatstone::viewer
