@@ -11,6 +11,7 @@
 
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/still_scene.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
@@ -168,6 +169,34 @@ TEST_P(AnyView, BesideTheEyesIsWorthItsMarks) {
 
 INSTANTIATE_TEST_SUITE_P(Of, AnyView, testing::Values("impressionist", "posterise", "mosaic", "diffusion"),
                          [](const auto& tested) { return std::string(tested.param); });
+
+// Beside the eyes a large picture is made smaller: what is uncovered there, and how far it is, stay the same.
+TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
+  const SyntheticStill large = make_synthetic_still({.width = 1920, .height = 240, .samples_a_side = 1});
+  const float middle_px = 72;
+  const std::vector<OuterView> views = make_outer_views(large.pictures, large.geometry, range, middle_px);
+  ASSERT_FALSE(views.empty());
+  for (const OuterView& view : views) {
+    const OuterView whole = make_outer_view(large.pictures, large.geometry, view.position, middle_px);
+    ASSERT_EQ(view.picture.width(), whole.picture.width());
+    EXPECT_EQ(view.left_px, whole.left_px);
+    int uncovered = 0, differ = 0, known = 0, off = 0;
+    for (int y = 0; y < whole.picture.height(); ++y) {
+      for (int x = 0; x < whole.picture.width(); ++x) {
+        uncovered += whole.uncovered(x, y) != 0 ? 1 : 0;
+        differ += whole.uncovered(x, y) != view.uncovered(x, y) ? 1 : 0;
+        if (whole.uncovered(x, y) != 0 && view.uncovered(x, y) != 0) {
+          ++known;
+          off += std::abs(whole.disparity(x, y) - view.disparity(x, y)) > 4 ? 1 : 0;
+        }
+      }
+    }
+    RecordProperty("differ_at_" + std::to_string(view.position.eye_separations()),
+                   std::to_string(static_cast<double>(differ) / uncovered));
+    EXPECT_LT(differ, 0.3 * uncovered) << view.position.eye_separations();
+    EXPECT_LT(off, 0.1 * known) << view.position.eye_separations();
+  }
+}
 
 TEST(EyesApart, HaveTwoViewsAndNoSurfaces) {
   for (const char* name : {"impressionist", "posterise", "diffusion"}) {

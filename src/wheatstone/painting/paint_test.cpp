@@ -51,6 +51,18 @@ TEST(Paint, CoversBothEyes) {
   EXPECT_LT(painted.right_bare_share, 0.005);
 }
 
+TEST(Paint, DrawsOtherViewsThatAreAskedForWithTheEyes) {
+  const StereoPair photographs = test_scene::photographs();
+  const auto nearer = [](const Painting&) { return std::vector{ViewPosition(-0.3f), ViewPosition(0.3f)}; };
+  const PaintedPair alone = paint(photographs, test_scene::geometry(), small_style());
+  const PaintedPair painted = paint(photographs, test_scene::geometry(), small_style(), {}, nearer);
+  EXPECT_EQ(painted.pictures.left, alone.pictures.left);
+  EXPECT_EQ(painted.pictures.right, alone.pictures.right);
+  ASSERT_EQ(painted.other_views.size(), 2u);
+  EXPECT_EQ(painted.other_views[0], draw(painted.painting, ViewPosition(-0.3f)).picture);
+  EXPECT_EQ(painted.other_views[1], draw(painted.painting, ViewPosition(0.3f)).picture);
+}
+
 TEST(Paint, PicturesAreWhatDrawMakesOfTheMarks) {
   const StereoPair photographs = test_scene::photographs();
   const PaintedPair painted = paint(photographs, test_scene::geometry(), small_style());

@@ -1,8 +1,64 @@
 #include "wheatstone/painting/still_scene.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
 #include "wheatstone/depth/convergence.h"
+#include "wheatstone/image/reduced_view.h"
 
 namespace wheatstone {
+
+namespace {
+
+/// How much smaller what no photograph shows may be made: it is painted without detail.
+int reduction_for(int width) {
+  constexpr int enough_px = 960, most = 4;
+  int reduction = 1;
+  while (reduction < most && width >= 2 * reduction * enough_px) reduction *= 2;
+  return reduction;
+}
+
+/// A pair and its geometry, smaller; of the geometry only the disparities.
+struct ReducedScene {
+  StereoPair photographs;
+  StereoGeometry geometry;
+};
+
+ReducedScene reduced_scene(const StereoPairView& photographs, const StereoGeometryView& geometry, int reduction) {
+  const auto reduce = [=](ImageView<const Rgb8> picture, ImageView<const float> disparity) {
+    return reduced(picture, disparity, Image<std::uint8_t>(picture.width(), picture.height()), reduction);
+  };
+  ReducedView left = reduce(photographs.left, geometry.left_disparity);
+  ReducedView right = reduce(photographs.right, geometry.right_disparity);
+  ReducedScene scene;
+  scene.photographs = {std::move(left.photograph), std::move(right.photograph)};
+  scene.geometry.left_disparity = std::move(left.disparity);
+  scene.geometry.right_disparity = std::move(right.disparity);
+  return scene;
+}
+
+OuterView enlarged(const OuterView& view, int reduction, int width, int height) {
+  OuterView whole{view.position, Image<Rgb8>(width, height), Image<float>(width, height),
+                  Image<std::uint8_t>(width, height), reduction * view.left_px};
+  const int last_column = view.picture.width() - 1, last_row = view.picture.height() - 1;
+  tbb::parallel_for(0, height, [&](int y) {
+    const int row = std::min(y / reduction, last_row);
+    const auto picture = view.picture.row(row);
+    const auto disparity = view.disparity.row(row);
+    const auto uncovered = view.uncovered.row(row);
+    for (int x = 0; x < width; ++x) {
+      const int column = std::min(x / reduction, last_column);
+      whole.picture(x, y) = picture[column];
+      whole.disparity(x, y) = disparity[column] * static_cast<float>(reduction);
+      whole.uncovered(x, y) = uncovered[column];
+    }
+  });
+  return whole;
+}
+
+}  // namespace
 
 std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
                                         ViewRange wanted, float zero_parallax_px) {
@@ -11,13 +67,24 @@ std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const
   // What a view halfway uncovers, the outermost one may hide again. Large pictures would take too much memory.
   constexpr double large_px = 8e6;
   if (static_cast<double>(photographs.left.width()) * photographs.left.height() <= large_px) shares.push_back(0.5f);
+  std::vector<ViewPosition> positions;
   for (const float share : shares) {
     for (const ViewPosition outermost : {wanted.first, wanted.last}) {
       const ViewPosition view(share * outermost.eye_separations());
-      if (view < left_eye || view > right_eye)
-        outer.push_back(make_outer_view(photographs, geometry, view, zero_parallax_px));
+      if (view < left_eye || view > right_eye) positions.push_back(view);
     }
   }
+  const int width = photographs.left.width(), height = photographs.left.height(), reduction = reduction_for(width);
+  if (reduction == 1 || height < reduction || positions.empty()) {
+    for (const ViewPosition view : positions)
+      outer.push_back(make_outer_view(photographs, geometry, view, zero_parallax_px));
+    return outer;
+  }
+  const ReducedScene scene = reduced_scene(photographs, geometry, reduction);
+  for (const ViewPosition view : positions)
+    outer.push_back(enlarged(
+        make_outer_view(scene.photographs, scene.geometry, view, zero_parallax_px / static_cast<float>(reduction)),
+        reduction, width, height));
   return outer;
 }
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "wheatstone/image/half_view.h"
+#include "wheatstone/image/reduced_view.h"
 #include "wheatstone/marks/resize_strokes.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/strokes/layer_planner.h"
@@ -14,14 +14,15 @@ StrokePainting plan_occluded_part(ImageView<const Rgb8> photograph, ImageView<co
   const float largest_radius_px = ScaledStyle(style, width).radii_px.front();
   const Image<std::uint8_t> seeds =
       dilate_occlusion(occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
-  const HalfView half = halved(photograph, disparity, seeds);
+  constexpr int reduction = 2;
+  const ReducedView half = reduced(photograph, disparity, seeds, reduction);
   StrokePainting part{width, height, style.canvas_colour, std::vector<Layer>(style.radii_px.size())};
   if (half.photograph.empty()) return part;
 
   LayerPlanner planner(half.photograph, half.disparity, view, style);
   planner.avoid_mixed_colours = false;  // no other eye sees them
-  part.layers = plan_alone(planner, style, ScaledStyle(style, width, HalfView::reduction), half.seeds).layers;
-  for (Layer& layer : part.layers) resize_strokes(layer, HalfView::reduction);
+  part.layers = plan_alone(planner, style, ScaledStyle(style, width, reduction), half.seeds).layers;
+  for (Layer& layer : part.layers) resize_strokes(layer, reduction);
   return part;
 }
 

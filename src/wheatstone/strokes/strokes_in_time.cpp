@@ -10,7 +10,7 @@
 
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/half_view.h"
+#include "wheatstone/image/reduced_view.h"
 #include "wheatstone/marks/resize_strokes.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
@@ -41,13 +41,13 @@ class StrokeNumbers {
   std::uint32_t next_, step_;
 };
 
-/// A view that is being painted: its planner, of half the size where only a part of the view is wanted.
+/// A view that is being painted: its planner, of a smaller size where only a part of the view is wanted.
 class ViewAtWork {
  public:
   ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, bool scene_begins,
              StrokeNumbers& numbers)
       : part_(part_of(view, reference, style, scene_begins)),
-        reduction_(part_ ? HalfView::reduction : 1),
+        reduction_(part_ ? part_->reduction : 1),
         scaled_(style, view.picture.width(), static_cast<float>(reduction_)),
         style_(style),
         numbers_(numbers),
@@ -81,15 +81,27 @@ class ViewAtWork {
   }
 
  private:
+  /// Half the size is enough for what an eye shows; what no eye shows is planned as small as its finest brush allows.
+  static int reduction_for(const SceneView& view, float finest_radius_px) {
+    constexpr int least = 2, most = 8;
+    constexpr float least_radius_px = 1.5f;
+    int reduction = least;
+    while (view.continued && reduction < most &&
+           finest_radius_px >= least_radius_px * static_cast<float>(2 * reduction))
+      reduction *= 2;
+    return reduction;
+  }
+
   /// What a view alone shows. Grown at first, so that its strokes reach under those of the reference view; later those
   /// are there, and what they may show is theirs.
-  static std::optional<HalfView> part_of(const SceneView& view, const SceneView& reference, const Style& style,
-                                         bool scene_begins) {
+  static std::optional<ReducedView> part_of(const SceneView& view, const SceneView& reference, const Style& style,
+                                            bool scene_begins) {
     if (view.only_here.empty()) return {};
     const ScaledStyle scaled(style, view.picture.width());
+    const int reduction = reduction_for(view, scaled.radii_px.back());
     if (scene_begins) {
       const auto growth_px = static_cast<int>(std::lround(style.occlusion_dilation * scaled.radii_px.front()));
-      return halved(view.picture, view.disparity, dilate_occlusion(view.only_here, growth_px));
+      return reduced(view.picture, view.disparity, dilate_occlusion(view.only_here, growth_px), reduction);
     }
     Image<std::uint8_t> alone(view.picture.width(), view.picture.height());
     tbb::parallel_for(0, alone.height(), [&](int y) {
@@ -101,7 +113,7 @@ class ViewAtWork {
         alone(x, y) = is_in_picture && is_visible(point, view, reference, scaled.depth_threshold_px) ? 0 : 255;
       }
     });
-    return halved(view.picture, view.disparity, alone);
+    return reduced(view.picture, view.disparity, alone, reduction);
   }
 
   float depth_threshold_px() const { return scaled_.depth_threshold_px * static_cast<float>(reduction_); }
@@ -211,7 +223,7 @@ class ViewAtWork {
     append_strokes(begun, tracked.layer);
   }
 
-  std::optional<HalfView> part_;
+  std::optional<ReducedView> part_;
   int reduction_;
   ScaledStyle scaled_;
   const Style& style_;
