@@ -179,16 +179,17 @@ TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
   for (const OuterView& view : views) {
     const OuterView whole = make_outer_view(large.pictures, large.geometry, view.position, middle_px);
     ASSERT_EQ(view.picture.width(), whole.picture.width());
-    EXPECT_EQ(view.left_px, whole.left_px);
+    const int shift = view.left_px - whole.left_px;  // both are rounded
+    ASSERT_LE(std::abs(shift), 1);
     int uncovered = 0, differ = 0, known = 0, off = 0;
     for (int y = 0; y < whole.picture.height(); ++y) {
-      for (int x = 0; x < whole.picture.width(); ++x) {
-        uncovered += whole.uncovered(x, y) != 0 ? 1 : 0;
-        differ += whole.uncovered(x, y) != view.uncovered(x, y) ? 1 : 0;
-        if (whole.uncovered(x, y) != 0 && view.uncovered(x, y) != 0) {
-          ++known;
-          off += std::abs(whole.disparity(x, y) - view.disparity(x, y)) > 4 ? 1 : 0;
-        }
+      for (int x = 1; x < whole.picture.width() - 1; ++x) {
+        const bool at_full_size = whole.uncovered(x + shift, y) != 0, made_smaller = view.uncovered(x, y) != 0;
+        uncovered += at_full_size ? 1 : 0;
+        differ += at_full_size != made_smaller ? 1 : 0;
+        if (!at_full_size || !made_smaller) continue;
+        ++known;
+        off += std::abs(whole.disparity(x + shift, y) - view.disparity(x, y)) > 4 ? 1 : 0;
       }
     }
     RecordProperty("differ_at_" + std::to_string(view.position.eye_separations()),
