@@ -35,6 +35,27 @@ build_project "$here" "$scratch/build"
 cd "$scratch" && build/ten_lines
 "$scratch/installed/bin/wheatstone" info "$scratch/picture.png"
 
+# The command line needs no window system, neither to be configured nor to run; asked for a window where none is
+# installed, it says so in one line.
+if ldd "$scratch/installed/bin/wheatstone" | grep libQt; then
+  echo "the command line needs these libraries" >&2
+  exit 1
+fi
+cmake -S "$here/../.." -B "$scratch/build-without-window" -G Ninja -DWHEATSTONE_VIEWER=OFF -DWHEATSTONE_TESTS=OFF \
+  -DWHEATSTONE_BENCH=OFF -DCMAKE_DISABLE_FIND_PACKAGE_Qt6=ON -DCMAKE_BUILD_TYPE="$build_type" \
+  >"$scratch/build-without-window.log"
+if ninja -C "$scratch/build-without-window" -t targets all | grep 'wheatstone-view'; then
+  echo "without the window it is built all the same" >&2
+  exit 1
+fi
+rm -f "$scratch/installed/bin/wheatstone-view"
+code=0
+PATH=/usr/bin:/bin "$scratch/installed/bin/wheatstone" view "$scratch/picture.png" 2>"$scratch/view.txt" || code=$?
+if [[ $code != 4 || $(wc -l <"$scratch/view.txt") != 1 ]] || ! grep --quiet 'built and installed with' "$scratch/view.txt"; then
+  echo "without the window 'wheatstone view' ends with $code: $(cat "$scratch/view.txt")" >&2
+  exit 1
+fi
+
 # Who draws paintings needs no library that reads pictures, films or particles, nor one that matches: not to configure,
 # to link or to run.
 build_project "$here/drawing" "$scratch/build-drawing" -DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON \

@@ -43,6 +43,24 @@ code=0
 "$wheatstone" view painted/painting.wst 2>err.txt || code=$?
 [[ $code == 4 ]] && grep --quiet 'there is no screen' err.txt || fail "without a screen it ends with $code: $(cat err.txt)"
 
+# The window ends at once, whatever is painted in it.
+"$wheatstone" synth still --size 1200x900 --samples 1 -o large --quiet >made.txt
+"$view" large/left.png large/right.png --control control 2>err.txt &
+window=$!
+for _ in {1..500}; do
+  [[ -S control ]] && break
+  sleep 0.01
+done
+[[ -S control ]] || fail "the window does not begin while a large photograph is read: $(cat err.txt)"
+sleep 0.5
+begun=$(date +%s%N)
+kill -TERM "$window"
+code=0
+wait "$window" || code=$?
+ended_ms=$((($(date +%s%N) - begun) / 1000000))
+[[ $code == 5 && ! -e control ]] || fail "a signal ends the window with $code"
+((ended_ms < 1000)) || fail "the window ended $ended_ms ms after it was asked to"
+
 if ! command -v xvfb-run >/dev/null; then
   echo "window_test: Xvfb is not installed, so that the window on a screen is not tested"
   exit 0
