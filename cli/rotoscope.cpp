@@ -134,7 +134,11 @@ nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm&
   facts["flow_seconds_a_frame"] = film.times.flow_s / painted;
   facts["planning_seconds_a_frame"] = film.painting_times.planning_s / painted;
   facts["drawing_seconds_a_frame"] = film.painting_times.rasterising_s / painted;
-  if (!arguments.options.frames.display) {
+  if (const std::optional<FilmDisplay>& display = arguments.options.frames.display) {
+    facts["views"] = display->views.views;
+    facts["view_width"] = display->views.width;
+    facts["view_height"] = display->views.height;
+  } else {
     facts["moved_frames"] = totals.moved_frames;
     facts["presented_separation"] = totals.least_separation;
   }
@@ -154,7 +158,8 @@ void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const
     fmt::print(session.output, "carried          {:.1f} % of the strokes from frame to frame, {} popped\n",
                100 * static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes),
                totals.popped_strokes);
-  fmt::print(session.output, "left bare        at most {:.3f} % of an eye\n", 100 * totals.worst_bare_share);
+  fmt::print(session.output, "left bare        at most {:.3f} % of {}\n", 100 * totals.worst_bare_share,
+             arguments.options.frames.display ? "a view" : "an eye");
   if (totals.moved_frames > 0)
     fmt::print(session.output, "to look at       {} frames with eyes down to {:.2f} of their distance apart\n",
                totals.moved_frames, totals.least_separation);
@@ -243,6 +248,52 @@ void take_display(const CLI::App& command, Arguments& arguments) {
     writing.pixel_format = "yuv444p";
 }
 
+/// The exact geometry and flow of a film of 'synth film'.
+void take_truth(const Arguments& arguments, RotoscopeFilmOptions& options) {
+  if (arguments.truth.empty()) return;
+  if (!arguments.from.empty() || arguments.frame_step != 1)
+    throw Error(ErrorKind::wrong_usage, "--truth counts all frames from the first: leave out --from and --frame-step");
+  options.known = [folder = arguments.truth](std::int64_t frame, const Image<Rgb8>& /*left*/) {
+    return read_known_frame(folder, frame);
+  };
+  for (const char* file :
+       {"left_disparity_%04d.pfm", "right_disparity_%04d.pfm", "flow_forward_%04d.flo", "flow_backward_%04d.flo"})
+    options.made_from.push_back(fs::path(arguments.truth) / file);
+}
+
+FilmArgument films_from(const Arguments& arguments) {
+  std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
+  if (has_depth(arguments.depth) && !layout) layout = StereoLayout::mono;
+  FilmArgument film = find_film(arguments.film, layout);
+  if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
+  const fs::path depth = arguments.depth.file, model = arguments.depth.model;
+  check_not_an_input(arguments.output, std::array{film.film, film.right, depth, model});
+  return film;
+}
+
+FilmReaderOptions reading_options(const Arguments& arguments, const FilmArgument& film, const Session& session) {
+  FilmReaderOptions reading{.from_s = parse_time_s("--from", arguments.from),
+                            .to_s = parse_time_s("--to", arguments.to),
+                            .every = arguments.frame_step,
+                            .threads = session.threads};
+  if (arguments.rate.empty()) return reading;
+  if (!frame_pattern(film.film))
+    throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures");
+  reading.sequence_rate = parse_frame_rate("--rate", arguments.rate);
+  return reading;
+}
+
+/// A film of one eye has no depth.
+void refuse_for_one_eye(const CLI::App& command, const FilmArgument& film, const RotoscopeFilmOptions& options) {
+  if (options.frames.display)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: has one eye, expected two, or --depth, for a display of more views (--layout says how "
+                            "they lie)",
+                            film.film.string()));
+  refuse_group(command, match_options_group, {}, "on a film of one eye", {});
+  refuse_options(command, {"--central", "--rectify", "--depth-budget"}, "on a film of one eye", {});
+}
+
 void run(Arguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.style = style_from(arguments.style, session.seed);
   arguments.options.frames.matching = match_options_from(arguments.matching);
@@ -255,53 +306,21 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
     return kept ? fmt::format("{}; {}", *kept, how_to_continue) : std::string();
   });
   RotoscopeFilmOptions options = arguments.options;
-  if (!arguments.truth.empty()) {
-    if (!arguments.from.empty() || arguments.frame_step != 1)
-      throw Error(ErrorKind::wrong_usage,
-                  "--truth counts all frames from the first: leave out --from and --frame-step");
-    options.known = [folder = arguments.truth](std::int64_t frame, const Image<Rgb8>& /*left*/) {
-      return read_known_frame(folder, frame);
-    };
-    for (const char* file :
-         {"left_disparity_%04d.pfm", "right_disparity_%04d.pfm", "flow_forward_%04d.flo", "flow_backward_%04d.flo"})
-      options.made_from.push_back(fs::path(arguments.truth) / file);
-  }
-  const bool deep = has_depth(arguments.depth);
-  std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
-  if (deep && !layout) layout = StereoLayout::mono;
-  FilmArgument film = find_film(arguments.film, layout);
-  if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
-  check_not_an_input(arguments.output, std::array{film.film, film.right, fs::path(arguments.depth.file),
-                                                  fs::path(arguments.depth.model)});
-  FilmReaderOptions reading{.from_s = parse_time_s("--from", arguments.from),
-                            .to_s = parse_time_s("--to", arguments.to),
-                            .every = arguments.frame_step};
-  if (!arguments.rate.empty()) {
-    if (!frame_pattern(film.film))
-      throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures");
-    reading.sequence_rate = parse_frame_rate("--rate", arguments.rate);
-  }
+  take_truth(arguments, options);
+  const FilmArgument film = films_from(arguments);
+  options.reading = reading_options(arguments, film, session);
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
-  reading.threads = session.threads;
-  options.reading = reading;
-  StereoFilmReader source = open_film(film, reading);
-  if (deep) {
+  StereoFilmReader source = open_film(film, options.reading);
+  if (has_depth(arguments.depth)) {
     take_depth(arguments, film, source, options);
   } else if (source.layout() == StereoLayout::mono && film.right.empty()) {
-    if (options.frames.display)
-      throw Error(
-          ErrorKind::bad_input,
-          fmt::format(
-              "{}: has one eye, expected two, or --depth, for a display of more views (--layout says how they lie)",
-              film.film.string()));
-    refuse_group(command, match_options_group, {}, "on a film of one eye", {});
-    refuse_options(command, {"--central", "--rectify", "--depth-budget"}, "on a film of one eye", {});
+    refuse_for_one_eye(command, film, options);
   }
   if (session.verbose && film.right.empty())
     fmt::print(session.errors, "layout: {} ({})\n", layout_name(source.layout()), source.layout_how());
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));
-  options.writing = writing_options(arguments, film, source, reading);
-  options.expected_frames = expected_frames(source.facts(), reading);
+  options.writing = writing_options(arguments, film, source, options.reading);
+  options.expected_frames = expected_frames(source.facts(), options.reading);
   options.made_from.push_back(film.film);
   if (!film.right.empty()) options.made_from.push_back(film.right);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);

@@ -37,6 +37,8 @@ TEST(DisplayFilm, AQuiltFilmHasTheNameSizeAndFramesThatTheDisplayTakes) {
   const auto facts = facts_of(folder, {"rotoscope", "film", "--display", "looking-glass-portrait", "--size", "21x28",
                                        "--preset", "ultrafast", "-o", "painted"});
   EXPECT_EQ(facts["output"], "painted_qs8x6a0.75.mp4");
+  EXPECT_EQ(facts["views"], 48);
+  EXPECT_EQ(facts["view_width"], 21);
   const std::vector<Frame> frames = frames_of(folder / "painted_qs8x6a0.75.mp4");
   ASSERT_EQ(frames.size(), 3u);
   EXPECT_EQ(frames.front().picture.width(), 168);
@@ -98,6 +100,30 @@ TEST(DisplayFilm, ATypedEndingKeepsItsName) {
                                        "--codec", "ffv1", "-o", "a.mkv"});
   EXPECT_EQ(facts["output"], "a.mkv");
   EXPECT_EQ(frames_of(folder / "a.mkv").size(), 1u);
+}
+
+TEST(DisplayFilmLong, MemoryDoesNotGrowWithTheFilm) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "broad.toml", "radii = [24, 12]\n");
+  const auto peak = [&](const std::string& frames) {
+    const ProgramResult made = run_program(
+        {"synth", "film", "-o", "film" + frames, "--size", "160x96", "--frames", frames, "--samples", "1", "--quiet"},
+        {.folder = folder / ""});
+    EXPECT_EQ(made.exit_code, 0) << made.errors;
+    const ProgramResult result =
+        run_program({"rotoscope", "film" + frames, "--display", "looking-glass-portrait", "--size", "105x140",
+                     "--style", "broad.toml", "--flow", "dis", "--checkpoint", "12", "--threads", "2", "--preset",
+                     "ultrafast", "--quiet", "-o", "painted" + frames},
+                    {.folder = folder / "", .own_process = true});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(frames_of(folder / ("painted" + frames + "_qs8x6a0.75.mp4")).size(), std::stoul(frames));
+    return static_cast<double>(result.peak_bytes);
+  };
+  const double of_short = peak("24"), of_long = peak("96");
+  RecordProperty("short_MiB", std::to_string(of_short / (1 << 20)));
+  RecordProperty("long_MiB", std::to_string(of_long / (1 << 20)));
+  // A quilt kept of every frame would be 72 x 840 x 840 x 3 bytes, 145 MiB.
+  EXPECT_LT(of_long, 1.05 * of_short);
 }
 
 // What the displays' makers publish, and what H.264 up to level 5.2 holds.

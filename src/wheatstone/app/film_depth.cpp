@@ -62,11 +62,14 @@ void check_length(const fs::path& depth, const FilmFacts& found, const FilmOfDep
 /// Looks for a frame with near and far points: most often the first.
 void check_any_depth(const fs::path& depth, const FilmReaderOptions& reading, DepthKind kind) {
   FilmReader film = open_film(depth, reading);
+  bool any = false;
   for (Frame frame; film.read(frame);) {
+    any = true;
     if (!is_grey(frame.picture)) refuse(depth, "is in colour, expected grey for depth");
     if (inverse_depth_range(depth_of_picture(frame.picture), kind)) return;
   }
-  refuse(depth, "its depth is the same everywhere, expected near and far points");
+  // Where there is no frame to paint, that is said.
+  if (any) refuse(depth, "its depth is the same everywhere, expected near and far points");
 }
 
 /// A film of depth that is being read beside its film.

@@ -83,7 +83,7 @@ MonocularNetwork::MonocularNetwork(const std::filesystem::path& model) {
   const std::string bytes = read_whole_file(model, most_bytes);
   NetworkInput input = input_of(model, bytes);
   cv::dnn::Net network = with_opencv(model, [&] { return cv::dnn::readNetFromONNX(bytes.data(), bytes.size()); });
-  implementation_ = std::make_unique<Implementation>(Implementation{model, std::move(input), std::move(network)});
+  implementation_ = std::make_unique<Implementation>(Implementation{model, std::move(input), network});
 }
 MonocularNetwork::MonocularNetwork(MonocularNetwork&&) noexcept = default;
 MonocularNetwork& MonocularNetwork::operator=(MonocularNetwork&&) noexcept = default;
