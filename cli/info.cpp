@@ -156,6 +156,9 @@ ordered_json facts_of_particles(const fs::path& path, const std::string& type) {
   if (source.redshift) facts["redshift"] = *source.redshift;
   facts["bytes"] = source.bytes;
   facts["fields"] = fmt::format("{}", fmt::join(source.fields, ", "));
+  std::vector<std::string> units;
+  for (const auto& [name, unit] : source.units) units.push_back(fmt::format("{}: {}", name, unit));
+  if (!units.empty()) facts["units"] = fmt::format("{}", fmt::join(units, ", "));
   return facts;
 }
 
@@ -174,7 +177,8 @@ ordered_json facts_of_slices(const fs::path& path) {
 
 /// Whether a file holds particles by its content; or should, by its name: then what is wrong with it is told.
 bool is_particles(const fs::path& path) {
-  constexpr const char* endings[] = {".hdf5", ".h5", ".ply", ".las", ".npy", ".csv", ".txt", ".dat", ".gadget"};
+  constexpr const char* endings[] = {".hdf5", ".h5",  ".ply", ".las", ".npy",   ".npz",
+                                     ".fits", ".csv", ".txt", ".dat", ".gadget"};
   return std::ranges::find(endings, path.extension().string()) != std::end(endings) || holds_particles(path);
 }
 

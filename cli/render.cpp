@@ -115,6 +115,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"dropped", result.dropped},
                                  {"mended", result.mended},
                                  {"extreme", result.extreme},
+                                 {"outside", result.outside},
                                  {"density_estimated", result.density_estimated},
                                  {"views", result.rig.positions.size()},
                                  {"method", name_of(result.rendered.method)},
@@ -135,6 +136,9 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
     fmt::print(session.output,
                "set to the limits of single precision, 1.2e-38 and 3.4e38: {} densities or temperatures beyond them\n",
                result.extreme);
+  if (result.outside > 0)
+    fmt::print(session.output, "outside what the views are framed by (--fit): {} of {} particles\n", result.outside,
+               result.particles);
   if (result.density_estimated) fmt::print(session.output, "density: estimated from the neighbours of each particle\n");
   for (const std::string& warning : result.warnings) fmt::print(session.output, "note: {}\n", warning);
   if (session.verbose)

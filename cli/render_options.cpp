@@ -34,20 +34,31 @@ constexpr auto particles_group = "Particles", appearance_group = "Appearance", v
 
 constexpr NumberRange coordinates{-1e30, 1e30};
 
-/// "sphere:X,Y,Z,R" or "box:X0,Y0,Z0,X1,Y1,Z1".
-Cut parse_selection(const std::string& text) {
-  constexpr std::string_view expected = "sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1";
+/// "sphere:X,Y,Z,R" or "box:X0,Y0,Z0,X1,Y1,Z1"; nothing of something else. `expected` is for the message.
+Cut parse_region(const std::string& option, const std::string& text, std::string_view expected) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   const std::string_view kind = std::string_view(text).substr(0, colon);
   const std::string_view rest = std::string_view(text).substr(std::min(colon + 1, text.size()));
   if (kind == "sphere") {
-    const auto n = parse_numbers("--select", rest, {',', 4, coordinates, expected});
+    const auto n = parse_numbers(option, rest, {',', 4, coordinates, expected});
     if (n[3] > 0) return Sphere{{n[0], n[1], n[2]}, n[3]};
   } else if (kind == "box") {
-    const auto n = parse_numbers("--select", rest, {',', 6, coordinates, expected});
+    const auto n = parse_numbers(option, rest, {',', 6, coordinates, expected});
     if (n[0] < n[3] && n[1] < n[4] && n[2] < n[5]) return Box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
   }
-  throw Error(ErrorKind::wrong_usage, fmt::format("--select: is '{}', expected {}", text, expected));
+  throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected {}", option, text, expected));
+}
+
+/// "auto", "all", "99.9%", or a region as above.
+Fit parse_fit(const std::string& text) {
+  constexpr std::string_view expected = "auto, all, 99.9%, sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1";
+  if (text == "auto") return {};
+  if (text == "all") return FitAll{};
+  if (text.ends_with('%'))
+    return FitShare{parse_numbers("--fit", text.substr(0, text.size() - 1), {',', 1, {1, 100}, expected})[0] / 100};
+  const Cut region = parse_region("--fit", text, expected);
+  if (const Sphere* sphere = std::get_if<Sphere>(&region)) return *sphere;
+  return std::get<Box>(region);
 }
 
 void add_particle_options(CLI::App& command, RenderArguments& arguments) {
@@ -128,6 +139,12 @@ void add_camera_options(CLI::App& command, RenderArguments& arguments) {
   const auto number = [&](const char* name, float& value, NumberRange range, const char* help) {
     add_number(command, name, value, range, help)->group(views_group);
   };
+  command
+      .add_option("--fit", arguments.fit,
+                  "What the views show and the depth is mapped to: all particles; the middle share of them along each "
+                  "axis, as 99.9%; sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1; auto: all, but for a few that lie far out")
+      ->capture_default_str()
+      ->group(views_group);
   number("--azimuth", framing.azimuth_deg, {-360, 360}, "Direction that the camera looks from, in degrees");
   number("--elevation", framing.elevation_deg, {-90, 90}, "Height of the camera above the horizon, in degrees");
   number("--fov", framing.field_of_view_deg, {1, 150}, "Horizontal field of view, in degrees");
@@ -241,8 +258,9 @@ std::string name_of(Method method) {
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
   command
-      .add_option("FILE", arguments.file,
-                  "GADGET snapshot (HDF5 or binary), any HDF5, PLY, LAS, .npy or text; or slices (.exr)")
+      .add_option(
+          "FILE", arguments.file,
+          "GADGET snapshot (HDF5 or binary), any HDF5, PLY, LAS, NumPy (.npy, .npz), FITS or text; or slices (.exr)")
       ->required();
   add_output_option(command, arguments.output, "Folder for the views; or the name of the quilt or picture");
   add_particle_options(command, arguments);
@@ -302,7 +320,9 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
     const auto point = parse_numbers("--look-at", arguments.look_at, {',', 3, coordinates, "X,Y,Z"});
     options.look_at = {point[0], point[1], point[2]};
   }
-  if (!arguments.selection.empty()) options.selection.cut = parse_selection(arguments.selection);
+  if (!arguments.selection.empty())
+    options.selection.cut = parse_region("--select", arguments.selection, "sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1");
+  options.fit = parse_fit(arguments.fit);
   if (!arguments.depth_mapping.empty())
     options.depth.regions = parse_depth_regions(arguments.depth_mapping, "--depth-mapping");
   if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);

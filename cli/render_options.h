@@ -15,6 +15,7 @@ struct RenderArguments {
   std::string size = "640x360";
   std::string splat = "2,6";
   std::string display, centre, look_at, selection, depth_mapping;
+  std::string fit = "auto";
   std::string cold, hot;
   std::string quilt, interleave, save_slices;
   std::string format = "png";

@@ -88,6 +88,7 @@ Opened open_particles(const fs::path& path, const Progress& progress) {
   if (particles->cloud.density.empty() && particles->cloud.colour.empty())
     estimate_density(particles->cloud, 32, progress);
   particles->statistics.add(particles->cloud);
+  particles->statistics.framed = framed_region(particles->statistics, {});
   return {ParticlesContent{std::move(particles)}, "particles", {}};
 }
 

@@ -200,6 +200,9 @@ TEST(RenderCommand, RefusesWhatMakesNoSense) {
     line.insert(line.end(), more.begin(), more.end());
     expect_refused(folder, line, 2, part);
   };
+  refused({"--fit", "most"}, "--fit: is 'most', expected auto, all, 99.9%, sphere:X,Y,Z,R or box:");
+  refused({"--fit", "200%"}, "--fit");
+  refused({"--fit", "sphere:0,0,0,-1"}, "--fit: is 'sphere:0,0,0,-1', expected auto");
   refused({"--views", "0"}, "--views");
   refused({"--size", "0x5"}, "--size");
   refused({"--size", "wide"}, "--size");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <optional>
 #include <utility>
 
 #include "wheatstone/depth/comfort.h"
@@ -65,19 +66,23 @@ void add(SelectionCounts& sum, const SelectionCounts& more) {
   sum.extreme += more.extreme;
 }
 
+/// The middle of a box or sphere; nothing where there is neither.
+template <class Region>
+std::optional<std::array<double, 3>> middle_of(const Region& region) {
+  if (const Sphere* sphere = std::get_if<Sphere>(&region)) return sphere->centre;
+  const Box* box = std::get_if<Box>(&region);
+  if (box == nullptr) return std::nullopt;
+  std::array<double, 3> middle{};
+  for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = box->lower[axis] / 2 + box->upper[axis] / 2;
+  return middle;
+}
+
 /// Of the file, with the middle of what is looked at as the origin, where the options tell it.
 CloudChoice choice_of(const RenderParticlesOptions& options) {
   CloudChoice choice = options.choice;
-  const Cut& cut = options.selection.cut;
-  if (options.selection.centre) {
-    choice.origin = options.selection.centre;
-  } else if (const Sphere* sphere = std::get_if<Sphere>(&cut)) {
-    choice.origin = sphere->centre;
-  } else if (const Box* box = std::get_if<Box>(&cut)) {
-    choice.origin.emplace();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      (*choice.origin)[axis] = box->lower[axis] + (box->upper[axis] - box->lower[axis]) / 2;
-  }
+  for (const std::optional<std::array<double, 3>>& middle :
+       {options.selection.centre, options.look_at, middle_of(options.fit), middle_of(options.selection.cut)})
+    if (middle && !choice.origin) choice.origin = middle;
   return choice;
 }
 
@@ -114,9 +119,13 @@ RenderedParticles stream(const std::filesystem::path& file, const RenderParticle
     origin = chunk.origin;
   });
   if (statistics.count == 0) refuse_nothing(file, counts);
+  statistics.framed = framed_region(statistics, options.fit);
   const Staged staged = stage(options, statistics, origin);
   SliceMaker maker(staged.scene, statistics, staged.rig, options.rendering);
-  for_each_chunk(file, options, "slices", progress, [&](const Cloud& chunk) { maker.add(chunk); });
+  for_each_chunk(file, options, "slices", progress, [&](const Cloud& chunk) {
+    maker.add(chunk);
+    result.outside += count_outside(chunk, *statistics.framed);
+  });
   result.stack = maker.finish(staged.viewing);
   result.rig = staged.rig;
   if (!statistics.has_density && !statistics.has_colour)
@@ -146,6 +155,8 @@ RenderedParticles render_whole(const std::filesystem::path& file, const RenderPa
   }
   CloudStatistics statistics;
   statistics.add(cloud);
+  statistics.framed = framed_region(statistics, options.fit);
+  result.outside = count_outside(cloud, *statistics.framed);
   const Staged staged = stage(options, statistics, cloud.origin);
   result.rig = staged.rig;
   if (options.slices) {

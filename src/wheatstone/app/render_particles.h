@@ -15,6 +15,7 @@
 #include "wheatstone/particles/appearance.h"
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/particles/cloud_statistics.h"
+#include "wheatstone/particles/framed_region.h"
 #include "wheatstone/particles/select.h"
 #include "wheatstone/progress.h"
 
@@ -40,6 +41,7 @@ struct RenderParticlesOptions {
   Framing framing{.zoom = 1.2f};  ///< a box seldom fills the sphere around it
   /// As the framing's, in the file's own units, where the cloud has an origin of its own.
   std::optional<std::array<double, 3>> look_at;
+  Fit fit;  ///< what the views show and the depth is mapped to
   PerceivedDepth depth;
   int width = 640, height = 360;  ///< of a view
   int views = 2;
@@ -61,6 +63,7 @@ struct RenderedParticles {
   std::uint64_t dropped = 0;    ///< without a finite position
   std::uint64_t mended = 0;     ///< with a density or temperature that is not above 0, which got the least one
   std::uint64_t extreme = 0;    ///< densities and temperatures beyond single precision, put at its limits
+  std::uint64_t outside = 0;    ///< of what the views are framed by
   bool density_estimated = false;
   std::vector<std::string> warnings;  ///< of comfort and of what is missing, in words for people
 };

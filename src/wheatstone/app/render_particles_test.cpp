@@ -93,6 +93,7 @@ TEST(RenderParticles, AClusterFarFromZeroLooksLikeTheSameOneAtZero) {
     write_whole_file(folder / "far.txt", as_text(far));
     write_whole_file(folder / "far.ply", as_ply(far));
     const Image<Rgb8> wanted = picture_of(folder / "near.txt");
+    EXPECT_LT(psnr_db(wanted, Image<Rgb8>(wanted.width(), wanted.height())), 30);
     EXPECT_GE(psnr_db(wanted, picture_of(folder / "far.txt")), 60);
     EXPECT_GE(psnr_db(wanted, picture_of(folder / "far.ply")), 60);
     // Nor does it matter how it is read and what of it is asked for.
@@ -110,6 +111,43 @@ TEST(RenderParticles, LasInUtmCoordinatesLooksLikeTheSamePointsAtZero) {
   write_whole_file(folder / "near.las", as_las(points, {0, 0, 0}));
   write_whole_file(folder / "far.las", as_las(points, {500'000, 5'400'000, 300}));
   EXPECT_GE(psnr_db(picture_of(folder / "near.las"), picture_of(folder / "far.las")), 60);
+}
+
+TEST(RenderParticles, OneFarOutlierDoesNotShrinkEverythingElse) {
+  const TemporaryFolder folder;
+  const std::vector<double> points = cluster(1, 0);
+  std::string text = as_text(points);
+  write_whole_file(folder / "near.txt", text);
+  write_whole_file(folder / "far.txt", text + "-5e6 2e7 1e6\n");
+  const Image<Rgb8> wanted = picture_of(folder / "near.txt");
+  for (const bool stream : {false, true})
+    for (const Method method : {Method::exact, Method::layered}) {
+      if (stream && method == Method::exact) continue;
+      RenderParticlesOptions options{.stream = stream};
+      options.rendering.method = method;
+      const Image<Rgb8> whole = picture_of(folder / "near.txt", options);
+      const RenderedParticles result = rendered(folder / "far.txt", options);
+      EXPECT_GE(psnr_db(whole, result.rendered.views.front()), 40);
+      EXPECT_EQ(result.outside, 1u);
+      options.fit = FitAll{};
+      EXPECT_LT(psnr_db(wanted, picture_of(folder / "far.txt", options)), 25);
+    }
+}
+
+TEST(RenderParticles, AreFramedByABoxOrSphereOfTheFile) {
+  const TemporaryFolder folder;
+  const std::vector<double> points = cluster(1, 1e6);
+  write_whole_file(folder / "a.txt", as_text(points));
+  const Image<Rgb8> all = picture_of(folder / "a.txt");
+  const Sphere around{{1e6, 1e6, 1e6}, 0.25};
+  const RenderedParticles sphere = rendered(folder / "a.txt", {.fit = around});
+  const RenderedParticles box = rendered(
+      folder / "a.txt", {.fit = Box{{1e6 - 0.25, 1e6 - 0.25, 1e6 - 0.25}, {1e6 + 0.25, 1e6 + 0.25, 1e6 + 0.25}}});
+  EXPECT_GT(sphere.outside, 100u);
+  EXPECT_LT(box.outside, sphere.outside);
+  EXPECT_EQ(rendered(folder / "a.txt", {.fit = around, .stream = true}).outside, sphere.outside);
+  EXPECT_LT(psnr_db(all, sphere.rendered.views.front()), 30);
+  EXPECT_EQ(sphere.particles, 1500u);
 }
 
 }  // namespace

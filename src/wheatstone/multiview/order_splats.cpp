@@ -85,8 +85,11 @@ Projection make_projection(const Scene& scene, const CloudStatistics& statistics
   for (std::size_t axis = 0; axis < 3; ++axis)
     depth += (centre[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
   const float radius = statistics.radius();
-  const float nearest = std::max({depth - radius, scene.camera.nearest_depth, (depth + radius) * 1e-4f});
-  const float farthest = std::max(depth + radius, nearest * 1.001f);
+  // Beyond the mapping's ends parallax stays what it is there: the table needs no more, however far a particle lies.
+  const float last = std::min(depth + radius, scene.mapping.points.back().depth);
+  const float first = std::min(std::max(depth - radius, scene.mapping.points.front().depth), last);
+  const float nearest = std::max({first, scene.camera.nearest_depth, last * 1e-4f});
+  const float farthest = std::max(last, nearest * 1.001f);
 
   ParallaxTable& table = projection.table;
   table.first_w = 1 / farthest;

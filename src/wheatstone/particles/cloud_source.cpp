@@ -27,6 +27,14 @@ std::string some_bytes(const std::filesystem::path& path) {
 
 bool begins_as_ply(std::string_view bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r"); }
 
+/// A zip archive whose first file is an array.
+bool begins_as_npz(std::string_view bytes) {
+  constexpr std::size_t name_at = 30;
+  if (!bytes.starts_with("PK\3\4") || bytes.size() < name_at) return false;
+  const auto byte = [&](std::size_t at) { return std::size_t{static_cast<unsigned char>(bytes[at])}; };
+  return bytes.substr(name_at, byte(26) + 256 * byte(27)).ends_with(".npy");
+}
+
 bool is_text(std::string_view bytes) {
   return std::ranges::none_of(bytes, [](char c) { return c == '\0' || (c > 0 && c < 9); });
 }
@@ -62,6 +70,8 @@ constexpr std::array formats{
     Format{"PLY", begins_as_ply, open_ply},
     Format{"LAS", [](std::string_view bytes) { return bytes.starts_with("LASF"); }, open_las},
     Format{"NumPy", [](std::string_view bytes) { return bytes.starts_with("\x93NUMPY"); }, open_npy},
+    Format{"NumPy archive", begins_as_npz, open_npz},
+    Format{"FITS", [](std::string_view bytes) { return bytes.starts_with("SIMPLE  ="); }, open_fits},
     Format{"text", is_text, open_text_table},
 };
 

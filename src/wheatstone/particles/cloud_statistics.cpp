@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace wheatstone {
 
@@ -27,6 +26,26 @@ float LogHistogram::percentile(double share) const {
   return 0;
 }
 
+void PositionSample::add(const Cloud& cloud) {
+  constexpr std::size_t most = 1 << 17;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    // Multiples of the golden ratio spread evenly: a key's limit keeps a share of any stretch of the file.
+    const auto key = static_cast<std::uint32_t>(seen_++ * 0x9E3779B97F4A7C15u >> 32);
+    if (key > highest_key_) continue;
+    kept_.push_back({key, {cloud.x[i], cloud.y[i], cloud.z[i]}});
+    if (kept_.size() <= most) continue;
+    highest_key_ /= 2;
+    std::erase_if(kept_, [this](const Kept& kept) { return kept.key > highest_key_; });
+  }
+}
+
+std::array<std::vector<float>, 3> PositionSample::axes() const {
+  std::array<std::vector<float>, 3> axes;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const Kept& kept : kept_) axes[axis].push_back(kept.at[axis]);
+  return axes;
+}
+
 void CloudStatistics::add(const Cloud& cloud) {
   const std::array<const std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -35,6 +54,8 @@ void CloudStatistics::add(const Cloud& cloud) {
     lower[axis] = count == 0 ? least : std::min(lower[axis], least);
     upper[axis] = count == 0 ? most : std::max(upper[axis], most);
   }
+  if (cloud.size() > 0) origin = cloud.origin;
+  positions.add(cloud);
   count += cloud.size();
   density.add(cloud.density);
   temperature.add(cloud.temperature);
@@ -45,12 +66,11 @@ void CloudStatistics::add(const Cloud& cloud) {
 }
 
 std::array<float, 3> CloudStatistics::centre() const {
-  return {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2};
+  return framed ? framed->centre() : FramedRegion{.lower = lower, .upper = upper}.centre();
 }
 
 float CloudStatistics::radius() const {
-  const float radius = std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]) / 2;
-  return radius > 0 ? radius : 1.f;
+  return framed ? framed->radius() : FramedRegion{.lower = lower, .upper = upper}.radius();
 }
 
 }  // namespace wheatstone

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "wheatstone/particles/cloud.h"
+#include "wheatstone/particles/framed_region.h"
 
 namespace wheatstone {
 
@@ -22,16 +24,37 @@ class LogHistogram {
   std::uint64_t total_ = 0;
 };
 
+/// Positions of some particles, the same however they come in chunks: all, as long as they are few.
+class PositionSample {
+ public:
+  void add(const Cloud& cloud);
+  /// Their x, y and z.
+  std::array<std::vector<float>, 3> axes() const;
+
+ private:
+  struct Kept {
+    std::uint32_t key;
+    std::array<float, 3> at;
+  };
+  std::vector<Kept> kept_;
+  std::uint64_t seen_ = 0;
+  std::uint32_t highest_key_ = 0xFFFFFFFF;
+};
+
 /// What must be known of all particles before the first is drawn: gathered chunk by chunk.
 struct CloudStatistics {
   std::uint64_t count = 0;
+  std::array<double, 3> origin{};         ///< the cloud's
   std::array<float, 3> lower{}, upper{};  ///< bounds of the positions
+  PositionSample positions;
+  std::optional<FramedRegion> framed;  ///< what the views are framed by; nothing: by the bounds
   LogHistogram density, temperature;
   bool has_density = false, has_temperature = false, has_colour = false, has_smoothing_length = false;
 
   void add(const Cloud& cloud);
+  /// Of what the views are framed by; the radius is not 0.
   std::array<float, 3> centre() const;
-  float radius() const;  ///< of the sphere around the bounds; not 0
+  float radius() const;
 };
 
 }  // namespace wheatstone

@@ -13,6 +13,8 @@ CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudCho
 CloudSource open_ply(const std::filesystem::path& path, const CloudChoice& choice);
 CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choice);
 CloudSource open_npy(const std::filesystem::path& path, const CloudChoice& choice);
+CloudSource open_npz(const std::filesystem::path& path, const CloudChoice& choice);
+CloudSource open_fits(const std::filesystem::path& path, const CloudChoice& choice);
 CloudSource open_text_table(const std::filesystem::path& path, const CloudChoice& choice);
 
 /// Whether a file that begins with these bytes is a GADGET binary snapshot, format 1 or 2, of either byte order.

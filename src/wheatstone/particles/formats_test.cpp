@@ -133,6 +133,35 @@ TEST(Npy, RefusesWhatIsNoTableOfNumbers) {
   refused("{'descr': [('x', '<f4'), ('y', '>f4'), ('z', '<f4')], 'fortran_order': False, 'shape': (3,), }", "expected");
 }
 
+TEST(Npy, AllXAllYAndAllZAreRefusedWithAHintUnlessTheyCanBeNothingElse) {
+  const TemporaryFolder folder;
+  for (const char* order : {"False", "True"}) {
+    write_whole_file(folder / "a.npy",
+                     npy("{'descr': '<f8', 'fortran_order': " + std::string(order) + ", 'shape': (3, 900), }",
+                         std::string(std::size_t{3} * 900 * 8, '\0')));
+    expect_error(ErrorKind::bad_input, "has the shape (3, 900), expected one row per particle",
+                 [&] { read_cloud(folder / "a.npy"); });
+  }
+  Bytes by_axis;
+  Bytes by_particle;
+  for (int i = 0; i < 6000; ++i) {
+    by_axis.put(static_cast<float>(i));
+    by_particle.put(static_cast<float>(i % 3 * 2000 + i / 3));
+  }
+  const Bytes* of_order[] = {&by_axis, &by_particle};
+  for (const bool fortran : {false, true}) {
+    write_whole_file(
+        folder / "a.npy",
+        npy("{'descr': '<f4', 'fortran_order': " + std::string(fortran ? "True" : "False") + ", 'shape': (3, 2000), }",
+            of_order[fortran]->text));
+    const Cloud cloud = read_cloud(folder / "a.npy", {.origin = {{0, 0, 0}}});
+    ASSERT_EQ(cloud.size(), 2000u);
+    EXPECT_EQ(cloud.x[1999], 1999);
+    EXPECT_EQ(cloud.y[0], 2000);
+    EXPECT_EQ(cloud.z[1999], 5999);
+  }
+}
+
 TEST(Npy, ReadsHalfFloatsAndRecords) {
   const TemporaryFolder folder;
   Bytes halves;  // binary16 of 1 to 8 and 9.5

@@ -227,6 +227,7 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
     if (snapshot->files.empty()) {
       columns = columns_of(part);
       source.fields = hdf5_datasets(part.group);
+      source.units = snapshot_units(part.file, part.group);
     } else if (columns_of(part) != columns) {
       throw Error(ErrorKind::bad_input,
                   fmt::format("{}: has other datasets than {}, expected the same in all files of a snapshot",

@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/hdf5_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
@@ -33,6 +35,42 @@ std::vector<std::string> all_datasets(hid_t file) {
   std::vector<std::string> names;
   H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, note_path, &names);
   return names;
+}
+
+/// Whether a dataset has rows of three numbers.
+bool has_rows_of_three(hid_t file, const std::string& name) {
+  const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!dataset) return false;
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const H5T_class_t kind = H5Tget_class(type);
+  std::array<hsize_t, 2> extent{};
+  if (H5Sget_simple_extent_ndims(space) != 2 || (kind != H5T_FLOAT && kind != H5T_INTEGER)) return false;
+  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  return extent[1] == 3 && extent[0] > 0;
+}
+
+/// The dataset of the positions where there can be no doubt: the only one of its name, or the only one with rows of
+/// three numbers. Throws Error{bad_input} where there is doubt.
+std::string only_position(const Datasets& datasets) {
+  const std::vector<std::string> all = all_datasets(datasets.file);
+  std::vector<std::string> candidates;
+  std::vector<std::string> named;
+  for (const std::string& name : all) {
+    if (!has_rows_of_three(datasets.file, name)) continue;
+    candidates.push_back(name);
+    const std::string last = lower_case(name.substr(name.rfind('/') + 1));
+    if (last == "coordinates" || last == "positions" || last == "position" || last == "pos") named.push_back(name);
+  }
+  if (named.size() == 1) return named.front();
+  if (candidates.size() == 1) return candidates.front();
+  throw Error(
+      ErrorKind::bad_input,
+      fmt::format(
+          "{}: is not a snapshot, and {}, so --position must name the dataset of the positions; it has {}",
+          datasets.path,
+          candidates.empty() ? "no dataset has rows of three numbers" : "more than one dataset may hold the positions",
+          fmt::join(all, ", ")));
 }
 
 std::vector<std::string> split(const std::string& names) {
@@ -96,11 +134,8 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
   datasets->file = open_hdf5(path);
   // Names within a snapshot's group are a snapshot's; a path from the root is anybody's.
   if (is_snapshot_hdf5(datasets->file) && !choice.position.starts_with("/")) return open_gadget_hdf5(path, choice);
-  if (choice.position.empty())
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is not a snapshot, so the dataset of the positions must be named; it has {}",
-                            path.string(), fmt::join(all_datasets(datasets->file), ", ")));
-  const std::vector<std::string> names = split(choice.position);
+  const std::string position = choice.position.empty() ? only_position(*datasets) : choice.position;
+  const std::vector<std::string> names = split(position);
   for (const std::string& name : names) {
     datasets->position.push_back(open_named(*datasets, name));
     datasets->count = datasets->position.back().rows;
@@ -110,12 +145,12 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
         ErrorKind::bad_input,
         fmt::format(
             "{}: {} is not a list of positions, expected three numbers per row, or three datasets separated by commas",
-            path.string(), choice.position));
+            path.string(), position));
   datasets->density = open_named(*datasets, choice.density);
   datasets->temperature = open_named(*datasets, choice.temperature);
   datasets->smoothing_length = open_named(*datasets, choice.smoothing_length);
   if (datasets->count == 0)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: {} has no rows", path.string(), choice.position));
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {} has no rows", path.string(), position));
 
   CloudSource source{.format = "HDF5", .count = datasets->count, .fields = all_datasets(datasets->file)};
   source.bytes = std::filesystem::file_size(path);

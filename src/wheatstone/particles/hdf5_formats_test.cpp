@@ -18,6 +18,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::FloatNear;
+using testing::Pair;
 
 void expect_three_points(const Cloud& cloud) {
   EXPECT_THAT(cloud.x, ElementsAre(1, 4, 7));
@@ -34,7 +35,7 @@ class Hdf5Writer {
     const Hdf5Handle made(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   }
   void attribute(const std::string& group, const std::string& name, std::vector<double> values) {
-    const Hdf5Handle where(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    const Hdf5Handle where(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
     const hsize_t size = values.size();
     const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
     const Hdf5Handle made(H5Acreate2(where, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
@@ -180,6 +181,53 @@ TEST(GadgetHdf5, NamesWhatIsMissingAndWhatThereIs) {
                [&] { read_cloud(folder / "snap.hdf5", {.type = "jellyfish"}); });
 }
 
+TEST(GadgetHdf5, TellsItsUnits) {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "snap.hdf5");
+    file.group("Parameters");
+    file.attribute("Parameters", "UnitLength_in_cm", {3.085678e21});
+    file.attribute("Parameters", "UnitMass_in_g", {1.989e43});
+    file.attribute("Parameters", "UnitVelocity_in_cm_per_s", {1e5});
+    file.attribute("Parameters", "HubbleParam", {0.7});
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
+    file.dataset("PartType0/Density", {1, 2});
+    for (const auto& [name, value] :
+         {std::pair{"to_cgs", 6.75e-22}, std::pair{"a_scaling", -3.}, std::pair{"h_scaling", 2.},
+          std::pair{"length_scaling", -3.}, std::pair{"mass_scaling", 1.}, std::pair{"velocity_scaling", 0.}})
+      file.attribute("PartType0/Density", name, {value});
+  }
+  EXPECT_THAT(open_cloud(folder / "snap.hdf5", {.type = "gas"}).units,
+              ElementsAre(Pair("length", "3.08568e+21 cm (kpc)"), Pair("mass", "1.989e+43 g (1e10 Msun)"),
+                          Pair("velocity", "100000 cm/s (km/s)"), Pair("h", "0.7"),
+                          Pair("Density", "6.75e-22 g cm^-3 a^-3 h^2")));
+}
+
+TEST(Hdf5Dataset, ThePositionNeedNotBeNamedWhereThereIsNoDoubt) {
+  const TemporaryFolder folder;
+  const std::vector<float> points{1, 2, 3, 4, 5, 6, 7, 8, 9.5f};
+  const auto write = [&](const std::vector<std::string>& names) {
+    std::filesystem::remove(folder / "a.hdf5");
+    Hdf5Writer file(folder / "a.hdf5");
+    file.group("sky");
+    file.dataset("mass", {1, 2, 3});
+    for (const std::string& name : names) file.dataset(name, points, 3);
+  };
+  write({"Coordinates"});
+  expect_three_points(read_cloud(folder / "a.hdf5"));
+  write({"sky/places"});
+  expect_three_points(read_cloud(folder / "a.hdf5"));
+  write({"velocity", "sky/Positions"});
+  expect_three_points(read_cloud(folder / "a.hdf5"));
+  write({"velocity", "sky/places"});
+  expect_error(ErrorKind::bad_input, "more than one dataset may hold the positions, so --position must name",
+               [&] { read_cloud(folder / "a.hdf5"); });
+  write({});
+  expect_error(ErrorKind::bad_input, "no dataset has rows of three numbers, so --position must name",
+               [&] { read_cloud(folder / "a.hdf5"); });
+}
+
 TEST(GadgetHdf5, CutShortIsRefused) {
   const TemporaryFolder folder;
   write_snapshot(folder / "snap.hdf5", 2);
@@ -203,7 +251,9 @@ TEST(Hdf5Dataset, ReadsAnyByName) {
   expect_three_points(cloud);
   EXPECT_THAT(cloud.temperature, ElementsAre(7, 8, 9));
   EXPECT_THAT(read_cloud(folder / "stars.h5", {.position = "/x,/x,/cat/mag"}).z, ElementsAre(7, 8, 9));
-  expect_error(ErrorKind::bad_input, "it has /cat/mag, /cat/pos, /x", [&] { read_cloud(folder / "stars.h5"); });
+  EXPECT_THAT(read_cloud(folder / "stars.h5").y, ElementsAre(2, 5, 8));
+  expect_error(ErrorKind::bad_input, "no dataset '/none', but /cat/mag, /cat/pos, /x",
+               [&] { read_cloud(folder / "stars.h5", {.position = "/none"}); });
   expect_error(ErrorKind::bad_input, "no dataset '/y'", [&] { read_cloud(folder / "stars.h5", {.position = "/y"}); });
   expect_error(ErrorKind::bad_input, "not a list of positions",
                [&] { read_cloud(folder / "stars.h5", {.position = "/x"}); });

@@ -33,7 +33,9 @@ double half_value(std::uint16_t bits) {
   return bits >> 15 != 0 ? -size : size;
 }
 
-double decode(const char* from, NumberType type, bool swapped) {
+}  // namespace
+
+double decode_number(const char* from, NumberType type, bool swapped) {
   switch (type) {
     case NumberType::i8:
       return decode<std::int8_t>(from, swapped);
@@ -60,6 +62,8 @@ double decode(const char* from, NumberType type, bool swapped) {
   }
 }
 
+namespace {
+
 /// Some records in memory, and where each field of the first lies.
 struct Chunk {
   const RecordLayout& layout;
@@ -69,7 +73,7 @@ struct Chunk {
   double value(const RecordField& field, std::size_t record) const {
     const std::size_t at = layout.column_bytes > 0 ? (field.at * count + record) * layout.record_bytes
                                                    : record * layout.record_bytes + field.at;
-    return decode(bytes.data() + at, field.type, layout.swapped) * field.scale + field.offset;
+    return decode_number(bytes.data() + at, field.type, layout.swapped) * field.scale + field.offset;
   }
   void put(const std::optional<RecordField>& field, std::vector<float>& column) const {
     if (!field) return;

@@ -15,6 +15,9 @@ enum class NumberType { i8, u8, i16, u16, i32, u32, i64, u64, f16, f32, f64 };
 
 std::size_t bytes_of(NumberType type);
 
+/// The number that stands at `from`, in this machine's byte order or the other.
+double decode_number(const char* from, NumberType type, bool swapped);
+
 /// A number within a record; in the cloud it becomes value · scale + offset.
 struct RecordField {
   std::size_t at = 0;  ///< bytes from the record's begin

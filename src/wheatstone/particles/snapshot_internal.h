@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/particles/cloud_source.h"
@@ -19,6 +20,10 @@ std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& p
 
 /// Whether an open HDF5 file is a snapshot: it has groups PartType0 and so on.
 bool is_snapshot_hdf5(std::int64_t file);
+
+/// What an HDF5 snapshot tells of its units: those of length, mass and velocity, h, and those of the datasets of a
+/// group, in cgs with powers of the scale factor a and of h: "6.77e-22 g cm^-3 a^-3 h^2".
+std::vector<std::pair<std::string, std::string>> snapshot_units(std::int64_t file, std::int64_t group);
 
 CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoice& choice);
 

@@ -79,10 +79,11 @@ void estimate_density(Cloud& cloud, int neighbours, const Progress& progress) {
   cloud.density.assign(cloud.size(), 0.f);
   cloud.smoothing_length.assign(cloud.size(), 0.f);
 
-  // Where all neighbours lie in one place the volume is not 0, but that of the smallest length a position can tell.
-  float largest = 0;
-  for (const auto& at : points.at) largest = std::max({largest, std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
-  const double least_reach = std::max(static_cast<double>(largest) * 1e-6, 1e-12);
+  // Where all neighbours lie in one place the volume is not 0, but that of the smallest length the position can tell.
+  const auto least_reach = [](const std::array<float, 3>& at) {
+    const float largest = std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
+    return std::max(static_cast<double>(largest) * 1e-6, 1e-12);
+  };
 
   constexpr std::size_t part = 1 << 18;
   for (std::size_t begin = 0; begin < cloud.size(); begin += part) {
@@ -93,7 +94,7 @@ void estimate_density(Cloud& cloud, int neighbours, const Progress& progress) {
       std::vector<float> squares(wanted);
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         const std::size_t count = tree.knnSearch(points.at[i].data(), wanted, found.data(), squares.data());
-        const double reach = std::max(std::sqrt(static_cast<double>(squares[count - 1])), least_reach);
+        const double reach = std::max(std::sqrt(static_cast<double>(squares[count - 1])), least_reach(points.at[i]));
         double sum = 0;
         for (std::size_t k = 0; k < count; ++k) sum += kernel(std::sqrt(static_cast<double>(squares[k])) / reach);
         cloud.density[i] = static_cast<float>(std::min(sum / (reach * reach * reach), 1e37));
