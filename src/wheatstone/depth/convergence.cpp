@@ -16,10 +16,16 @@ float depth_from_disparity(float disparity_px, float scale) {
 }
 
 float disparity_percentile(ImageView<const float> disparity, double share) {
+  constexpr double enough_px = 1 << 20;
+  const double pixels = static_cast<double>(disparity.width()) * disparity.height();
+  const int step = std::max(static_cast<int>(std::sqrt(pixels / enough_px)), 1);
   std::vector<float> known;
-  known.reserve(static_cast<std::size_t>(disparity.width()) * disparity.height());
-  for (int y = 0; y < disparity.height(); ++y)
-    std::ranges::copy_if(disparity.row(y), std::back_inserter(known), [](float d) { return std::isfinite(d); });
+  known.reserve(static_cast<std::size_t>(pixels / step / step) + 1);
+  for (int y = step / 2; y < disparity.height(); y += step) {
+    const auto row = disparity.row(y);
+    for (int x = step / 2; x < disparity.width(); x += step)
+      if (std::isfinite(row[x])) known.push_back(row[x]);
+  }
   if (known.empty()) return std::numeric_limits<float>::quiet_NaN();
   return percentile(std::move(known), share);
 }

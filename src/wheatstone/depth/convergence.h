@@ -9,7 +9,7 @@ namespace wheatstone {
 float depth_from_disparity(float disparity_px, float scale);
 
 /// The disparity below which the given share, 0..1, of the finite pixels lies: 0.995 is the nearest point, but for
-/// outliers. NaN where no pixel is finite.
+/// outliers. Of a large picture every few rows and columns are looked at. NaN where no pixel is finite.
 float disparity_percentile(ImageView<const float> disparity, double share);
 
 /// A scene's nearest and farthest disparities, but for outliers.

@@ -14,6 +14,15 @@ TEST(Depth, IsInverselyProportionalToDisparity) {
   EXPECT_TRUE(std::isnan(depth_from_disparity(-1, 400))) << "behind infinity there is no depth";
 }
 
+TEST(DisparityPercentile, OfALargePictureIsThatOfAllItsPixels) {
+  Image<float> ramp(2900, 1500);
+  for (int y = 0; y < ramp.height(); ++y)
+    for (int x = 0; x < ramp.width(); ++x) ramp(x, y) = static_cast<float>(x) + 0.1f * static_cast<float>(y);
+  EXPECT_NEAR(disparity_percentile(ramp, 0.5), 1524.5, 2);
+  EXPECT_NEAR(depth_ends(ramp).farthest_px, 132, 2);
+  EXPECT_NEAR(depth_ends(ramp).nearest_px, 2917, 2);
+}
+
 TEST(DisparityPercentile, PassesOverUnknownsAndOutliers) {
   Image<float> disparity(1000, 1);
   for (int x = 0; x < 1000; ++x) disparity(x, 0) = static_cast<float>(x % 100);
