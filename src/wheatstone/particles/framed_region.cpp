@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "wheatstone/particles/cloud_statistics.h"
@@ -93,16 +94,18 @@ FramedRegion framed_region(const CloudStatistics& statistics, const Fit& fit) {
 }
 
 std::uint64_t count_outside(const Cloud& cloud, const FramedRegion& region) {
+  const auto& [lower, upper, sphere_radius] = region;
   const std::array<float, 3> middle = region.centre();
+  // Of a box the sphere around it says nothing.
+  const float square = sphere_radius > 0 ? sphere_radius * sphere_radius : std::numeric_limits<float>::infinity();
   std::uint64_t outside = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const std::array<float, 3> at{cloud.x[i], cloud.y[i], cloud.z[i]};
-    bool in = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      in = in && at[axis] >= region.lower[axis] && at[axis] <= region.upper[axis];
-    if (in && region.sphere_radius > 0)
-      in = std::hypot(at[0] - middle[0], at[1] - middle[1], at[2] - middle[2]) <= region.sphere_radius;
-    outside += in ? 0 : 1;
+    const float x = cloud.x[i], y = cloud.y[i], z = cloud.z[i];
+    const float dx = x - middle[0], dy = y - middle[1], dz = z - middle[2];
+    // Bits instead of branches: every particle is asked.
+    const bool in_box =
+        (x >= lower[0]) & (x <= upper[0]) & (y >= lower[1]) & (y <= upper[1]) & (z >= lower[2]) & (z <= upper[2]);
+    outside += in_box & (dx * dx + dy * dy + dz * dz <= square) ? 0 : 1;
   }
   return outside;
 }

@@ -44,6 +44,13 @@ Cloud cloud_of(ParticleRows rows, const std::array<double, 3>& origin) {
   cloud.origin = origin;
   const auto put = [&](const std::vector<double>& from, double middle, std::vector<float>& to) {
     to.resize(from.size());
+    // Nearly always all of them lie near: then there is nothing to ask of each.
+    bool all_near = true;
+    for (const double value : from) all_near &= std::abs(value - middle) <= Cloud::farthest_drawn;
+    if (all_near) {
+      std::ranges::transform(from, to.begin(), [middle](double value) { return static_cast<float>(value - middle); });
+      return;
+    }
     for (std::size_t i = 0; i < from.size(); ++i) {
       const double value = from[i] - middle;
       to[i] = std::isfinite(value) ? in_single_precision(value) : static_cast<float>(value);
