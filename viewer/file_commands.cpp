@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "command_groups_internal.h"
 #include "command_line.h"
 #include "wheatstone/error.h"
@@ -23,8 +25,7 @@ void open_files(Viewer& viewer, const Words& words) {
 void save_painting(Viewer& viewer, const Words& words) {
   const auto* const content = std::get_if<PaintedContent>(&viewer.session().opened.content);
   if (content == nullptr || !content->painting) throw Error(ErrorKind::wrong_usage, "there is no painting to save");
-  write_painting(words[0], *content->painting);
-  viewer.tell("saved " + words[0]);
+  viewer.save(words[0], [path = words[0], painting = content->painting] { write_painting(path, *painting); });
 }
 
 void save_style(Viewer& viewer, const Words& words) {
@@ -39,8 +40,8 @@ constexpr Command table[] = {
     {"previous-file", "", "File", "Previous file", "PgUp", [](Viewer& v, const Words&) { step_item(v, -1); }},
     {"save-picture", "FILE", "File", "Save picture…", "Ctrl+S",
      [](Viewer& v, const Words& w) {
-       write_image(w[0], frame_of(v).picture);
-       v.tell("saved " + w[0]);
+       const auto picture = std::make_shared<const Image<Rgb8>>(frame_of(v).picture);
+       v.save(w[0], [path = w[0], picture] { write_image(path, *picture); });
      }},
     {"save-painting", "FILE", "File", "Save painting…", "Ctrl+Shift+S", save_painting},
     {"save-style", "FILE", "File", "Save style…", "", save_style},

@@ -34,6 +34,7 @@ void LineRunner::begin(Viewer& viewer, const std::string& line) {
   } else if (words.front() == "screenshot" && words.size() == 2) {
     if (host_.screenshot) return host_.screenshot(words[1]);
     run_command(viewer, find_command("save-picture"), {words[1]});
+    saves_ = true;
   } else if (words.front() == "resize" && words.size() == 3) {
     const int width = pixels_of(words[1]), height = pixels_of(words[2]);
     if (host_.resize) return host_.resize(width, height);
@@ -43,6 +44,7 @@ void LineRunner::begin(Viewer& viewer, const std::string& line) {
     if (host_.print) host_.print(state_json(viewer.session(), host_.measured ? host_.measured() : Measured()));
   } else {
     run_line(viewer, line);
+    saves_ = viewer.is_saving();
   }
 }
 
@@ -51,6 +53,14 @@ bool LineRunner::is_done(Viewer& viewer) {
   waits_until_.reset();
   if (waits_ && viewer.is_busy()) return false;
   Session& session = viewer.session();
+  if (saves_) {
+    if (viewer.is_saving()) return false;
+    saves_ = false;
+    if (const std::optional<Error> failed = viewer.take_failed_save()) {
+      session.message_is_error = false;
+      throw *failed;
+    }
+  }
   if (std::exchange(waits_, false) && std::exchange(session.message_is_error, false))
     throw Error(ErrorKind::bad_input, session.message);
   return true;

@@ -21,7 +21,8 @@ struct ScriptHost {
   std::function<std::vector<std::pair<std::string, double>>()> measured = {};
 };
 
-/// Does one line after the other: commands, as run_line takes them, and these: `wait` is done when nothing is being
+/// Does one line after the other: commands, as run_line takes them, which are done when what they save is written, and
+/// these: `wait` is done when nothing is being
 /// opened, painted, moved or drawn, `wait SECONDS` after so long, `screenshot FILE`, `resize WIDTH HEIGHT`, `print`
 /// prints the state as one line of JSON.
 class LineRunner {
@@ -30,12 +31,13 @@ class LineRunner {
 
   /// Begins a line; to be called when the one before is done. Throws Error as run_line does.
   void begin(Viewer& viewer, const std::string& line);
-  /// Whether what was begun is done. Throws Error{bad_input} where what was waited for failed: once.
+  /// Whether what was begun is done. Throws Error{bad_input} where what was waited for failed, once, and the error of
+  /// what could not be saved.
   bool is_done(Viewer& viewer);
 
  private:
   ScriptHost host_;
-  bool waits_ = false;
+  bool waits_ = false, saves_ = false;
   std::optional<std::chrono::steady_clock::time_point> waits_until_;
 };
 

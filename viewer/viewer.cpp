@@ -242,7 +242,26 @@ void Viewer::post_frame(Frame frame, const Asked& asked) {
 }
 
 bool Viewer::is_busy() const {
-  return session_.opening || session_.zero_parallax_target_px || is_working() || !mailbox_.is_empty();
+  return session_.opening || session_.zero_parallax_target_px || is_working() || is_saving() || !mailbox_.is_empty();
+}
+
+void Viewer::save(const std::filesystem::path& path, std::function<void()> write) {
+  ++files_to_save_;
+  saving_.start([this, path, write = std::move(write)] {
+    std::optional<Error> failed;
+    try {
+      write();
+    } catch (const Error& error) {
+      failed = error;
+    } catch (const std::exception& error) {
+      failed = Error(ErrorKind::cannot_read_write, fmt::format("{}: {}", path.string(), error.what()));
+    }
+    mailbox_.post([this, path, failed] {
+      --files_to_save_;
+      if (failed) failed_save_ = failed;
+      tell(failed ? failed->what() : "saved " + path.string(), failed.has_value());
+    });
+  });
 }
 
 void Viewer::stop() {

@@ -4,12 +4,15 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "inputs.h"
 #include "mailbox.h"
 #include "newest_job.h"
+#include "ordered_jobs.h"
 #include "session.h"
 #include "stage.h"
+#include "wheatstone/error.h"
 #include "wheatstone/progress.h"
 
 namespace wheatstone::viewer {
@@ -54,6 +57,13 @@ class Viewer {
   bool is_busy() const;
   /// Collects until nothing is busy. For scripts without a window.
   void wait();
+  /// Has a file written beside all else, files one after the other. What then fails is told.
+  void save(const std::filesystem::path& path, std::function<void()> write);
+  bool is_saving() const { return files_to_save_ > 0; }
+  /// What a file failed with that was to be saved, once.
+  std::optional<Error> take_failed_save() { return std::exchange(failed_save_, std::nullopt); }
+  /// Returns when all files are written.
+  void finish_saving() { saving_.finish(); }
   /// Asks the threads to leave what they do.
   void stop();
   /// A thread does something.
@@ -93,7 +103,11 @@ class Viewer {
   double moved_at_s_ = 0, wiggled_at_s_ = 0;
 
   Stage stage_;  ///< of the drawing thread
+  int files_to_save_ = 0;
+  std::optional<Error> failed_save_;
+
   Mailbox mailbox_;
+  OrderedJobs saving_;
   NewestJob making_, drawing_;  ///< last: they end first
 };
 

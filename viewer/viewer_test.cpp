@@ -237,11 +237,31 @@ TEST(Viewer, PaintsAPhotographAsPaintDoes) {
   run_line(viewer, "style posterise");
   viewer.wait();
   run_command(viewer, find_command("save-painting"), {folder / "shown.wst"});
+  viewer.wait();
   std::ostringstream output, errors;
   const std::vector<std::string> words{"paint", folder / "left.png", folder / "right.png", "--style", "posterise",
                                        "-o",    folder / "painted"};
   ASSERT_EQ(cli::run_command_line(words, output, errors), 0) << errors.str();
   EXPECT_TRUE(read_painting(folder / "shown.wst") == read_painting(folder / "painted/painting.wst"));
+}
+
+TEST(Viewer, SavesBesideAllElseInOrderAndTellsWhatFails) {
+  const TemporaryFolder folder;
+  Viewer viewer;
+  viewer.set_viewport({300, 200});
+  viewer.wait();
+  for (int file = 0; file < 5; ++file) run_command(viewer, find_command("save-picture"), {folder / "last.png"});
+  run_command(viewer, find_command("save-picture"), {folder / "missing" / "picture.png"});
+  EXPECT_TRUE(viewer.is_saving());
+  viewer.wait();
+  EXPECT_EQ(read_image(folder / "last.png").width(), 300);
+  EXPECT_TRUE(viewer.session().message_is_error);
+  EXPECT_THAT(viewer.session().message, HasSubstr("picture.png"));
+  ASSERT_TRUE(viewer.take_failed_save());
+  EXPECT_FALSE(viewer.take_failed_save());
+  write_whole_file(folder / "tour.txt",
+                   fmt::format("save-picture \"{}\"\n", (folder / "missing" / "picture.png").string()));
+  expect_error(ErrorKind::cannot_read_write, "tour.txt:1: ", [&] { run_script(viewer, folder / "tour.txt"); });
 }
 
 TEST(Viewer, ShowsNothingWhereNothingIsOpen) {

@@ -59,6 +59,7 @@ void begin(Window& window, const ViewArguments& arguments) {
 void end_threads(Viewer& viewer, int exit_code) {
   constexpr int longest_ms = 100;
   viewer.stop();
+  viewer.finish_saving();
   for (int waited_ms = 0; viewer.is_working(); ++waited_ms) {
     if (waited_ms == longest_ms) {
       std::fflush(stdout);
