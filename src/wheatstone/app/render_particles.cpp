@@ -77,11 +77,12 @@ std::optional<std::array<double, 3>> middle_of(const Region& region) {
   return middle;
 }
 
-/// Of the file, with the middle of what is looked at as the origin, where the options tell it.
+/// Of the file, with the middle of what is shown as the origin, where the options tell it. A point that is only looked
+/// at does not count: a window that looks elsewhere keeps the cloud it has, and shows the same picture.
 CloudChoice choice_of(const RenderParticlesOptions& options) {
   CloudChoice choice = options.choice;
   for (const std::optional<std::array<double, 3>>& middle :
-       {options.selection.centre, options.look_at, middle_of(options.fit), middle_of(options.selection.cut)})
+       {options.selection.centre, middle_of(options.fit), middle_of(options.selection.cut)})
     if (middle && !choice.origin) choice.origin = middle;
   return choice;
 }
