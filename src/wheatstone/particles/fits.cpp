@@ -100,7 +100,8 @@ struct Reading {
         const std::uint64_t voxel = at + i;
         rows.x.push_back(static_cast<double>(voxel % size[0]) + 0.5);
         rows.y.push_back(static_cast<double>(voxel / size[0] % size[1]) + 0.5);
-        rows.z.push_back(static_cast<double>(voxel / size[0] / size[1]) + 0.5);
+        const std::uint64_t layer = voxel / size[0] / size[1];
+        rows.z.push_back(static_cast<double>(layer) + 0.5);
         rows.others.density.push_back(in_single_precision(values[i]));
       }
       at += some;

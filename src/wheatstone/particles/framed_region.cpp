@@ -102,10 +102,9 @@ std::uint64_t count_outside(const Cloud& cloud, const FramedRegion& region) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float x = cloud.x[i], y = cloud.y[i], z = cloud.z[i];
     const float dx = x - middle[0], dy = y - middle[1], dz = z - middle[2];
-    // Bits instead of branches: every particle is asked.
     const bool in_box =
-        (x >= lower[0]) & (x <= upper[0]) & (y >= lower[1]) & (y <= upper[1]) & (z >= lower[2]) & (z <= upper[2]);
-    outside += in_box & (dx * dx + dy * dy + dz * dz <= square) ? 0 : 1;
+        x >= lower[0] && x <= upper[0] && y >= lower[1] && y <= upper[1] && z >= lower[2] && z <= upper[2];
+    if (!in_box || dx * dx + dy * dy + dz * dz > square) ++outside;
   }
   return outside;
 }
