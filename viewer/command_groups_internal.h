@@ -13,6 +13,7 @@ std::span<const Command> depth_commands();
 std::span<const Command> input_commands();
 std::span<const Command> painting_commands();
 std::span<const Command> particle_commands();
+std::span<const Command> panel_commands();
 
 inline ViewState& state_of(Viewer& viewer) { return viewer.session().state; }
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "depth_placing.h"
 #include "output_mode.h"
 #include "particle_scene.h"
+#include "style_controls.h"
 #include "wheatstone/marks/style_parameters.h"
 
 namespace wheatstone::viewer {
@@ -39,17 +41,32 @@ std::string style_options(const Style& style) {
   const Style preset = is_preset ? style_by_name(style.name) : Style();
   std::string text = fmt::format(" --style {}", shell_word(is_preset ? style.name : preset.name));
   for (const StyleParameter& parameter : style_parameters()) {
-    const std::string value = parameter.toml_value(style);
-    if (value == parameter.toml_value(preset) || parameter.name == "seed") continue;
-    std::string plain = value;
-    std::erase_if(plain, [](char letter) { return letter == '[' || letter == ']' || letter == '"' || letter == ' '; });
+    const std::string plain = plain_value(parameter, style);
+    if (plain == plain_value(parameter, preset) || parameter.name == "seed") continue;
     if (!parameter.is_switch) {
       text += fmt::format(" --{} {}", parameter.name, shell_word(plain));
     } else {
-      text += value == "true" ? fmt::format(" --{}", parameter.name) : fmt::format(" --{}=false", parameter.name);
+      text += plain == "true" ? fmt::format(" --{}", parameter.name) : fmt::format(" --{}=false", parameter.name);
     }
   }
   return text;
+}
+
+/// The mapping, and the viewer that it is for unless a display tells.
+std::string mapping_options(const ViewState& state, bool with_viewer) {
+  if (state.depth_regions.empty()) return {};
+  std::string text = fmt::format(" --depth-mapping {}", text_of(state.depth_regions));
+  const ViewingGeometry viewing = placing_of(state).viewing;
+  if (with_viewer)
+    text +=
+        fmt::format(" --distance {:.6g} --screen-width {:.6g}", viewing.viewing_distance_mm, viewing.screen_width_mm);
+  return text;
+}
+
+/// What says where the screen plane lies.
+std::string plane_options(const ViewState& state, bool for_display) {
+  if (!state.depth_regions.empty()) return mapping_options(state, !for_display);
+  return fmt::format(" --zero-parallax {:.2f}", state.adjustment.zero_parallax_px);
 }
 
 std::string packed(const ViewState& state, const std::string& input, float zero_parallax_px) {
@@ -76,16 +93,20 @@ std::string for_painting(const Session& session, const Item& item, const Painted
   const float screen_px = state.adjustment.zero_parallax_px;
   if (!content.photograph) {
     if (shows_display_views(find_output_mode(state.mode)))
-      return fmt::format("wheatstone paint{} --display {} --zero-parallax {:.2f} -o painted", files_of(item),
-                         shell_word(state.display), screen_px);
-    const std::string pack = packed(state, shell_word(item.front().string()), screen_px * state.adjustment.separation);
-    return pack.empty() ? fmt::format("wheatstone paint{} -o painted", files_of(item)) : pack;
+      return fmt::format("wheatstone paint{} --display {}{} -o painted", files_of(item), shell_word(state.display),
+                         plane_options(state, true));
+    const bool is_placed = !state.depth_regions.empty();
+    const std::string placed =
+        fmt::format("wheatstone paint{}{} -o painted", files_of(item), mapping_options(state, true));
+    const std::string pack = packed(state, is_placed ? "painted/painting.wst" : shell_word(item.front().string()),
+                                    screen_px * state.adjustment.separation);
+    if (pack.empty()) return placed;
+    return is_placed ? fmt::format("{} && {}", placed, pack) : pack;
   }
-  const std::string display = shows_display_views(find_output_mode(state.mode))
-                                  ? fmt::format(" --display {}", shell_word(state.display))
-                                  : std::string();
-  const std::string paint = fmt::format("wheatstone paint{}{} --zero-parallax {:.2f}{} -o painted", files_of(item),
-                                        style_options(state.style), screen_px, display);
+  const bool for_display = shows_display_views(find_output_mode(state.mode));
+  const std::string display = for_display ? fmt::format(" --display {}", shell_word(state.display)) : std::string();
+  const std::string paint = fmt::format("wheatstone paint{}{}{}{} -o painted", files_of(item),
+                                        style_options(state.style), plane_options(state, for_display), display);
   if (!display.empty()) return paint;
   const std::string pack = packed(state, "painted/painting.wst", screen_px * state.adjustment.separation);
   return pack.empty() ? paint : fmt::format("{} && {}", paint, pack);
@@ -93,6 +114,7 @@ std::string for_painting(const Session& session, const Item& item, const Painted
 
 /// The options of `render` that make particles or slices as deep.
 std::string depth_options(const ViewState& state) {
+  if (!state.depth_regions.empty()) return mapping_options(state, true);
   const PerceivedDepth depth = perceived_depth(state);
   return fmt::format(" --distance {} --screen-width {} --near {} --far {}", depth.viewing.viewing_distance_mm,
                      depth.viewing.screen_width_mm, depth.near_mm, depth.far_mm);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "content.h"
 #include "frame_geometry.h"
 #include "output_mode.h"
 #include "view_state.h"
@@ -18,6 +19,8 @@ struct Frame {
   double scale = 1;               ///< screen pixels for one of the content
   bool preliminary = false;       ///< drawn quickly: another drawing with all effort shows more
   std::optional<float> exposure;  ///< of particles, as all of them have it
+  Content shown;                  ///< what it shows, with its depth as it was placed
+  std::optional<ContentDepth> depth;  ///< of that
 };
 
 /// The size of the picture that each eye is to have, before a mode puts both in one.

@@ -153,7 +153,7 @@ TEST(HeadTracker, MovesTheViewersHead) {
   sender.send_packet(packet_of({3.25, 0, 0, 0, 0, 0}));
   viewer.wait();
   EXPECT_FLOAT_EQ(viewer.session().state.head, 0.5);
-  EXPECT_THAT(state_json(viewer.session()), HasSubstr(R"("is_silent":false)"));
+  EXPECT_THAT(state_json(viewer), HasSubstr(R"("is_silent":false)"));
   run_line(viewer, "head-tracker off");
   EXPECT_FALSE(viewer.session().tracked_head);
   EXPECT_FALSE(viewer.next_step_s());

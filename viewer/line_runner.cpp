@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "comfort.h"
 #include "command_table.h"
 #include "wheatstone/error.h"
 
@@ -41,7 +42,7 @@ void LineRunner::begin(Viewer& viewer, const std::string& line) {
     viewer.set_viewport({width, height});
   } else if (words.front() == "print" && words.size() == 1) {
     using Measured = std::vector<std::pair<std::string, double>>;
-    if (host_.print) host_.print(state_json(viewer.session(), host_.measured ? host_.measured() : Measured()));
+    if (host_.print) host_.print(state_json(viewer, host_.measured ? host_.measured() : Measured()));
   } else {
     run_line(viewer, line);
     saves_ = viewer.is_saving();
@@ -66,7 +67,8 @@ bool LineRunner::is_done(Viewer& viewer) {
   return true;
 }
 
-std::string state_json(const Session& session, const std::vector<std::pair<std::string, double>>& measured) {
+std::string state_json(const Viewer& viewer, const std::vector<std::pair<std::string, double>>& measured) {
+  const Session& session = viewer.session();
   using Json = nlohmann::ordered_json;
   const ViewState& state = session.state;
   Json files = Json::array();
@@ -92,6 +94,13 @@ std::string state_json(const Session& session, const std::vector<std::pair<std::
             {"is_error", session.message_is_error}};
   if (session.tracked_head)
     told["head_tracker"] = {{"port", session.tracked_head->port}, {"is_silent", session.tracked_head->is_silent}};
+  if (!state.depth_regions.empty()) told["depth_mapping"] = text_of(state.depth_regions);
+  if (const std::optional<DepthSeen> seen = depth_seen(viewer))
+    told["depth"] = {{"near_mm", seen->near_mm},
+                     {"far_mm", seen->far_mm},
+                     {"parallax_percent", seen->total_percent},
+                     {"is_comfortable", seen->discomforts.empty()},
+                     {"told", comfort_told(viewer)}};
   for (const auto& [name, value] : measured) told[name] = value;
   return told.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

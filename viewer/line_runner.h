@@ -42,6 +42,6 @@ class LineRunner {
 };
 
 /// A session's state as one line of JSON: what is open, how it is shown, what was last said, and what was measured.
-std::string state_json(const Session& session, const std::vector<std::pair<std::string, double>>& measured = {});
+std::string state_json(const Viewer& viewer, const std::vector<std::pair<std::string, double>>& measured = {});
 
 }  // namespace wheatstone::viewer

@@ -36,6 +36,7 @@ void set_parameter(Viewer& viewer, const Words& words) {
   Style style = state_of(viewer).style;
   found->set(style, words[1]);
   check_style(style);
+  if (style == state_of(viewer).style) return;
   state_of(viewer).style = style;
   viewer.paint();
 }

@@ -31,6 +31,7 @@ PerceivedDepth perceived_depth(const ViewState& state) {
   const float usual_mm = usual_depth_mm(display.screen_width_mm);
   depth.near_mm = state.look.near_mm.value_or(usual_mm);
   depth.far_mm = state.look.far_mm.value_or(usual_mm);
+  depth.regions = state.depth_regions;
   return depth;
 }
 

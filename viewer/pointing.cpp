@@ -56,7 +56,7 @@ std::optional<float> disparity_under(const Viewer& viewer, double x, double y) {
   if (!place) return {};
   const Session& session = viewer.session();
   const Particles* const particles = open_particles(viewer);
-  if (particles == nullptr) return disparity_at(session.opened.content, *place);
+  if (particles == nullptr) return disparity_at(frame->shown, *place);
   const Scene scene = particle_scene(*particles, session.state, eyes_of(viewer));
   const std::optional<SeenParticle> seen = particle_at(*particles, scene, *place);
   return seen ? std::optional(-seen->parallax_px) : std::nullopt;

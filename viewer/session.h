@@ -34,6 +34,9 @@ struct Fixation {
 
 constexpr double click_easing_s = 0.08;  ///< after which a third of the way is left
 
+/// What stands beside the picture.
+enum class Panel { off, style, depth };
+
 /// All that a viewer knows: plain data.
 struct Session {
   std::vector<Item> items;
@@ -55,6 +58,7 @@ struct Session {
   int screens = 1;      ///< that there are
   int screen = 0;       ///< that is filled, from 1; 0: the display's own, or the window's
   bool stereo = false;  ///< the graphics card shows a picture for each eye in turn
+  Panel panel = Panel::off;
   bool ends = false;
   int exit_code = 0;
 };

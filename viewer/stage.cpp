@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "lens_simulator.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/lenticular.h"
@@ -27,7 +28,13 @@ int wiggle_view(int step) {
 
 std::vector<ViewPosition> wanted_positions(const OutputMode& mode, const ViewState& state) {
   const EyePositions eyes = eye_positions(state);
-  if (!std::holds_alternative<Wiggle>(mode.kind)) return {eyes.left, eyes.right};
+  if (!std::holds_alternative<Wiggle>(mode.kind)) {
+    std::vector<ViewPosition> positions{eyes.left, eyes.right};
+    const Leaks leaks = leaks_of(state);
+    for (const std::vector<LeakingView>& of_eye : {leaks.left, leaks.right})
+      for (const LeakingView& leak : of_eye) positions.push_back(leak.view);
+    return positions;
+  }
   std::vector<ViewPosition> positions = evenly_spaced(0, 0, wiggle_views, state.adjustment.separation).positions;
   for (ViewPosition& position : positions) position = ViewPosition(position.eye_separations() + state.head);
   return positions;
@@ -103,6 +110,28 @@ void put_photograph_on_the_left(const Image<Rgb8>& photograph, Image<Rgb8>& pain
     std::ranges::copy(photograph.row(y).subspan(0, photograph.width() / 2), painting.row(y).begin());
 }
 
+/// Puts a share of another picture's light in the place of its own.
+void let_through(const Image<Rgb8>& other, float share, Image<Rgb8>& picture) {
+  const cv::Mat own = as_mat(std::as_const(picture)).clone();
+  cv::Mat mixed = as_mat(picture);
+  cv::addWeighted(own, 1 - share, as_mat(other), share, 0, mixed);
+}
+
+/// Adds what crosstalk lets through. `lay` makes the picture of a view by its number; those that leak follow the eyes'.
+template <class Lay>
+void leak_into_eyes(const ViewState& state, Lay lay, Image<Rgb8>& left, Image<Rgb8>& right) {
+  const Leaks leaks = leaks_of(state);
+  std::size_t view = 2;
+  // Shares are of all the light in the end.
+  for (const auto& [of_eye, picture] : {std::pair{&leaks.left, &left}, std::pair{&leaks.right, &right}}) {
+    float share = 1 - state.crosstalk;
+    for (const LeakingView& leak : *of_eye) {
+      share += leak.share;
+      let_through(lay(view++), leak.share / share, *picture);
+    }
+  }
+}
+
 /// Blackens what only one eye shows at its sides: the picture's edge lies in the same columns for both.
 void show_what_both_show(const ContentSize& content, const Fit& fit, double shift_left, double shift_right,
                          Image<Rgb8>& left, Image<Rgb8>& right) {
@@ -145,30 +174,33 @@ std::optional<PictureSize> screen_size_of(const ViewState& state) {
   }
 }
 
-EyePositions eye_positions(const ViewState& state) {
-  const float half = state.adjustment.separation / 2;
-  EyePositions eyes{ViewPosition(state.head - half), ViewPosition(state.head + half)};
-  if (!state.quantised) return eyes;
-  const DisplayPreset& display = find_display(state.display);
-  const Rig rig = evenly_spaced(0, 0, display.views, std::max(span_of(display), 1.f));
-  const auto nearest = [&rig](ViewPosition eye) {
-    return *std::ranges::min_element(rig.positions, {}, [eye](ViewPosition view) { return std::abs(view - eye); });
-  };
-  return {nearest(eyes.left), nearest(eyes.right)};
-}
-
 Frame Stage::draw(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort) {
   if (std::holds_alternative<std::monostate>(content))
-    return {.picture = {viewport.width, viewport.height}, .right = {}, .places = {}};
-  return shows_display_views(find_output_mode(state.mode)) ? draw_display(content, state, viewport)
-                                                           : draw_eyes(content, state, viewport, effort);
+    return {.picture = {viewport.width, viewport.height}, .right = {}, .places = {}, .shown = {}};
+  const Content& shown = drawer_.shown(content, state);
+  Frame frame = shows_display_views(find_output_mode(state.mode)) ? draw_display(shown, state, viewport)
+                                                                  : draw_eyes(shown, state, viewport, effort);
+  frame.shown = shown;
+  if (measured_ != shown) {
+    measured_ = shown;
+    depth_ = depth_of(shown);
+  }
+  frame.depth = depth_;
+  return frame;
+}
+
+Frame Stage::draw_apart(const PaintedContent& content, const ViewState& state, const Viewport& viewport) {
+  const OutputMode& mode = find_output_mode(state.mode);
+  std::vector<Image<Rgb8>> eyes = layers_apart_.draw(content.painting, state, eye_size(mode, viewport));
+  if (state.swap) std::swap(eyes[0], eyes[1]);
+  return compose(mode, std::move(eyes[0]), std::move(eyes[1]), viewport);
 }
 
 Frame Stage::draw_display(const Content& content, const ViewState& state, const Viewport& viewport) {
   const std::vector<Image<Rgb8>>& views = drawer_.display_views(content, state);
   if (state.mode == "lenticular") {
     const LenticularScreen screen = screen_of(state);
-    return {.picture = part_of_screen(interleave(views, screen), viewport), .right = {}, .places = {}};
+    return {.picture = part_of_screen(interleave(views, screen), viewport), .right = {}, .places = {}, .shown = {}};
   }
   const DisplayPreset& display = find_display(state.display);
   QuiltLayout layout{display.quilt_columns, display.quilt_rows};
@@ -183,10 +215,13 @@ Frame Stage::draw_display(const Content& content, const ViewState& state, const 
       {static_cast<double>(viewport.width) / quilt.width(), static_cast<double>(viewport.height) / quilt.height(), 1.});
   const PictureSize size{std::max(static_cast<int>(quilt.width() * scale), 1),
                          std::max(static_cast<int>(quilt.height() * scale), 1)};
-  return {.picture = centred(reduced(quilt, size), viewport), .right = {}, .places = {}, .scale = scale};
+  return {.picture = centred(reduced(quilt, size), viewport), .right = {}, .places = {}, .scale = scale, .shown = {}};
 }
 
 Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort) {
+  if (const auto* const painted = std::get_if<PaintedContent>(&content);
+      painted && state.layers_apart_deg != 0 && painted->painting && can_stand_apart(*painted->painting))
+    return draw_apart(*painted, state, viewport);
   const OutputMode& mode = find_output_mode(state.mode);
   const EyeSize eye = eye_size(mode, viewport);
   ContentSize size = size_of(content);
@@ -219,6 +254,14 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
     return laid;
   };
   Image<Rgb8> left = lay(first, shift_left, -0.5), right = lay(last, shift_right, 0.5);
+  if (!wiggles)
+    leak_into_eyes(
+        state,
+        [&](std::size_t view) {
+          return lay(view, shift_left + std::round((drawn.positions[view] - drawn.positions[first]) * zero_parallax_px),
+                     0);
+        },
+        left, right);
   if (first != last) show_what_both_show(size, fit, shift_left, shift_right, left, right);
   const auto place_of = [&](std::size_t view, double shift) {
     return ViewPlace{.view = drawn.positions[view],

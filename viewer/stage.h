@@ -5,6 +5,7 @@
 #include "compose.h"
 #include "content.h"
 #include "frame_geometry.h"
+#include "layers_apart.h"
 #include "view_drawer.h"
 #include "view_state.h"
 #include "wheatstone/stereo/reduced_pair.h"
@@ -22,17 +23,16 @@ class Stage {
   Frame draw_display(const Content& content, const ViewState& state, const Viewport& viewport);
   Frame draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort);
 
+  Frame draw_apart(const PaintedContent& content, const ViewState& state, const Viewport& viewport);
+
   ViewDrawer drawer_;
+  LayersApart layers_apart_;
+  Content measured_;                   ///< whose depth is known
+  std::optional<ContentDepth> depth_;  ///< of that
 };
 
 /// The size of the screen whose lenses a state fills with views, in pixels; none where it shows no such views, or where
 /// the size is not known.
 std::optional<PictureSize> screen_size_of(const ViewState& state);
-
-/// The positions from which a state's two eyes look.
-struct EyePositions {
-  ViewPosition left, right;
-};
-EyePositions eye_positions(const ViewState& state);
 
 }  // namespace wheatstone::viewer

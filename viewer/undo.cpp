@@ -12,6 +12,8 @@ ViewState parameters_of(ViewState state) {
   state.head = as_new.head;
   state.orbit = as_new.orbit;
   state.step = as_new.step;
+  state.comparison = as_new.comparison;
+  state.layers_apart_deg = as_new.layers_apart_deg;
   return state;
 }
 
@@ -24,6 +26,8 @@ void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState
   session.state.framed = now.framed;
   session.state.head = now.head;
   session.state.orbit = now.orbit;
+  session.state.comparison = now.comparison;
+  session.state.layers_apart_deg = now.layers_apart_deg;
   to.push_back(now);
   from.pop_back();
   session.zero_parallax_target_px.reset();

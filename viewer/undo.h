@@ -5,7 +5,7 @@
 namespace wheatstone::viewer {
 
 /// What a command changes of a session, so that it can be undone: to be made before the command, and `keep` called
-/// behind it. From where one looks (zoom, pan, head, orbit) is not undone.
+/// behind it. From where one looks (zoom, pan, head, orbit, the side of layers, the photograph) is not undone.
 class Change {
  public:
   explicit Change(const Session& session) : before_(session.state), target_before_(session.zero_parallax_target_px) {}

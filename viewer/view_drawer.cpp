@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "depth_placing.h"
+#include "output_mode.h"
 #include "particle_scene.h"
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/depth/display_presets.h"
@@ -48,11 +50,15 @@ DrawnViews sliced(const SliceStack& stack, const std::vector<ViewPosition>& posi
 ViewDrawer::Placing ViewDrawer::placing_of(const Content& content, const ViewState& state) {
   const bool has_depth_of_its_own =
       std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
-  return has_depth_of_its_own ? Placing{state.orbit, state.look, state.display} : Placing{};
+  if (has_depth_of_its_own) return {state.orbit, state.look, state.display, state.depth_regions};
+  Placing placing;
+  placing.regions = state.depth_regions;
+  return placing;
 }
 
 const SliceStack& ViewDrawer::placed_slices(const SlicesContent& content, const ViewState& state) {
-  if (!state.look.near_mm && !state.look.far_mm) return *content.slices;
+  const bool has_ends = state.look.near_mm || state.look.far_mm;
+  if (!has_ends || !state.depth_regions.empty()) return *content.slices;
   Placing placing;
   placing.look.near_mm = state.look.near_mm;
   placing.look.far_mm = state.look.far_mm;
@@ -84,6 +90,18 @@ DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& pain
   DrawnViews drawn{.positions = positions, .scale = part.scale, .left = part.left, .top = part.top};
   for (DrawnView& view : draw(prepared_->ready, positions)) drawn.pictures.push_back(std::move(view.picture));
   return drawn;
+}
+
+const Content& ViewDrawer::shown(const Content& content, const ViewState& state) {
+  if (state.depth_regions.empty()) {
+    shown_.reset();
+    return content;
+  }
+  const bool for_display = shows_display_views(find_output_mode(state.mode));
+  if (!shown_ || shown_->content != content || shown_->regions != state.depth_regions ||
+      shown_->display != state.display || shown_->for_display != for_display)
+    shown_ = Shown{content, state.depth_regions, state.display, for_display, placed_content(content, state)};
+  return shown_->placed;
 }
 
 const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& state, const WantedPart& part,
@@ -143,7 +161,8 @@ const std::vector<Image<Rgb8>>& ViewDrawer::display_views(const Content& content
                                       .width = display.view_width_px,
                                       .height = display.view_height_px,
                                       .widest_span = std::max(span_of(display), 1.f),
-                                      .zero_parallax_px = zero_parallax_px};
+                                      .zero_parallax_px = zero_parallax_px,
+                                      .depth = viewer::placing_of(state)};
     views = draw_display_views(*painted->painting, options).views;
   } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
     views = *pictures->views;

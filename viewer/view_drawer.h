@@ -34,6 +34,9 @@ struct DrawnViews {
 /// Draws views of what is open, and keeps what the next drawing can use again. Of one thread.
 class ViewDrawer {
  public:
+  /// What is shown of what is open, as placed_content has it. Until the next call.
+  const Content& shown(const Content& content, const ViewState& state);
+
   /// The painting, or where there is none what it would be painted from.
   const DrawnViews& painted(const Content& content, const ViewState& state, const WantedPart& part,
                             const std::vector<ViewPosition>& positions, Effort effort = Effort::whole);
@@ -58,6 +61,7 @@ class ViewDrawer {
     wheatstone::Framing orbit;
     ParticleLook look;
     std::string display;
+    std::vector<DepthRegion> regions;
     friend bool operator==(const Placing&, const Placing&) = default;
   };
   static Placing placing_of(const Content& content, const ViewState& state);
@@ -83,6 +87,14 @@ class ViewDrawer {
     Placing placing;
     std::vector<Image<Rgb8>> views;
   };
+  struct Shown {
+    Content content;
+    std::vector<DepthRegion> regions;
+    std::string display;
+    bool for_display = false;
+    Content placed;
+  };
+  std::optional<Shown> shown_;
   std::optional<Prepared> prepared_;
   std::optional<Drawn> drawn_, photographed_;
   std::optional<DisplayDrawn> display_;

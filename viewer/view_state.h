@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "particle_look.h"
 #include "wheatstone/depth/camera.h"
+#include "wheatstone/depth/depth_regions.h"
 #include "wheatstone/marks/style.h"
 
 namespace wheatstone::viewer {
@@ -42,7 +44,9 @@ struct ViewState {
   std::string display = "desk-stereo";  ///< a display preset
   std::string screen;                   ///< calibration or name of a lenticular screen; empty: the display's
   int finest_layer = 1 << 20;           ///< of strokes, from the coarsest, 0, on
-  bool layers_apart = false;            ///< a look from the side at the layers of detail
+  float layers_apart_deg = 0;           ///< a look from so far to the side at the layers of detail; 0: from the front
+  float crosstalk = 0;                  ///< share of an eye's light that is its neighbours'
+  std::vector<DepthRegion> depth_regions;  ///< where the scene's parts are to seem; none: as in the photographs
   Comparison comparison = Comparison::painting;
   Style style;
   wheatstone::Framing orbit{.zoom = 1.2f};  ///< of particles

@@ -155,6 +155,12 @@ void Viewer::show_comfortably() {
   const std::optional<ContentDepth> depth = depth_of(session_.opened.content);
   if (!depth) return;
   Adjustment& adjustment = session_.state.adjustment;
+  if (!session_.state.depth_regions.empty()) {
+    // What has been placed lies as it is to be.
+    adjustment.zero_parallax_px = 0;
+    adjustment.separation = 1;
+    return;
+  }
   adjustment.zero_parallax_px = depth->nearest_px;
   const float budget_px = comfortable_parallax_share * static_cast<float>(size_of(session_.opened.content).width);
   adjustment.separation = std::min(1.f, budget_px / std::max(depth->nearest_px - depth->farthest_px, 1e-3f));

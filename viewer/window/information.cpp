@@ -8,6 +8,7 @@
 #include <QTextBrowser>
 
 #include "viewer/command_table.h"
+#include "viewer/lens_simulator.h"
 #include "viewer/session.h"
 
 namespace wheatstone::viewer {
@@ -28,6 +29,8 @@ std::string information_of(const Session& session) {
   text +=
       fmt::format("\n{}, zero parallax {:.1f} px, eyes {:.2f} apart, head {:.2f}", session.state.mode,
                   session.state.adjustment.zero_parallax_px, session.state.adjustment.separation, session.state.head);
+  if (const std::string seen = seen_views_told(session.state); !seen.empty()) text += "\n" + seen;
+  if (session.state.crosstalk > 0) text += fmt::format("\ncrosstalk {:.0f} %", 100 * session.state.crosstalk);
   for (const std::string& note : session.opened.notes) text += "\n" + note;
   return text;
 }
@@ -74,7 +77,8 @@ QWidget* make_help(QWidget* parent) {
             "</code></td><td>" + html(command.text) + "</td></tr>";
   }
   page->setHtml(text +
-                "</table><p>Wheel: zoom. Ctrl + wheel: detail. Drag: pan, or turn particles, which Shift + drag pans; "
+                "</table><p>C, held: the photograph. Wheel: zoom. Ctrl + wheel: detail. Drag: pan, or turn particles, "
+                "which Shift + drag pans; "
                 "Ctrl + click: look at the particles that lie there. Click: what lies "
                 "there comes onto the screen plane. Double click: full screen.</p>");
   page->resize(640, 560);

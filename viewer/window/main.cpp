@@ -16,6 +16,7 @@
 
 #include "cli/view_arguments.h"
 #include "end_signals.h"
+#include "kept_settings.h"
 #include "viewer/command_table.h"
 #include "viewer/control.h"
 #include "wheatstone/error.h"
@@ -89,6 +90,11 @@ int run(const ViewArguments& arguments) {
                  .with_dialogs = arguments.script.empty() && arguments.control.empty()});
   const EndSignals end_signals([&window] { window.end(static_cast<int>(ErrorKind::interrupted)); });
   window.resize(size);
+  std::optional<KeptSettings> kept;
+  if (arguments.script.empty() && arguments.control.empty()) {
+    kept.emplace(window);
+    kept->restore(arguments.size == ViewArguments().size);
+  }
   begin(window, arguments);
   std::unique_ptr<Script> script;
   if (!arguments.script.empty()) script = std::make_unique<Script>(arguments.script, window.script_host());
@@ -96,6 +102,7 @@ int run(const ViewArguments& arguments) {
   window.show();
   if (script) window.run(std::move(script));
   if (!window.viewer().session().ends) QApplication::exec();
+  if (kept) kept->keep();
   const int exit_code = window.exit_code();
   window.close_control();
   end_threads(window.viewer(), exit_code);

@@ -20,8 +20,8 @@
 
 #include "information.h"
 #include "stereo_surface.h"
+#include "viewer/comfort.h"
 #include "viewer/particle_moves.h"
-#include "viewer/pointing.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/style.h"
@@ -65,6 +65,8 @@ Window::Window(const WindowOptions& options)
   setCentralWidget(picture);
   information_ = make_information(picture);
   help_ = make_help(this);
+  panels_ = std::make_unique<Panels>(
+      *this, [this](const std::string& name, const Words& arguments) { do_line(name, arguments); });
   make_menus();
   make_status_bar();
   if (!why_not.isEmpty()) {
@@ -125,6 +127,9 @@ void Window::make_status_bar() {
   tracker_->setToolTip("Head tracker");
   statusBar()->addPermanentWidget(tracker_);
   statusBar()->addPermanentWidget(progress_);
+  depth_->setToolTip("Disparity under the pointer, and where it seems to be on the display");
+  comfort_ = new QLabel(this);
+  statusBar()->addPermanentWidget(comfort_);
   statusBar()->addPermanentWidget(depth_);
 }
 
@@ -212,21 +217,31 @@ void Window::show_session() {
     }
   }
   show_information(*information_, session);
+  comfort_->setText(QString::fromStdString(comfort_in_short(viewer_)));
+  comfort_->setToolTip(QString::fromStdString(comfort_told(viewer_)));
+  panels_->show(viewer_);
   help_->setVisible(session.help);
   if (session.ends) close();
 }
 
 void Window::show_depth_under_pointer() {
-  const std::optional<float> disparity = disparity_under(viewer_, pointer_.x(), pointer_.y());
-  depth_->setText(disparity ? QString("%1 px").arg(*disparity, 0, 'f', 1) : QString());
-  depth_->setToolTip("Disparity under the pointer");
+  depth_->setText(QString::fromStdString(depth_told(viewer_, pointer_.x(), pointer_.y())));
 }
 
 bool Window::eventFilter(QObject* watched, QEvent* event) {
   if (watched != surface_->widget() && watched != surface_->pointed_at())
     return QMainWindow::eventFilter(watched, event);
   if (event->type() == QEvent::Resize) refresh();
+  if (compares_while_held(event)) return true;
   return pointer_event(event) || QMainWindow::eventFilter(watched, event);
+}
+
+bool Window::compares_while_held(QEvent* event) {
+  if (event->type() != QEvent::KeyPress && event->type() != QEvent::KeyRelease) return false;
+  const auto* const key = static_cast<QKeyEvent*>(event);
+  if (key->key() != Qt::Key_C || key->modifiers() != Qt::NoModifier) return false;
+  if (!key->isAutoRepeat()) do_line("compare", {event->type() == QEvent::KeyPress ? "photograph" : "painting"});
+  return true;
 }
 
 bool Window::pointer_event(QEvent* event) {

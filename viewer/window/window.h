@@ -10,12 +10,12 @@
 #include "control_link.h"
 #include "full_screen.h"
 #include "heartbeat.h"
+#include "panels.h"
 #include "picture_surface.h"
 #include "viewer/command_table.h"
 #include "viewer/script.h"
 #include "viewer/viewer.h"
 
-class QDockWidget;
 class QLabel;
 class QProgressBar;
 
@@ -67,6 +67,8 @@ class Window final : public QMainWindow {
   void show_session();
   void show_depth_under_pointer();
   void go_on_with_script();
+  /// C shows the photograph as long as it is held.
+  bool compares_while_held(QEvent* event);
   bool pointer_event(QEvent* event);
   void drag_to(const QPointF& place);
   void save_screenshot(const std::filesystem::path& path);
@@ -85,9 +87,11 @@ class Window final : public QMainWindow {
   QLabel* message_ = nullptr;
   QLabel* depth_ = nullptr;
   QLabel* tracker_ = nullptr;
+  QLabel* comfort_ = nullptr;
   QProgressBar* progress_ = nullptr;
   QLabel* information_ = nullptr;
   QWidget* help_ = nullptr;
+  std::unique_ptr<Panels> panels_;
 
   QPointF pressed_at_, dragged_to_, pointer_;
   bool is_pressed_ = false, is_dragged_ = false, pans_ = false;

@@ -1,0 +1,37 @@
+#include "depth_placing.h"
+
+#include <memory>
+
+#include "output_mode.h"
+#include "wheatstone/depth/disparity_mapping.h"
+#include "wheatstone/depth/display_presets.h"
+
+namespace wheatstone::viewer {
+
+DepthPlacing placing_of(const ViewState& state) {
+  return {state.depth_regions, viewing_of(find_display(state.display))};
+}
+
+Content placed_content(const Content& content, const ViewState& state) {
+  if (state.depth_regions.empty()) return content;
+  DepthPlacing placing = placing_of(state);
+  if (const auto* const painted = std::get_if<PaintedContent>(&content);
+      painted && painted->painting && !shows_display_views(find_output_mode(state.mode))) {
+    PaintedContent placed = *painted;
+    placed.painting =
+        std::make_shared<const Painting>(place_depth(*painted->painting, placing, width_of(*painted->painting)));
+    return placed;
+  }
+  if (const auto* const sliced = std::get_if<SlicesContent>(&content)) {
+    auto placed = std::make_shared<SliceStack>(*sliced->slices);
+    const ContentDepth depth = depth_of(content).value_or(ContentDepth());
+    placing.viewing.width_px = placed->width;
+    const DisparityMapping mapping =
+        disparity_mapping(placing.regions, {depth.farthest_px, depth.nearest_px}, placing.viewing);
+    for (Slice& slice : placed->slices) slice.parallax_px = -mapped_px(mapping, -slice.parallax_px);
+    return SlicesContent{std::move(placed)};
+  }
+  return content;
+}
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "compose.h"
+#include "lens_simulator.h"
+#include "view_state.h"
+#include "wheatstone/marks/painting.h"
+
+namespace wheatstone::viewer {
+
+/// Paint alone: black and transparent where there is none.
+struct LayerPicture {
+  Image<Rgb8> paint;
+  Image<std::uint8_t> cover;  ///< 255 where it covers
+};
+
+/// A painting's layers of strokes, standing one before the other like panes of glass, the canvas behind them, looked at
+/// from a side (Stavrakis & Gelautz 2004, fig. 5). Keeps the drawn layers, so that turning draws none anew. Of one
+/// thread.
+class LayersApart {
+ public:
+  /// Both eyes' pictures. The painting has layers.
+  std::vector<Image<Rgb8>> draw(const std::shared_ptr<const Painting>& painting, const ViewState& state,
+                                const EyeSize& size);
+
+ private:
+  void draw_layers(const std::shared_ptr<const Painting>& painting, const ViewState& state, const EyeSize& size);
+
+  std::shared_ptr<const Painting> painting_;
+  int finest_layer_ = 0;
+  double scale_ = 0;
+  EyePositions eyes_;
+  std::vector<std::vector<LayerPicture>> layers_of_eyes_;
+};
+
+/// Whether a painting is of layers that can stand apart.
+bool can_stand_apart(const Painting& painting);
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "cli/run.h"
+#include "comfort.h"
+#include "command_line.h"
+#include "command_table.h"
+#include "lens_simulator.h"
+#include "line_runner.h"
+#include "style_controls.h"
+#include "temporary_folder.h"
+#include "throws_error.h"
+#include "wheatstone/depth/disparity_mapping.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/synthetic/synthetic_still.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int width = 240, height = 160;
+
+const SyntheticStill& still() {
+  static const SyntheticStill made = make_synthetic_still({.width = width, .height = height, .samples_a_side = 1});
+  return made;
+}
+
+const Painting& painting() {
+  static const Painting planned = plan_painting(still().pictures, still().geometry, {});
+  return planned;
+}
+
+/// A viewer in which the painting is open.
+class PanelsOfAPainting : public testing::Test {
+ protected:
+  PanelsOfAPainting() {
+    write_painting(folder / "still.wst", painting());
+    viewer.session().items.push_back({folder / "still.wst"});
+    viewer.set_viewport({width, height});
+    viewer.open(0);
+    viewer.wait();
+  }
+  void run(std::string_view line) {
+    run_line(viewer, line);
+    viewer.wait();
+  }
+  Image<Rgb8> picture_of(const char* mode) {
+    run(fmt::format("mode {}", mode));
+    return viewer.frame()->picture;
+  }
+
+  const TemporaryFolder folder;
+  Viewer viewer;
+};
+
+TEST_F(PanelsOfAPainting, PutsWhatIsMappedOntoTheScreenThereAndTellsItsDepthInMillimetres) {
+  run("depth-mapping 0:-40,1:60");
+  const std::optional<DepthSeen> seen = depth_seen(viewer);
+  ASSERT_TRUE(seen);
+  // The picture is 240 of the display's 1280 pixels wide.
+  const ViewingGeometry viewing = viewing_of(find_display("desk-stereo"));
+  const float part = static_cast<float>(width) / static_cast<float>(viewing.width_px);
+  EXPECT_NEAR(seen->near_mm, -perceived_depth_mm(viewing, part * screen_parallax_mm(viewing, -40)), 0.5);
+  EXPECT_NEAR(seen->far_mm, perceived_depth_mm(viewing, part * screen_parallax_mm(viewing, 60)), 0.5);
+  EXPECT_THAT(state_json(viewer), HasSubstr(R"("depth_mapping":"0:-40,1:60")"));
+  run("depth-mapping reset");
+  EXPECT_TRUE(viewer.session().state.depth_regions.empty());
+  EXPECT_EQ(picture_of("left"), picture_of("left"));
+  expect_error(ErrorKind::wrong_usage, "behind the viewer", [&] { run_line(viewer, "depth-mapping 0:-800,1:9"); });
+  expect_error(ErrorKind::wrong_usage, "SHARE:MM", [&] { run_line(viewer, "depth-mapping 0:3,0:4"); });
+}
+
+TEST_F(PanelsOfAPainting, TellsWhetherTheWholePictureIsComfortableAtThisZoom) {
+  run("separation 1");
+  run("zero-parallax 8");
+  const DepthSeen small = *depth_seen(viewer);
+  EXPECT_TRUE(small.discomforts.empty());
+  EXPECT_THAT(state_json(viewer), HasSubstr(R"("is_comfortable":true)"));
+  run("zoom 2");
+  EXPECT_NEAR(depth_seen(viewer)->total_percent, 2 * small.total_percent, 0.01);
+  run("zoom 40");
+  run("comfort");
+  EXPECT_FALSE(depth_seen(viewer)->discomforts.empty());
+  EXPECT_THAT(viewer.session().message, HasSubstr("not comfortable on desk-stereo: "));
+}
+
+TEST_F(PanelsOfAPainting, HideExactlyTheLayersInFrontOfTheSlicingPlane) {
+  run("separation 1");
+  run("zero-parallax 0");
+  const std::size_t layers = layers_of(painting()).size();
+  ASSERT_EQ(layers, 3u);
+  for (std::size_t finest = 0; finest < layers; ++finest) {
+    Painting sliced = painting();
+    std::get<StrokePainting>(sliced.marks).layers.resize(finest + 1);
+    run(fmt::format("finest-layer {}", finest));
+    EXPECT_EQ(picture_of("left"), draw(sliced, left_eye).picture) << finest;
+  }
+}
+
+TEST_F(PanelsOfAPainting, ShowLayersApartFromTheSide) {
+  const Image<Rgb8> front = picture_of("left");
+  run("layers-apart 40");
+  const Image<Rgb8> all = picture_of("left"), right = picture_of("right");
+  EXPECT_NE(all, front);
+  EXPECT_NE(all, right) << "two eyes see the layers from two sides";
+  run("finest-layer 0");
+  EXPECT_NE(picture_of("left"), all);
+  run("finest-layer 2");
+  EXPECT_EQ(picture_of("left"), all);
+  run("layers-apart off");
+  EXPECT_EQ(picture_of("left"), front);
+}
+
+TEST_F(PanelsOfAPainting, AreTheCommandThatCopyCommandTells) {
+  run("depth-mapping 0:-20,0.5:0,1:30");
+  for (const char* mode : {"left-right", "quilt"}) {
+    run(fmt::format("display {}", mode == std::string_view("quilt") ? "looking-glass-go" : "desk-stereo"));
+    run(fmt::format("mode {}", mode));
+    const std::string line = command_line_of(viewer.session());
+    EXPECT_THAT(line, HasSubstr("--depth-mapping 0:-20,0.5:0,1:30"));
+  }
+  run("mode left");
+  run("display desk-stereo");
+  Words words = words_of(command_line_of(viewer.session()));
+  words.erase(words.begin());
+  words.back() = folder / "painted";
+  std::ostringstream output, errors;
+  ASSERT_EQ(cli::run_command_line(words, output, errors), 0) << errors.str();
+}
+
+TEST_F(PanelsOfAPainting, LetLightOfNeighboursThrough) {
+  run("separation 1");
+  const Image<Rgb8> left = picture_of("left"), right = picture_of("right");
+  run("crosstalk 25");
+  const Image<Rgb8> mixed = picture_of("left");
+  for (int x = 20; x < width - 20; ++x)
+    ASSERT_NEAR(mixed(x, 80).g, 0.75 * left(x, 80).g + 0.25 * right(x, 80).g, 1.01) << x;
+  run("display nine-view");
+  run("lens-simulator on");
+  EXPECT_THAT(seen_views_told(viewer.session().state), HasSubstr("of 9"));
+  const Leaks leaks = leaks_of(viewer.session().state);
+  ASSERT_EQ(leaks.left.size(), 2u);
+  EXPECT_FLOAT_EQ(leaks.left.front().share, 0.125f);
+  EXPECT_LT(leaks.left.front().view, eye_positions(viewer.session().state).left);
+}
+
+TEST(StyleControls, ThereIsOneForEveryParameterThatTakesWhatStylesHave) {
+  ASSERT_EQ(style_controls().size(), style_parameters().size());
+  for (const StyleControl& control : style_controls())
+    for (const std::string_view name : style_names()) {
+      Style style = style_by_name(name);
+      const std::string value = plain_value(*control.parameter, style);
+      control.parameter->set(style, value);
+      EXPECT_EQ(plain_value(*control.parameter, style), value) << control.parameter->name;
+      if (const auto* const range = std::get_if<NumberControl>(&control.kind)) {
+        EXPECT_GE(std::stod(value), range->least) << control.parameter->name << ' ' << name;
+        EXPECT_LE(std::stod(value), range->most) << control.parameter->name << ' ' << name;
+      }
+      if (const auto* const choice = std::get_if<ChoiceControl>(&control.kind)) {
+        EXPECT_THAT(choice->names, testing::Contains(value)) << control.parameter->name;
+        for (const std::string_view each : choice->names) control.parameter->set(style, each);
+      }
+    }
+}
+
+TEST(ComfortableDepth, IsWhereDiscomfortBegins) {
+  const ComfortableDepth desk = comfortable_depth(viewing_of(find_display("desk-stereo")));
+  EXPECT_NEAR(desk.near_mm, 100, 1);
+  EXPECT_NEAR(desk.far_mm, 100, 1);
+}
+
+}  // namespace
+}  // namespace wheatstone::viewer

@@ -1,0 +1,94 @@
+#include "kept_settings.h"
+
+#include <QFileInfo>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSettings>
+#include <variant>
+
+#include "viewer/command_table.h"
+#include "viewer/output_mode.h"
+#include "wheatstone/error.h"
+#include "window.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+constexpr auto recent_key = "recent", mode_key = "mode", display_key = "display", size_key = "size";
+constexpr qsizetype most_files = 10;
+constexpr QChar between_eyes = '\n';
+
+constexpr auto organisation = "Wheatstone", program = "wheatstone-view";
+
+/// A mode that a screen shows whatever it is.
+bool is_for_any_screen(const OutputMode& mode) {
+  return !shows_display_views(mode) && !std::holds_alternative<PageFlip>(mode.kind);
+}
+
+}  // namespace
+
+KeptSettings::KeptSettings(Window& window) : window_(window) {
+  auto* const recent = new QMenu("Recent", &window);
+  QObject::connect(recent, &QMenu::aboutToShow, recent, [this, recent] { fill_menu(*recent); });
+  const QList<QAction*> menus = window.menuBar()->actions();
+  if (menus.empty() || menus.front()->menu() == nullptr) return;
+  QMenu& file = *menus.front()->menu();
+  file.insertMenu(file.actions().size() > 1 ? file.actions().at(1) : nullptr, recent);
+}
+
+QStringList KeptSettings::recent_files() const {
+  QStringList files;
+  for (const Item& item : window_.viewer().session().items) {
+    QStringList names;
+    for (const auto& file : item) names << QFileInfo(QString::fromStdString(file.string())).absoluteFilePath();
+    files.prepend(names.join(between_eyes));
+  }
+  files << QSettings(organisation, program).value(recent_key).toStringList();
+  files.removeDuplicates();
+  return files.mid(0, most_files);
+}
+
+void KeptSettings::fill_menu(QMenu& menu) {
+  menu.clear();
+  for (const QString& files : recent_files()) {
+    const QStringList names = files.split(between_eyes);
+    QAction* const action = menu.addAction(QFileInfo(names.front()).fileName());
+    action->setToolTip(names.join(", "));
+    QObject::connect(action, &QAction::triggered, &window_, [this, names] {
+      Words words;
+      for (const QString& name : names) words.push_back(name.toStdString());
+      try {
+        run_command(window_.viewer(), find_command("open"), words);
+      } catch (const Error& error) {
+        window_.viewer().tell(error.what(), true);
+      }
+    });
+  }
+  menu.setToolTipsVisible(true);
+}
+
+void KeptSettings::restore(bool with_size) {
+  const QSettings kept(organisation, program);
+  for (const char* key : {display_key, mode_key}) {
+    const std::string name = kept.value(key).toString().toStdString();
+    if (name.empty()) continue;
+    try {
+      run_command(window_.viewer(), find_command(key), {name});
+    } catch (const Error&) {
+      continue;  // this version does not know it
+    }
+  }
+  if (const QSize size = kept.value(size_key).toSize(); with_size && size.isValid()) window_.resize(size);
+}
+
+void KeptSettings::keep() {
+  QSettings kept(organisation, program);
+  const Session& session = window_.viewer().session();
+  if (is_for_any_screen(find_output_mode(session.state.mode)))
+    kept.setValue(mode_key, QString::fromStdString(session.state.mode));
+  kept.setValue(display_key, QString::fromStdString(session.state.display));
+  if (!session.full_screen) kept.setValue(size_key, window_.size());
+  kept.setValue(recent_key, recent_files());
+}
+
+}  // namespace wheatstone::viewer
