@@ -42,12 +42,18 @@ bool is_inside(const ControlPoint& point, const ImageView<const float>& picture)
 /// Where a point came to lie.
 enum class Landing { on_surface, before_it, behind_it };
 
+/// A disparity follows another only as far as it must, so that noise in matching moves no paint.
+float follow(float disparity, float target, float depth_threshold_px) {
+  const float slack_px = depth_threshold_px / 8;
+  return std::clamp(disparity, target - slack_px, target + slack_px);
+}
+
 /// Gives a moved point the disparity of its surface, if that is there or a pixel beside it: edges are known to a pixel
 /// at best.
 Landing land(const SceneView& now, float depth_threshold_px, ControlPoint& point) {
   const float there = surface_disparity(now.disparity, point.x, point.y, depth_threshold_px);
   if (std::abs(there - point.disparity) <= depth_threshold_px) {
-    point.disparity = there;
+    point.disparity = follow(point.disparity, there, depth_threshold_px);
     return Landing::on_surface;
   }
   const int column = static_cast<int>(point.x), row = static_cast<int>(point.y);
@@ -58,7 +64,7 @@ Landing land(const SceneView& now, float depth_threshold_px, ControlPoint& point
         nearest = now.disparity(x, y);
   if (std::abs(nearest - point.disparity) > depth_threshold_px)
     return there > point.disparity ? Landing::behind_it : Landing::before_it;
-  point.disparity = nearest;
+  point.disparity = follow(point.disparity, nearest, depth_threshold_px);
   return Landing::on_surface;
 }
 
@@ -97,13 +103,21 @@ void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_th
     Stroke& stroke = layer.strokes[i];
     const std::span points = std::span(layer.points).subspan(stroke.first_point, stroke.point_count);
     StrokeTrack& track = tracked.tracks[i];
+    // What the reference view showed already has paint of its own there, which this stroke would come to lie on.
+    if (now.position != motion.reference() && motion.showed_whole(points, stroke.radius_px, now)) {
+      track = {.shown = 0, .ends = 1};
+      return;
+    }
+    const ControlPoint before = points.front();
     const bool fits = move_stroke(motion, now, depth_threshold_px, points);
     // The order of strokes goes by their disparities: noise must not make them change places.
-    constexpr float share_of_new = 0.3f;
-    stroke.disparity += share_of_new * (points.front().disparity - stroke.disparity);
+    stroke.disparity = follow(stroke.disparity, points.front().disparity, depth_threshold_px);
     constexpr float rounding_px = 1;
     const float most_change_px = std::max(options.length_tolerance * track.first_length_px, rounding_px);
-    if (!fits || std::abs(length_px(points) - track.first_length_px) > most_change_px) track.ends = 1;
+    if (!fits || std::abs(length_px(points) - track.first_length_px) > most_change_px) {
+      const float speed_px = std::hypot(points.front().x - before.x, points.front().y - before.y);
+      if (track.ends == 0) track.ends = fading_frames(stroke.radius_px, speed_px, options);
+    }
   });
 }
 
@@ -111,19 +125,33 @@ float first_shown(bool scene_begins, const CarryOptions& options) {
   return scene_begins ? 1 : 1.f / static_cast<float>(std::max(options.fade_in_frames, 1));
 }
 
+std::uint32_t fading_frames(float radius_px, float speed_px, const CarryOptions& options) {
+  const int slowest = std::max(options.fade_out_frames, 1), fastest = std::clamp(options.fade_in_frames, 1, slowest);
+  const float frames = static_cast<float>(slowest) * radius_px / (radius_px + 2 * speed_px);
+  return static_cast<std::uint32_t>(std::clamp(static_cast<int>(std::lround(frames)), fastest, slowest));
+}
+
 void fade(const CarryOptions& options, TrackedLayer& tracked) {
   for (StrokeTrack& track : tracked.tracks) {
     const bool ends = track.ends != 0;
-    const float step = 1.f / static_cast<float>(std::max(ends ? options.fade_out_frames : options.fade_in_frames, 1));
+    const float step =
+        1.f / (ends ? static_cast<float>(track.ends) : static_cast<float>(std::max(options.fade_in_frames, 1)));
     track.shown = ends ? track.shown - step : std::min(track.shown + step, 1.f);
   }
   constexpr float nothing = 1e-4f;
   keep_if(tracked, [&](std::size_t i) { return tracked.tracks[i].shown > nothing; });
 }
 
-ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const FitGround& ground) {
-  float own = 0, below = 0;
+namespace {
+
+/// How unlike the picture a stroke and the paint under it are at some of its points.
+struct FitSums {
+  float own = 0, gain = 0;
   int count = 0, covered = 0;
+};
+
+FitSums sum_fits(std::span<const ControlPoint> points, Rgb8 colour, const FitGround& ground) {
+  FitSums sums;
   for (const ControlPoint& point : points) {
     const float x = point.x / ground.reduction, y = point.y / ground.reduction;
     if (!(x >= 0 && y >= 0 && x < static_cast<float>(ground.disparity.width()) &&
@@ -138,15 +166,46 @@ ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const Fi
       return std::sqrt(r * r + g * g + b * b);
     };
     const float difference = distance_to(colour.r, colour.g, colour.b);
-    own += difference;
-    ++count;
+    sums.own += difference;
+    ++sums.count;
     const Canvas& canvas = ground.canvas;
     if (canvas.coverage(column, row) < 0.5f) continue;
-    below += distance_to(canvas.red(column, row), canvas.green(column, row), canvas.blue(column, row)) - difference;
-    ++covered;
+    sums.gain += distance_to(canvas.red(column, row), canvas.green(column, row), canvas.blue(column, row)) - difference;
+    ++sums.covered;
   }
-  if (count == 0) return {};
-  return {own / static_cast<float>(count), covered == 0 ? 0 : below / static_cast<float>(covered)};
+  return sums;
+}
+
+}  // namespace
+
+ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const FitGround& ground) {
+  constexpr std::size_t points_a_part = 3, most_parts = 4;
+  const std::size_t parts = std::clamp<std::size_t>(points.size() / points_a_part, 1, most_parts);
+  ColourFit fit;
+  bool covered = false;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t begin = part * points.size() / parts, end = (part + 1) * points.size() / parts;
+    const FitSums sums = sum_fits(points.subspan(begin, end - begin), colour, ground);
+    if (sums.count > 0) fit.difference = std::max(fit.difference, sums.own / static_cast<float>(sums.count));
+    if (sums.covered == 0) continue;
+    const float gain = sums.gain / static_cast<float>(sums.covered);
+    fit.gain = covered ? std::min(fit.gain, gain) : gain;
+    covered = true;
+  }
+  return fit;
+}
+
+bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, const SceneView& from,
+                    const Onlooker& view) {
+  const float reach_px = radius_px + depth_edge_px;
+  return std::ranges::all_of(points, [&](ControlPoint p) {
+    const float x = p.x, column = column_in(p, from, view.view);
+    if (!(column >= 0 && column < static_cast<float>(view.view.disparity.width()))) return false;
+    return std::ranges::all_of(std::array{-reach_px, 0.f, reach_px}, [&](float aside) {
+      p.x = x + aside;
+      return is_visible(p, from, view.view, view.tolerance_px);
+    });
+  });
 }
 
 namespace {
@@ -177,7 +236,10 @@ std::size_t home_of(const Stroke& stroke, std::span<const ControlPoint> points, 
   if (!reaches_a_picture(points, views[home], stroke.radius_px, views)) return views.size();
   const auto visible = [&](std::size_t view) { return visible_points(points, views[home], views[view], tolerance_px); };
   const std::size_t in_reference = visible(0);
-  if (home == 0 ? 2 * in_reference >= points.size() : in_reference == points.size()) return 0;
+  if (home == 0 ? 2 * in_reference >= points.size()
+                : in_reference == points.size() &&
+                      is_shown_whole(points, stroke.radius_px, views[home], {views[0], tolerance_px}))
+    return 0;
   if (home != 0 && visible(home) > 0) return home;
   for (std::size_t view = 1; view < views.size(); ++view)
     if (2 * visible(view) > points.size()) return view;

@@ -20,6 +20,10 @@ void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_th
 /// How much of a stroke's opacity is shown at first.
 float first_shown(bool scene_begins, const CarryOptions& options);
 
+/// In how many frames a stroke fades that does not fit: the fewer, the faster its place moves for its size, so that it
+/// leaves no trail; never faster than others come on.
+std::uint32_t fading_frames(float radius_px, float speed_px, const CarryOptions& options);
+
 /// Lets strokes that were ending fade by another step, drops those that are gone, and lets new ones come on.
 void fade(const CarryOptions& options, TrackedLayer& tracked);
 
@@ -28,7 +32,18 @@ void fade(const CarryOptions& options, TrackedLayer& tracked);
 /// dropped. `layers` has one layer for each of the scene's views.
 void settle(std::span<const SceneView> views, float depth_threshold_px, std::span<TrackedLayer* const> layers);
 
-/// How well a stroke's colour fits the picture: mean RGB distances over its points.
+/// A view that looks at a stroke; a surface hides it that is nearer by more than the tolerance.
+struct Onlooker {
+  const SceneView& view;
+  float tolerance_px;
+};
+
+/// True where a view shows all of a stroke of the view `from`, as wide as its paint reaches to either side. Such a
+/// stroke of another view than the reference is not needed: the reference view has paint there.
+bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, const SceneView& from, const Onlooker& view);
+
+/// How well a stroke's colour fits the picture along it: mean RGB distances of the part of the stroke, a few points
+/// long, where each is worst.
 struct ColourFit {
   float difference = 0;  ///< of its colour from the picture
   float gain = 0;        ///< by how much more the paint under it differs from the picture; 0 over bare canvas

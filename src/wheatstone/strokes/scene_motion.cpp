@@ -1,6 +1,7 @@
 #include "wheatstone/strokes/scene_motion_internal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace wheatstone {
@@ -55,7 +56,7 @@ SceneMotion::SceneMotion(const FilmFrame& frame, ImageView<const float> disparit
       depth_threshold_px_(depth_threshold_px) {}
 
 PointStep SceneMotion::of(const ControlPoint& point, const SceneView& view) const {
-  float x = point.x + static_cast<float>(view.left_px) + (view.position - reference_) * point.disparity;
+  float x = column_of(point, view);
   const float y = point.y;
   if (view.position != reference_) {
     const int row = std::clamp(static_cast<int>(y), 0, disparity_before_.height() - 1);
@@ -69,6 +70,19 @@ PointStep SceneMotion::of(const ControlPoint& point, const SceneView& view) cons
   // Motion edges are not left out, as they are of the mask of confirmed flow: a stroke has its neighbours' word there.
   if (!undo_each_other(fx, fy, bx, by)) return {fx, fy, false};
   return {(fx - bx) / 2, (fy - by) / 2, true};
+}
+
+bool SceneMotion::showed_whole(std::span<const ControlPoint> points, float radius_px, const SceneView& view) const {
+  const float reach_px = radius_px + depth_edge_px;
+  return std::ranges::all_of(points, [&](const ControlPoint& point) {
+    const float x = column_of(point, view);
+    if (!(x >= 0 && x < static_cast<float>(disparity_before_.width()))) return false;
+    const int row = std::clamp(static_cast<int>(point.y), 0, disparity_before_.height() - 1);
+    return std::ranges::all_of(std::array{x - reach_px, x, x + reach_px}, [&](float aside) {
+      const int column = std::clamp(static_cast<int>(aside), 0, disparity_before_.width() - 1);
+      return disparity_before_(column, row) <= point.disparity + depth_threshold_px_;
+    });
+  });
 }
 
 }  // namespace wheatstone

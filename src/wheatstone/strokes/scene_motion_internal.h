@@ -5,6 +5,9 @@
 
 namespace wheatstone {
 
+/// Beside a depth edge, so far, it is not sure which surface is seen.
+inline constexpr float depth_edge_px = 2;
+
 /// How far a point moves, in pixels of its view.
 struct PointStep {
   float x = 0, y = 0;
@@ -21,7 +24,17 @@ class SceneMotion {
   /// Of a point that stands in the view's pictures.
   PointStep of(const ControlPoint& point, const SceneView& view) const;
 
+  /// True where the reference view showed all of a stroke of another view at the frame before, as wide as its paint
+  /// reaches to either side.
+  bool showed_whole(std::span<const ControlPoint> points, float radius_px, const SceneView& view) const;
+
+  ViewPosition reference() const { return reference_; }
+
  private:
+  float column_of(const ControlPoint& point, const SceneView& view) const {
+    return point.x + static_cast<float>(view.left_px) + (view.position - reference_) * point.disparity;
+  }
+
   const FlowPair& flow_;
   ImageView<const float> disparity_before_;
   ViewPosition reference_;

@@ -17,6 +17,7 @@
 #include "wheatstone/strokes/cover_bare_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/missing_strokes_internal.h"
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/visible_runs_internal.h"
 
@@ -44,12 +45,15 @@ class StrokeNumbers {
 /// A view that is being painted: its planner, of a smaller size where only a part of the view is wanted.
 class ViewAtWork {
  public:
-  ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, bool scene_begins,
+  /// `motion` is the reference view's flow to the frame before; none where a scene begins.
+  ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, const Flow* motion,
              StrokeNumbers& numbers)
-      : part_(part_of(view, reference, style, scene_begins)),
+      : part_(part_of(view, reference, style, motion == nullptr)),
         reduction_(part_ ? part_->reduction : 1),
         scaled_(style, view.picture.width(), static_cast<float>(reduction_)),
         style_(style),
+        motion_(motion),
+        left_px_(static_cast<float>(view.left_px)),
         numbers_(numbers),
         planner_(part_ ? part_->photograph.view() : view.picture, part_ ? part_->disparity.view() : view.disparity,
                  view.position, style) {
@@ -57,27 +61,27 @@ class ViewAtWork {
   }
 
   /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.
-  void plan(int layer, bool scene_begins, const CarryOptions& options, TrackedLayer& tracked) {
+  void plan(int layer, const CarryOptions& options, TrackedLayer& tracked) {
     if (planner_.photograph.empty()) return;
     const LayerInputs inputs = make_layer_inputs(planner_, style_, scaled_, layer);
     const ImageView<const std::uint8_t> part = part_ ? part_->seeds.view() : ImageView<const std::uint8_t>();
     Image<std::uint8_t> seeds;
     if (!tracked.tracks.empty()) {
-      seeds = where_paint_is_wanted(inputs);
+      const Image<float> before = errors_left(inputs);
       end_wrong_colours(inputs, options, tracked);
       draw_on_canvas(carried(tracked));
-      keep_away_from(tracked, layer, seeds);
+      seeds = where_strokes_are_missing(inputs, before, tracked);
     }
     Layer begun = plan_on(planner_, inputs, style_, scaled_, seeds.empty() ? part : seeds.view());
     numbers_.give(begun);
     sort_numbered_far_to_near(begun, style_.seed);
-    add(begun, inputs, scene_begins, options, tracked);
+    add(begun, inputs, options, tracked);
     const bool finest = layer + 1 == static_cast<int>(scaled_.radii_px.size());
     rasterise(finest ? strokes_near_bare(begun, planner_.canvas) : begun, planner_.view, hiding(), planner_.canvas);
     if (!finest) return;
     Layer dots = cover_bare(planner_, scaled_, style_, part);
     numbers_.give(dots);
-    add(std::move(dots), inputs, scene_begins, options, tracked);
+    add(std::move(dots), inputs, options, tracked);
   }
 
  private:
@@ -143,10 +147,13 @@ class ViewAtWork {
       StrokeTrack& track = tracked.tracks[i];
       if (track.ends != 0) return;
       const ColourFit now = fit(inputs, tracked.layer, tracked.layer.strokes[i]);
-      if (now.difference > track.first_colour_difference + options.colour_tolerance ||
-          now.gain < std::min(track.first_gain, 0.f) - options.gain_tolerance ||
-          spills(inputs, tracked.layer, tracked.layer.strokes[i]))
-        track.ends = 1;
+      if (now.difference <= track.first_colour_difference + options.colour_tolerance &&
+          now.gain >= std::min(track.first_gain, 0.f) - options.gain_tolerance &&
+          !spills(inputs, tracked.layer, tracked.layer.strokes[i]))
+        return;
+      // It fades from this frame on, which it does not belong to.
+      track.ends = fading_frames(tracked.layer.strokes[i].radius_px, speed_at(tracked.layer, i), options);
+      track.shown = std::max(track.shown - 1 / static_cast<float>(track.ends), 0.f);
     });
   }
 
@@ -169,51 +176,69 @@ class ViewAtWork {
 
   Hiding hiding() const { return {.surface = planner_.disparity, .tolerance_px = scaled_.depth_threshold_px}; }
 
-  /// 255 where the coarser layers leave something to do.
-  Image<std::uint8_t> where_paint_is_wanted(const LayerInputs& inputs) const {
-    const int width = planner_.photograph.width(), height = planner_.photograph.height();
-    Image<std::uint8_t> mask(width, height);
-    const float squared_threshold = style_.threshold * style_.threshold;
-    tbb::parallel_for(0, height, [&](int y) {
-      std::vector<float> errors(width);
-      squared_errors(inputs.reference, planner_.canvas, {y, 0, width}, errors.data());
-      for (int x = 0; x < width; ++x)
-        mask(x, y) = errors[x] > squared_threshold && (!part_ || part_->seeds(x, y) != 0) ? 255 : 0;
-    });
-    return mask;
+  /// By how many pixels a frame the place of a stroke's first point moves.
+  float speed_at(const Layer& layer, std::size_t stroke) const {
+    const ControlPoint& first = layer.points[layer.strokes[stroke].first_point];
+    const float x = first.x + left_px_;
+    const float speed = std::hypot(sample(motion_->x.view(), x, first.y), sample(motion_->y.view(), x, first.y));
+    return std::isfinite(speed) ? speed : 0;
   }
 
-  /// Of the layer's own strokes one is enough where there would be one in each cell of the grid; but not on what they
-  /// left bare.
-  void keep_away_from(const TrackedLayer& tracked, int layer, Image<std::uint8_t>& seeds) const {
-    const Image<std::uint8_t> wanted = seeds;
+  /// Squared errors of what is painted so far; −1 where nothing is wanted.
+  Image<float> errors_left(const LayerInputs& inputs) const {
+    const int width = planner_.photograph.width(), height = planner_.photograph.height();
+    Image<float> errors(width, height);
+    tbb::parallel_for(0, height, [&](int y) {
+      squared_errors(inputs.reference, planner_.canvas, {y, 0, width}, errors.row(y).data());
+      if (!part_) return;
+      for (int x = 0; x < width; ++x)
+        if (part_->seeds(x, y) == 0) errors(x, y) = -1;
+    });
+    return errors;
+  }
+
+  /// 255 within half a cell of where a stroke begins that stays.
+  Image<std::uint8_t> where_strokes_begin(const TrackedLayer& tracked, float cell_px) const {
+    Image<std::uint8_t> begun(planner_.photograph.width(), planner_.photograph.height());
     const auto reduction = static_cast<float>(reduction_);
     for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
       if (tracked.tracks[i].ends != 0) continue;
       const Stroke& stroke = tracked.layer.strokes[i];
       const ControlPoint& first = tracked.layer.points[stroke.first_point];
       const bool edgeways = stroke.radius_px < tracked.layer.radius_px;
-      const float reach = (edgeways ? 0.4f : 0.75f) * style_.grid * scaled_.radii_px[layer];
+      const float reach = (edgeways ? 0.25f : 0.5f) * cell_px;
       const auto bound = [&](float place, float offset, int size) {
         return std::clamp(static_cast<int>(std::lround(place / reduction + offset)), 0, size);
       };
-      const int left = bound(first.x, -reach, seeds.width()), right = bound(first.x, reach, seeds.width());
-      const int top = bound(first.y, -reach, seeds.height()), bottom = bound(first.y, reach, seeds.height());
-      for (int y = top; y < bottom && left < right; ++y) std::fill_n(&seeds(left, y), right - left, std::uint8_t{0});
+      const int left = bound(first.x, -reach, begun.width()), right = bound(first.x, reach, begun.width());
+      const int top = bound(first.y, -reach, begun.height()), bottom = bound(first.y, reach, begun.height());
+      for (int y = top; y < bottom && left < right; ++y) std::fill_n(&begun(left, y), right - left, std::uint8_t{255});
     }
-    tbb::parallel_for(0, seeds.height(), [&](int y) {
-      for (int x = 0; x < seeds.width(); ++x)
-        if (planner_.canvas.coverage(x, y) < 0.5f) seeds(x, y) = wanted(x, y);
-    });
+    return begun;
   }
 
-  void add(Layer begun, const LayerInputs& inputs, bool scene_begins, const CarryOptions& options,
-           TrackedLayer& tracked) const {
+  /// 255 where new strokes may begin: where carried ones do not do what painting anew would, and on what they left
+  /// bare.
+  Image<std::uint8_t> where_strokes_are_missing(const LayerInputs& inputs, const Image<float>& before,
+                                                const TrackedLayer& tracked) const {
+    const float cell_px = style_.grid * scaled_.radii_px[inputs.layer];
+    const Image<float> after = errors_left(inputs);
+    const Image<std::uint8_t> begun = where_strokes_begin(tracked, cell_px);
+    Image<std::uint8_t> seeds = missing_strokes({before, after, begun, inputs.depth_edges, cell_px, style_.threshold});
+    const float squared_threshold = style_.threshold * style_.threshold;
+    tbb::parallel_for(0, seeds.height(), [&](int y) {
+      for (int x = 0; x < seeds.width(); ++x)
+        if (planner_.canvas.coverage(x, y) < 0.5f) seeds(x, y) = before(x, y) > squared_threshold ? 255 : 0;
+    });
+    return seeds;
+  }
+
+  void add(Layer begun, const LayerInputs& inputs, const CarryOptions& options, TrackedLayer& tracked) const {
     if (part_) resize_strokes(begun, static_cast<float>(reduction_));
     tracked.layer.radius_px = begun.radius_px;
     for (const Stroke& stroke : begun.strokes) {
       StrokeTrack track;
-      track.shown = first_shown(scene_begins, options);
+      track.shown = first_shown(motion_ == nullptr, options);
       track.first_length_px = length_px(begun.points_of(stroke));
       const ColourFit first = fit(inputs, begun, stroke);
       track.first_colour_difference = first.difference;
@@ -227,6 +252,8 @@ class ViewAtWork {
   int reduction_;
   ScaledStyle scaled_;
   const Style& style_;
+  const Flow* motion_;
+  float left_px_;
   StrokeNumbers& numbers_;
   LayerPlanner planner_;
 };
@@ -291,12 +318,17 @@ void carry(const FilmFrame& frame, const Style& style, const CarryOptions& optio
 }
 
 /// New strokes of the view `home`, those with numbers after `last_number`, that no view shows are dropped: they would
-/// come up later at once.
-void drop_hidden(const FilmFrame& frame, std::size_t home, std::uint32_t last_number, float depth_threshold_px,
-                 TrackedLayer& tracked) {
+/// come up later at once. So are those of other views that the reference view shows whole, once it has strokes of its
+/// own: they would go over to it, and be begun again in every frame.
+void drop_needless(const FilmFrame& frame, std::size_t home, std::uint32_t last_number, float depth_threshold_px,
+                   TrackedLayer& tracked) {
   std::vector<std::uint8_t> shown(tracked.tracks.size());
   tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
     const Stroke& stroke = tracked.layer.strokes[i];
+    if (home != 0 && frame.flow != nullptr && stroke.number > last_number &&
+        is_shown_whole(tracked.layer.points_of(stroke), stroke.radius_px / 2, frame.views[home],
+                       {frame.views.front(), depth_threshold_px}))
+      return;
     shown[i] = stroke.number <= last_number ||
                std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
                  return std::ranges::any_of(frame.views, [&](const SceneView& view) {
@@ -364,13 +396,14 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
   plan.run([&](std::size_t view) {
     plan.report_step();
     StrokeNumbers numbers(memory.last_number, view, frame.views.size());
-    ViewAtWork work(frame.views[view], frame.views.front(), style, scene_begins, numbers);
+    ViewAtWork work(frame.views[view], frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward,
+                    numbers);
     for (std::size_t i = 0; i < layers; ++i) {
-      work.plan(static_cast<int>(i), scene_begins, options, memory.views[view][i]);
+      work.plan(static_cast<int>(i), options, memory.views[view][i]);
       plan.report_step();
     }
     for (TrackedLayer& tracked : memory.views[view])
-      drop_hidden(frame, view, memory.last_number, depth_threshold_px, tracked);
+      drop_needless(frame, view, memory.last_number, depth_threshold_px, tracked);
   });
   result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;

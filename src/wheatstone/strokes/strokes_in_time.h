@@ -15,15 +15,15 @@ namespace wheatstone {
 struct CarryOptions {
   int fade_in_frames = 2;
   int fade_out_frames = 4;
-  float colour_tolerance = 45;     ///< RGB distance, 0..441, by which its colour may fit worse than when it was made
-  float gain_tolerance = 12;       ///< RGB distance by which it may be worse than the coarser layers' paint under it
+  float colour_tolerance = 48;     ///< RGB distance, 0..441, by which its colour may fit worse than when it was made
+  float gain_tolerance = 20;       ///< RGB distance by which it may be worse than the coarser layers' paint under it
   float length_tolerance = 0.25f;  ///< by which its length may change, as a share of what it was made with
 };
 
 /// What a stroke's number stands for beside the stroke itself.
 struct StrokeTrack {
   float shown = 1;         ///< of the stroke's opacity, 0..1
-  std::uint32_t ends = 0;  ///< not 0: it fades out
+  std::uint32_t ends = 0;  ///< not 0: it fades out, in so many frames
   float first_length_px = 0;
   float first_colour_difference = 0;  ///< mean RGB distance of its colour from the picture under it
   float first_gain = 0;               ///< by how much smaller that was than the distance of the coarser layers' paint
