@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <optional>
 #include <string>
 
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/video/film_reader.h"
-#include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -45,15 +42,6 @@ void put_quilt(ordered_json& facts, const std::filesystem::path& path, const Fil
 }
 
 }  // namespace
-
-bool is_film(const std::filesystem::path& path) {
-  constexpr const char* endings[] = {".mp4", ".m4v",  ".mov", ".mkv", ".mk3d", ".webm", ".avi",
-                                     ".mpg", ".mpeg", ".m2v", ".ts",  ".m2ts", ".wmv",  ".flv",
-                                     ".ogv", ".mxf",  ".nut", ".y4m", ".dv",   ".h264", ".hevc"};
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
-  return std::ranges::find(endings, ending) != std::end(endings) || frame_pattern(path).has_value();
-}
 
 ordered_json facts_of_film(const std::filesystem::path& path) {
   const FilmReader reader = open_film(path);

@@ -5,9 +5,6 @@
 
 namespace wheatstone::cli {
 
-/// Whether a file's name is one of films or of numbered pictures.
-bool is_film(const std::filesystem::path& path);
-
 /// What a film says of itself, for `info`.
 nlohmann::ordered_json facts_of_film(const std::filesystem::path& path);
 

@@ -29,6 +29,7 @@
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {
 namespace {

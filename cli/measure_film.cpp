@@ -29,6 +29,7 @@
 #include "wheatstone/motion/flow_file.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/strokes/strokes_between_frames.h"
+#include "wheatstone/video/film_files.h"
 #include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone::cli {

@@ -27,12 +27,14 @@
 #include "stereo_arguments.h"
 #include "style_options.h"
 #include "typed_options.h"
+#include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
 #include "wheatstone/motion/flow_file.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/video/film_files.h"
 #include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/segmented_film.h"
 
@@ -82,37 +84,19 @@ StereoLayout layout_of_output(const Arguments& arguments, const StereoFilmReader
                   fmt::format("--output-layout: is '{}', but the film has one eye", arguments.output_layout));
     return *asked;
   }
-  const bool in_time =
-      source.layout() == StereoLayout::alternating || source.layout() == StereoLayout::alternating_right_first;
-  return two_films || in_time ? StereoLayout::left_right : source.layout();
+  return layout_of_painted_film(source, two_films);
 }
 
-FilmWriterOptions writing_options(const Arguments& arguments, const FilmArgument& film, const StereoFilmReader& source,
+FilmWriterOptions writing_options(const Arguments& arguments, const FilmFiles& film, const StereoFilmReader& source,
                                   const FilmReaderOptions& reading) {
   FilmWriterOptions writing = arguments.options.writing;
   const FilmFacts& facts = source.facts();
   writing.layout = layout_of_output(arguments, source, !film.right.empty());
-  writing.frame_rate = facts.frame_rate;
-  writing.pixel_aspect = arguments.options.frames.display ? Rational{1, 1} : facts.pixel_aspect;
-  writing.colour = facts.colour;
-  if (!facts.side_streams.empty()) writing.side_streams_from = film.film;
+  write_as_source(film.film, facts, reading, writing);
+  if (arguments.options.frames.display) writing.pixel_aspect = {1, 1};
   writing.copy_audio = !arguments.no_audio;
   writing.copy_subtitles = !arguments.no_subtitles;
-  writing.start_s = reading.from_s.value_or(0);
-  writing.end_s = reading.to_s;
   return writing;
-}
-
-/// How many frames there will be, as far as the film says; 0 where it does not.
-std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& reading) {
-  if (!facts.frame_count) return 0;
-  auto frames = static_cast<double>(*facts.frame_count);
-  const double rate = facts.frame_rate.value();
-  if (rate > 0) {
-    const double end_s = std::min(reading.to_s.value_or(frames / rate), frames / rate);
-    frames = std::max(end_s - reading.from_s.value_or(0), 0.0) * rate;
-  }
-  return static_cast<std::int64_t>(std::ceil(frames / reading.every));
 }
 
 nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm& film) {
@@ -191,7 +175,7 @@ void refuse_options_without_effect(const CLI::App& command, const Arguments& arg
 }
 
 /// Depth makes a pair of a film of one eye.
-void take_depth(const Arguments& arguments, const FilmArgument& film, const StereoFilmReader& source,
+void take_depth(const Arguments& arguments, const FilmFiles& film, const StereoFilmReader& source,
                 RotoscopeFilmOptions& options) {
   const std::string option = arguments.depth.model.empty() ? "--depth" : "--depth-model";
   const FilmFacts& facts = source.facts();
@@ -261,17 +245,17 @@ void take_truth(const Arguments& arguments, RotoscopeFilmOptions& options) {
     options.made_from.push_back(fs::path(arguments.truth) / file);
 }
 
-FilmArgument films_from(const Arguments& arguments) {
+FilmFiles films_from(const Arguments& arguments) {
   std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
   if (has_depth(arguments.depth) && !layout) layout = StereoLayout::mono;
-  FilmArgument film = find_film(arguments.film, layout);
+  FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
   check_not_an_input(arguments.output, std::array{film.film, film.right, depth, model});
   return film;
 }
 
-FilmReaderOptions reading_options(const Arguments& arguments, const FilmArgument& film, const Session& session) {
+FilmReaderOptions reading_options(const Arguments& arguments, const FilmFiles& film, const Session& session) {
   FilmReaderOptions reading{.from_s = parse_time_s("--from", arguments.from),
                             .to_s = parse_time_s("--to", arguments.to),
                             .every = arguments.frame_step,
@@ -284,7 +268,7 @@ FilmReaderOptions reading_options(const Arguments& arguments, const FilmArgument
 }
 
 /// A film of one eye has no depth.
-void refuse_for_one_eye(const CLI::App& command, const FilmArgument& film, const RotoscopeFilmOptions& options) {
+void refuse_for_one_eye(const CLI::App& command, const FilmFiles& film, const RotoscopeFilmOptions& options) {
   if (options.frames.display)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: has one eye, expected two, or --depth, for a display of more views (--layout says how "
@@ -307,7 +291,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   });
   RotoscopeFilmOptions options = arguments.options;
   take_truth(arguments, options);
-  const FilmArgument film = films_from(arguments);
+  const FilmFiles film = films_from(arguments);
   options.reading = reading_options(arguments, film, session);
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
   StereoFilmReader source = open_film(film, options.reading);

@@ -47,7 +47,8 @@ int run_window(std::vector<std::string> words) {
 
 void view(ViewArguments arguments, const Session& session) {
   for (const std::string& file : arguments.files)
-    if (!fs::exists(file)) throw Error(ErrorKind::bad_input, fmt::format("{}: no such file", file));
+    if (!fs::exists(file) && file.find_first_of("%,") == std::string::npos)
+      throw Error(ErrorKind::bad_input, fmt::format("{}: no such file", file));
   arguments.threads = session.threads;
   arguments.seed = session.seed;
   session.output.flush();

@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "film_facts.h"
 #include "number_arguments.h"
 #include "option_use.h"
 #include "pictures_in_folder.h"
@@ -26,6 +25,7 @@
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {
 namespace {

@@ -12,6 +12,7 @@ std::span<const Command> looking_commands();
 std::span<const Command> depth_commands();
 std::span<const Command> input_commands();
 std::span<const Command> painting_commands();
+std::span<const Command> film_commands();
 std::span<const Command> particle_commands();
 std::span<const Command> panel_commands();
 

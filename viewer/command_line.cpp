@@ -6,6 +6,7 @@
 #include <array>
 
 #include "depth_placing.h"
+#include "film_player.h"
 #include "output_mode.h"
 #include "particle_scene.h"
 #include "style_controls.h"
@@ -153,6 +154,12 @@ std::string look_options(const ViewState& state) {
   return text;
 }
 
+std::string for_film(const Session& session, const Item& item) {
+  const std::string mono = session.opened.film && session.opened.film->film.quilt ? " --layout mono" : std::string();
+  return fmt::format("wheatstone rotoscope{}{}{} -o painted.mp4", files_of(item), mono,
+                     style_options(session.state.style));
+}
+
 struct LineOf {
   const Session& session;
   const Item& item;
@@ -181,7 +188,8 @@ struct LineOf {
 
 std::string command_line_of(const Session& session) {
   const Item* const item = open_item(session);
-  return item == nullptr ? std::string() : std::visit(LineOf{session, *item}, session.opened.content);
+  if (item == nullptr) return {};
+  return session.film ? for_film(session, *item) : std::visit(LineOf{session, *item}, session.opened.content);
 }
 
 }  // namespace wheatstone::viewer

@@ -67,11 +67,14 @@ struct ContentDepth {
 };
 std::optional<ContentDepth> depth_of(const Content& content);
 
+struct OpenedFilm;
+
 /// What was opened, and what to tell about it.
 struct Opened {
   Content content;
-  std::string kind;                ///< "painting", "photograph", "slices" …, for people
-  std::vector<std::string> notes;  ///< one line each
+  std::string kind;                             ///< "painting", "photograph", "slices" …, for people
+  std::vector<std::string> notes;               ///< one line each
+  std::shared_ptr<const OpenedFilm> film = {};  ///< of which the content is the first frame
 };
 
 }  // namespace wheatstone::viewer

@@ -29,7 +29,15 @@ void step_zero_parallax(Viewer& viewer, float by_px) {
   adjustment.zero_parallax_px += by_px;
 }
 
-constexpr float head_step = 0.1f;
+/// While a film plays the same keys go on and back in it, as players have it.
+void move_head(Viewer& viewer, int steps) {
+  constexpr float head_step = 0.1f;
+  constexpr double film_step_s = 5;
+  if (viewer.film() != nullptr && viewer.film()->plays())
+    viewer.film()->seek(viewer.session().film->seconds + steps * film_step_s);
+  else
+    state_of(viewer).head += static_cast<float>(steps) * head_step;
+}
 
 constexpr Command table[] = {
     // name, arguments, menu, text, keys
@@ -51,10 +59,9 @@ constexpr Command table[] = {
      [](Viewer& v, const Words& w) { state_of(v).adjustment.roll_deg = static_cast<float>(number_of(w[0], -45, 45)); }},
     {"head", "X", "Depth", "Position of the head, in eye separations", "",
      [](Viewer& v, const Words& w) { state_of(v).head = static_cast<float>(number_of(w[0], -100, 100)); }},
-    {"head-left", "", "Depth", "Move the head to the left", "Left",
-     [](Viewer& v, const Words&) { state_of(v).head -= head_step; }},
+    {"head-left", "", "Depth", "Move the head to the left", "Left", [](Viewer& v, const Words&) { move_head(v, -1); }},
     {"head-right", "", "Depth", "Move the head to the right", "Right",
-     [](Viewer& v, const Words&) { state_of(v).head += head_step; }},
+     [](Viewer& v, const Words&) { move_head(v, 1); }},
     {"display", "NAME", "Depth", "Display", "",
      [](Viewer& v, const Words& w) { state_of(v).display = find_display(w[0]).name; }},
     {"screen", "NAME|FILE", "Depth", "Lenticular screen, or its calibration", "",

@@ -101,6 +101,8 @@ std::string state_json(const Viewer& viewer, const std::vector<std::pair<std::st
                      {"parallax_percent", seen->total_percent},
                      {"is_comfortable", seen->discomforts.empty()},
                      {"told", comfort_told(viewer)}};
+  if (const auto& film = session.film)
+    told["film"] = {{"frame", film->frame}, {"seconds", film->seconds}, {"playing", film->plays}};
   for (const auto& [name, value] : measured) told[name] = value;
   return told.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

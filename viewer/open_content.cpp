@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <utility>
 
+#include "film_player.h"
 #include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
@@ -79,6 +83,33 @@ Opened open_picture(const fs::path& path, const Progress& progress) {
   return opened;
 }
 
+/// Whether a file, or what stands for several, is a film.
+bool names_film(const fs::path& path) {
+  const bool is_two = !fs::exists(path) && path.string().find(',') != std::string::npos;
+  return is_film(path) || is_two || fs::is_directory(path);
+}
+
+Opened open_film_files(const FilmFiles& files) {
+  auto film = std::make_shared<const OpenedFilm>(open_film_to_play(files));
+  Opened opened{film->first.content, "film", {}};
+  if (film->film.files.layout)
+    opened.notes.push_back(
+        fmt::format("{} ({})", layout_name(*film->film.files.layout), film->film.quilt ? "a quilt" : film->layout_how));
+  opened.film = std::move(film);
+  return opened;
+}
+
+/// Whether the names of two films differ as those of two eyes.
+bool are_named_as_eyes(const fs::path& left, const fs::path& right) {
+  static constexpr std::array eyes{std::pair("left", "right"), std::pair("Left", "Right"), std::pair("_L.", "_R.")};
+  const std::string name = left.filename().string();
+  return std::ranges::any_of(eyes, [&](const auto& eye) {
+    const std::size_t at = name.rfind(eye.first);
+    return at != std::string::npos &&
+           std::string(name).replace(at, std::strlen(eye.first), eye.second) == right.filename().string();
+  });
+}
+
 Opened open_particles(const fs::path& path, const Progress& progress) {
   auto particles = std::make_shared<Particles>();
   particles->cloud = read_cloud(path, {}, progress);
@@ -97,6 +128,8 @@ Opened open_particles(const fs::path& path, const Progress& progress) {
 Opened open_content(std::span<const fs::path> files, const Progress& progress) {
   const fs::path& path = files.front();
   report(progress, "reading", 0);
+  if (names_film(path))
+    return open_film_files(files.size() == 2 ? FilmFiles{path, files[1], {}} : find_film(path.string()));
   if (files.size() == 2)
     return opened_photograph({read_image(path), read_image(files[1])},
                              fmt::format("{}, {}", path.string(), files[1].string()), progress);
@@ -111,6 +144,8 @@ Opened open_content(std::span<const fs::path> files, const Progress& progress) {
 }
 
 bool are_eyes_of_one(const fs::path& left, const fs::path& right) {
+  if (names_film(left) || names_film(right))
+    return names_film(left) && names_film(right) && are_named_as_eyes(left, right);
   for (const fs::path* path : {&left, &right})
     if (path->extension() == ".wst" || path->extension() == ".exr" || holds_particles(*path) ||
         quilt_of_name(path->filename().string()))

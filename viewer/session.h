@@ -37,12 +37,23 @@ constexpr double click_easing_s = 0.08;  ///< after which a third of the way is 
 /// What stands beside the picture.
 enum class Panel { off, style, depth };
 
+/// A film that is open.
+struct FilmStatus {
+  std::int64_t frame = 0;  ///< that is shown, from 0
+  double seconds = 0, duration_s = 0;
+  bool plays = false;
+  bool paints = true;      ///< frames where it stands still
+  bool is_placed = false;  ///< its depth was brought to where it is comfortable
+};
+
 /// All that a viewer knows: plain data.
 struct Session {
   std::vector<Item> items;
   std::size_t item = 0;  ///< that is open
   Opened opened;
-  ContentSize eye;  ///< of the picture that each eye is shown, in screen pixels
+  std::optional<FilmStatus> film;
+  std::optional<Activity> whole_film;  ///< a whole film is being painted
+  ContentSize eye;                     ///< of the picture that each eye is shown, in screen pixels
   ViewState state;
   std::optional<float> zero_parallax_target_px;  ///< what it moves to
   double easing_s = click_easing_s;              ///< of that move

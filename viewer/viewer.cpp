@@ -76,11 +76,14 @@ void Viewer::open(std::size_t item) {
   if (item >= session_.items.size()) return;
   session_.item = item;
   session_.opened = {};
+  // Its thread may be in the middle of a frame: who opens waits for that, and the window does not.
+  const std::shared_ptr<FilmPlayer> before = std::move(player_);
+  session_.film.reset();
   session_.zero_parallax_target_px.reset();
   session_.fixation.reset();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
-  making_.start([this, job, files = session_.items[item]](const std::stop_token& stop) {
+  making_.start([this, job, before, files = session_.items[item]](const std::stop_token& stop) {
     try {
       Opened opened = open_content(files, progress_of(job, stop));
       mailbox_.post([this, job, opened = std::move(opened)]() mutable {
@@ -95,6 +98,7 @@ void Viewer::open(std::size_t item) {
 void Viewer::paint() {
   const auto* const content = std::get_if<PaintedContent>(&session_.opened.content);
   if (content == nullptr || !content->photograph) return;
+  if (session_.film && (session_.film->plays || !session_.film->paints)) return;
   session_.opening = Activity{"painting", 0};
   const std::uint64_t job = ++job_;
   making_.start(
@@ -140,6 +144,7 @@ void Viewer::take_opened(Opened opened) {
   session_.state.adjustment.separation = 1;
   for (const std::string& note : session_.opened.notes) tell(note);
   show_comfortably();
+  take_film(session_.opened.film);
   paint();
 }
 
@@ -148,7 +153,8 @@ void Viewer::take_painted(PaintedContent content) {
   auto& open = std::get<PaintedContent>(session_.opened.content);
   open.photograph = std::move(content.photograph);
   if (content.painting) open.painting = std::move(content.painting);
-  if (!depth_was_known) show_comfortably();
+  const bool is_placed = session_.film && std::exchange(session_.film->is_placed, true);
+  if (!depth_was_known && !is_placed) show_comfortably();
 }
 
 void Viewer::show_comfortably() {
@@ -184,6 +190,7 @@ void Viewer::collect() {
 void Viewer::move_on() {
   const double now = now_s();
   const double passed_s = now - std::exchange(moved_at_s_, now);
+  move_film(now);
   if (session_.zero_parallax_target_px) {
     constexpr float near_enough_px = 0.05f;
     float& zero_parallax_px = session_.state.adjustment.zero_parallax_px;
@@ -204,7 +211,10 @@ void Viewer::move_on() {
 }
 
 std::optional<double> Viewer::next_step_s() const {
-  if (const std::optional<double> step_s = inputs_.next_step_s()) return step_s;
+  const std::optional<double> film_s = player_ ? player_->next_s(now_s()) : std::nullopt;
+  const std::optional<double> input_s = inputs_.next_step_s();
+  if (film_s && input_s) return std::min(*film_s, *input_s);
+  if (film_s || input_s) return film_s ? film_s : input_s;
   if (session_.zero_parallax_target_px) return step_of_easing_s;
   if (session_.state.mode == "wiggle") return step_of_wiggle_s;
   return {};
@@ -248,7 +258,8 @@ void Viewer::post_frame(Frame frame, const Asked& asked) {
 }
 
 bool Viewer::is_busy() const {
-  return session_.opening || session_.zero_parallax_target_px || is_working() || is_saving() || !mailbox_.is_empty();
+  return session_.opening || session_.whole_film || (player_ && player_->is_seeking()) ||
+         session_.zero_parallax_target_px || is_working() || is_saving() || !mailbox_.is_empty();
 }
 
 void Viewer::save(const std::filesystem::path& path, std::function<void()> write) {
@@ -275,6 +286,11 @@ void Viewer::stop() {
   session_.opening.reset();
   making_.stop();
   drawing_.stop();
+  cancel_whole_film();
+}
+
+bool Viewer::is_working() const {
+  return making_.is_busy() || drawing_.is_busy() || (whole_film_ && !whole_film_->has_ended());
 }
 
 void Viewer::wait() {

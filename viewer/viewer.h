@@ -2,10 +2,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "film_painting.h"
+#include "film_player.h"
 #include "inputs.h"
 #include "mailbox.h"
 #include "newest_job.h"
@@ -39,6 +42,18 @@ class Viewer {
   void paint();
   /// Brings the scene's depth within what is comfortable, with the nearest point on the screen plane.
   void show_comfortably();
+  /// The player of the film that is open; none where no film is.
+  FilmPlayer* film() { return player_.get(); }
+  /// Begins to play the film, or to pause it.
+  void play_film();
+  void pause_film();
+  /// Paints the frame that stands, where films are to be painted; shows the frame as it is otherwise.
+  void show_standing_frame();
+  /// Paints the whole film that is open into a file, beside everything else. Throws Error{wrong_usage} where no film is
+  /// open, or one is being painted.
+  void paint_whole_film(const std::filesystem::path& output);
+  void cancel_whole_film();
+
   /// The place in which frames are shown.
   void set_viewport(const Viewport& viewport);
   const Viewport& viewport() const { return viewport_; }
@@ -67,7 +82,7 @@ class Viewer {
   /// Asks the threads to leave what they do.
   void stop();
   /// A thread does something.
-  bool is_working() const { return making_.is_busy() || drawing_.is_busy(); }
+  bool is_working() const;
 
   Inputs& inputs() { return inputs_; }
 
@@ -76,6 +91,8 @@ class Viewer {
 
  private:
   void move_on();
+  void take_film(const std::shared_ptr<const OpenedFilm>& film);
+  void move_film(double now_s);
   void draw_if_changed();
   struct Asked;
   /// Draws what was asked for on the drawing thread, quickly at first where that is not all.
@@ -108,7 +125,9 @@ class Viewer {
 
   Mailbox mailbox_;
   OrderedJobs saving_;
-  NewestJob making_, drawing_;  ///< last: they end first
+  NewestJob making_, drawing_;  ///< these and what follows: they end first
+  std::unique_ptr<FilmPlayer> player_;
+  std::unique_ptr<FilmPainting> whole_film_;
 };
 
 }  // namespace wheatstone::viewer

@@ -20,6 +20,7 @@
 #include "viewer/command_table.h"
 #include "viewer/control.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/unfinished_outputs.h"
 #include "window.h"
 
 namespace {
@@ -46,7 +47,8 @@ QSize size_of_window(const std::string& text) {
 
 void begin(Window& window, const ViewArguments& arguments) {
   for (const std::string& file : arguments.files)
-    if (!std::filesystem::exists(file)) throw Error(ErrorKind::bad_input, fmt::format("{}: no such file", file));
+    if (!std::filesystem::exists(file) && file.find_first_of("%,") == std::string::npos)
+      throw Error(ErrorKind::bad_input, fmt::format("{}: no such file", file));
   Session& session = window.viewer().session();
   if (!arguments.mode.empty()) run_line(window.viewer(), "mode " + arguments.mode);
   if (!arguments.display.empty()) run_command(window.viewer(), find_command("display"), {arguments.display});
@@ -64,6 +66,7 @@ void end_threads(Viewer& viewer, int exit_code) {
   for (int waited_ms = 0; viewer.is_working(); ++waited_ms) {
     if (waited_ms == longest_ms) {
       std::fflush(stdout);
+      remove_unfinished_outputs();
       std::_Exit(exit_code);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

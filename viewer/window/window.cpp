@@ -69,6 +69,9 @@ Window::Window(const WindowOptions& options)
       *this, [this](const std::string& name, const Words& arguments) { do_line(name, arguments); });
   make_menus();
   make_status_bar();
+  film_bar_ = new FilmBar(this, [this](const std::string& name, const Words& words) { do_line(name, words); });
+  addToolBar(Qt::BottomToolBarArea, film_bar_);
+  film_bar_->hide();
   if (!why_not.isEmpty()) {
     viewer_.tell(why_not.toStdString() + "; the processor draws instead");
     if (options.with_dialogs) QMessageBox::warning(this, "Wheatstone", why_not + ". The processor draws instead.");
@@ -216,6 +219,7 @@ void Window::show_session() {
       viewer_.session().screen = 0;
     }
   }
+  film_bar_->show_session(session);
   show_information(*information_, session);
   comfort_->setText(QString::fromStdString(comfort_in_short(viewer_)));
   comfort_->setToolTip(QString::fromStdString(comfort_told(viewer_)));

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "control_link.h"
+#include "film_bar.h"
 #include "full_screen.h"
 #include "heartbeat.h"
 #include "panels.h"
@@ -89,6 +90,7 @@ class Window final : public QMainWindow {
   QLabel* tracker_ = nullptr;
   QLabel* comfort_ = nullptr;
   QProgressBar* progress_ = nullptr;
+  FilmBar* film_bar_ = nullptr;
   QLabel* information_ = nullptr;
   QWidget* help_ = nullptr;
   std::unique_ptr<Panels> panels_;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "wheatstone/video/film_writer.h"
+#include "wheatstone/video/stereo_film.h"
+
+namespace wheatstone {
+
+// What a painted film takes over from its source where nobody says otherwise.
+
+/// How the eyes lie in a painted frame: as in the source, where a frame can hold them so; side by side where the source
+/// has a film an eye.
+StereoLayout layout_of_painted_film(const StereoFilmReader& source, bool a_film_an_eye);
+
+/// Rate, shape of pixels and colour of the source, which `film` is the file of; and its audio and subtitles, from
+/// `reading.from_s` to `reading.to_s`.
+void write_as_source(const std::filesystem::path& film, const FilmFacts& facts, const FilmReaderOptions& reading,
+                     FilmWriterOptions& writing);
+
+/// How many frames there will be, as far as the film says; 0 where it does not.
+std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& reading);
+
+}  // namespace wheatstone

@@ -1,0 +1,70 @@
+#include "film_painting.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "wheatstone/app/painted_film.h"
+#include "wheatstone/app/rotoscope_film.h"
+#include "wheatstone/depth/comfort.h"
+#include "wheatstone/error.h"
+#include "wheatstone/files/input_guard.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+/// "2:05 left", as far as it can be told from what is done in so many seconds.
+std::string time_left(double done, double seconds) {
+  constexpr double enough_to_tell = 0.005;
+  if (done < enough_to_tell) return {};
+  const auto left_s = static_cast<int>(seconds * (1 - done) / done + 0.5);
+  return fmt::format(", {}:{:02} left", left_s / 60, left_s % 60);
+}
+
+}  // namespace
+
+std::string paint_whole_film(const WholeFilm& film, const Progress& progress) {
+  check_not_an_input(film.output, std::array{film.files.film, film.files.right});
+  StereoFilmReader source = open_film(film.files);
+  RotoscopeFilmOptions options;
+  options.frames.style = film.style;
+  if (film.output.extension() != ".wst") options.frames.depth_budget = comfortable_parallax_share;
+  options.made_by = fmt::format("wheatstone view from {}", layout_name(source.layout()));
+  options.made_from.push_back(film.files.film);
+  if (!film.files.right.empty()) options.made_from.push_back(film.files.right);
+  options.writing.layout = layout_of_painted_film(source, !film.files.right.empty());
+  write_as_source(film.files.film, source.facts(), options.reading, options.writing);
+  options.expected_frames = expected_frames(source.facts(), options.reading);
+  options.resume = unfinished_film(film.output, {}).has_value();
+  const RotoscopedFilm painted = rotoscope_film(source, film.output, options, progress);
+  std::string text = fmt::format("painted {} frames to {}", painted.frames, film.output.string());
+  for (const std::string& note : painted.notes) text += "; " + note;
+  return text;
+}
+
+FilmPainting::FilmPainting(WholeFilm film, Listener listener)
+    : thread_([this, film = std::move(film), listener = std::move(listener)](const std::stop_token& stop) {
+        const auto start = std::chrono::steady_clock::now();
+        const Progress progress = [&](std::string_view step, double done) {
+          if (stop.stop_requested()) throw Error(ErrorKind::interrupted, "stopped");
+          const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+          listener.progress(fmt::format("{}{}", step, time_left(done, seconds)), done);
+        };
+        std::string message;
+        bool is_error = true;
+        try {
+          message = paint_whole_film(film, progress);
+          is_error = false;
+        } catch (const Error& error) {
+          message = error.what();
+          is_error = error.kind() != ErrorKind::interrupted;
+        } catch (const std::exception& error) {
+          message = error.what();
+        }
+        has_ended_ = true;
+        listener.end(std::move(message), is_error);
+      }) {}
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "wheatstone/marks/style.h"
+#include "wheatstone/progress.h"
+#include "wheatstone/video/film_files.h"
+
+namespace wheatstone::viewer {
+
+/// A film that is to be painted into a file, as `wheatstone rotoscope` does it.
+struct WholeFilm {
+  FilmFiles files;
+  Style style;
+  std::filesystem::path output;
+};
+
+/// Paints it; goes on with what an earlier run has left. Says what was done, for people. Throws as rotoscope_film.
+std::string paint_whole_film(const WholeFilm& film, const Progress& progress = {});
+
+/// Paints a film on a thread of its own. Destroyed, it stops and waits for that.
+class FilmPainting {
+ public:
+  /// Called on that thread.
+  struct Listener {
+    std::function<void(std::string step, double done)> progress;  ///< the step says also how much time is left
+    std::function<void(std::string message, bool is_error)> end;  ///< once
+  };
+  FilmPainting(WholeFilm film, Listener listener);
+
+  void cancel() { thread_.request_stop(); }
+  bool has_ended() const { return has_ended_; }
+
+ private:
+  std::atomic<bool> has_ended_ = false;
+  std::jthread thread_;
+};
+
+}  // namespace wheatstone::viewer
