@@ -157,12 +157,13 @@ is width 480.0 "the window is as wide as before"
 [[ $(say 'full-screen-on 2') == 'error: full-screen-on: there is no screen 2, expected 1 to 1' ]] || fail "there is a second screen"
 [[ $(say 'mode page-flip') == error:*--stereo* ]] || fail "page-flip works without --stereo"
 
-# What OpenGL shows is what is shown without a screen.
+# What OpenGL shows is what is shown without a screen, but for the text below it.
 does 'mode left-right' 'resize 480 400' wait copy-command 'screenshot onscreen.png'
 printf '%s\n' 'resize 480 400' wait 'mode left-right' "zero-parallax $expected" wait copy-command 'screenshot offscreen.png' >tour.txt
 (unset DISPLAY && "$view" painted/painting.wst --script tour.txt) || fail "the window without a screen fails"
-"$wheatstone" measure views offscreen.png --against onscreen.png --noticeable 8 >difference.txt
-grep --quiet --extended-regexp '^offscreen.png +(equal|[3-9][0-9]\.)' difference.txt ||
+for place in offscreen onscreen; do oiiotool "$place.png" --cut 480x340+0+24 -o "$place-picture.png"; done
+"$wheatstone" measure views offscreen-picture.png --against onscreen-picture.png --noticeable 8 >difference.txt
+grep --quiet --extended-regexp '^offscreen-picture.png +equal' difference.txt ||
   fail "OpenGL shows something else: $(cat difference.txt)"
 
 # Each row of the screen stays the same eye's when the window is moved by a pixel.

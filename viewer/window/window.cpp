@@ -284,6 +284,11 @@ bool Window::pointer_event(QEvent* event) {
       do_line("full-screen", {});
       return true;
     }
+    case QEvent::Leave: {
+      pointer_ = QPointF(-1, -1);
+      show_depth_under_pointer();
+      return true;
+    }
     case QEvent::Wheel: {
       const auto* const wheel = static_cast<QWheelEvent*>(event);
       const double steps = wheel->angleDelta().y() / 120.;

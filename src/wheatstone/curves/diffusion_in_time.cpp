@@ -26,6 +26,7 @@ Image<std::uint8_t> edge_mask(const std::vector<CarriedEdge>& edges, int width, 
 }  // namespace
 
 DiffusionPainting plan_diffusion(const FilmFrame& frame, const Style& style, DiffusionMemory& memory) {
+  if (style.propagation == Propagation::independent) return plan_diffusion(frame.views, style);
   SceneOfEdges scene = scene_of_edges(frame.views, style);
   ViewOfEdges& reference = scene.views[0];
   if (frame.flow != nullptr) check_fits(*frame.flow, frame.views);
