@@ -59,7 +59,7 @@ void view(ViewArguments arguments, const Session& session) {
 
 void add_view_command(CLI::App& program, const Session& session) {
   CLI::App* const command =
-      program.add_subcommand("view", "Open paintings, photographs, slices or particles in a window");
+      program.add_subcommand("view", "Open paintings, photographs, films, slices or particles in a window");
   const auto arguments = std::make_shared<ViewArguments>();
   add_view_options(*command, *arguments);
   command->callback([arguments, &session] { view(*arguments, session); });

@@ -3,9 +3,10 @@
 namespace wheatstone::cli {
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
-  command.add_option("FILE", arguments.files,
-                     "Paintings (.wst), stereo photographs, pictures with depth, quilts, slices (.exr) or particles; "
-                     "two pictures of one scene are its left and right view");
+  command.add_option(
+      "FILE", arguments.files,
+      "Paintings (.wst), stereo photographs, films, pictures with depth, quilts, slices (.exr) or particles; "
+      "two pictures of one scene are its left and right view");
   command.add_option("--mode", arguments.mode, "Output mode, as --to of 'wheatstone pack'; red-cyan by default");
   command.add_option("--style", arguments.style, "Style in which photographs are painted: a preset or a style file");
   command.add_option("--display", arguments.display,
@@ -28,6 +29,7 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       "Examples:\n"
       "  wheatstone view painting.wst\n"
       "  wheatstone view left.png right.png --style mosaic --mode left-right\n"
+      "  wheatstone view film.mp4 --mode left-right\n"
       "  wheatstone view universe.hdf5 --display looking-glass-portrait");
 }
 

@@ -1,0 +1,133 @@
+// How quickly the window's pictures follow what the user does: medians of what the drawing thread takes for a picture,
+// without a window. Beside each figure stands how many that makes a second, and the aim.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "viewer/paint_in_steps.h"
+#include "viewer/stage.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/particles/framed_region.h"
+#include "wheatstone/stopwatch.h"
+#include "wheatstone/synthetic/synthetic_still.h"
+#include "wheatstone/synthetic/synthetic_universe.h"
+
+using namespace wheatstone;
+using namespace wheatstone::viewer;
+
+namespace {
+
+double seconds_of(const std::function<void()>& work) {
+  double seconds = 0;
+  {
+    const Stopwatch watch(seconds);
+    work();
+  }
+  return seconds;
+}
+
+/// The median of what `step` takes, called with 1, 2, … after once with 0.
+double median_of(int steps, const std::function<void(int)>& step) {
+  step(0);
+  std::vector<double> seconds;
+  for (int i = 1; i <= steps; ++i) seconds.push_back(seconds_of([&] { step(i); }));
+  std::ranges::nth_element(seconds, seconds.begin() + steps / 2);
+  return seconds[static_cast<std::size_t>(steps) / 2];
+}
+
+void print_rate(std::string_view what, double seconds, double aim) {
+  fmt::print("{:<58} {:8.1f} ms {:8.1f} a second (aim {:.0f})\n", what, 1000 * seconds, 1 / seconds, aim);
+}
+
+void print_time(std::string_view what, double seconds, double aim_s) {
+  fmt::print("{:<58} {:8.1f} ms {:>22}\n", what, 1000 * seconds, fmt::format("(aim {:.0f} ms)", 1000 * aim_s));
+}
+
+void measure_painting(const SyntheticStill& still) {
+  const PaintedContent content{std::make_shared<const Painting>(plan_painting(still.pictures, still.geometry, {})), {}};
+  const Viewport viewport{640, 480};
+  Stage stage;
+  ViewState state;
+  print_rate("painting 640x480, both eyes, the head moves",
+             median_of(15,
+                       [&](int i) {
+                         state.head = 0.02f * static_cast<float>(i);
+                         stage.draw(content, state, viewport);
+                       }),
+             10);
+  print_rate("painting 640x480, zero parallax moves",
+             median_of(31,
+                       [&](int i) {
+                         state.adjustment.zero_parallax_px = static_cast<float>(i);
+                         stage.draw(content, state, viewport);
+                       }),
+             30);
+}
+
+void measure_style(const SyntheticStill& still) {
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = still.pictures;
+  photograph->geometry = still.geometry;
+  std::vector<double> delivered;
+  double planning = 0;
+  for (int run = 0; run < 3; ++run) {
+    delivered.clear();
+    double passed = 0;
+    auto watch = std::make_unique<Stopwatch>(passed);
+    paint_in_steps(photograph, {}, {}, [&](const PaintedContent&) {
+      watch.reset();
+      delivered.push_back(passed);
+      watch = std::make_unique<Stopwatch>(passed);
+    });
+    planning = seconds_of([&] { plan_painting(still.pictures, still.geometry, {}); });
+  }
+  print_time("style changed, 640x480: coarse", delivered.front(), 0.2);
+  fmt::print("{:<58} {:8.1f} ms {:8.2f} x planning alone\n", "style changed, 640x480: fine", 1000 * delivered.back(),
+             delivered.back() / planning);
+}
+
+void measure_first_picture() {
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = {Image<Rgb8>(4000, 3000, {90, 120, 60}), Image<Rgb8>(4000, 3000, {90, 120, 60})};
+  const PaintedContent content{{}, photograph};
+  const double seconds = seconds_of([&] { Stage().draw(content, {}, {960, 640}); });
+  print_time("photograph 4000x3000, first picture", seconds, 0.5);
+}
+
+void measure_particles() {
+  auto particles = std::make_shared<Particles>();
+  particles->cloud = make_synthetic_universe({.particles = 1'000'000});
+  particles->statistics.add(particles->cloud);
+  particles->statistics.framed = framed_region(particles->statistics, {});
+  const ParticlesContent content{particles};
+  const Viewport viewport{1280, 360};
+  for (const auto& [effort, what, aim] :
+       {std::tuple{Effort::quick, "quick", 5.}, std::tuple{Effort::whole, "all", 5.}}) {
+    Stage stage;
+    ViewState state;
+    state.mode = "left-right";
+    print_rate(fmt::format("1 M particles, two eyes 640x360, orbit: {}", what),
+               median_of(9,
+                         [&, used = effort](int i) {
+                           state.orbit.azimuth_deg = 30 + static_cast<float>(i);
+                           stage.draw(content, state, viewport, used);
+                         }),
+               aim);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const SyntheticStill still = make_synthetic_still({.width = 640, .height = 480, .samples_a_side = 1});
+  measure_painting(still);
+  measure_style(still);
+  measure_first_picture();
+  measure_particles();
+}
