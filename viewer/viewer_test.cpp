@@ -67,8 +67,8 @@ TEST_F(OpenPainting, AClickBringsWhatLiesThereOntoTheScreen) {
   run("separation 1");
   run("mode left");
   double worst = 0;
-  for (int y = 20; y < 160; y += 30)
-    for (int x = 40; x < 220; x += 30) {
+  for (int y = 20; y < 160; y += 45)
+    for (int x = 40; x < 220; x += 45) {
       const std::optional<PlaceInView> place = place_at(viewer.frame()->places, x + 0.5, y + 0.5);
       ASSERT_TRUE(place);
       run(fmt::format("zero-parallax-at {} {}", x + 0.5, y + 0.5));

@@ -51,7 +51,7 @@ const std::map<std::string_view, std::string_view>& other_values() {
 class StyleReads : public testing::TestWithParam<const char*> {};
 
 TEST_P(StyleReads, ExactlyTheParametersThatItsTableNames) {
-  const SyntheticStill still = make_synthetic_still({.width = 128, .height = 96});
+  const SyntheticStill still = make_synthetic_still({.width = 96, .height = 64, .samples_a_side = 1});
   Style base = style_by_name(GetParam());
   // The canvas shows, so that its colour counts.
   if (base.marks == Marks::strokes) base.background = Background::colour;
