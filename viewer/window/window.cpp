@@ -98,6 +98,12 @@ Window::Window(const WindowOptions& options)
   });
 }
 
+// Widgets tell of their end, too, when what their events are passed to is gone.
+Window::~Window() {
+  surface_->widget()->removeEventFilter(this);
+  surface_->pointed_at()->removeEventFilter(this);
+}
+
 void Window::make_menus() {
   std::map<std::string_view, QMenu*> menus;
   for (const Command& command : command_table()) {

@@ -33,6 +33,7 @@ struct WindowOptions {
 class Window final : public QMainWindow {
  public:
   explicit Window(const WindowOptions& options);
+  ~Window() override;
 
   Viewer& viewer() { return viewer_; }
   /// Runs a script, and ends the program behind it; `exit_code` then says how.
