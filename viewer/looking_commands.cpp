@@ -39,17 +39,22 @@ void step_mode(Viewer& viewer, int by) {
   state_of(viewer).mode = modes[static_cast<std::size_t>(at)].name;
 }
 
+/// Screen pixels for one of the content. Frames come later than what is set: only what fits is known from them alone.
+double scale_of(Viewer& viewer) {
+  if (state_of(viewer).framed.zoom > 0) return state_of(viewer).framed.zoom;
+  return viewer.frame() != nullptr ? viewer.frame()->scale : 1;
+}
+
 /// The place in the content that lies in the middle stays there.
 void zoom_by(Viewer& viewer, double factor) {
   if (magnify_particles(viewer, factor)) return;
-  const double now = viewer.frame() != nullptr ? viewer.frame()->scale : 1;
-  state_of(viewer).framed.zoom = std::clamp(now * factor, 1. / 64, 64.);
+  state_of(viewer).framed.zoom = std::clamp(scale_of(viewer) * factor, 1. / 64, 64.);
 }
 
 void zoom_at(Viewer& viewer, const Words& words) {
   const double factor = number_of(words[0], 1. / 64, 64), x = number_of(words[1]), y = number_of(words[2]);
   const Frame& frame = frame_of(viewer);
-  const double before = frame.scale;
+  const double before = scale_of(viewer);
   if (open_particles(viewer) == nullptr) zoom_by(viewer, factor);
   Framed& framed = state_of(viewer).framed;
   for (const ViewPlace& place : frame.places) {
@@ -66,7 +71,7 @@ void zoom_at(Viewer& viewer, const Words& words) {
 
 void pan(Viewer& viewer, const Words& words) {
   if (pan_particles(viewer, number_of(words[0]), number_of(words[1]))) return;
-  const double scale = viewer.frame() != nullptr ? viewer.frame()->scale : 1;
+  const double scale = scale_of(viewer);
   Framed& framed = state_of(viewer).framed;
   framed.pan_x -= number_of(words[0]) / scale;
   framed.pan_y -= number_of(words[1]) / scale;

@@ -151,6 +151,14 @@ TEST_F(OpenPainting, ZoomsAroundThePointer) {
   EXPECT_DOUBLE_EQ(viewer.frame()->scale, 2);
 }
 
+TEST_F(OpenPainting, ZoomsByWhatWasSetAndNotByWhatIsDrawnYet) {
+  run("actual-size");
+  for (const char* line : {"zoom-at 2 60 50", "zoom-at 2 60 50", "zoom-at 0.5 60 50", "zoom-at 0.5 60 50"})
+    run_line(viewer, line);
+  EXPECT_DOUBLE_EQ(viewer.session().state.framed.zoom, 1);
+  EXPECT_NEAR(viewer.session().state.framed.pan_x, 0, 1e-9);
+}
+
 TEST_F(OpenPainting, IsTheCommandThatItTells) {
   for (const char* mode : {"red-cyan", "left-right", "wiggle"}) {
     run(fmt::format("mode {}", mode));
