@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "number_arguments.h"
@@ -23,11 +22,9 @@ bool is_for_films(const DisplayPreset& display) {
 }  // namespace
 
 DisplayViewsOptions display_views_options(const DisplayPreset& display, const DisplayArguments& arguments) {
-  DisplayViewsOptions options{.views = arguments.views > 0 ? arguments.views : display.views,
-                              .width = display.view_width_px,
-                              .height = display.view_height_px,
-                              .span = arguments.span,
-                              .widest_span = std::max(span_of(display), 1.f)};
+  DisplayViewsOptions options = views_of_display(display);
+  if (arguments.views > 0) options.views = arguments.views;
+  options.span = arguments.span;
   if (!arguments.size.empty()) {
     const Size size = parse_size("--size", arguments.size, {1, 16384});
     options.width = size.width;

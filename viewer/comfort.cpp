@@ -49,7 +49,7 @@ std::string side_of_screen(float behind) {
 std::optional<DepthSeen> depth_seen(const Viewer& viewer) {
   const Frame* const frame = viewer.frame();
   if (frame == nullptr) return {};
-  const std::optional<ContentDepth>& depth = frame->depth;
+  const std::optional<DepthEnds>& depth = frame->depth;
   const ViewState& state = viewer.session().state;
   const ViewingGeometry viewing = viewing_of(find_display(state.display));
   DepthSeen seen;

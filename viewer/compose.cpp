@@ -23,7 +23,7 @@ Image<Rgb8> put_in_layout(StereoLayout layout, const Image<Rgb8>& left, const Im
 
 }  // namespace
 
-EyeSize eye_size(const OutputMode& mode, const Viewport& viewport) {
+PictureSize eye_size(const OutputMode& mode, const Viewport& viewport) {
   const LayoutTraits* const layout = layout_of(mode);
   if (layout == nullptr) return {viewport.width, viewport.height};
   switch (layout->arrangement) {
@@ -53,14 +53,17 @@ Frame compose(const OutputMode& mode, Image<Rgb8> left, Image<Rgb8> right, const
   return frame;
 }
 
+Image<Rgb8> laid_at(int x, int y, ImageView<const Rgb8> picture, PictureSize size) {
+  Image<Rgb8> laid(size.width, size.height);
+  const int first_x = std::max(0, -x), last_x = std::min(picture.width(), size.width - x);
+  for (int row = std::max(0, -y); row < std::min(picture.height(), size.height - y) && first_x < last_x; ++row)
+    std::ranges::copy(picture.row(row).subspan(first_x, last_x - first_x), laid.row(y + row).begin() + x + first_x);
+  return laid;
+}
+
 Image<Rgb8> centred(ImageView<const Rgb8> picture, const Viewport& viewport) {
-  Image<Rgb8> whole(viewport.width, viewport.height);
-  const int width = std::min(picture.width(), viewport.width), height = std::min(picture.height(), viewport.height);
-  const int from_x = (picture.width() - width) / 2, from_y = (picture.height() - height) / 2;
-  const int to_x = (viewport.width - width) / 2, to_y = (viewport.height - height) / 2;
-  for (int y = 0; y < height; ++y)
-    std::ranges::copy(picture.row(from_y + y).subspan(from_x, width), whole.row(to_y + y).begin() + to_x);
-  return whole;
+  return laid_at((viewport.width - picture.width()) / 2, (viewport.height - picture.height()) / 2, picture,
+                 {viewport.width, viewport.height});
 }
 
 std::vector<ViewPlace> places_in_frame(const OutputMode& mode, ViewPlace left, ViewPlace right,

@@ -13,24 +13,24 @@ namespace wheatstone::viewer {
 
 /// A picture of what is open, as a viewport shows it.
 struct Frame {
-  Image<Rgb8> picture;            ///< of the viewport's size
-  Image<Rgb8> right;              ///< of a page flip: `picture` is the left eye's; else empty
-  std::vector<ViewPlace> places;  ///< where views lie in it; of what covers the whole frame, that of the middle view
-  double scale = 1;               ///< screen pixels for one of the content
-  bool preliminary = false;       ///< drawn quickly: another drawing with all effort shows more
-  std::optional<float> exposure;  ///< of particles, as all of them have it
-  Content shown;                  ///< what it shows, with its depth as it was placed
-  std::optional<ContentDepth> depth;  ///< of that
+  Image<Rgb8> picture;             ///< of the viewport's size
+  Image<Rgb8> right;               ///< of a page flip: `picture` is the left eye's; else empty
+  std::vector<ViewPlace> places;   ///< where views lie in it; of what covers the whole frame, that of the middle view
+  double scale = 1;                ///< screen pixels for one of the content
+  bool preliminary = false;        ///< drawn quickly: another drawing with all effort shows more
+  std::optional<float> exposure;   ///< of particles, as all of them have it
+  Content shown;                   ///< what it shows, with its depth as it was placed
+  std::optional<DepthEnds> depth;  ///< of that
 };
 
 /// The size of the picture that each eye is to have, before a mode puts both in one.
-struct EyeSize {
-  int width = 0, height = 0;
-};
-EyeSize eye_size(const OutputMode& mode, const Viewport& viewport);
+PictureSize eye_size(const OutputMode& mode, const Viewport& viewport);
 
 /// Puts the eyes' pictures, each of eye_size, on the screen.
 Frame compose(const OutputMode& mode, Image<Rgb8> left, Image<Rgb8> right, const Viewport& viewport);
+
+/// A picture of this size, black but for what another one covers whose upper left pixel lies at (x, y).
+Image<Rgb8> laid_at(int x, int y, ImageView<const Rgb8> picture, PictureSize size);
 
 /// The picture in the middle of the viewport, cut off or with black around it.
 Image<Rgb8> centred(ImageView<const Rgb8> picture, const Viewport& viewport);

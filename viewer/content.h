@@ -7,10 +7,12 @@
 #include <variant>
 #include <vector>
 
+#include "wheatstone/depth/convergence.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/particles/cloud.h"
 #include "wheatstone/particles/cloud_statistics.h"
+#include "wheatstone/stereo/reduced_pair.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone::viewer {
@@ -55,17 +57,11 @@ struct ParticlesContent {
 using Content = std::variant<std::monostate, PaintedContent, ViewsContent, SlicesContent, ParticlesContent>;
 
 /// Size of what is open, in its own pixels; {0, 0} where it has none of its own, as particles.
-struct ContentSize {
-  int width = 0, height = 0;
-};
-ContentSize size_of(const Content& content);
+PictureSize size_of(const Content& content);
 
 /// Disparities of the scene from its farthest point to its nearest, but for outliers, in pixels of a view at full eye
 /// separation; none where they are not known.
-struct ContentDepth {
-  float farthest_px = 0, nearest_px = 0;
-};
-std::optional<ContentDepth> depth_of(const Content& content);
+std::optional<DepthEnds> depth_of(const Content& content);
 
 struct OpenedFilm;
 

@@ -24,10 +24,9 @@ Content placed_content(const Content& content, const ViewState& state) {
   }
   if (const auto* const sliced = std::get_if<SlicesContent>(&content)) {
     auto placed = std::make_shared<SliceStack>(*sliced->slices);
-    const ContentDepth depth = depth_of(content).value_or(ContentDepth());
+    const DepthEnds depth = depth_of(content).value_or(DepthEnds());
     placing.viewing.width_px = placed->width;
-    const DisparityMapping mapping =
-        disparity_mapping(placing.regions, {depth.farthest_px, depth.nearest_px}, placing.viewing);
+    const DisparityMapping mapping = disparity_mapping(placing.regions, depth, placing.viewing);
     for (Slice& slice : placed->slices) slice.parallax_px = -mapped_px(mapping, -slice.parallax_px);
     return SlicesContent{std::move(placed)};
   }

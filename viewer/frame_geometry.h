@@ -11,6 +11,7 @@ namespace wheatstone::viewer {
 struct Viewport {
   int width = 0, height = 0;       ///< pixels
   int screen_x = 0, screen_y = 0;  ///< of its upper left pixel on the screen
+  friend bool operator==(const Viewport&, const Viewport&) = default;
 };
 
 /// Where a view lies in a frame: pixel (x, y) of the view at frame pixel

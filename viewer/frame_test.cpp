@@ -44,7 +44,7 @@ TEST(OutputMode, EveryOneFillsTheViewportWhateverItsSize) {
   for (const OutputMode& mode : output_modes()) {
     if (shows_display_views(mode)) continue;
     for (const Viewport viewport : {Viewport{64, 48}, Viewport{63, 47}, Viewport{3, 2}}) {
-      const EyeSize eye = eye_size(mode, viewport);
+      const PictureSize eye = eye_size(mode, viewport);
       const Image<Rgb8> picture(eye.width, eye.height, white);
       const Frame frame = compose(mode, picture, picture, viewport);
       EXPECT_EQ(frame.picture.width(), viewport.width) << mode.name;

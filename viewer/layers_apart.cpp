@@ -40,7 +40,7 @@ std::vector<LayerPicture> paint_alone(const Painting& one_layer, double scale,
 /// Looks at panes from a side: each a picture's width and height, `depth` before the middle of them all.
 class SideView {
  public:
-  SideView(double degrees, double width, double height, double stack_depth, const EyeSize& size)
+  SideView(double degrees, double width, double height, double stack_depth, const PictureSize& size)
       : angle_(degrees * std::numbers::pi / 180), width_(width), height_(height), size_(size) {
     const double across = width * std::cos(angle_) + stack_depth * std::abs(std::sin(angle_));
     const double nearest = magnification(width / 2, stack_depth / 2);
@@ -69,7 +69,7 @@ class SideView {
   }
 
   double angle_, width_, height_, zoom_ = 1;
-  EyeSize size_;
+  PictureSize size_;
 };
 
 void lay_over(const LayerPicture& pane, const cv::Mat& place, Image<Rgb8>& picture) {
@@ -96,7 +96,7 @@ void lay_over(const LayerPicture& pane, const cv::Mat& place, Image<Rgb8>& pictu
 bool can_stand_apart(const Painting& painting) { return !layers_of(painting).empty(); }
 
 void LayersApart::draw_layers(const std::shared_ptr<const Painting>& painting, const ViewState& state,
-                              const EyeSize& size) {
+                              const PictureSize& size) {
   const EyePositions eyes = eye_positions(state);
   const double scale = std::min({static_cast<double>(size.width) / width_of(*painting),
                                  static_cast<double>(size.height) / height_of(*painting), 1.});
@@ -126,7 +126,7 @@ void LayersApart::draw_layers(const std::shared_ptr<const Painting>& painting, c
 }
 
 std::vector<Image<Rgb8>> LayersApart::draw(const std::shared_ptr<const Painting>& painting, const ViewState& state,
-                                           const EyeSize& size) {
+                                           const PictureSize& size) {
   draw_layers(painting, state, size);
   std::vector<Image<Rgb8>> pictures;
   for (std::size_t eye = 0; eye < 2; ++eye) {

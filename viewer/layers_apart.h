@@ -23,10 +23,10 @@ class LayersApart {
  public:
   /// Both eyes' pictures. The painting has layers.
   std::vector<Image<Rgb8>> draw(const std::shared_ptr<const Painting>& painting, const ViewState& state,
-                                const EyeSize& size);
+                                const PictureSize& size);
 
  private:
-  void draw_layers(const std::shared_ptr<const Painting>& painting, const ViewState& state, const EyeSize& size);
+  void draw_layers(const std::shared_ptr<const Painting>& painting, const ViewState& state, const PictureSize& size);
 
   std::shared_ptr<const Painting> painting_;
   int finest_layer_ = 0;

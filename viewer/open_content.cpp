@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "film_player.h"
+#include "wheatstone/app/render_particles.h"
 #include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
@@ -16,8 +17,6 @@
 #include "wheatstone/matching/not_a_pair.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/particles/cloud_source.h"
-#include "wheatstone/particles/select.h"
-#include "wheatstone/particles/sph_density.h"
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/read_image.h"
@@ -111,15 +110,8 @@ bool are_named_as_eyes(const fs::path& left, const fs::path& right) {
 }
 
 Opened open_particles(const fs::path& path, const Progress& progress) {
-  auto particles = std::make_shared<Particles>();
-  particles->cloud = read_cloud(path, {}, progress);
-  select_particles(particles->cloud, {});
-  if (particles->cloud.size() == 0)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: has no particle with a finite position", path.string()));
-  if (particles->cloud.density.empty() && particles->cloud.colour.empty())
-    estimate_density(particles->cloud, 32, progress);
-  particles->statistics.add(particles->cloud);
-  particles->statistics.framed = framed_region(particles->statistics, {});
+  ReadyParticles ready = read_particles(path, {}, progress);
+  auto particles = std::make_shared<Particles>(Particles{std::move(ready.cloud), std::move(ready.statistics)});
   return {ParticlesContent{std::move(particles)}, "particles", {}};
 }
 

@@ -18,7 +18,7 @@ const Particles* open_particles(const Viewer& viewer) {
 
 Rig eyes_of(const Viewer& viewer) {
   const ViewState& state = viewer.session().state;
-  const EyeSize eye = eye_size(find_output_mode(state.mode), viewer.viewport());
+  const PictureSize eye = eye_size(find_output_mode(state.mode), viewer.viewport());
   const EyePositions positions = eye_positions(state);
   return {std::max(eye.width, 1), std::max(eye.height, 1), {positions.left, positions.right}};
 }

@@ -37,7 +37,7 @@ std::vector<float> seen_row(const StereoGeometry& geometry, ViewPosition view, i
 }  // namespace
 
 std::optional<float> disparity_at(const Content& content, const PlaceInView& place) {
-  const ContentSize size = size_of(content);
+  const PictureSize size = size_of(content);
   const int x = static_cast<int>(std::floor(place.x)), y = static_cast<int>(std::floor(place.y));
   const auto* const painted = std::get_if<PaintedContent>(&content);
   if (painted == nullptr || x < 0 || y < 0 || x >= size.width || y >= size.height) return {};

@@ -53,7 +53,7 @@ struct Session {
   Opened opened;
   std::optional<FilmStatus> film;
   std::optional<Activity> whole_film;  ///< a whole film is being painted
-  ContentSize eye;                     ///< of the picture that each eye is shown, in screen pixels
+  PictureSize eye;                     ///< of the picture that each eye is shown, in screen pixels
   ViewState state;
   std::optional<float> zero_parallax_target_px;  ///< what it moves to
   double easing_s = click_easing_s;              ///< of that move

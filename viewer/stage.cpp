@@ -46,7 +46,7 @@ struct Fit {
   double origin_x = 0, origin_y = 0;
 };
 
-Fit fit_in(const EyeSize& eye, const ContentSize& content, const Framed& framed) {
+Fit fit_in(const PictureSize& eye, const PictureSize& content, const Framed& framed) {
   Fit fit;
   fit.scale = framed.zoom > 0 ? framed.zoom
                               : std::min(static_cast<double>(eye.width) / content.width,
@@ -58,7 +58,7 @@ Fit fit_in(const EyeSize& eye, const ContentSize& content, const Framed& framed)
 
 /// What is to be drawn so that an eye's picture is full wherever the content reaches, also when the eyes' pictures are
 /// moved a little.
-WantedPart wanted_part(const Fit& fit, const EyeSize& eye, const ContentSize& content) {
+WantedPart wanted_part(const Fit& fit, const PictureSize& eye, const PictureSize& content) {
   constexpr int margin_px = 96;
   const int width = std::max(static_cast<int>(std::lround(content.width * fit.scale)), 1);
   const int height = std::max(static_cast<int>(std::lround(content.height * fit.scale)), 1);
@@ -79,18 +79,13 @@ struct Move {
   double x = 0, y = 0, roll_deg = 0;
 };
 
-Image<Rgb8> laid_on(const EyeSize& eye, const DrawnViews& drawn, std::size_t view, const Fit& fit, const Move& move) {
-  Image<Rgb8> laid(eye.width, eye.height);
+Image<Rgb8> laid_on(const PictureSize& eye, const DrawnViews& drawn, std::size_t view, const Fit& fit,
+                    const Move& move) {
   const double ratio = fit.scale / drawn.scale;
   const double left = fit.origin_x + move.x + drawn.left * ratio, top = fit.origin_y + move.y + drawn.top * ratio;
   const Image<Rgb8>& picture = drawn.pictures[view];
-  if (move.roll_deg == 0 && ratio == 1) {
-    const int to_x = static_cast<int>(std::lround(left)), to_y = static_cast<int>(std::lround(top));
-    const int first_x = std::max(0, -to_x), last_x = std::min(picture.width(), eye.width - to_x);
-    for (int y = std::max(0, -to_y); y < std::min(picture.height(), eye.height - to_y) && first_x < last_x; ++y)
-      std::ranges::copy(picture.row(y).subspan(first_x, last_x - first_x), laid.row(to_y + y).begin() + to_x + first_x);
-    return laid;
-  }
+  if (move.roll_deg == 0 && ratio == 1)
+    return laid_at(static_cast<int>(std::lround(left)), static_cast<int>(std::lround(top)), picture, eye);
   cv::Mat turn = cv::getRotationMatrix2D({static_cast<float>(eye.width) / 2, static_cast<float>(eye.height) / 2},
                                          -move.roll_deg, 1);
   // A pixel's centre is half a pixel from its number: (x + ½)·ratio + left − ½, and then the turn.
@@ -100,6 +95,7 @@ Image<Rgb8> laid_on(const EyeSize& eye, const DrawnViews& drawn, std::size_t vie
     turn.at<double>(row, 0) *= ratio;
     turn.at<double>(row, 1) *= ratio;
   }
+  Image<Rgb8> laid(eye.width, eye.height);
   cv::Mat target = as_mat(laid);
   cv::warpAffine(as_mat(picture), target, turn, target.size(), cv::INTER_LINEAR);
   return laid;
@@ -133,7 +129,7 @@ void leak_into_eyes(const ViewState& state, Lay lay, Image<Rgb8>& left, Image<Rg
 }
 
 /// Blackens what only one eye shows at its sides: the picture's edge lies in the same columns for both.
-void show_what_both_show(const ContentSize& content, const Fit& fit, double shift_left, double shift_right,
+void show_what_both_show(const PictureSize& content, const Fit& fit, double shift_left, double shift_right,
                          Image<Rgb8>& left, Image<Rgb8>& right) {
   const double first = fit.origin_x + std::max(shift_left, shift_right);
   const double last = fit.origin_x + std::min(shift_left, shift_right) + content.width * fit.scale;
@@ -148,18 +144,6 @@ void show_what_both_show(const ContentSize& content, const Fit& fit, double shif
 
 LenticularScreen screen_of(const ViewState& state) {
   return state.screen.empty() ? lenticular_screen_of(find_display(state.display)) : find_lenticular(state.screen);
-}
-
-/// What a viewport shows of a picture that covers its whole screen.
-Image<Rgb8> part_of_screen(const Image<Rgb8>& whole, const Viewport& viewport) {
-  Image<Rgb8> part(viewport.width, viewport.height);
-  const int first_x = std::max(0, -viewport.screen_x);
-  const int last_x = std::min(viewport.width, whole.width() - viewport.screen_x);
-  for (int y = 0; y < viewport.height && first_x < last_x; ++y)
-    if (whole.contains(0, y + viewport.screen_y))
-      std::ranges::copy(whole.row(y + viewport.screen_y).subspan(viewport.screen_x + first_x, last_x - first_x),
-                        part.row(y).begin() + first_x);
-  return part;
 }
 
 }  // namespace
@@ -200,7 +184,11 @@ Frame Stage::draw_display(const Content& content, const ViewState& state, const 
   const std::vector<Image<Rgb8>>& views = drawer_.display_views(content, state);
   if (state.mode == "lenticular") {
     const LenticularScreen screen = screen_of(state);
-    return {.picture = part_of_screen(interleave(views, screen), viewport), .right = {}, .places = {}, .shown = {}};
+    return {.picture = laid_at(-viewport.screen_x, -viewport.screen_y, interleave(views, screen),
+                               {viewport.width, viewport.height}),
+            .right = {},
+            .places = {},
+            .shown = {}};
   }
   const DisplayPreset& display = find_display(state.display);
   QuiltLayout layout{display.quilt_columns, display.quilt_rows};
@@ -223,8 +211,8 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
       painted && state.layers_apart_deg != 0 && painted->painting && can_stand_apart(*painted->painting))
     return draw_apart(*painted, state, viewport);
   const OutputMode& mode = find_output_mode(state.mode);
-  const EyeSize eye = eye_size(mode, viewport);
-  ContentSize size = size_of(content);
+  const PictureSize eye = eye_size(mode, viewport);
+  PictureSize size = size_of(content);
   const bool has_no_size = size.width == 0;
   if (has_no_size) size = {eye.width, eye.height};
   const Fit fit = has_no_size ? Fit() : fit_in(eye, size, state.framed);

@@ -27,8 +27,8 @@ class Stage {
 
   ViewDrawer drawer_;
   LayersApart layers_apart_;
-  Content measured_;                   ///< whose depth is known
-  std::optional<ContentDepth> depth_;  ///< of that
+  Content measured_;                ///< whose depth is known
+  std::optional<DepthEnds> depth_;  ///< of that
 };
 
 /// The size of the screen whose lenses a state fills with views, in pixels; none where it shows no such views, or where

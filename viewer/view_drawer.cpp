@@ -153,16 +153,12 @@ const std::vector<Image<Rgb8>>& ViewDrawer::display_views(const Content& content
     return display_->views;
   const DisplayPreset& display = find_display(state.display);
   std::vector<Image<Rgb8>> views;
-  const Rig rig =
-      evenly_spaced(display.view_width_px, display.view_height_px, display.views, std::max(span_of(display), 1.f));
+  DisplayViewsOptions options = views_of_display(display);
+  const Rig rig = evenly_spaced(options.width, options.height, options.views, options.widest_span);
   if (const auto* const painted = std::get_if<PaintedContent>(&content)) {
     if (!painted->painting) throw Error(ErrorKind::bad_input, "the photograph is not painted yet");
-    const DisplayViewsOptions options{.views = display.views,
-                                      .width = display.view_width_px,
-                                      .height = display.view_height_px,
-                                      .widest_span = std::max(span_of(display), 1.f),
-                                      .zero_parallax_px = zero_parallax_px,
-                                      .depth = viewer::placing_of(state)};
+    options.zero_parallax_px = zero_parallax_px;
+    options.depth = viewer::placing_of(state);
     views = draw_display_views(*painted->painting, options).views;
   } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
     views = *pictures->views;

@@ -34,10 +34,6 @@ bool stops_within(const std::stop_token& stop, std::chrono::milliseconds longest
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-bool same_viewport(const Viewport& a, const Viewport& b) {
-  return a.width == b.width && a.height == b.height && a.screen_x == b.screen_x && a.screen_y == b.screen_y;
-}
-
 }  // namespace
 
 const Item* open_item(const Session& session) {
@@ -158,7 +154,7 @@ void Viewer::take_painted(PaintedContent content) {
 }
 
 void Viewer::show_comfortably() {
-  const std::optional<ContentDepth> depth = depth_of(session_.opened.content);
+  const std::optional<DepthEnds> depth = depth_of(session_.opened.content);
   if (!depth) return;
   Adjustment& adjustment = session_.state.adjustment;
   if (!session_.state.depth_regions.empty()) {
@@ -182,8 +178,8 @@ void Viewer::tell(std::string message, bool is_error) {
 void Viewer::collect() {
   mailbox_.open();
   move_on();
-  const EyeSize eye = eye_size(find_output_mode(session_.state.mode), viewport_);
-  session_.eye = {eye.width, eye.height};
+  const PictureSize eye = eye_size(find_output_mode(session_.state.mode), viewport_);
+  session_.eye = eye;
   draw_if_changed();
 }
 
@@ -222,7 +218,7 @@ std::optional<double> Viewer::next_step_s() const {
 
 void Viewer::draw_if_changed() {
   const bool changed = !asked_ || asked_->content != session_.opened.content || asked_->state != session_.state ||
-                       !same_viewport(asked_->viewport, viewport_);
+                       asked_->viewport != viewport_;
   if (!changed || viewport_.width < 1 || viewport_.height < 1) return;
   asked_ = Asked{session_.opened.content, session_.state, viewport_};
   drawing_.start([this, asked = *asked_](const std::stop_token& stop) {

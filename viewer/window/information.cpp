@@ -19,7 +19,7 @@ std::string information_of(const Session& session) {
   if (item == nullptr) return "nothing is open";
   std::string text;
   for (const auto& file : *item) text += file.filename().string() + "\n";
-  const ContentSize size = size_of(session.opened.content);
+  const PictureSize size = size_of(session.opened.content);
   text += session.opened.kind;
   if (size.width > 0) text += fmt::format(", {}×{} pixels", size.width, size.height);
   if (const auto* const content = std::get_if<PaintedContent>(&session.opened.content); content && content->painting) {

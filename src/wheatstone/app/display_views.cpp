@@ -57,6 +57,13 @@ DisplayViewsOptions for_placed(DisplayViewsOptions options) {
 
 }  // namespace
 
+DisplayViewsOptions views_of_display(const DisplayPreset& display) {
+  return {.views = display.views,
+          .width = display.view_width_px,
+          .height = display.view_height_px,
+          .widest_span = std::max(span_of(display), 1.f)};
+}
+
 DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options) {
   if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
   DisplayViewsPlan plan;

@@ -5,6 +5,7 @@
 
 #include "wheatstone/app/place_depth.h"
 #include "wheatstone/depth/convergence.h"
+#include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/progress.h"
@@ -24,6 +25,9 @@ struct DisplayViewsOptions {
   DepthPlacing depth =
       {};  ///< with regions they say what lies on the screen, and `span` is `widest_span` where it is 0
 };
+
+/// What a display wants.
+DisplayViewsOptions views_of_display(const DisplayPreset& display);
 
 /// Where the views stand, and how the painting lies in them.
 struct DisplayViewsPlan {

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "wheatstone/app/slow_ends_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/monocular_network.h"
 
@@ -85,14 +86,12 @@ struct DepthFilm {
 MadePair make_film_pair(const Image<Rgb8>& picture, ImageView<const float> depth,
                         const DisparityFromDepthOptions& options, bool scene_begins,
                         std::optional<InverseDepthRange>& scene) {
-  constexpr float frames_to_reach = 24;
   const std::optional<InverseDepthRange> now = inverse_depth_range(depth, options.kind);
   if (!now) return make_pair_from_single_view(picture, Image<float>(picture.width(), picture.height(), 0));
   if (!scene || scene_begins) {
     scene = now;
   } else {
-    scene->farthest += std::min(now->farthest - scene->farthest, 0.f) / frames_to_reach;
-    scene->nearest += std::max(now->nearest - scene->nearest, 0.f) / frames_to_reach;
+    widen_slowly(now->farthest, now->nearest, scene->farthest, scene->nearest);
   }
   DisparityFromDepthOptions of_scene = options;
   of_scene.range = scene;

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "wheatstone/app/slow_ends_internal.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone {
 
 void follow_depth(const DepthEnds& frame, bool scene_begins, SceneDepth& scene) {
-  constexpr float frames_to_reach = 24;
   if (scene_begins) {
     scene = {frame, frame};
     return;
   }
-  DepthEnds& ends = scene.ends;
-  ends.farthest_px += std::min(frame.farthest_px - ends.farthest_px, 0.f) / frames_to_reach;
-  ends.nearest_px += std::max(frame.nearest_px - ends.nearest_px, 0.f) / frames_to_reach;
+  widen_slowly(frame.farthest_px, frame.nearest_px, scene.ends.farthest_px, scene.ends.nearest_px);
 }
 
 ViewRange planned_views(PictureSize frame, const SceneDepth& scene, const DisplayViewsOptions& options) {

@@ -141,24 +141,16 @@ RenderedParticles stream(const std::filesystem::path& file, const RenderParticle
 
 RenderedParticles render_whole(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                const Progress& progress) {
+  const ReadyParticles particles = read_particles(file, options, progress);
+  const Cloud& cloud = particles.cloud;
   RenderedParticles result;
-  Cloud cloud = read_cloud(file, choice_of(options), progress);
-  const SelectionCounts counts = select_particles(cloud, options.selection);
-  if (cloud.size() == 0) refuse_nothing(file, counts);
-  check_positions(file, cloud);
   result.particles = cloud.size();
-  result.dropped = counts.dropped;
-  result.mended = counts.mended;
-  result.extreme = counts.extreme;
-  if (cloud.density.empty() && cloud.colour.empty()) {
-    estimate_density(cloud, options.neighbours, progress);
-    result.density_estimated = true;
-  }
-  CloudStatistics statistics;
-  statistics.add(cloud);
-  statistics.framed = framed_region(statistics, options.fit);
-  result.outside = count_outside(cloud, *statistics.framed);
-  const Staged staged = stage(options, statistics, cloud.origin);
+  result.dropped = particles.counts.dropped;
+  result.mended = particles.counts.mended;
+  result.extreme = particles.counts.extreme;
+  result.density_estimated = particles.density_estimated;
+  result.outside = count_outside(cloud, *particles.statistics.framed);
+  const Staged staged = stage(options, particles.statistics, cloud.origin);
   result.rig = staged.rig;
   if (options.slices) {
     report(progress, "slices", 0);
@@ -170,6 +162,22 @@ RenderedParticles render_whole(const std::filesystem::path& file, const RenderPa
 }
 
 }  // namespace
+
+ReadyParticles read_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                              const Progress& progress) {
+  ReadyParticles ready;
+  ready.cloud = read_cloud(file, choice_of(options), progress);
+  ready.counts = select_particles(ready.cloud, options.selection);
+  if (ready.cloud.size() == 0) refuse_nothing(file, ready.counts);
+  check_positions(file, ready.cloud);
+  if (ready.cloud.density.empty() && ready.cloud.colour.empty()) {
+    estimate_density(ready.cloud, options.neighbours, progress);
+    ready.density_estimated = true;
+  }
+  ready.statistics.add(ready.cloud);
+  ready.statistics.framed = framed_region(ready.statistics, options.fit);
+  return ready;
+}
 
 Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options) {
   Scene scene;

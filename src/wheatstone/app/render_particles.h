@@ -13,6 +13,7 @@
 #include "wheatstone/multiview/scene.h"
 #include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/particles/appearance.h"
+#include "wheatstone/particles/cloud.h"
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/particles/cloud_statistics.h"
 #include "wheatstone/particles/framed_region.h"
@@ -71,6 +72,19 @@ struct RenderedParticles {
 /// A file of particles to the views of a rig. Throws Error: bad_input for the file, wrong_usage for the options.
 RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                    const Progress& progress = {});
+
+/// All particles of a file, ready to be rendered.
+struct ReadyParticles {
+  Cloud cloud;                 ///< with densities, or colours of its own
+  CloudStatistics statistics;  ///< with what the views are framed by
+  SelectionCounts counts;
+  bool density_estimated = false;
+};
+
+/// Reads particles, selects, and estimates their density where the file has none. Throws Error: bad_input for the file,
+/// wrong_usage for the options.
+ReadyParticles read_particles(const std::filesystem::path& file, const RenderParticlesOptions& options = {},
+                              const Progress& progress = {});
 
 /// The scene as the central camera has it, of particles of which this is known. Throws Error{wrong_usage} for the
 /// options.
