@@ -107,9 +107,10 @@ HWY_INLINE Lit light(const Cloud& cloud, const Placed& placed, const Projection&
   const Vec variance =
       hn::Mul(hn::Mul(lit.size, lit.size), hn::Set(d, 1 / (diameters_a_deviation * diameters_a_deviation)));
   const Vec flattened = hn::Div(variance, hn::Add(variance, hn::Set(d, pixel_variance)));
-  const Vec opacity = hn::Mul(hn::MulAdd(rank, hn::Set(d, splat_style.opacity - splat_style.least_opacity),
-                                         hn::Set(d, splat_style.least_opacity)),
-                              flattened);
+  Vec opacity = hn::Mul(hn::MulAdd(rank, hn::Set(d, splat_style.opacity - splat_style.least_opacity),
+                                   hn::Set(d, splat_style.least_opacity)),
+                        flattened);
+  if (!cloud.presence.empty()) opacity = hn::Mul(opacity, hn::LoadU(d, cloud.presence.data() + i));
   if (splat_style.colour_source == ColourSource::own) {
     lit.red = hn::Mul(opacity, hn::LoadU(d, block.red.data() + in_block));
     lit.green = hn::Mul(opacity, hn::LoadU(d, block.green.data() + in_block));

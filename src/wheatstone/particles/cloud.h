@@ -2,6 +2,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/image/image.h"
@@ -16,6 +19,10 @@ struct Cloud {
   std::vector<float> temperature;  ///< kelvin in snapshots; any other scalar where the user names one
   std::vector<float> smoothing_length;
   std::vector<Rgb8> colour;
+  std::vector<float> presence;    ///< share of its light that a particle gives, 0..1; empty: all of it
+  std::vector<std::uint64_t> id;  ///< in a simulation; only where motion was asked for
+  /// Changes of x, y and z in a unit of the snapshot's time; only where motion was asked for.
+  std::vector<float> rate_x, rate_y, rate_z;
   /// Taken off every position in double precision when it was read, so that single precision suffices far from 0: an
   /// easting of 4 500 000 m. The same in all chunks of a file.
   std::array<double, 3> origin{};
@@ -28,5 +35,23 @@ struct Cloud {
 
   std::size_t size() const { return x.size(); }
 };
+
+/// Every column of a cloud, for all that works on whole particles: a tuple of references.
+template <class AnyCloud>
+auto columns_of(AnyCloud& cloud) {
+  return std::tie(cloud.x, cloud.y, cloud.z, cloud.density, cloud.temperature, cloud.smoothing_length, cloud.colour,
+                  cloud.presence, cloud.id, cloud.rate_x, cloud.rate_y, cloud.rate_z);
+}
+
+/// Calls `visit` with each column of one cloud and the same one of another.
+template <class To, class From, class Visit>
+void for_each_column(To& to, From& from, Visit visit) {
+  const auto to_columns = columns_of(to);
+  const auto from_columns = columns_of(from);
+  [&]<std::size_t... column>(std::index_sequence<column...>) {
+    (visit(std::get<column>(to_columns), std::get<column>(from_columns)), ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<decltype(columns_of(to))>>());
+}
 
 }  // namespace wheatstone

@@ -90,16 +90,9 @@ std::string first_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-void append(std::vector<float>& to, const std::vector<float>& more) { to.insert(to.end(), more.begin(), more.end()); }
-
 void append(Cloud& to, const Cloud& more) {
-  append(to.x, more.x);
-  append(to.y, more.y);
-  append(to.z, more.z);
-  append(to.density, more.density);
-  append(to.temperature, more.temperature);
-  append(to.smoothing_length, more.smoothing_length);
-  to.colour.insert(to.colour.end(), more.colour.begin(), more.colour.end());
+  for_each_column(to, more,
+                  [](auto& column, const auto& rest) { column.insert(column.end(), rest.begin(), rest.end()); });
   to.origin = more.origin;
   if (std::abs(more.farthest) > std::abs(to.farthest)) to.farthest = more.farthest;
   to.box_size = more.box_size;

@@ -24,6 +24,8 @@ struct CloudChoice {
   /// What the positions are to be relative to (Cloud::origin), where it is known which part of the file is looked at;
   /// else it is chosen from the first particles.
   std::optional<std::array<double, 3>> origin;
+  /// Also read what tells how particles move from one snapshot to the next: IDs and velocities (Cloud::id, rate_x).
+  bool motion = false;
 };
 
 /// A file of particles, opened, its header checked against its length. Reading goes forward only, chunk by chunk.
@@ -32,7 +34,8 @@ struct CloudSource {
   std::optional<std::uint64_t> count;  ///< particles in all; unknown for text until it is read
   double box_size = 0;                 ///< of the periodic box, 0 where there is none
   std::optional<double> redshift;      ///< of a snapshot
-  std::vector<std::string> fields;     ///< every column that the chosen particles have, as the file names them
+  std::optional<double> time;  ///< of a snapshot; the scale factor of a universe that expands, else in its own unit
+  std::vector<std::string> fields;  ///< every column that the chosen particles have, as the file names them
   /// Units that the file tells, each with the name of a column or of a quantity: "x", "kpc"; "length", "1 kpc/h".
   std::vector<std::pair<std::string, std::string>> units;
   std::uint64_t bytes = 0;  ///< of all files together

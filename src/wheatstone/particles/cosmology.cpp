@@ -43,9 +43,11 @@ double amplitude() {
 
 double cdm_power(double k) { return k > 0 ? amplitude() * bare_power(k) : 0; }
 
+double expansion_rate(double scale) { return std::sqrt(matter_share / std::pow(scale, 3) + 1 - matter_share); }
+
 double growth(double redshift) {
   const auto unscaled = [](double z) {
-    const double expansion = matter_share * std::pow(1 + z, 3) + 1 - matter_share;
+    const double expansion = std::pow(expansion_rate(1 / (1 + z)), 2);
     const double matter = matter_share * std::pow(1 + z, 3) / expansion;
     const double dark = (1 - matter_share) / expansion;
     return 2.5 * matter / (std::pow(matter, 4. / 7) - dark + (1 + matter / 2) * (1 + dark / 70)) / (1 + z);

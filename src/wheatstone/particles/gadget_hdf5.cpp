@@ -30,6 +30,8 @@ struct Part {
   Hdf5Handle file, group;
   hsize_t count = 0;
   Hdf5Column position, density, temperature, energy, electrons, smoothing_length, volume, mass;
+  Hdf5Column id, velocity;
+  double rate_of_velocity = 1;
 };
 
 double box_size_of(hid_t file) {
@@ -59,6 +61,16 @@ Hdf5Column find_column(const Part& part, const std::string& wanted, std::initial
   return column;
 }
 
+/// Opens what tells how the particles move.
+void find_motion(Part& part) {
+  part.id = find_column(part, "ParticleIDs", {});
+  part.velocity = find_column(part, {}, {"Velocities"});
+  if (part.velocity.dataset && part.velocity.width != 3)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: Velocities has {} numbers per row, expected 3", part.path, part.velocity.width));
+  part.rate_of_velocity = snapshot_time(part.file, part.group).rate_of_velocity;
+}
+
 Part open_part(const std::filesystem::path& path, int type, const CloudChoice& choice) {
   Part part;
   part.path = path.string();
@@ -82,6 +94,7 @@ Part open_part(const std::filesystem::path& path, int type, const CloudChoice& c
     part.volume = find_column(part, {}, {"Volume"});  // AREPO's cells
     part.mass = find_column(part, {}, {"Masses"});
   }
+  if (choice.motion) find_motion(part);
   return part;
 }
 
@@ -123,6 +136,19 @@ void put_smoothing_length(const Part& part, hsize_t first, hsize_t count, Cloud&
   }
 }
 
+void put_motion(const Part& part, hsize_t first, hsize_t count, Cloud& cloud) {
+  if (part.id.dataset) read_rows(part.id, first, count, cloud.id, part.path);
+  if (!part.velocity.dataset) return;
+  std::vector<double> velocities;
+  read_rows(part.velocity, first, count, velocities, part.path);
+  const std::array<std::vector<float>*, 3> rates{&cloud.rate_x, &cloud.rate_y, &cloud.rate_z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    rates[axis]->resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+      (*rates[axis])[i] = in_single_precision(velocities[3 * i + axis] * part.rate_of_velocity);
+  }
+}
+
 ParticleRows read_part(const Part& part, hsize_t first, hsize_t count) {
   ParticleRows rows;
   std::vector<double> positions;
@@ -132,14 +158,15 @@ ParticleRows read_part(const Part& part, hsize_t first, hsize_t count) {
   put_scalars(part, part.density, first, count, cloud.density);
   put_temperature(part, first, count, cloud);
   put_smoothing_length(part, first, count, cloud);
+  put_motion(part, first, count, cloud);
   return rows;
 }
 
 /// Which columns a part has: those of one snapshot have the same.
-std::array<bool, 7> columns_of(const Part& part) {
+std::array<bool, 8> columns_of(const Part& part) {
   const auto has = [](const Hdf5Column& column) { return static_cast<bool>(column.dataset); };
   return {has(part.density),          has(part.temperature), has(part.energy), has(part.electrons),
-          has(part.smoothing_length), has(part.volume),      has(part.mass)};
+          has(part.smoothing_length), has(part.volume),      has(part.mass),   has(part.velocity)};
 }
 
 /// Particles of one type in all files of a snapshot. One file is open at a time: there may be thousands.
@@ -219,7 +246,7 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
   snapshot->box_size = box_size_of(first);
   CloudSource source{.format = "GADGET HDF5", .count = {}, .box_size = snapshot->box_size, .redshift = header.redshift};
   std::uint64_t count = 0;
-  std::array<bool, 7> columns{};
+  std::array<bool, 8> columns{};
   for (const std::filesystem::path& file : snapshot_files(path, header.files)) {
     source.bytes += std::filesystem::file_size(file);
     const Part part = open_part(file, type, choice);
@@ -228,6 +255,7 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
       columns = columns_of(part);
       source.fields = hdf5_datasets(part.group);
       source.units = snapshot_units(part.file, part.group);
+      source.time = snapshot_time(part.file, part.group).time;
     } else if (columns_of(part) != columns) {
       throw Error(ErrorKind::bad_input,
                   fmt::format("{}: has other datasets than {}, expected the same in all files of a snapshot",

@@ -125,6 +125,11 @@ void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vect
   read_as(H5T_NATIVE_DOUBLE, column, {first, count}, to, file);
 }
 
+void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<std::uint64_t>& to,
+               const std::string& file) {
+  read_as(H5T_NATIVE_UINT64, column, {first, count}, to, file);
+}
+
 void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<float>& to,
                const std::string& file) {
   const Hdf5Handle type(H5Dget_type(column.dataset), H5Tclose);

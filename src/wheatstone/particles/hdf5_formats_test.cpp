@@ -95,6 +95,53 @@ TEST(GadgetHdf5, ReadsHeadersOfAnyNumberOfTypes) {
   }
 }
 
+/// Three particles that move, of which the caller adds what the header tells.
+void write_moving(Hdf5Writer& file, double time, double redshift) {
+  file.group("Header");
+  file.attribute("Header", "Time", {time});
+  file.attribute("Header", "Redshift", {redshift});
+  file.group("PartType0");
+  file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+  file.dataset("PartType0/ParticleIDs", {30, 10, 20});
+  file.dataset("PartType0/Velocities", {1, 2, 3, 4, 5, 6, 7, 8, 9}, 3);
+}
+
+TEST(GadgetHdf5, TellsHowParticlesMoveInTheTimeOfTheSimulation) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "snap.hdf5";
+  const auto motion = [&] { return read_cloud(path, {.motion = true}); };
+  {
+    Hdf5Writer file(path);
+    write_moving(file, 0.25, 0);
+  }
+  EXPECT_EQ(open_cloud(path).time, 0.25);
+  EXPECT_THAT(motion().id, ElementsAre(30, 10, 20));
+  EXPECT_THAT(motion().rate_y, ElementsAre(2, 5, 8));
+  EXPECT_TRUE(read_cloud(path).id.empty());
+  {
+    // Einstein and de Sitter's universe at half its size: H is √8 of 0.1 km/s a kpc/h; dx/da = u·√a / (a²·H).
+    Hdf5Writer file(path);
+    write_moving(file, 0.5, 1);
+    file.attribute("Header", "Omega0", {1});
+  }
+  EXPECT_EQ(open_cloud(path).time, 0.5);
+  EXPECT_THAT(motion().rate_y, ElementsAre(FloatNear(20, 0.01f), FloatNear(50, 0.01f), FloatNear(80, 0.01f)));
+  {
+    // SWIFT: seconds as time, Mpc without h, peculiar velocities as they are.
+    Hdf5Writer file(path);
+    write_moving(file, 1e17, 1);
+    file.group("Cosmology");
+    file.attribute("Cosmology", "Cosmological run", {1});
+    file.attribute("Cosmology", "Omega_m", {1});
+    file.attribute("Cosmology", "h", {0.5});
+    file.attribute("Header", "UnitLength_in_cm", {3.085678e24});
+    file.attribute("PartType0/Coordinates", "h-scale exponent", {0});
+    file.attribute("PartType0/Velocities", "a-scale exponent", {0});
+  }
+  EXPECT_EQ(open_cloud(path).time, 0.5);
+  EXPECT_THAT(motion().rate_y, ElementsAre(FloatNear(0.05657f, 1e-4f), FloatNear(0.1414f, 1e-4f), testing::_));
+}
+
 TEST(GadgetHdf5, ReadsTheNamesOfItsRelatives) {
   const TemporaryFolder folder;
   {

@@ -2,6 +2,7 @@
 
 #include <hdf5.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -64,5 +65,7 @@ Hdf5Column open_column(hid_t where, const std::string& name, const std::string& 
 void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<double>& to,
                const std::string& file);
 void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<float>& to, const std::string& file);
+void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<std::uint64_t>& to,
+               const std::string& file);
 
 }  // namespace wheatstone

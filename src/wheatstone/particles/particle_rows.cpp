@@ -76,11 +76,8 @@ std::vector<Value> taken(std::vector<Value>& from, std::size_t count) {
 /// The first rows, which are taken away.
 ParticleRows taken(ParticleRows& from, std::size_t count) {
   ParticleRows rows{.x = taken(from.x, count), .y = taken(from.y, count), .z = taken(from.z, count)};
-  rows.others = {.density = taken(from.others.density, count),
-                 .temperature = taken(from.others.temperature, count),
-                 .smoothing_length = taken(from.others.smoothing_length, count),
-                 .colour = taken(from.others.colour, count),
-                 .box_size = from.others.box_size};
+  for_each_column(rows.others, from.others, [&](auto& column, auto& rest) { column = taken(rest, count); });
+  rows.others.box_size = from.others.box_size;
   return rows;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace wheatstone {
@@ -75,10 +76,7 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
     kept.push_back(static_cast<std::uint32_t>(i));
   }
   if (kept.size() < cloud.size()) {
-    for (std::vector<float>* column :
-         {&cloud.x, &cloud.y, &cloud.z, &cloud.density, &cloud.temperature, &cloud.smoothing_length})
-      keep(*column, kept);
-    keep(cloud.colour, kept);
+    std::apply([&](auto&... column) { (keep(column, kept), ...); }, columns_of(cloud));
   }
   mend(cloud.density, counts);
   mend(cloud.temperature, counts);

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +26,21 @@ bool is_snapshot_hdf5(std::int64_t file);
 /// What an HDF5 snapshot tells of its units: those of length, mass and velocity, h, and those of the datasets of a
 /// group, in cgs with powers of the scale factor a and of h: "6.77e-22 g cm^-3 a^-3 h^2".
 std::vector<std::pair<std::string, std::string>> snapshot_units(std::int64_t file, std::int64_t group);
+
+/// The first attribute above 0 of these names, in any of the groups of an open HDF5 snapshot that tell of the whole.
+std::optional<double> snapshot_number(std::int64_t file, std::initializer_list<const char*> names);
+
+/// When a snapshot was taken.
+struct SnapshotTime {
+  /// The scale factor of a universe that expands, else in the simulation's own unit; nothing where the header is
+  /// silent.
+  std::optional<double> time;
+  /// What the velocities are multiplied by to become changes of position in a unit of that time.
+  double rate_of_velocity = 1;
+};
+
+/// As an open HDF5 snapshot tells it in its header and in the attributes of its datasets, which `group` holds.
+SnapshotTime snapshot_time(std::int64_t file, std::int64_t group);
 
 CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoice& choice);
 

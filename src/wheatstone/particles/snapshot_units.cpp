@@ -64,9 +64,10 @@ std::optional<std::string> unit_of(hid_t dataset) {
          power("a", expansion) + power("h", hubble);
 }
 
-/// The first of the groups' attributes of these names.
-std::optional<double> first_number(hid_t file, std::initializer_list<const char*> names) {
-  for (const char* group : {"Header", "Parameters", "Units"}) {
+}  // namespace
+
+std::optional<double> snapshot_number(std::int64_t file, std::initializer_list<const char*> names) {
+  for (const char* group : {"Header", "Parameters", "Units", "Cosmology"}) {
     if (!hdf5_has(file, group)) continue;
     const Hdf5Handle opened(H5Gopen2(file, group, H5P_DEFAULT), H5Gclose);
     if (!opened) continue;
@@ -76,19 +77,17 @@ std::optional<double> first_number(hid_t file, std::initializer_list<const char*
   return std::nullopt;
 }
 
-}  // namespace
-
 Units snapshot_units(std::int64_t file, std::int64_t group) {
   Units units;
-  const auto length = first_number(file, {"UnitLength_in_cm", "Unit length in cgs (U_L)"});
-  const auto mass = first_number(file, {"UnitMass_in_g", "Unit mass in cgs (U_M)"});
-  auto velocity = first_number(file, {"UnitVelocity_in_cm_per_s"});
-  const auto time = first_number(file, {"Unit time in cgs (U_t)"});
+  const auto length = snapshot_number(file, {"UnitLength_in_cm", "Unit length in cgs (U_L)"});
+  const auto mass = snapshot_number(file, {"UnitMass_in_g", "Unit mass in cgs (U_M)"});
+  auto velocity = snapshot_number(file, {"UnitVelocity_in_cm_per_s"});
+  const auto time = snapshot_number(file, {"Unit time in cgs (U_t)"});
   if (!velocity && length && time) velocity = *length / *time;
   if (length) units.emplace_back("length", with_name(*length, "cm", lengths));
   if (mass) units.emplace_back("mass", with_name(*mass, "g", masses));
   if (velocity) units.emplace_back("velocity", with_name(*velocity, "cm/s", velocities));
-  if (const auto hubble = first_number(file, {"HubbleParam"})) units.emplace_back("h", fmt::format("{:g}", *hubble));
+  if (const auto hubble = snapshot_number(file, {"HubbleParam"})) units.emplace_back("h", fmt::format("{:g}", *hubble));
   for (const std::string& name : hdf5_datasets(group)) {
     const Hdf5Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose);
     if (!dataset) continue;

@@ -14,6 +14,7 @@ struct SnapshotHeader {
   double box_size = 0;  ///< kpc/h
   double redshift = 0;
   double mass_of_a_particle = 0;  ///< 1e10 Msun/h
+  bool motion = false;            ///< also IDs and velocities, of a flat universe of cosmology.h
 };
 
 /// Writes gas as a GADGET-4 HDF5 snapshot, chunk by chunk: position, density, internal energy from temperature, and
@@ -26,7 +27,8 @@ class GadgetWriter {
   GadgetWriter(GadgetWriter&&) noexcept;
   GadgetWriter& operator=(GadgetWriter&&) noexcept;
 
-  /// The cloud has density, temperature and smoothing length. Throws Error{cannot_read_write}.
+  /// The cloud has density, temperature and smoothing length; with motion IDs, and rates for a scale factor. Throws
+  /// Error{cannot_read_write}.
   void add(const Cloud& cloud);
   /// All particles of the header have been added. Throws Error{cannot_read_write}.
   void commit();

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 
 #include "wheatstone/error.h"
@@ -37,8 +38,24 @@ struct Lattice {
   std::size_t waves() const { return static_cast<std::size_t>(side) * side * (side / 2 + 1); }
 };
 
-/// White noise, coloured by the spectrum: density today, as waves.
-Waves density_waves(const Lattice& lattice, double redshift, std::uint64_t seed) {
+/// How high waves of wave number k stand at a redshift, as a multiple of today's. Smoothed by less than the nonlinear
+/// scale, filaments are sharper, and few particles have passed through each other yet.
+std::function<double(double k)> grown_waves(double redshift) {
+  return [smoothing = nonlinear_scale(redshift), grown = growth(redshift)](double k) {
+    return grown * std::exp(-k * k * smoothing * smoothing / 4);
+  };
+}
+
+/// How fast they grow: in a unit of the scale factor.
+std::function<double(double k)> growing_waves(double redshift) {
+  const double scale = 1 / (1 + redshift), step = 1e-3 * scale;
+  return [later = grown_waves(1 / (scale + step) - 1), earlier = grown_waves(1 / (scale - step) - 1), step](double k) {
+    return (later(k) - earlier(k)) / (2 * step);
+  };
+}
+
+/// White noise, coloured by the spectrum: density as waves, each as high as `height` has it.
+Waves density_waves(const Lattice& lattice, const std::function<double(double k)>& height, std::uint64_t seed) {
   const int side = lattice.side;
   Grid field(lattice.cells());
   tbb::parallel_for(std::size_t{0}, field.size(), [&](std::size_t i) {
@@ -52,16 +69,12 @@ Waves density_waves(const Lattice& lattice, double redshift, std::uint64_t seed)
 
   const double cells = static_cast<double>(lattice.cells());
   const double volume = std::pow(lattice.box, 3);
-  const double smoothing = nonlinear_scale(redshift);
-  const double grown = growth(redshift);
   tbb::parallel_for(0, side, [&](int x) {
     for (int y = 0; y < side; ++y)
       for (int z = 0; z <= side / 2; ++z) {
         const double k = std::hypot(lattice.wave(x), lattice.wave(y), lattice.wave(z));
-        // White noise has a power of one cell's volume. Smoothed by less than the nonlinear scale, filaments are
-        // sharper, and few particles have passed through each other yet.
-        const double factor =
-            grown * std::sqrt(cdm_power(k) * cells / volume) * std::exp(-k * k * smoothing * smoothing / 4) / cells;
+        // White noise has a power of one cell's volume.
+        const double factor = height(k) * std::sqrt(cdm_power(k) * cells / volume) / cells;
         waves[(static_cast<std::size_t>(x) * side + y) * (side / 2 + 1) + z] *= static_cast<float>(factor);
       }
   });
@@ -87,6 +100,18 @@ Grid displacement(const Lattice& lattice, const Waves& density, int axis) {
   fftwf_execute(plan);
   fftwf_destroy_plan(plan);
   return field;
+}
+
+/// All three, in cells.
+std::array<Grid, 3> displacements(const Lattice& lattice, const Waves& density, const Progress& progress) {
+  std::array<Grid, 3> grids;
+  const auto cells_a_mpc = static_cast<float>(lattice.side / lattice.box);
+  for (int axis = 0; axis < 3; ++axis) {
+    report(progress, "field", (axis + 1) / 5.);
+    grids[axis] = displacement(lattice, density, axis);
+    for (float& value : grids[axis]) value *= cells_a_mpc;
+  }
+  return grids;
 }
 
 /// The eight cells around a point of a periodic grid, and how much of each.
@@ -135,16 +160,18 @@ struct SyntheticUniverse::State {
   SyntheticUniverseOptions options;
   Lattice field;
   std::array<Grid, 3> displaced;  // in cells
+  std::array<Grid, 3> rate;       // in cells in a unit of the scale factor; empty without motion
   Grid density;                   // in units of the mean
   std::uint64_t lattice_side = 0;
   std::uint64_t made = 0;
 
-  std::array<float, 3> place(std::uint64_t particle) const;
+  std::array<float, 3> undisplaced(std::uint64_t particle) const;
+  void put_motion(std::uint64_t particle, const Corners& here, std::size_t row, Cloud& cloud) const;
   void sum_density();
 };
 
-/// Where a particle is, in cells of the field: its place on the lattice, shaken a little, and displaced.
-std::array<float, 3> SyntheticUniverse::State::place(std::uint64_t particle) const {
+/// Where a particle begins, in cells of the field: its place on the lattice, shaken a little.
+std::array<float, 3> SyntheticUniverse::State::undisplaced(std::uint64_t particle) const {
   const std::uint64_t side = lattice_side;
   const std::uint64_t cells = side * side * side;
   // Where the count is no cube, some places are left empty, evenly.
@@ -156,9 +183,16 @@ std::array<float, 3> SyntheticUniverse::State::place(std::uint64_t particle) con
     const float shaken = 0.5f + 0.8f * (unit_float(hash_keys({options.seed, jitter, particle, axis})) - 0.5f);
     at[axis] = (static_cast<float>(index[axis]) + shaken) * scale;
   }
-  const Corners here = corners(at, field.side);
-  for (std::size_t axis = 0; axis < 3; ++axis) at[axis] += sample(displaced[axis], here);
   return at;
+}
+
+void SyntheticUniverse::State::put_motion(std::uint64_t particle, const Corners& here, std::size_t row,
+                                          Cloud& cloud) const {
+  const auto a_cell = static_cast<float>(1000 * options.box_mpc_h / field.side);
+  cloud.id[row] = particle + 1;
+  cloud.rate_x[row] = sample(rate[0], here) * a_cell;
+  cloud.rate_y[row] = sample(rate[1], here) * a_cell;
+  cloud.rate_z[row] = sample(rate[2], here) * a_cell;
 }
 
 /// Moves one point from every half cell's width and adds it to the cells around it.
@@ -191,13 +225,11 @@ SyntheticUniverse::SyntheticUniverse(const SyntheticUniverseOptions& options, co
   state.field = {static_cast<int>(side), options.box_mpc_h};
 
   report(progress, "field", 0);
-  const Waves density = density_waves(state.field, options.redshift, options.seed);
-  for (int axis = 0; axis < 3; ++axis) {
-    report(progress, "field", (axis + 1) / 5.);
-    state.displaced[axis] = displacement(state.field, density, axis);
-    const auto cells_a_mpc = static_cast<float>(state.field.side / options.box_mpc_h);
-    for (float& value : state.displaced[axis]) value *= cells_a_mpc;
-  }
+  const auto moved_by = [&](const std::function<double(double k)>& height) {
+    return displacements(state.field, density_waves(state.field, height, options.seed), progress);
+  };
+  state.displaced = moved_by(grown_waves(options.redshift));
+  if (options.motion) state.rate = moved_by(growing_waves(options.redshift));
   report(progress, "field", 0.8);
   state.sum_density();
   report(progress, "field", 1);
@@ -223,6 +255,10 @@ Cloud SyntheticUniverse::next(std::size_t most) {
   for (std::vector<float>* column :
        {&cloud.x, &cloud.y, &cloud.z, &cloud.density, &cloud.temperature, &cloud.smoothing_length})
     column->resize(count);
+  if (state.options.motion) {
+    cloud.id.resize(count);
+    for (std::vector<float>* rate : {&cloud.rate_x, &cloud.rate_y, &cloud.rate_z}) rate->resize(count);
+  }
   const auto box = static_cast<float>(box_size());
   const float a_cell = box / static_cast<float>(state.field.side);
   const double mass = mass_of_a_particle();
@@ -230,9 +266,12 @@ Cloud SyntheticUniverse::next(std::size_t most) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const std::uint64_t particle = state.made + i;
-      const std::array<float, 3> at = state.place(particle);
+      std::array<float, 3> at = state.undisplaced(particle);
+      const Corners here = corners(at, state.field.side);
+      if (state.options.motion) state.put_motion(particle, here, i, cloud);
       const std::array<std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
       for (std::size_t axis = 0; axis < 3; ++axis) {
+        at[axis] += sample(state.displaced[axis], here);
         const float position = at[axis] * a_cell;
         const float wrapped = position - box * std::floor(position / box);
         (*axes[axis])[i] = wrapped < box ? wrapped : 0;

@@ -13,6 +13,7 @@ struct SyntheticUniverseOptions {
   double redshift = 0;                  ///< at least 0
   std::uint64_t seed = 1;
   double box_mpc_h = 100;  ///< side of the periodic box, in Mpc/h
+  bool motion = false;     ///< the clouds also have IDs, from 1 on, and rates: changes in a unit of the scale factor
 };
 
 /// A universe of gas that was never simulated: a lattice displaced by the Zel'dovich approximation along a Gaussian
