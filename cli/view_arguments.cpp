@@ -13,7 +13,9 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
                      "Display, which sets the views of a quilt and what is comfortable");
   command.add_option("--size", arguments.size, "Size of the window: WIDTHxHEIGHT")->capture_default_str();
   command.add_flag("--full-screen", arguments.full_screen, "Begin in full screen");
-  command.add_flag("--no-opengl", arguments.no_opengl, "Show pictures without OpenGL");
+  auto* const opengl = command.add_flag(
+      "--opengl", arguments.opengl, "Show pictures by OpenGL also where the processor computes it, which is slower");
+  command.add_flag("--no-opengl", arguments.no_opengl, "Show pictures without OpenGL")->excludes(opengl);
   command
       .add_flag("--stereo", arguments.stereo,
                 "Have the graphics card show both eyes in turn, for --mode page-flip and shutter glasses")
@@ -47,6 +49,7 @@ std::vector<std::string> view_words(const ViewArguments& arguments) {
   add("--threads", std::to_string(arguments.threads));
   add("--seed", std::to_string(arguments.seed));
   if (arguments.full_screen) words.emplace_back("--full-screen");
+  if (arguments.opengl) words.emplace_back("--opengl");
   if (arguments.no_opengl) words.emplace_back("--no-opengl");
   if (arguments.stereo) words.emplace_back("--stereo");
   if (arguments.commands) words.emplace_back("--commands");

@@ -14,7 +14,7 @@ struct ViewArguments {
   std::string size = "960x640";
   int threads = 0;         ///< as of every command; 0: as many as the machine has
   std::uint64_t seed = 1;  ///< likewise
-  bool commands = false, full_screen = false, no_opengl = false, stereo = false;
+  bool commands = false, full_screen = false, opengl = false, no_opengl = false, stereo = false;
 };
 
 /// Adds the files and options of `wheatstone view`, which the window's own program takes as well.

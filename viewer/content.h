@@ -60,7 +60,7 @@ using Content = std::variant<std::monostate, PaintedContent, ViewsContent, Slice
 PictureSize size_of(const Content& content);
 
 /// Disparities of the scene from its farthest point to its nearest, but for outliers, in pixels of a view at full eye
-/// separation; none where they are not known.
+/// separation; none where they are not known. Looks at all of a painting's surface: not for the window's thread.
 std::optional<DepthEnds> depth_of(const Content& content);
 
 struct OpenedFilm;
@@ -71,6 +71,7 @@ struct Opened {
   std::string kind;                             ///< "painting", "photograph", "slices" …, for people
   std::vector<std::string> notes;               ///< one line each
   std::shared_ptr<const OpenedFilm> film = {};  ///< of which the content is the first frame
+  std::optional<DepthEnds> depth = {};          ///< of the content, or of the frame of the film that was painted last
 };
 
 }  // namespace wheatstone::viewer

@@ -115,9 +115,7 @@ Opened open_particles(const fs::path& path, const Progress& progress) {
   return {ParticlesContent{std::move(particles)}, "particles", {}};
 }
 
-}  // namespace
-
-Opened open_content(std::span<const fs::path> files, const Progress& progress) {
+Opened open_without_depth(std::span<const fs::path> files, const Progress& progress) {
   const fs::path& path = files.front();
   report(progress, "reading", 0);
   if (names_film(path))
@@ -133,6 +131,14 @@ Opened open_content(std::span<const fs::path> files, const Progress& progress) {
   }
   if (holds_particles(path)) return open_particles(path, progress);
   return open_picture(path, progress);
+}
+
+}  // namespace
+
+Opened open_content(std::span<const fs::path> files, const Progress& progress) {
+  Opened opened = open_without_depth(files, progress);
+  opened.depth = depth_of(opened.content);
+  return opened;
 }
 
 bool are_eyes_of_one(const fs::path& left, const fs::path& right) {

@@ -52,7 +52,7 @@ Scene particle_scene(const Particles& particles, const ViewState& state, const R
 }
 
 std::optional<SeenParticle> particle_at(const Particles& particles, const Scene& scene, const PlaceInView& place) {
-  constexpr std::size_t most_looked_at = 4'000'000;
+  constexpr std::size_t most_looked_at = 1'000'000;
   const Cloud& cloud = particles.cloud;
   const Camera& camera = scene.camera;
   const SplatStyle& style = scene.splat_style;

@@ -100,9 +100,9 @@ void Viewer::paint() {
   making_.start(
       [this, job, photograph = content->photograph, style = session_.state.style](const std::stop_token& stop) {
         try {
-          paint_in_steps(photograph, style, progress_of(job, stop), [this, job](PaintedContent painted) {
-            mailbox_.post([this, job, painted = std::move(painted)] {
-              if (job == job_) take_painted(painted);
+          paint_in_steps(photograph, style, progress_of(job, stop), [this, job](const PaintedContent& painted) {
+            mailbox_.post([this, job, painted, depth = depth_of(painted)] {
+              if (job == job_) take_painted(painted, depth);
             });
           });
           mailbox_.post([this, job] {
@@ -144,17 +144,18 @@ void Viewer::take_opened(Opened opened) {
   paint();
 }
 
-void Viewer::take_painted(PaintedContent content) {
-  const bool depth_was_known = depth_of(session_.opened.content).has_value();
+void Viewer::take_painted(const PaintedContent& content, const std::optional<DepthEnds>& depth) {
+  const bool depth_was_known = session_.opened.depth.has_value();
+  session_.opened.depth = depth;
   auto& open = std::get<PaintedContent>(session_.opened.content);
-  open.photograph = std::move(content.photograph);
-  if (content.painting) open.painting = std::move(content.painting);
+  open.photograph = content.photograph;
+  if (content.painting) open.painting = content.painting;
   const bool is_placed = session_.film && std::exchange(session_.film->is_placed, true);
   if (!depth_was_known && !is_placed) show_comfortably();
 }
 
 void Viewer::show_comfortably() {
-  const std::optional<DepthEnds> depth = depth_of(session_.opened.content);
+  const std::optional<DepthEnds>& depth = session_.opened.depth;
   if (!depth) return;
   Adjustment& adjustment = session_.state.adjustment;
   if (!session_.state.depth_regions.empty()) {

@@ -99,7 +99,7 @@ class Viewer {
   void draw(const Asked& asked, const std::stop_token& stop);
   void post_frame(Frame frame, const Asked& asked);
   void take_opened(Opened opened);
-  void take_painted(PaintedContent content);
+  void take_painted(const PaintedContent& content, const std::optional<DepthEnds>& depth);
 
   Progress progress_of(std::uint64_t job, const std::stop_token& stop);
   void post_failure(const std::exception& error, std::uint64_t job);

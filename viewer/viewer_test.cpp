@@ -4,13 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <set>
 #include <sstream>
+#include <thread>
 #include <vector>
 
 #include "cli/run.h"
+#include "comfort.h"
 #include "command_line.h"
 #include "command_table.h"
 #include "pointing.h"
@@ -231,6 +235,42 @@ TEST(Script, EndsWhereAFileCannotBeOpened) {
   write_whole_file(folder / "tour.txt", fmt::format("open \"{}\"\nwait\nprint\n", (folder / "damaged.wst").string()));
   Viewer viewer;
   expect_error(ErrorKind::bad_input, "tour.txt:2: ", [&] { run_script(viewer, folder / "tour.txt"); });
+}
+
+/// What the calling thread has worked so far.
+double thread_time_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+TEST(Viewer, LeavesTheWorkOnALargePaintingToItsThreads) {
+  const TemporaryFolder folder;
+  write_painting(folder / "large.wst", placed(painting(), {.scale = 10}));
+  Viewer viewer;
+  viewer.set_viewport({120, 80});
+  double worst_ms = 0;
+  std::string worst_line;
+  const auto measure = [&](const std::string& line, const auto& work) {
+    const double before_ms = thread_time_ms();
+    work();
+    if (const double ms = thread_time_ms() - before_ms; ms > worst_ms) {
+      worst_ms = ms;
+      worst_line = line;
+    }
+  };
+  const std::string large = (folder / "large.wst").string(), missing = (folder / "missing.wst").string();
+  const std::vector<std::string> lines{fmt::format("open \"{}\"", large), "zero-parallax-at 60 60",
+                                       "depth-mapping reset", "comfortable", fmt::format("open \"{}\"", missing)};
+  for (const std::string& line : lines) {
+    measure(line, [&] { run_line(viewer, line); });
+    do {
+      measure(line, [&] { viewer.collect(); });
+      measure(line, [&] { depth_told(viewer, 60, 60); });
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (viewer.is_busy());
+  }
+  EXPECT_LE(worst_ms, 10) << worst_line << ": a fifth of what the window may not respond for";
 }
 
 TEST(Viewer, PaintsAPhotographAsPaintDoes) {

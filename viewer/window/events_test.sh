@@ -51,7 +51,6 @@ is() {
   local told=''
   for _ in {1..100}; do
     told=$(say print)
-    echo "$told" >>gaps.txt
     if [[ $told =~ \"$1\":\"?([^,\"}]*) && ${BASH_REMATCH[1]} == "$2" ]]; then return; fi
     sleep 0.02
   done
@@ -79,7 +78,7 @@ start() {
 
 # A screen of its own, whose number the server chooses.
 mkfifo number
-Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3>number 2>server.txt &
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>number 2>server.txt &
 server=$!
 read -r number <number
 export DISPLAY=:$number
@@ -90,7 +89,7 @@ code=0
 [[ $code == 4 && $(wc -l <errors.txt) == 1 ]] && grep --quiet 'has no stereo' errors.txt ||
   fail "without stereo it ends with $code: $(cat errors.txt)"
 
-start
+start --opengl
 is opengl 1.0 "OpenGL is used"
 x=$(value screen_x) y=$(value screen_y)
 x=${x%.*} y=${y%.*}
@@ -150,7 +149,7 @@ xdotool key question
 is help false "? hides them"
 xdotool key f
 is full_screen true "F shows the full screen"
-is width 800.0 "the full screen is as wide as the screen"
+is width 1280.0 "the full screen is as wide as the screen"
 xdotool key Escape
 is full_screen false "Esc leaves it"
 is width 480.0 "the window is as wide as before"
@@ -184,12 +183,6 @@ for top in 40 41; do
 done
 [[ $(uniq tops.txt | wc -l) == 2 ]] || fail "the window has not moved: $(cat tops.txt)"
 
-# What is done does not block the window for more than 50 ms. The machine may do something else at times, and beginning
-# and filling the screen take longer: a quarter is left out.
-grep --only-matching '"worst_gap_ms":[0-9.]*' gaps.txt | cut -d: -f2 | sort --general-numeric-sort >sorted.txt
-awk '{ gap[NR] = $1 } END { worst = gap[int(0.75 * NR)]; print worst; exit worst > 50 }' sorted.txt >worst.txt ||
-  fail "the window was blocked for $(cat worst.txt) ms: $(tr '\n' ' ' <sorted.txt)"
-
 xdotool key Escape
 code=0
 wait "$window" || code=$?
@@ -197,7 +190,28 @@ window=''
 [[ $code == 0 ]] || fail "Esc ends the window with $code: $(cat errors.txt)"
 [[ ! -e control ]] || fail "the socket is left behind"
 
-# Without OpenGL the processor draws, and says so; a signal ends the window in order.
+# Where the processor computes OpenGL, pictures are shown without it. No handler then blocks the window for more than
+# 50 ms: never by its own work, and by the clock not at three quarters of the times, because the machine may do
+# something else.
+"$wheatstone" synth still --size 320x240 --samples 1 -o photograph --quiet >made.txt
+start
+is opengl 0.0 "OpenGL by the processor is not used"
+for line in 'open photograph/left.png photograph/right.png' full-screen 'mode left-right' full-screen 'panel depth' \
+  'depth-mapping 0:-40,1:60' 'zero-parallax-at 200 150' 'gaze 300 200' 'panel style' 'style mosaic' 'panel off' \
+  'head 0.3' 'zoom-at 3 240 200' 'open painted/painting.wst' 'layers-apart 30'; do
+  does "$line" wait
+  echo "$line $(say print)" >>blocked.txt
+done
+sed --regexp-extended 's/^(.*) \{.*"worst_gap_ms":([0-9.]+),"worst_busy_ms":([0-9.]+).*/\2 \3 \1/' blocked.txt |
+  sort --general-numeric-sort >sorted.txt
+awk '{ gap[NR] = $1; if ($2 > 50) { print $0; failed = 1 } }
+  END { gap_ms = gap[int(0.75 * NR)]; print gap_ms; exit failed || gap_ms > 50 }' sorted.txt >worst.txt ||
+  fail "the window was blocked (by the clock, by its own work, by what): $(cat worst.txt sorted.txt)"
+kill -TERM "$window"
+wait "$window" || true
+window=''
+
+# Without any OpenGL the window says so; a signal ends the window in order.
 export QT_XCB_GL_INTEGRATION=none
 start
 is opengl 0.0 "OpenGL is not used"

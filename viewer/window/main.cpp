@@ -85,10 +85,15 @@ void choose_platform(const ViewArguments& arguments) {
   qputenv("QT_QPA_PLATFORM", "offscreen");
 }
 
+OpenglUse opengl_use(const ViewArguments& arguments) {
+  const bool offscreen = QApplication::platformName() == "offscreen";  // which has no OpenGL for widgets
+  if (arguments.no_opengl || offscreen) return OpenglUse::never;
+  return arguments.opengl ? OpenglUse::always : OpenglUse::where_fast;
+}
+
 int run(const ViewArguments& arguments) {
   const QSize size = size_of_window(arguments.size);
-  const bool offscreen = QApplication::platformName() == "offscreen";  // which has no OpenGL for widgets
-  Window window({.with_opengl = !arguments.no_opengl && !offscreen,
+  Window window({.opengl = opengl_use(arguments),
                  .stereo = arguments.stereo,
                  .with_dialogs = arguments.script.empty() && arguments.control.empty()});
   const EndSignals end_signals([&window] { window.end(static_cast<int>(ErrorKind::interrupted)); });

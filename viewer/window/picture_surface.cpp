@@ -2,6 +2,7 @@
 
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
+#include <QOpenGLFunctions>
 #include <QPainter>
 #include <QScreen>
 #include <cmath>
@@ -35,27 +36,37 @@ class PaintedSurface final : public QWidget, public PictureSurface {
   QImage image_;
 };
 
-/// Empty where OpenGL 4.5 works.
-QString opengl_problem() {
+/// The OpenGL that there is.
+struct FoundOpengl {
+  QString problem;  ///< empty where OpenGL 4.5 works
+  bool is_fast = false;
+};
+
+FoundOpengl find_opengl() {
   QOpenGLContext context;
   context.setFormat(opengl_format());
-  if (!context.create()) return "OpenGL is not available";
+  if (!context.create()) return {"OpenGL is not available"};
   QOffscreenSurface surface;
   surface.setFormat(context.format());
   surface.create();
-  if (!context.makeCurrent(&surface)) return "OpenGL is not available";
+  if (!context.makeCurrent(&surface)) return {"OpenGL is not available"};
   const auto [major, minor] = context.format().version();
+  const QString renderer(reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER)));
   context.doneCurrent();
-  if (major > 4 || (major == 4 && minor >= 5)) return {};
-  return QString("OpenGL %1.%2 is too old, 4.5 is needed").arg(major).arg(minor);
+  if (major < 4 || (major == 4 && minor < 5))
+    return {QString("OpenGL %1.%2 is too old, 4.5 is needed").arg(major).arg(minor)};
+  // Mesa's drivers without a graphics card.
+  const bool by_processor = renderer.contains("llvmpipe") || renderer.contains("softpipe");
+  return {{}, !by_processor};
 }
 
 }  // namespace
 
-std::unique_ptr<PictureSurface> make_surface(bool with_opengl, QString& why_not) {
-  if (with_opengl) {
-    why_not = opengl_problem();
-    if (why_not.isEmpty()) return make_opengl_surface();
+std::unique_ptr<PictureSurface> make_surface(OpenglUse use, QString& why_not) {
+  if (use != OpenglUse::never) {
+    const FoundOpengl found = find_opengl();
+    why_not = found.problem;
+    if (found.problem.isEmpty() && (found.is_fast || use == OpenglUse::always)) return make_opengl_surface();
   }
   return std::make_unique<PaintedSurface>();
 }

@@ -20,8 +20,16 @@ class PictureSurface {
   virtual bool uses_opengl() const { return false; }
 };
 
-/// Draws by OpenGL 4.5 where there is any, and by the processor otherwise; `why_not` then says why, for people.
-std::unique_ptr<PictureSurface> make_surface(bool with_opengl, QString& why_not);
+/// Whether pictures are shown by OpenGL.
+enum class OpenglUse {
+  where_fast,  ///< but not where the processor computes it, which takes longer than doing without
+  always,
+  never,
+};
+
+/// Shows pictures by OpenGL 4.5 where that is wanted and there is any, and without it otherwise. `why_not` says why
+/// there is none, for people; empty where nothing is missing.
+std::unique_ptr<PictureSurface> make_surface(OpenglUse use, QString& why_not);
 
 /// The widget's place on its screen, in the screen's own pixels.
 Viewport viewport_of(const QWidget& widget);

@@ -54,7 +54,7 @@ Window::Window(const WindowOptions& options)
   setWindowTitle("Wheatstone");
   setAcceptDrops(true);
   QString why_not;
-  surface_ = options.stereo ? make_stereo_surface() : make_surface(options.with_opengl, why_not);
+  surface_ = options.stereo ? make_stereo_surface() : make_surface(options.opengl, why_not);
   QWidget* const picture = surface_->widget();
   picture->setMinimumSize(64, 48);
   picture->setMouseTracking(true);
@@ -368,7 +368,9 @@ std::vector<std::pair<std::string, double>> Window::measured() {
   const QWidget& picture = *surface_->widget();
   const double ratio = picture.devicePixelRatioF();
   const QPoint place = picture.mapToGlobal(QPoint(0, 0));
-  return {{"worst_gap_ms", heartbeat_.take_worst_gap_ms()},
+  const Blocked blocked = heartbeat_.take_worst();
+  return {{"worst_gap_ms", blocked.gap_ms},
+          {"worst_busy_ms", blocked.busy_ms},
           {"opengl", surface_->uses_opengl() ? 1 : 0},
           {"screen_x", place.x() * ratio},
           {"screen_y", place.y() * ratio},

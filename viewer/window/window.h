@@ -23,7 +23,7 @@ class QProgressBar;
 namespace wheatstone::viewer {
 
 struct WindowOptions {
-  bool with_opengl = true;
+  OpenglUse opengl = OpenglUse::where_fast;
   bool stereo = false;       ///< a picture for each eye in turn, by the graphics card
   bool with_dialogs = true;  ///< errors and missing OpenGL are told in dialogs; a script has none
 };
