@@ -72,12 +72,17 @@ std::optional<FilmDisplay> film_display_from(const DisplayArguments& arguments) 
 }
 
 std::string name_of_display_film(const std::string& output, const DisplayArguments& arguments) {
+  const DisplayPreset& display = find_display(arguments.name);
+  std::optional<QuiltLayout> quilt;
+  if (display.quilt_columns > 0) quilt = {display.quilt_columns, display.quilt_rows};
+  return name_of_film(output, quilt, display.aspect);
+}
+
+std::string name_of_film(const std::string& output, const std::optional<QuiltLayout>& quilt, double aspect) {
   const fs::path path = output;
   if (path.has_extension()) return output;
-  const DisplayPreset& display = find_display(arguments.name);
-  if (display.quilt_columns == 0) return output + ".mp4";
-  const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
-  const std::string name = quilt_name(path.filename().string(), layout, static_cast<double>(display.aspect));
+  if (!quilt) return output + ".mp4";
+  const std::string name = quilt_name(path.filename().string(), *quilt, aspect);
   return (path.parent_path() / fs::path(name).replace_extension(".mp4")).string();
 }
 

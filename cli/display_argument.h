@@ -31,6 +31,9 @@ std::optional<FilmDisplay> film_display_from(const DisplayArguments& arguments);
 /// ".mp4".
 std::string name_of_display_film(const std::string& output, const DisplayArguments& arguments);
 
+/// As above, for a quilt of this layout, or none, whose screen has this aspect.
+std::string name_of_film(const std::string& output, const std::optional<QuiltLayout>& quilt, double aspect);
+
 /// The codec that holds frames of a display's film: H.264, or HEVC for larger ones than level 5.2 of H.264 allows,
 /// which is the highest that players' hardware knows.
 std::string codec_for(const FilmDisplay& display);

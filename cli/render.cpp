@@ -11,7 +11,9 @@
 #include "option_use.h"
 #include "picture_format.h"
 #include "print_facts.h"
+#include "render_film.h"
 #include "render_options.h"
+#include "slices_argument.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
@@ -24,40 +26,6 @@
 
 namespace wheatstone::cli {
 namespace {
-
-/// The views of depth planes that were written before.
-RenderedParticles from_slices(const RenderArguments& arguments, const CLI::App& command,
-                              const RenderParticlesOptions& options, const Progress& progress) {
-  RenderedParticles result;
-  result.format = "slices";
-  result.stack = read_slices(arguments.file);
-  if (was_given(command, "--near") || was_given(command, "--far")) {
-    const DepthMapping mapping = mapping_for(options.depth, result.stack.width, 1, 2);
-    map_depth(result.stack, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
-  }
-  if (!std::isnan(options.rendering.exposure)) result.stack.exposure = options.rendering.exposure;
-  result.rig = evenly_spaced(result.stack.width, result.stack.height, options.views, options.span);
-  result.rendered = {.views = options.without_views
-                                  ? std::vector<Image<Rgb8>>{}
-                                  : render_slices(result.stack, result.rig, options.rendering.filter, progress),
-                     .method = Method::layered,
-                     .reason = "layered: the file has slices",
-                     .planes = static_cast<int>(result.stack.slices.size()),
-                     .exposure = result.stack.exposure};
-  if (options.span > result.stack.span * 1.001f)
-    result.warnings.push_back(
-        fmt::format("the slices were made for a span of {} eye separations; with {} the sides of the views lack light",
-                    result.stack.span, options.span));
-  return result;
-}
-
-QuiltLayout quilt_for(const std::string& text, int views) {
-  const Size size = parse_size("--quilt", text, {1, 1000}, "COLUMNSxROWS");
-  if (size.width * size.height != views)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--quilt: is '{}', expected as many places as there are views, {}", text, views));
-  return {size.width, size.height};
-}
 
 void check_screen(const LenticularScreen& screen, int width, int height) {
   if (screen.width != width || screen.height != height)
@@ -169,9 +137,11 @@ void run(const RenderArguments& given, const CLI::App& command, const Session& s
   const bool slices = std::filesystem::path(given.file).extension() == ".exr";
   refuse_options_without_effect(command, given, slices);
   const RenderArguments arguments = for_display(given, command);
+  if (makes_film(command, arguments)) return run_render_film(arguments, command, session);
+  refuse_film_options(command);
   const RenderParticlesOptions options = render_options_from(arguments);
   check_output(arguments, options, command, slices);
-  const RenderedParticles result = slices ? from_slices(arguments, command, options, session.progress)
+  const RenderedParticles result = slices ? render_slice_file(arguments.file, command, options, session.progress)
                                           : render_particles(arguments.file, options, session.progress);
   tell(result, write_output(arguments, result, session), session);
 }
@@ -182,13 +152,16 @@ void add_render_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command = program.add_subcommand("render", "Render the views of a particle data set");
   add_render_options(*command, *arguments);
+  add_render_film_options(*command, arguments->film);
   command->footer(
       "Views are written as view_000.png, the leftmost, and so on.\n\n"
       "Examples:\n"
       "  wheatstone synth universe -o universe.hdf5\n"
       "  wheatstone render universe.hdf5 --views 9 -o views\n"
       "  wheatstone render universe.hdf5 --display looking-glass-portrait -o universe\n"
-      "  wheatstone render universe.hdf5 --save-slices slices.exr && wheatstone render slices.exr --views 45");
+      "  wheatstone render universe.hdf5 --save-slices slices.exr && wheatstone render slices.exr --views 45\n"
+      "  wheatstone synth universe --particles 100000 --times 0.4,0.6,0.8 -o snap_%03d.hdf5\n"
+      "  wheatstone render snap_%03d.hdf5 --frames 24 --orbit 90 -o film.mp4");
   command->callback([arguments, command, &session] { run(*arguments, *command, session); });
 }
 

@@ -256,6 +256,14 @@ std::string name_of(Method method) {
   return std::string(found->first);
 }
 
+QuiltLayout quilt_for(const std::string& text, int views) {
+  const Size size = parse_size("--quilt", text, {1, 1000}, "COLUMNSxROWS");
+  if (size.width * size.height != views)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--quilt: is '{}', expected as many places as there are views, {}", text, views));
+  return {size.width, size.height};
+}
+
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
   command
       .add_option(

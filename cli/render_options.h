@@ -4,8 +4,22 @@
 #include <string>
 
 #include "wheatstone/app/render_particles.h"
+#include "wheatstone/display/quilt.h"
+#include "wheatstone/video/film_writer.h"
 
 namespace wheatstone::cli {
+
+/// What `render` is told of a film, as it is typed.
+struct RenderFilmArguments {
+  int frames = 0;  ///< 0: one a snapshot
+  float orbit_deg = 0;
+  std::string camera;  ///< a path's file
+  std::string rate = "24";
+  std::string output_layout, frame_range;
+  FilmWriterOptions writing;
+  int checkpoint = 48;
+  bool resume = false, skip_existing = false;
+};
 
 /// What `render` is told, as it is typed.
 struct RenderArguments {
@@ -20,6 +34,7 @@ struct RenderArguments {
   std::string quilt, interleave, save_slices;
   std::string format = "png";
   double aspect = 0;  ///< of the display; 0: a view's own
+  RenderFilmArguments film;
 };
 
 void add_render_options(CLI::App& command, RenderArguments& arguments);
@@ -32,6 +47,9 @@ RenderArguments for_display(const RenderArguments& given, const CLI::App& comman
 
 /// Throws Error{wrong_usage}.
 RenderParticlesOptions render_options_from(const RenderArguments& arguments);
+
+/// The layout that --quilt is for so many views. Throws Error{wrong_usage}.
+QuiltLayout quilt_for(const std::string& text, int views);
 
 /// The name of a way of rendering.
 std::string name_of(Method method);

@@ -25,21 +25,8 @@ struct Staged {
   ViewingGeometry viewing;
 };
 
-ViewingGeometry viewing_of(const RenderParticlesOptions& options) {
-  ViewingGeometry viewing = options.depth.viewing;
-  viewing.width_px = options.width;
-  return viewing;
-}
-
-Staged stage(const RenderParticlesOptions& options, const CloudStatistics& statistics,
-             const std::array<double, 3>& origin) {
-  RenderParticlesOptions placed = options;
-  if (options.look_at) {
-    placed.framing.look_at.emplace();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      (*placed.framing.look_at)[axis] = static_cast<float>((*options.look_at)[axis] - origin[axis]);
-  }
-  return {scene_of(statistics, placed), evenly_spaced(options.width, options.height, options.views, options.span),
+Staged stage(const RenderParticlesOptions& options, const CloudStatistics& statistics) {
+  return {scene_of(statistics, options), evenly_spaced(options.width, options.height, options.views, options.span),
           viewing_of(options)};
 }
 
@@ -77,16 +64,6 @@ std::optional<std::array<double, 3>> middle_of(const Region& region) {
   return middle;
 }
 
-/// Of the file, with the middle of what is shown as the origin, where the options tell it. A point that is only looked
-/// at does not count: a window that looks elsewhere keeps the cloud it has, and shows the same picture.
-CloudChoice choice_of(const RenderParticlesOptions& options) {
-  CloudChoice choice = options.choice;
-  for (const std::optional<std::array<double, 3>>& middle :
-       {options.selection.centre, middle_of(options.fit), middle_of(options.selection.cut)})
-    if (middle && !choice.origin) choice.origin = middle;
-  return choice;
-}
-
 /// Calls `visit` with every chunk of the file that has something selected in it.
 template <class Visit>
 SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderParticlesOptions& options,
@@ -110,18 +87,26 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
   }
 }
 
+/// The views from the slices that were made.
+void draw_slices(const RenderParticlesOptions& options, const std::string& reason, RenderedParticles& result,
+                 const Progress& progress) {
+  result.rendered.method = Method::layered;
+  result.rendered.reason = reason;
+  result.rendered.planes = static_cast<int>(result.stack.slices.size());
+  result.rendered.exposure = result.stack.exposure;
+  if (!options.without_views)
+    result.rendered.views = render_slices(result.stack, result.rig, options.rendering.filter, progress);
+}
+
 RenderedParticles stream(const std::filesystem::path& file, const RenderParticlesOptions& options,
                          const Progress& progress) {
   RenderedParticles result;
   CloudStatistics statistics;
-  std::array<double, 3> origin{};
-  const SelectionCounts counts = for_each_chunk(file, options, "statistics", progress, [&](const Cloud& chunk) {
-    statistics.add(chunk);
-    origin = chunk.origin;
-  });
+  const SelectionCounts counts =
+      for_each_chunk(file, options, "statistics", progress, [&](const Cloud& chunk) { statistics.add(chunk); });
   if (statistics.count == 0) refuse_nothing(file, counts);
   statistics.framed = framed_region(statistics, options.fit);
-  const Staged staged = stage(options, statistics, origin);
+  const Staged staged = stage(options, statistics);
   SliceMaker maker(staged.scene, statistics, staged.rig, options.rendering);
   for_each_chunk(file, options, "slices", progress, [&](const Cloud& chunk) {
     maker.add(chunk);
@@ -129,6 +114,7 @@ RenderedParticles stream(const std::filesystem::path& file, const RenderParticle
   });
   result.stack = maker.finish(staged.viewing);
   result.rig = staged.rig;
+  draw_slices(options, "layered: particles are streamed", result, progress);
   if (!statistics.has_density && !statistics.has_colour)
     result.warnings.emplace_back(
         "the file has no density, and streamed particles cannot estimate it: all are equally bright");
@@ -139,34 +125,11 @@ RenderedParticles stream(const std::filesystem::path& file, const RenderParticle
   return result;
 }
 
-RenderedParticles render_whole(const std::filesystem::path& file, const RenderParticlesOptions& options,
-                               const Progress& progress) {
-  const ReadyParticles particles = read_particles(file, options, progress);
-  const Cloud& cloud = particles.cloud;
-  RenderedParticles result;
-  result.particles = cloud.size();
-  result.dropped = particles.counts.dropped;
-  result.mended = particles.counts.mended;
-  result.extreme = particles.counts.extreme;
-  result.density_estimated = particles.density_estimated;
-  result.outside = count_outside(cloud, *particles.statistics.framed);
-  const Staged staged = stage(options, particles.statistics, cloud.origin);
-  result.rig = staged.rig;
-  if (options.slices) {
-    report(progress, "slices", 0);
-    result.stack = make_slices(cloud, staged.scene, staged.rig, options.rendering, staged.viewing);
-  } else {
-    result.rendered = render(cloud, staged.scene, staged.rig, options.rendering, progress);
-  }
-  return result;
-}
-
 }  // namespace
 
-ReadyParticles read_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
-                              const Progress& progress) {
-  ReadyParticles ready;
-  ready.cloud = read_cloud(file, choice_of(options), progress);
+ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, const RenderParticlesOptions& options,
+                               const Progress& progress) {
+  ReadyParticles ready{.cloud = std::move(cloud)};
   ready.counts = select_particles(ready.cloud, options.selection);
   if (ready.cloud.size() == 0) refuse_nothing(file, ready.counts);
   check_positions(file, ready.cloud);
@@ -179,16 +142,42 @@ ReadyParticles read_particles(const std::filesystem::path& file, const RenderPar
   return ready;
 }
 
+ReadyParticles read_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                              const Progress& progress) {
+  return ready_particles(read_cloud(file, choice_of(options), progress), file, options, progress);
+}
+
+// A point that is only looked at does not count: a window that looks elsewhere keeps the cloud it has, and shows the
+// same picture.
+CloudChoice choice_of(const RenderParticlesOptions& options) {
+  CloudChoice choice = options.choice;
+  for (const std::optional<std::array<double, 3>>& middle :
+       {options.selection.centre, middle_of(options.fit), middle_of(options.selection.cut)})
+    if (middle && !choice.origin) choice.origin = middle;
+  return choice;
+}
+
+ViewingGeometry viewing_of(const RenderParticlesOptions& options) {
+  ViewingGeometry viewing = options.depth.viewing;
+  viewing.width_px = options.width;
+  return viewing;
+}
+
 Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options) {
+  Framing framing = options.framing;
+  if (options.look_at) {
+    framing.look_at.emplace();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      (*framing.look_at)[axis] = static_cast<float>((*options.look_at)[axis] - statistics.origin[axis]);
+  }
   Scene scene;
-  scene.camera =
-      camera_around(statistics.centre(), statistics.radius(), options.width, options.height, options.framing);
+  scene.camera = camera_around(statistics.centre(), statistics.radius(), options.width, options.height, framing);
   const auto depth_of = [&camera = scene.camera](const std::array<float, 3>& point) {
     float depth = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) depth += (point[axis] - camera.position[axis]) * camera.forward[axis];
     return depth;
   };
-  const float distance = depth_of(options.framing.look_at.value_or(statistics.centre())), radius = statistics.radius();
+  const float distance = depth_of(framing.look_at.value_or(statistics.centre())), radius = statistics.radius();
   // A camera that looks at a point far from the particles may stand among them, or before them all.
   const float depth = std::max(depth_of(statistics.centre()), distance * 0.01f);
   scene.mapping = mapping_for(options.depth, options.width, std::max(depth - radius, depth * 0.01f), depth + radius);
@@ -210,6 +199,28 @@ DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float neares
   return depth.smooth ? monotone_curve(mapping) : mapping;
 }
 
+RenderedParticles render_ready(const ReadyParticles& particles, const RenderParticlesOptions& options,
+                               const Progress& progress) {
+  const Cloud& cloud = particles.cloud;
+  RenderedParticles result;
+  result.particles = cloud.size();
+  result.dropped = particles.counts.dropped;
+  result.mended = particles.counts.mended;
+  result.extreme = particles.counts.extreme;
+  result.density_estimated = particles.density_estimated;
+  result.outside = count_outside(cloud, *particles.statistics.framed);
+  const Staged staged = stage(options, particles.statistics);
+  result.rig = staged.rig;
+  if (options.slices) {
+    report(progress, "slices", 0);
+    result.stack = make_slices(cloud, staged.scene, staged.rig, options.rendering, staged.viewing);
+    draw_slices(options, "layered: slices are asked for", result, progress);
+  } else {
+    result.rendered = render(cloud, staged.scene, staged.rig, options.rendering, progress);
+  }
+  return result;
+}
+
 RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                    const Progress& progress) {
   if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
@@ -217,16 +228,9 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
   const CloudSource source = open_cloud(file, options.choice);
   if (options.selection.centre && !(source.box_size > 0))
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no periodic box, which a centre needs", file.string()));
-  RenderedParticles result = options.stream ? stream(file, options, progress) : render_whole(file, options, progress);
+  RenderedParticles result = options.stream ? stream(file, options, progress)
+                                            : render_ready(read_particles(file, options, progress), options, progress);
   result.format = source.format;
-  if (options.stream || options.slices) {
-    result.rendered.method = Method::layered;
-    result.rendered.reason = options.stream ? "layered: particles are streamed" : "layered: slices are asked for";
-    result.rendered.planes = static_cast<int>(result.stack.slices.size());
-    result.rendered.exposure = result.stack.exposure;
-    if (!options.without_views)
-      result.rendered.views = render_slices(result.stack, result.rig, options.rendering.filter, progress);
-  }
   const ViewingGeometry viewing = viewing_of(options);
   const bool regions = !options.depth.regions.empty();
   float nearest = regions ? options.depth.regions.front().behind_mm : -options.depth.near_mm;

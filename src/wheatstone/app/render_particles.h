@@ -86,6 +86,22 @@ struct ReadyParticles {
 ReadyParticles read_particles(const std::filesystem::path& file, const RenderParticlesOptions& options = {},
                               const Progress& progress = {});
 
+/// Selects from particles that were read, and estimates their density where the file has none. Throws as
+/// read_particles.
+ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file,
+                               const RenderParticlesOptions& options = {}, const Progress& progress = {});
+
+/// The views of particles that are ready. Of what is told, `format` and the comfort of the depth are left to the
+/// caller.
+RenderedParticles render_ready(const ReadyParticles& particles, const RenderParticlesOptions& options,
+                               const Progress& progress = {});
+
+/// What of a file becomes the cloud: with the middle of what is shown as its origin, where the options tell it.
+CloudChoice choice_of(const RenderParticlesOptions& options);
+
+/// The viewing geometry for views of the options' width.
+ViewingGeometry viewing_of(const RenderParticlesOptions& options);
+
 /// The scene as the central camera has it, of particles of which this is known. Throws Error{wrong_usage} for the
 /// options.
 Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options);

@@ -5,44 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/depth/monotone_cubic.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::wrong_usage, message); }
-
-/// A point of a curve: parallax over w = 1/depth.
-struct Knot {
-  double w, parallax, slope;
-};
-
-/// Slopes at which no cubic between neighbours turns: the harmonic mean of the two sides' slopes, weighted by their
-/// lengths, never steeper than three times either (Fritsch & Carlson 1980; Fritsch & Butland 1984).
-void choose_slopes(std::vector<Knot>& knots) {
-  const std::size_t n = knots.size();
-  std::vector<double> length(n - 1), secant(n - 1);
-  for (std::size_t k = 0; k + 1 < n; ++k) {
-    length[k] = knots[k + 1].w - knots[k].w;
-    secant[k] = (knots[k + 1].parallax - knots[k].parallax) / length[k];
-  }
-  knots.front().slope = secant.front();
-  knots.back().slope = secant.back();
-  for (std::size_t k = 1; k + 1 < n; ++k) {
-    if (secant[k - 1] * secant[k] <= 0) continue;
-    const double before = 2 * length[k] + length[k - 1];
-    const double after = length[k] + 2 * length[k - 1];
-    knots[k].slope = (before + after) / (before / secant[k - 1] + after / secant[k]);
-  }
-}
-
-/// The cubic of two knots, at a share of the way between them.
-double hermite(const Knot& a, const Knot& b, double t) {
-  const double length = b.w - a.w;
-  const double u = 1 - t;
-  return u * u * ((1 + 2 * t) * a.parallax + t * length * a.slope) +
-         t * t * ((1 + 2 * u) * b.parallax - u * length * b.slope);
-}
 
 }  // namespace
 
@@ -92,20 +61,20 @@ DepthMapping many_regions(std::span<const PlacedDepth> placed, const ViewingGeom
 DepthMapping monotone_curve(const DepthMapping& through, int samples) {
   check_depth_mapping(through);
   if (through.points.size() < 3) return through;
-  std::vector<Knot> knots;
-  for (const DepthMapping::Point& point : through.points) knots.push_back({1.0 / point.depth, point.parallax_px, 0});
+  std::vector<CurvePoint> knots;  // over 1/depth
+  for (const DepthMapping::Point& point : through.points) knots.push_back({1.0 / point.depth, point.parallax_px});
   choose_slopes(knots);
   DepthMapping curve;
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
     curve.points.push_back(through.points[k]);
     for (int i = 1; i < samples; ++i) {
       const double t = static_cast<double>(i) / samples;
-      const auto depth = static_cast<float>(1 / (knots[k].w + t * (knots[k + 1].w - knots[k].w)));
+      const auto depth = static_cast<float>(1 / (knots[k].at + t * (knots[k + 1].at - knots[k].at)));
       // Rounding must neither turn the curve nor put two samples at one depth.
       const DepthMapping::Point& last = curve.points.back();
       const DepthMapping::Point& end = through.points[k + 1];
       if (depth <= last.depth || depth >= end.depth) continue;
-      const auto parallax = static_cast<float>(hermite(knots[k], knots[k + 1], t));
+      const auto parallax = static_cast<float>(value_between(knots[k], knots[k + 1], t));
       curve.points.push_back({depth, std::clamp(parallax, last.parallax_px, end.parallax_px)});
     }
   }

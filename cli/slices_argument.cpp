@@ -1,0 +1,38 @@
+#include "slices_argument.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "option_use.h"
+#include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/multiview/slice_file.h"
+
+namespace wheatstone::cli {
+
+RenderedParticles render_slice_file(const std::filesystem::path& file, const CLI::App& command,
+                                    const RenderParticlesOptions& options, const Progress& progress) {
+  RenderedParticles result;
+  result.format = "slices";
+  result.stack = read_slices(file);
+  if (was_given(command, "--near") || was_given(command, "--far")) {
+    const DepthMapping mapping = mapping_for(options.depth, result.stack.width, 1, 2);
+    map_depth(result.stack, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
+  }
+  if (!std::isnan(options.rendering.exposure)) result.stack.exposure = options.rendering.exposure;
+  result.rig = evenly_spaced(result.stack.width, result.stack.height, options.views, options.span);
+  result.rendered = {.views = options.without_views
+                                  ? std::vector<Image<Rgb8>>{}
+                                  : render_slices(result.stack, result.rig, options.rendering.filter, progress),
+                     .method = Method::layered,
+                     .reason = "layered: the file has slices",
+                     .planes = static_cast<int>(result.stack.slices.size()),
+                     .exposure = result.stack.exposure};
+  if (options.span > result.stack.span * 1.001f)
+    result.warnings.push_back(
+        fmt::format("the slices were made for a span of {} eye separations; with {} the sides of the views lack light",
+                    result.stack.span, options.span));
+  return result;
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "render_options.h"
+#include "wheatstone/app/render_particles.h"
+#include "wheatstone/progress.h"
+
+namespace wheatstone::cli {
+
+/// The views of depth planes that were written before, with the depth that --near and --far ask for.
+RenderedParticles render_slice_file(const std::filesystem::path& file, const CLI::App& command,
+                                    const RenderParticlesOptions& options, const Progress& progress);
+
+}  // namespace wheatstone::cli

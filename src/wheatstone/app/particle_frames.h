@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wheatstone/app/camera_path.h"
+#include "wheatstone/app/render_particles.h"
+#include "wheatstone/app/snapshot_series.h"
+#include "wheatstone/progress.h"
+
+namespace wheatstone {
+
+struct ParticleFramesOptions {
+  RenderParticlesOptions particles;  ///< what is the same in all frames
+  int count = 0;                     ///< of frames; 0: as many as there are snapshots, or files of slices
+  float orbit_deg = 0;               ///< that the camera turns in all frames, evenly; the one after the last has it
+  std::optional<CameraPath> path;
+};
+
+/// The frames of a film of particles: of a snapshot around which the camera moves, or of a series of snapshots between
+/// which the particles move. What the views are framed by, colours and exposure are the same in all frames, and chosen
+/// for all snapshots.
+class ParticleFrames {
+ public:
+  /// Reads every snapshot once. Throws as render_particles and find_series, Error{wrong_usage} where options do not
+  /// fit.
+  ParticleFrames(const std::string& input, const ParticleFramesOptions& options, const Progress& progress = {});
+
+  int count() const { return options_.count; }
+  /// Frame 0, 1, … Throws as render_particles.
+  RenderedParticles frame(int number, const Progress& progress = {});
+
+ private:
+  void survey(const std::string& input, const Progress& progress);
+  void hold_exposure();
+  RenderParticlesOptions options_at(int number, const CameraKey& key) const;
+  double share_of(int number) const;
+
+  ParticleFramesOptions options_;
+  std::filesystem::path input_;
+  std::optional<SeriesReader> series_;
+  ReadyParticles still_;        ///< where there is one snapshot
+  CloudStatistics statistics_;  ///< of all snapshots
+};
+
+}  // namespace wheatstone
