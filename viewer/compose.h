@@ -19,7 +19,8 @@ struct Frame {
   double scale = 1;                ///< screen pixels for one of the content
   bool preliminary = false;        ///< drawn quickly: another drawing with all effort shows more
   std::optional<float> exposure;   ///< of particles, as all of them have it
-  Content shown;                   ///< what it shows, with its depth as it was placed
+  Content shown;                   ///< what it shows, with its depth as it is seen
+  Content placed;                  ///< the same, without more depth where somebody looks
   std::optional<DepthEnds> depth;  ///< of that
 };
 

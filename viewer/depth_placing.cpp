@@ -1,10 +1,12 @@
 #include "depth_placing.h"
 
 #include <memory>
+#include <variant>
 
 #include "output_mode.h"
 #include "wheatstone/depth/disparity_mapping.h"
 #include "wheatstone/depth/display_presets.h"
+#include "wheatstone/marks/mapped_depth.h"
 
 namespace wheatstone::viewer {
 
@@ -31,6 +33,18 @@ Content placed_content(const Content& content, const ViewState& state) {
     return SlicesContent{std::move(placed)};
   }
   return content;
+}
+
+bool can_bend(const Content& content) {
+  const auto* const painted = std::get_if<PaintedContent>(&content);
+  return painted && painted->painting && !std::holds_alternative<RegionPainting>(painted->painting->marks);
+}
+
+Content bent_content(const Content& content, const ViewState& state) {
+  if (!state.depth_around || !can_bend(content) || shows_display_views(find_output_mode(state.mode))) return content;
+  PaintedContent bent = std::get<PaintedContent>(content);
+  bent.painting = std::make_shared<const Painting>(with_depth_around(*bent.painting, *state.depth_around));
+  return bent;
 }
 
 }  // namespace wheatstone::viewer

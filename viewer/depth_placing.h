@@ -13,4 +13,11 @@ DepthPlacing placing_of(const ViewState& state);
 /// is. Particles are placed as they are rendered, and the views of a display as they are drawn.
 Content placed_content(const Content& content, const ViewState& state);
 
+/// Such content with more depth where somebody looks, as the state has it; everything that cannot bend as it is, and
+/// likewise for the views of a display.
+Content bent_content(const Content& content, const ViewState& state);
+
+/// The depth of a painting of strokes or lines may be another at each place. A region is one flat piece.
+bool can_bend(const Content& content);
+
 }  // namespace wheatstone::viewer

@@ -1,7 +1,8 @@
 #include <cmath>
 
 #include "command_groups_internal.h"
-#include "inputs.h"
+#include "depth_placing.h"
+#include "gaze.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::viewer {
@@ -24,6 +25,14 @@ void follow_gaze(Viewer& viewer, const Words& words) {
   viewer.session().fixation.reset();
 }
 
+void deepen_gaze(Viewer& viewer, const Words& words) {
+  constexpr double most = 4;
+  set_gaze_gains(viewer.session(),
+                 {static_cast<float>(number_of(words[0], 0, most)), static_cast<float>(number_of(words[1], 0, most))});
+  if (!can_bend(viewer.session().opened.content))
+    viewer.tell("only a painting of strokes or lines can have more depth where one looks");
+}
+
 constexpr double longest_smoothing_s = 2, longest_prediction_s = 0.5;
 
 constexpr Command table[] = {
@@ -42,6 +51,8 @@ constexpr Command table[] = {
      }},
     {"gaze-follows", "pointer|off", "Depth", "The pointer is where one looks: the screen plane follows it", "",
      follow_gaze},
+    {"gaze-depth", "THERE ELSEWHERE", "Depth", "More depth where one looks and less elsewhere: 1.5 0.5; 1 1 for none",
+     "", deepen_gaze},
 };
 
 }  // namespace

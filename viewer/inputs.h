@@ -9,8 +9,6 @@
 
 namespace wheatstone::viewer {
 
-class Viewer;
-
 /// What moves a session's view besides commands and time.
 class Inputs {
  public:
@@ -24,9 +22,5 @@ class Inputs {
  private:
   std::unique_ptr<HeadTracker> tracker_;
 };
-
-/// Somebody looks at that pixel of the frame: the plane of zero parallax moves to what lies there, unless the gaze only
-/// trembles around where it was (Stavrakis & Gelautz 2005, section 4).
-void look_at(Viewer& viewer, double x, double y);
 
 }  // namespace wheatstone::viewer

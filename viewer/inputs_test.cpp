@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -19,6 +20,7 @@
 
 #include "command_table.h"
 #include "line_runner.h"
+#include "pointing.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "viewer.h"
@@ -224,6 +226,52 @@ TEST_F(Gaze, DoesNotFollowWhatTrembles) {
   EXPECT_EQ(zero_parallax(), 1);
   run_line(viewer, "gaze 20 150");
   EXPECT_TRUE(viewer.session().zero_parallax_target_px) << "another place is followed";
+}
+
+/// How far a painting's reference view has what lies around a column from a disparity, at most.
+float deepest_around(const Content& content, int column, float disparity_px) {
+  const Image<float>& seen = std::get<PaintedContent>(content).painting->surfaces.seen.front().disparity;
+  float deepest_px = 0;
+  for (int y = 60; y < 100; ++y)
+    for (int x = column - 10; x < column + 10; ++x)
+      if (!std::isnan(seen(x, y))) deepest_px = std::max(deepest_px, std::abs(seen(x, y) - disparity_px));
+  return deepest_px;
+}
+
+TEST_F(Gaze, GetsMoreDepthThereAndLessElsewhereWithoutAJump) {
+  run_line(viewer, "mode right");
+  viewer.wait();
+  const float zero_parallax_before = zero_parallax();
+  const Image<Rgb8> before = viewer.frame()->picture;
+  const SeenPlace place = *seen_at(viewer, 60, 80);
+  run_line(viewer, "gaze-depth 1.5 0.5");
+  run_line(viewer, "gaze 60 80");
+  viewer.collect();
+  const std::optional<DepthAround>& around = viewer.session().state.depth_around;
+  ASSERT_TRUE(around);
+  EXPECT_LT(around->gain_there, 1.5f) << "it becomes deeper, and does not jump";
+  viewer.wait();
+  EXPECT_EQ(around->gain_there, 1.5f);
+  EXPECT_NEAR(around->disparity_px, place.disparity_px, 1);
+  const Content &shown = viewer.frame()->shown, &placed = viewer.frame()->placed;
+  const int there = static_cast<int>(place.x), elsewhere = 220;
+  EXPECT_GT(deepest_around(shown, there, around->disparity_px),
+            1.3f * deepest_around(placed, there, around->disparity_px));
+  EXPECT_LT(deepest_around(shown, elsewhere, around->disparity_px),
+            0.6f * deepest_around(placed, elsewhere, around->disparity_px));
+  EXPECT_NEAR(disparity_at(shown, {left_eye, around->x, around->y}).value_or(-1), around->disparity_px, 0.2)
+      << "what one looks at stays where it is";
+
+  // Another place is looked at: the depth comes along.
+  look(200, 80);
+  EXPECT_NEAR(around->x, seen_at(viewer, 200, 80)->x, 6);
+  EXPECT_THAT(state_json(viewer), HasSubstr(R"("there":1.5)"));
+  run_line(viewer, "gaze-depth 1 1");
+  viewer.wait();
+  EXPECT_FALSE(around);
+  run_line(viewer, "zero-parallax " + std::to_string(zero_parallax_before));
+  viewer.wait();
+  EXPECT_EQ(viewer.frame()->picture, before);
 }
 
 TEST_F(Gaze, IsNotUndoneAndNotFollowedBesideThePicture) {

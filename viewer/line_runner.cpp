@@ -95,6 +95,12 @@ std::string state_json(const Viewer& viewer, const std::vector<std::pair<std::st
   if (session.tracked_head)
     told["head_tracker"] = {{"port", session.tracked_head->port}, {"is_silent", session.tracked_head->is_silent}};
   if (!state.depth_regions.empty()) told["depth_mapping"] = text_of(state.depth_regions);
+  if (const auto& around = state.depth_around)
+    told["depth_around"] = {{"x", around->x},
+                            {"y", around->y},
+                            {"disparity_px", around->disparity_px},
+                            {"there", around->gain_there},
+                            {"elsewhere", around->gain_elsewhere}};
   if (const std::optional<DepthSeen> seen = depth_seen(viewer))
     told["depth"] = {{"near_mm", seen->near_mm},
                      {"far_mm", seen->far_mm},

@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <sstream>
 #include <vector>
 
@@ -20,6 +24,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::viewer {
@@ -61,6 +66,76 @@ class PanelsOfAPainting : public testing::Test {
   const TemporaryFolder folder;
   Viewer viewer;
 };
+
+/// Three flat things, one above the other, and how near they are: each is `band_rows` high.
+constexpr int band_rows = 54;
+constexpr std::array band_disparities_px{12, 7, 2};
+
+Painting painting_of_bands() {
+  constexpr int reach = 16;
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> level(0, 255);
+  Image<Rgb8> texture(width + reach, 3 * band_rows);
+  constexpr int patch = 4;
+  for (int y = 0; y < texture.height(); y += patch)
+    for (int x = 0; x < texture.width(); x += patch) {
+      const Rgb8 colour{static_cast<std::uint8_t>(level(random)), static_cast<std::uint8_t>(level(random)), 90};
+      for (int j = y; j < std::min(y + patch, texture.height()); ++j)
+        for (int i = x; i < std::min(x + patch, texture.width()); ++i) texture(i, j) = colour;
+    }
+  StereoPair pair{{width, texture.height()}, {width, texture.height()}};
+  Image<float> disparity(width, texture.height());
+  for (int y = 0; y < texture.height(); ++y) {
+    const int nearness_px = band_disparities_px[static_cast<std::size_t>(y / band_rows)];
+    for (int x = 0; x < width; ++x) {
+      pair.left(x, y) = texture(x, y);
+      pair.right(x, y) = texture(x + nearness_px, y);
+      disparity(x, y) = static_cast<float>(nearness_px);
+    }
+  }
+  return plan_painting(pair, geometry_from_both(disparity, disparity), {});
+}
+
+/// The disparity of what two pictures show in a window around a place of the left one: where it differs least from the
+/// other's, by a parabola through the neighbours.
+double measured_disparity(const Image<Rgb8>& left, const Image<Rgb8>& right, int x, int y) {
+  constexpr int half_width = 24, half_height = 12, most_px = 16;
+  const auto difference = [&](int disparity) {
+    double sum = 0;
+    for (int j = -half_height; j <= half_height; ++j)
+      for (int i = -half_width; i <= half_width; ++i) {
+        const Rgb8 a = left(x + i, y + j), b = right(x + i - disparity, y + j);
+        sum += std::pow(a.r - b.r, 2) + std::pow(a.g - b.g, 2);
+      }
+    return sum;
+  };
+  std::vector<double> differences;
+  for (int disparity = -most_px - 1; disparity <= most_px + 1; ++disparity)
+    differences.push_back(difference(disparity));
+  const auto best = std::min_element(differences.begin() + 1, differences.end() - 1);
+  return static_cast<double>(best - differences.begin()) - most_px - 1 +
+         (best[-1] - best[1]) / (2 * (best[-1] + best[1] - 2 * best[0]));
+}
+
+TEST_F(PanelsOfAPainting, ShowsEachRegionAsDeepAsItWasSet) {
+  write_painting(folder / "bands.wst", painting_of_bands());
+  viewer.set_viewport({width, 3 * band_rows});
+  run(fmt::format("open \"{}\"", (folder / "bands.wst").string()));
+  const ViewingGeometry viewing = viewing_of(find_display("desk-stereo"));
+  const float pixel_mm = viewing.screen_width_mm / width;
+  // From the nearest to the farthest, and the middle one half way; more depth than is photographed, less, and none.
+  for (const std::array<float, 3> behind_mm :
+       {std::array{-40.f, -10.f, 30.f}, {-12.f, -9.f, 3.f}, {-20.f, 15.f, 15.f}}) {
+    run(fmt::format("depth-mapping 0:{},0.5:{},1:{}", behind_mm[0], behind_mm[1], behind_mm[2]));
+    const Image<Rgb8> left = picture_of("left"), right = picture_of("right");
+    for (std::size_t band = 0; band < behind_mm.size(); ++band) {
+      const double expected_px = -screen_parallax_mm(viewing, behind_mm[band]) / pixel_mm;
+      const int y = static_cast<int>(band) * band_rows + band_rows / 2;
+      for (int x = 48; x <= width - 48; x += 24)
+        EXPECT_NEAR(measured_disparity(left, right, x, y), expected_px, 0.5) << behind_mm[band] << " mm at " << x;
+    }
+  }
+}
 
 TEST_F(PanelsOfAPainting, PutsWhatIsMappedOntoTheScreenThereAndTellsItsDepthInMillimetres) {
   run("depth-mapping 0:-40,1:60");

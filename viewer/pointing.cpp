@@ -50,6 +50,21 @@ std::optional<float> disparity_at(const Content& content, const PlaceInView& pla
   return disparity;
 }
 
+std::optional<SeenPlace> seen_at(const Viewer& viewer, double x, double y) {
+  const std::optional<float> disparity = disparity_under(viewer, x, y);
+  if (!disparity) return {};
+  const Frame& frame = *viewer.frame();
+  PlaceInView place = *place_at(frame.places, x, y);
+  const auto* const painted = std::get_if<PaintedContent>(&frame.shown);
+  if (painted == nullptr || !painted->painting || painted->painting->surfaces.seen.empty())
+    return SeenPlace{static_cast<float>(place.x), static_cast<float>(place.y), *disparity};
+  const ViewPosition reference = painted->painting->surfaces.seen.front().view;
+  place.x += (place.view - reference) * *disparity;
+  place.view = reference;
+  return SeenPlace{static_cast<float>(place.x), static_cast<float>(place.y),
+                   disparity_at(frame.placed, place).value_or(*disparity)};
+}
+
 std::optional<float> disparity_under(const Viewer& viewer, double x, double y) {
   const Frame* const frame = viewer.frame();
   const std::optional<PlaceInView> place = frame != nullptr ? place_at(frame->places, x, y) : std::nullopt;

@@ -32,6 +32,12 @@ struct Fixation {
   double x = 0, y = 0;
 };
 
+/// How much depth there is where somebody looks, and how much elsewhere: 1 is as much as without a gaze.
+struct GazeGains {
+  float there = 1, elsewhere = 1;
+  friend bool operator==(const GazeGains&, const GazeGains&) = default;
+};
+
 constexpr double click_easing_s = 0.08;  ///< after which a third of the way is left
 
 /// What stands beside the picture.
@@ -61,9 +67,11 @@ struct Session {
   std::optional<TrackedHead> tracked_head;
   bool gaze_follows_pointer = false;
   std::optional<Fixation> fixation;
-  std::vector<ViewState> done, undone;  ///< states before, for undo and redo
-  std::optional<Activity> opening;      ///< reading and painting
-  std::string message;                  ///< the last error or remark, one line
+  GazeGains gaze_gains;
+  std::optional<DepthAround> depth_around_target;  ///< what the state's moves to
+  std::vector<ViewState> done, undone;             ///< states before, for undo and redo
+  std::optional<Activity> opening;                 ///< reading and painting
+  std::string message;                             ///< the last error or remark, one line
   bool message_is_error = false;
   bool full_screen = false, information = false, help = false;
   int screens = 1;      ///< that there are

@@ -160,11 +160,13 @@ std::optional<PictureSize> screen_size_of(const ViewState& state) {
 
 Frame Stage::draw(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort) {
   if (std::holds_alternative<std::monostate>(content))
-    return {.picture = {viewport.width, viewport.height}, .right = {}, .places = {}, .shown = {}};
-  const Content& shown = drawer_.shown(content, state);
+    return {.picture = {viewport.width, viewport.height}, .right = {}, .places = {}, .shown = {}, .placed = {}};
+  const Content& placed = drawer_.placed(content, state);
+  const Content& shown = drawer_.bent(placed, state);
   Frame frame = shows_display_views(find_output_mode(state.mode)) ? draw_display(shown, state, viewport)
                                                                   : draw_eyes(shown, state, viewport, effort);
   frame.shown = shown;
+  frame.placed = placed;
   if (measured_ != shown) {
     measured_ = shown;
     depth_ = depth_of(shown);
@@ -188,7 +190,8 @@ Frame Stage::draw_display(const Content& content, const ViewState& state, const 
                                {viewport.width, viewport.height}),
             .right = {},
             .places = {},
-            .shown = {}};
+            .shown = {},
+            .placed = {}};
   }
   const DisplayPreset& display = find_display(state.display);
   QuiltLayout layout{display.quilt_columns, display.quilt_rows};
@@ -203,7 +206,12 @@ Frame Stage::draw_display(const Content& content, const ViewState& state, const 
       {static_cast<double>(viewport.width) / quilt.width(), static_cast<double>(viewport.height) / quilt.height(), 1.});
   const PictureSize size{std::max(static_cast<int>(quilt.width() * scale), 1),
                          std::max(static_cast<int>(quilt.height() * scale), 1)};
-  return {.picture = centred(reduced(quilt, size), viewport), .right = {}, .places = {}, .scale = scale, .shown = {}};
+  return {.picture = centred(reduced(quilt, size), viewport),
+          .right = {},
+          .places = {},
+          .scale = scale,
+          .shown = {},
+          .placed = {}};
 }
 
 Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort) {

@@ -14,6 +14,7 @@ ViewState parameters_of(ViewState state) {
   state.step = as_new.step;
   state.comparison = as_new.comparison;
   state.layers_apart_deg = as_new.layers_apart_deg;
+  state.depth_around = as_new.depth_around;
   return state;
 }
 
@@ -28,6 +29,7 @@ void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState
   session.state.orbit = now.orbit;
   session.state.comparison = now.comparison;
   session.state.layers_apart_deg = now.layers_apart_deg;
+  session.state.depth_around = now.depth_around;
   to.push_back(now);
   from.pop_back();
   session.zero_parallax_target_px.reset();

@@ -63,13 +63,13 @@ const SliceStack& ViewDrawer::placed_slices(const SlicesContent& content, const 
   placing.look.near_mm = state.look.near_mm;
   placing.look.far_mm = state.look.far_mm;
   placing.display = state.display;
-  if (!placed_ || placed_->content != content || placed_->placing != placing) {
-    placed_.reset();
-    placed_ = PlacedSlices{content, placing, *content.slices};
+  if (!placed_slices_ || placed_slices_->content != content || placed_slices_->placing != placing) {
+    placed_slices_.reset();
+    placed_slices_ = PlacedSlices{content, placing, *content.slices};
     const DepthMapping mapping = mapping_for(perceived_depth(state), content.slices->width, 1, 2);
-    map_depth(placed_->slices, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
+    map_depth(placed_slices_->slices, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
   }
-  return placed_->slices;
+  return placed_slices_->slices;
 }
 
 DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& painting, int finest_layer,
@@ -92,16 +92,27 @@ DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& pain
   return drawn;
 }
 
-const Content& ViewDrawer::shown(const Content& content, const ViewState& state) {
+const Content& ViewDrawer::placed(const Content& content, const ViewState& state) {
   if (state.depth_regions.empty()) {
-    shown_.reset();
+    placed_.reset();
     return content;
   }
   const bool for_display = shows_display_views(find_output_mode(state.mode));
-  if (!shown_ || shown_->content != content || shown_->regions != state.depth_regions ||
-      shown_->display != state.display || shown_->for_display != for_display)
-    shown_ = Shown{content, state.depth_regions, state.display, for_display, placed_content(content, state)};
-  return shown_->placed;
+  if (!placed_ || placed_->content != content || placed_->regions != state.depth_regions ||
+      placed_->display != state.display || placed_->for_display != for_display)
+    placed_ = Placed{content, state.depth_regions, state.display, for_display, placed_content(content, state)};
+  return placed_->placed;
+}
+
+const Content& ViewDrawer::bent(const Content& content, const ViewState& state) {
+  if (!state.depth_around) {
+    bent_.reset();
+    return content;
+  }
+  const bool for_display = shows_display_views(find_output_mode(state.mode));
+  if (!bent_ || bent_->content != content || bent_->around != *state.depth_around || bent_->for_display != for_display)
+    bent_ = Bent{content, *state.depth_around, for_display, bent_content(content, state)};
+  return bent_->bent;
 }
 
 const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& state, const WantedPart& part,

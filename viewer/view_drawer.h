@@ -34,8 +34,10 @@ struct DrawnViews {
 /// Draws views of what is open, and keeps what the next drawing can use again. Of one thread.
 class ViewDrawer {
  public:
-  /// What is shown of what is open, as placed_content has it. Until the next call.
-  const Content& shown(const Content& content, const ViewState& state);
+  /// What is open as placed_content has it. Until the next call.
+  const Content& placed(const Content& content, const ViewState& state);
+  /// Such content as bent_content has it. Until the next call.
+  const Content& bent(const Content& content, const ViewState& state);
 
   /// The painting, or where there is none what it would be painted from.
   const DrawnViews& painted(const Content& content, const ViewState& state, const WantedPart& part,
@@ -87,14 +89,21 @@ class ViewDrawer {
     Placing placing;
     std::vector<Image<Rgb8>> views;
   };
-  struct Shown {
+  struct Placed {
     Content content;
     std::vector<DepthRegion> regions;
     std::string display;
     bool for_display = false;
     Content placed;
   };
-  std::optional<Shown> shown_;
+  std::optional<Placed> placed_;
+  struct Bent {
+    Content content;
+    DepthAround around;
+    bool for_display = false;
+    Content bent;
+  };
+  std::optional<Bent> bent_;
   std::optional<Prepared> prepared_;
   std::optional<Drawn> drawn_, photographed_;
   std::optional<DisplayDrawn> display_;
@@ -104,7 +113,7 @@ class ViewDrawer {
     Placing placing;
     SliceStack slices;
   };
-  std::optional<PlacedSlices> placed_;
+  std::optional<PlacedSlices> placed_slices_;
 };
 
 }  // namespace wheatstone::viewer

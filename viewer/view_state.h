@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "particle_look.h"
 #include "wheatstone/depth/camera.h"
 #include "wheatstone/depth/depth_regions.h"
+#include "wheatstone/marks/mapped_depth.h"
 #include "wheatstone/marks/style.h"
 
 namespace wheatstone::viewer {
@@ -46,7 +48,8 @@ struct ViewState {
   int finest_layer = 1 << 20;           ///< of strokes, from the coarsest, 0, on
   float layers_apart_deg = 0;           ///< a look from so far to the side at the layers of detail; 0: from the front
   float crosstalk = 0;                  ///< share of an eye's light that is its neighbours'
-  std::vector<DepthRegion> depth_regions;  ///< where the scene's parts are to seem; none: as in the photographs
+  std::vector<DepthRegion> depth_regions;   ///< where the scene's parts are to seem; none: as in the photographs
+  std::optional<DepthAround> depth_around;  ///< more depth where somebody looks; none: everywhere the same
   Comparison comparison = Comparison::painting;
   Style style;
   wheatstone::Framing orbit{.zoom = 1.2f};  ///< of particles

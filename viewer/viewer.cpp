@@ -9,6 +9,7 @@
 #include <mutex>
 #include <utility>
 
+#include "gaze.h"
 #include "open_content.h"
 #include "paint_in_steps.h"
 #include "wheatstone/app/present_pair.h"
@@ -77,6 +78,8 @@ void Viewer::open(std::size_t item) {
   session_.film.reset();
   session_.zero_parallax_target_px.reset();
   session_.fixation.reset();
+  session_.depth_around_target.reset();
+  session_.state.depth_around.reset();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
   making_.start([this, job, before, files = session_.items[item]](const std::stop_token& stop) {
@@ -186,20 +189,20 @@ void Viewer::collect() {
 
 void Viewer::move_on() {
   const double now = now_s();
-  const double passed_s = now - std::exchange(moved_at_s_, now);
+  const double passed_s = std::min(now - std::exchange(moved_at_s_, now), step_of_easing_s * 4);
   move_film(now);
   if (session_.zero_parallax_target_px) {
     constexpr float near_enough_px = 0.05f;
     float& zero_parallax_px = session_.state.adjustment.zero_parallax_px;
     const float rest = *session_.zero_parallax_target_px - zero_parallax_px;
-    zero_parallax_px +=
-        rest * static_cast<float>(1 - std::exp(-std::min(passed_s, step_of_easing_s * 4) / session_.easing_s));
+    zero_parallax_px += rest * static_cast<float>(1 - std::exp(-passed_s / session_.easing_s));
     if (std::abs(*session_.zero_parallax_target_px - zero_parallax_px) < near_enough_px) {
       zero_parallax_px = *session_.zero_parallax_target_px;
       session_.zero_parallax_target_px.reset();
       session_.easing_s = click_easing_s;
     }
   }
+  move_depth_around(session_, passed_s);
   inputs_.go_on(session_, now);
   if (session_.state.mode == "wiggle" && now - wiggled_at_s_ >= step_of_wiggle_s) {
     ++session_.state.step;
@@ -212,7 +215,7 @@ std::optional<double> Viewer::next_step_s() const {
   const std::optional<double> input_s = inputs_.next_step_s();
   if (film_s && input_s) return std::min(*film_s, *input_s);
   if (film_s || input_s) return film_s ? film_s : input_s;
-  if (session_.zero_parallax_target_px) return step_of_easing_s;
+  if (session_.zero_parallax_target_px || session_.depth_around_target) return step_of_easing_s;
   if (session_.state.mode == "wiggle") return step_of_wiggle_s;
   return {};
 }
@@ -256,7 +259,8 @@ void Viewer::post_frame(Frame frame, const Asked& asked) {
 
 bool Viewer::is_busy() const {
   return session_.opening || session_.whole_film || (player_ && player_->is_seeking()) ||
-         session_.zero_parallax_target_px || is_working() || is_saving() || !mailbox_.is_empty();
+         session_.zero_parallax_target_px || session_.depth_around_target || is_working() || is_saving() ||
+         !mailbox_.is_empty();
 }
 
 void Viewer::save(const std::filesystem::path& path, std::function<void()> write) {

@@ -12,14 +12,26 @@
 namespace wheatstone {
 namespace {
 
-void map_whole_marks(StrokePainting& painting, const DisparityMapping& mapping) {
+// What becomes of a disparity that the reference view sees at a place is a function `mapped(x, y, disparity)`. Its kind
+// is a template's parameter, because it is called for every pixel.
+
+template <class Mapped>
+void map_whole_marks(StrokePainting& painting, const Mapped& mapped) {
   for (Layer& layer : painting.layers)
-    for (Stroke& stroke : layer.strokes) stroke.disparity = mapped_px(mapping, stroke.disparity);
+    for (Stroke& stroke : layer.strokes) {
+      const ControlPoint& begun = layer.points[stroke.first_point];
+      stroke.disparity = mapped(begun.x, begun.y, stroke.disparity);
+    }
 }
-void map_whole_marks(RegionPainting& painting, const DisparityMapping& mapping) {
-  for (RegionMark& mark : painting.marks) mark.disparity = mapped_px(mapping, mark.disparity);
+template <class Mapped>
+void map_whole_marks(RegionPainting& painting, const Mapped& mapped) {
+  for (RegionMark& mark : painting.marks) {
+    const ControlPoint& first = painting.points[painting.rings_of(mark).front().first_point];
+    mark.disparity = mapped(first.x, first.y, mark.disparity);
+  }
 }
-void map_whole_marks(DiffusionPainting& /*painting*/, const DisparityMapping& /*mapping*/) {}
+template <class Mapped>
+void map_whole_marks(DiffusionPainting& /*painting*/, const Mapped& /*mapped*/) {}
 
 /// Surfaces keep whole steps.
 float in_steps(float disparity_px) { return std::round(disparity_px * disparity_steps) / disparity_steps; }
@@ -58,17 +70,20 @@ void lay(const MovedRow& row, int first, std::span<float> nearest) {
   }
 }
 
-Surface mapped(const Surface& surface, float separation, const DisparityMapping& mapping) {
+template <class Mapped>
+Surface mapped_surface(const Surface& surface, float separation, const Mapped& mapped) {
   const Image<float>& from = surface.disparity;
   Surface to = surface;
   float least = 0, most = 0;  // of what pixels move
-  for (std::size_t i = 0; i < from.pixels().size(); ++i) {
-    const float before = from.pixels()[i];
-    if (std::isnan(before)) continue;
-    const float behind = to.disparity.pixels()[i] = in_steps(mapped_px(mapping, before));
-    least = std::min(least, separation * (before - behind));
-    most = std::max(most, separation * (before - behind));
-  }
+  for (int y = 0; y < from.height(); ++y)
+    for (int x = 0; x < from.width(); ++x) {
+      const float before = from(x, y);
+      if (std::isnan(before)) continue;
+      const float place = static_cast<float>(surface.left_px + x) + 0.5f + separation * before;
+      const float behind = to.disparity(x, y) = in_steps(mapped(place, static_cast<float>(y) + 0.5f, before));
+      least = std::min(least, separation * (before - behind));
+      most = std::max(most, separation * (before - behind));
+    }
   if (separation == 0) return to;
   // What leaves the picture by more than its width is never seen.
   const auto reach = static_cast<float>(from.width());
@@ -81,34 +96,68 @@ Surface mapped(const Surface& surface, float separation, const DisparityMapping&
   return moved;
 }
 
-/// As much more or less than before as the whole scene has of depth.
-float mapped_tolerance_px(const Surfaces& surfaces, const DisparityMapping& mapping) {
-  const DepthEnds ends = depth_ends(surfaces.seen.front().disparity);
+/// How much more depth the whole scene has than before.
+float gain_of(const DisparityMapping& mapping, const DepthEnds& ends) {
   const float before_px = ends.nearest_px - ends.farthest_px;
-  if (!(before_px > 0)) return surfaces.tolerance_px;
-  const float behind_px = mapped_px(mapping, ends.nearest_px) - mapped_px(mapping, ends.farthest_px);
-  return std::max(surfaces.tolerance_px * behind_px / before_px, 1 / disparity_steps);
+  if (!(before_px > 0)) return 1;
+  return (mapped_px(mapping, ends.nearest_px) - mapped_px(mapping, ends.farthest_px)) / before_px;
+}
+
+/// `gain` is how much more depth there is than before, where there is most.
+template <class Mapped>
+void map_depth(Painting& painting, float gain, const Mapped& mapped) {
+  const ViewPosition reference = painting.surfaces.seen.empty() ? left_eye : painting.surfaces.seen.front().view;
+  const auto map_point = [&](ControlPoint& point, ViewPosition view) {
+    const float separation = view - reference;
+    const float to = mapped(point.x + separation * point.disparity, point.y, point.disparity);
+    point.x += separation * (point.disparity - to);
+    point.disparity = to;
+  };
+  std::visit(
+      [&](auto& marks) {
+        map_whole_marks(marks, mapped);
+        visit_points(marks, map_point);
+      },
+      painting.marks);
+  Surfaces& surfaces = painting.surfaces;
+  if (!surfaces.seen.empty()) surfaces.tolerance_px = std::max(surfaces.tolerance_px * gain, 1 / disparity_steps);
+  for (Surface& surface : surfaces.seen) surface = mapped_surface(surface, surface.view - reference, mapped);
+}
+
+DepthEnds ends_of(const Surfaces& surfaces) {
+  return surfaces.seen.empty() ? DepthEnds() : depth_ends(surfaces.seen.front().disparity);
 }
 
 }  // namespace
 
 Painting with_depth(Painting painting, const DisparityMapping& mapping) {
   if (mapping.points.empty()) return painting;
-  const ViewPosition reference = painting.surfaces.seen.empty() ? left_eye : painting.surfaces.seen.front().view;
-  const auto map_point = [&](ControlPoint& point, ViewPosition view) {
-    const float to = mapped_px(mapping, point.disparity);
-    point.x += (view - reference) * (point.disparity - to);
-    point.disparity = to;
-  };
-  std::visit(
-      [&](auto& marks) {
-        visit_points(marks, map_point);
-        map_whole_marks(marks, mapping);
-      },
-      painting.marks);
-  Surfaces& surfaces = painting.surfaces;
-  if (!surfaces.seen.empty()) surfaces.tolerance_px = mapped_tolerance_px(surfaces, mapping);
-  for (Surface& surface : surfaces.seen) surface = mapped(surface, surface.view - reference, mapping);
+  map_depth(painting, gain_of(mapping, ends_of(painting.surfaces)),
+            [&](float /*x*/, float /*y*/, float disparity) { return mapped_px(mapping, disparity); });
+  return painting;
+}
+
+float gain_at(const DepthAround& around, float x, float y) {
+  const float away_x = x - around.x, away_y = y - around.y;
+  const float share = std::exp(-(away_x * away_x + away_y * away_y) / (2 * around.radius_px * around.radius_px));
+  return around.gain_elsewhere + share * (around.gain_there - around.gain_elsewhere);
+}
+
+float least_radius_px(const DepthAround& around, const DepthEnds& ends) {
+  const float deepest_px =
+      std::max(std::abs(ends.nearest_px - around.disparity_px), std::abs(ends.farthest_px - around.disparity_px));
+  // A Gaussian is steepest at its standard deviation r, 1/(r·√e). What is equally near is then squeezed to 1 − ½ of its
+  // width in a view that is one eye separation away.
+  constexpr float steepest = 0.60653066f, most_squeezed = 0.5f;
+  return steepest * std::abs(around.gain_there - around.gain_elsewhere) * deepest_px / most_squeezed;
+}
+
+Painting with_depth_around(Painting painting, const DepthAround& wanted) {
+  DepthAround around = wanted;
+  around.radius_px = std::max({around.radius_px, least_radius_px(around, ends_of(painting.surfaces)), 1.f});
+  map_depth(painting, std::max(around.gain_there, around.gain_elsewhere), [&](float x, float y, float disparity) {
+    return around.disparity_px + gain_at(around, x, y) * (disparity - around.disparity_px);
+  });
   return painting;
 }
 

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/painting/paint.h"
@@ -92,6 +97,81 @@ TEST(MappedDepth, KeepsTheOrderInWhichThingsHideEachOther) {
     EXPECT_EQ(draw(mapped, view).picture(x, 20), red);
     EXPECT_EQ(draw(mapped, view).picture(x + 14, 20), blue);
   }
+}
+
+constexpr DepthAround more_here{
+    .x = 60, .y = 70, .disparity_px = 8, .gain_there = 1.5f, .gain_elsewhere = 0.5f, .radius_px = 25};
+
+TEST(DepthAround, IsMoreThereAndLessElsewhereAndFallsOffSmoothly) {
+  EXPECT_EQ(gain_at(more_here, 60, 70), 1.5f);
+  EXPECT_NEAR(gain_at(more_here, 60 + 4 * 25, 70), 0.5f, 0.001);
+  for (int x = 60; x < 200; ++x) {
+    const float step =
+        gain_at(more_here, static_cast<float>(x), 70) - gain_at(more_here, static_cast<float>(x + 1), 70);
+    EXPECT_GE(step, 0);
+    EXPECT_LE(step, 0.61f / 25);
+  }
+}
+
+/// How far apart a view shows a near dot and a far one, which the reference view has in one place.
+TEST(DepthAround, ChangesTheRangeOfDisparitiesByItsGainAndLeavesTheMiddleWhereItIs) {
+  constexpr int width = 400, height = 60;
+  constexpr float near_px = 20, far_px = 4;
+  const DepthAround around{
+      .x = 60, .y = 30, .disparity_px = 12, .gain_there = 1.5f, .gain_elsewhere = 0.5f, .radius_px = 60};
+  Layer layer{2, {{60, 30, near_px}, {60, 30, far_px}, {60, 30, 12}, {390, 30, near_px}, {390, 30, far_px}}, {}};
+  for (std::uint32_t point = 0; point < 5; ++point)
+    layer.strokes.push_back({.first_point = point, .point_count = 1, .radius_px = 2});
+  Painting painting{.marks = StrokePainting{.width = width, .height = height, .layers = {layer}}};
+  painting.surfaces.seen.push_back({left_eye, Image<float>(width, height, far_px)});
+  painting.surfaces.seen.front().disparity(60, 30) = near_px;
+  const Painting mapped = with_depth_around(painting, around);
+  const std::vector<ControlPoint>& points = std::get<StrokePainting>(mapped.marks).layers.front().points;
+  EXPECT_NEAR(points[0].disparity - points[1].disparity, 1.5f * (near_px - far_px), 1e-3);
+  EXPECT_EQ(points[2].disparity, 12);
+  EXPECT_NEAR(points[3].disparity - points[4].disparity, 0.5f * (near_px - far_px), 1e-2);
+  const Image<float>& surface = mapped.surfaces.seen.front().disparity;
+  EXPECT_NEAR(surface(60, 30), 12 + 1.5f * (near_px - 12), 0.1);
+  EXPECT_NEAR(surface(398, 30), 12 + 0.5f * (far_px - 12), 0.1);
+}
+
+TEST(DepthAround, OfOneGainIsThatGainEverywhere) {
+  for (const Marks marks : {Marks::strokes, Marks::curves}) {
+    const Painting& painting = painting_of_still(marks);
+    const Painting twice = with_depth_around(painting, {.disparity_px = 8, .gain_there = 2, .gain_elsewhere = 2});
+    const Painting same = with_depth(painting, {{{-100, 8 + 2 * (-100 - 8)}, {100, 8 + 2 * (100 - 8)}}});
+    EXPECT_LE(mean_difference(draw(twice, right_eye).picture, draw(same, right_eye).picture), 0.1) << name_of(marks);
+  }
+}
+
+TEST(DepthAround, LeavesTheReferenceViewAsItIs) {
+  for (const Marks marks : {Marks::strokes, Marks::curves}) {
+    const Painting& painting = painting_of_still(marks);
+    const Painting mapped = with_depth_around(painting, more_here);
+    EXPECT_LE(mean_difference(draw(mapped, left_eye).picture, draw(painting, left_eye).picture), 1.5) << name_of(marks);
+    EXPECT_GT(mean_difference(draw(mapped, right_eye).picture, draw(painting, right_eye).picture), 1.5);
+  }
+}
+
+/// Neighbours that are equally near, in scenes flat or deep, around narrow places with strong gains.
+TEST(DepthAround, NeitherFoldsNorTearsWhatIsEquallyNear) {
+  constexpr int width = 300, height = 40;
+  for (const float nearness_px : {0.f, 10.f, 40.f})
+    for (const auto& [there, elsewhere] : {std::pair{2.f, 0.f}, {0.f, 2.f}, {1.5f, 0.5f}}) {
+      Painting painting{.marks = StrokePainting{.width = width, .height = height}};
+      painting.surfaces.seen.push_back({left_eye, Image<float>(width, height, nearness_px)});
+      Surface& seen = painting.surfaces.seen.front();
+      for (int y = height / 2; y < height; ++y) std::ranges::fill(seen.disparity.row(y), 20.f);
+      const Painting mapped = with_depth_around(
+          painting,
+          {.x = 150, .y = 20, .disparity_px = 20, .gain_there = there, .gain_elsewhere = elsewhere, .radius_px = 5});
+      for (const Surface& surface : mapped.surfaces.seen)
+        for (int y = 0; y < height; ++y)
+          for (int x = 0; x + 1 < width; ++x) {
+            constexpr float step_px = 1 / disparity_steps;
+            EXPECT_LE(std::abs(surface.disparity(x + 1, y) - surface.disparity(x, y)), 0.5f + step_px) << x << ' ' << y;
+          }
+    }
 }
 
 }  // namespace
