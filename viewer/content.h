@@ -71,6 +71,7 @@ struct Opened {
   std::string kind;                             ///< "painting", "photograph", "slices" …, for people
   std::vector<std::string> notes;               ///< one line each
   std::shared_ptr<const OpenedFilm> film = {};  ///< of which the content is the first frame
+  bool is_ready = true;                         ///< false: shown as it came, while it is made ready
   std::optional<DepthEnds> depth = {};          ///< of the content, or of the frame of the film that was painted last
 };
 

@@ -28,10 +28,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Opened opened_photograph(StereoPair pictures, const std::string& name, const Progress& progress) {
+/// Who is told of what an opening does.
+struct Listeners {
+  const Progress& progress;
+  const ShowFirst& show;
+};
+
+void show_as_it_came(const StereoPair& pictures, const ShowFirst& show) {
+  if (!show || pictures.left.empty() || !same_size(pictures.left, pictures.right)) return;
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = pictures;
+  show({.content = PaintedContent{nullptr, std::move(photograph)}, .kind = "photograph", .is_ready = false});
+}
+
+Opened opened_photograph(StereoPair pictures, const std::string& name, const Listeners& listeners) {
+  show_as_it_came(pictures, listeners.show);
   PreparedPair prepared;
   try {
-    prepared = prepare_pair(std::move(pictures), {}, progress);
+    prepared = prepare_pair(std::move(pictures), {}, listeners.progress);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_input) throw;
     throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
@@ -65,7 +79,7 @@ Opened opened_views(std::vector<Image<Rgb8>> views, std::string kind) {
   return {ViewsContent{std::make_shared<const std::vector<Image<Rgb8>>>(std::move(views)), span}, std::move(kind), {}};
 }
 
-Opened open_picture(const fs::path& path, const Progress& progress) {
+Opened open_picture(const fs::path& path, const Listeners& listeners) {
   if (const std::optional<NamedQuilt> quilt = quilt_of_name(path.filename().string()))
     return opened_views(views_of_quilt(read_image(path), quilt->layout), "quilt");
   if (std::optional<CarriedDepth> depth = find_carried_depth(path)) return opened_with_depth(std::move(*depth), path);
@@ -77,7 +91,7 @@ Opened open_picture(const fs::path& path, const Progress& progress) {
   }
   const std::string how = describe_views(*found);
   if (found->views.size() > 2) return opened_views(std::move(found->views), "views");
-  Opened opened = opened_photograph({std::move(found->views[0]), std::move(found->views[1])}, path.string(), progress);
+  Opened opened = opened_photograph({std::move(found->views[0]), std::move(found->views[1])}, path.string(), listeners);
   opened.notes.insert(opened.notes.begin(), how);
   return opened;
 }
@@ -115,33 +129,33 @@ Opened open_particles(const fs::path& path, const Progress& progress) {
   return {ParticlesContent{std::move(particles)}, "particles", {}};
 }
 
-Opened open_without_depth(std::span<const fs::path> files, const Progress& progress) {
+Opened open_without_depth(std::span<const fs::path> files, const Listeners& listeners) {
   const fs::path& path = files.front();
-  report(progress, "reading", 0);
+  report(listeners.progress, "reading", 0);
   if (names_film(path))
     return open_film_files(files.size() == 2 ? FilmFiles{path, files[1], {}} : find_film(path.string()));
   if (files.size() == 2)
     return opened_photograph({read_image(path), read_image(files[1])},
-                             fmt::format("{}, {}", path.string(), files[1].string()), progress);
+                             fmt::format("{}, {}", path.string(), files[1].string()), listeners);
   if (path.extension() == ".wst")
     return {PaintedContent{std::make_shared<const Painting>(read_painting(path)), nullptr}, "painting", {}};
   if (path.extension() == ".exr") {
     if (is_multiview_exr(path)) return opened_views(read_multiview_exr(path), "views");
     return {SlicesContent{std::make_shared<const SliceStack>(read_slices(path))}, "slices", {}};
   }
-  if (holds_particles(path)) return open_particles(path, progress);
-  return open_picture(path, progress);
+  if (holds_particles(path)) return open_particles(path, listeners.progress);
+  return open_picture(path, listeners);
 }
 
 }  // namespace
 
-Opened open_content(std::span<const fs::path> files, const Progress& progress) {
-  Opened opened = open_without_depth(files, progress);
+Opened open_content(std::span<const fs::path> files, const Progress& progress, const ShowFirst& show) {
+  Opened opened = open_without_depth(files, {progress, show});
   opened.depth = depth_of(opened.content);
   return opened;
 }
 
-bool are_eyes_of_one(const fs::path& left, const fs::path& right) {
+bool are_eyes_of_one(const fs::path& left, const fs::path& right, const ShowFirst& show) {
   if (names_film(left) || names_film(right))
     return names_film(left) && names_film(right) && are_named_as_eyes(left, right);
   for (const fs::path* path : {&left, &right})
@@ -150,6 +164,7 @@ bool are_eyes_of_one(const fs::path& left, const fs::path& right) {
       return false;
   try {
     const StereoPair pair{read_image(left), read_image(right)};
+    show_as_it_came(pair, show);
     return same_size(pair.left, pair.right) && !find_views(left) && !find_views(right) && !not_a_pair(pair);
   } catch (const Error&) {
     return false;

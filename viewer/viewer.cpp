@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "gaze.h"
-#include "open_content.h"
 #include "paint_in_steps.h"
 #include "wheatstone/app/present_pair.h"
 #include "wheatstone/depth/comfort.h"
@@ -56,12 +55,14 @@ void Viewer::open_all(const std::vector<std::filesystem::path>& files) {
   // Both are read to find out.
   making_.start([this, job, files, open_each](const std::stop_token&) {
     try {
-      const bool is_one = are_eyes_of_one(files[0], files[1]);
+      const bool is_one = are_eyes_of_one(files[0], files[1], showing(job));
       mailbox_.post([this, job, files, open_each, is_one] {
         if (job != job_) return;
         if (!is_one) return open_each();
         session_.items.push_back(files);
+        Opened shown = std::move(session_.opened);
         open(0);
+        session_.opened = std::move(shown);  // until it is read again
       });
     } catch (const std::exception& error) {
       post_failure(error, job);
@@ -84,19 +85,30 @@ void Viewer::open(std::size_t item) {
   const std::uint64_t job = ++job_;
   making_.start([this, job, before, files = session_.items[item]](const std::stop_token& stop) {
     try {
-      Opened opened = open_content(files, progress_of(job, stop));
+      Opened opened = open_content(files, progress_of(job, stop), showing(job));
       mailbox_.post([this, job, opened = std::move(opened)]() mutable {
         if (job == job_) take_opened(std::move(opened));
       });
     } catch (const std::exception& error) {
+      mailbox_.post([this, job] {
+        if (job == job_) session_.opened = {};
+      });
       post_failure(error, job);
     }
   });
 }
 
+ShowFirst Viewer::showing(std::uint64_t job) {
+  return [this, job](Opened opened) {
+    mailbox_.post([this, job, opened = std::move(opened)]() mutable {
+      if (job == job_) take_opened(std::move(opened));
+    });
+  };
+}
+
 void Viewer::paint() {
   const auto* const content = std::get_if<PaintedContent>(&session_.opened.content);
-  if (content == nullptr || !content->photograph) return;
+  if (content == nullptr || !content->photograph || !session_.opened.is_ready) return;
   if (session_.film && (session_.film->plays || !session_.film->paints)) return;
   session_.opening = Activity{"painting", 0};
   const std::uint64_t job = ++job_;
@@ -135,12 +147,13 @@ void Viewer::post_failure(const std::exception& error, std::uint64_t job) {
 }
 
 void Viewer::take_opened(Opened opened) {
-  session_.opening.reset();
   session_.opened = std::move(opened);
   session_.state.look.exposure.reset();
   session_.state.orbit.look_at.reset();
   session_.state.adjustment.zero_parallax_px = 0;
   session_.state.adjustment.separation = 1;
+  if (!session_.opened.is_ready) return;
+  session_.opening.reset();
   for (const std::string& note : session_.opened.notes) tell(note);
   show_comfortably();
   take_film(session_.opened.film);

@@ -12,6 +12,7 @@
 #include "inputs.h"
 #include "mailbox.h"
 #include "newest_job.h"
+#include "open_content.h"
 #include "ordered_jobs.h"
 #include "session.h"
 #include "stage.h"
@@ -98,6 +99,7 @@ class Viewer {
   /// Draws what was asked for on the drawing thread, quickly at first where that is not all.
   void draw(const Asked& asked, const std::stop_token& stop);
   void post_frame(Frame frame, const Asked& asked);
+  ShowFirst showing(std::uint64_t job);
   void take_opened(Opened opened);
   void take_painted(const PaintedContent& content, const std::optional<DepthEnds>& depth);
 

@@ -17,6 +17,7 @@
 #include "comfort.h"
 #include "command_line.h"
 #include "command_table.h"
+#include "open_content.h"
 #include "pointing.h"
 #include "script.h"
 #include "temporary_folder.h"
@@ -291,6 +292,32 @@ TEST(Viewer, PaintsAPhotographAsPaintDoes) {
                                        "-o",    folder / "painted"};
   ASSERT_EQ(cli::run_command_line(words, output, errors), 0) << errors.str();
   EXPECT_TRUE(read_painting(folder / "shown.wst") == read_painting(folder / "painted/painting.wst"));
+}
+
+TEST(Viewer, ShowsAPhotographAsItCameWhileItIsMadeReady) {
+  const TemporaryFolder folder;
+  write_image(folder / "left.png", still().pictures.left);
+  write_image(folder / "right.png", still().pictures.right);
+  const std::vector<std::filesystem::path> files{folder / "left.png", folder / "right.png"};
+  std::vector<Opened> first;
+  const auto show = [&](Opened opened) { first.push_back(std::move(opened)); };
+  const Opened opened = open_content(files, {}, show);
+  EXPECT_TRUE(are_eyes_of_one(files[0], files[1], show));
+  ASSERT_EQ(first.size(), 2u);
+  for (const Opened& shown : first) {
+    EXPECT_FALSE(shown.is_ready);
+    EXPECT_EQ(std::get<PaintedContent>(shown.content).photograph->pictures.right, still().pictures.right);
+  }
+  EXPECT_TRUE(opened.is_ready);
+
+  // What is no pair after all is not left on the screen.
+  write_image(folder / "right.png", Image<Rgb8>(240, 160, {9, 9, 9}));
+  Viewer viewer;
+  viewer.session().items.push_back(files);
+  viewer.open(0);
+  viewer.wait();
+  EXPECT_THAT(viewer.session().message, HasSubstr("the right picture is blank"));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(viewer.session().opened.content));
 }
 
 TEST(Viewer, SavesBesideAllElseInOrderAndTellsWhatFails) {
