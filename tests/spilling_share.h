@@ -58,8 +58,9 @@ inline double spilling_share(const Layer& layer, const StereoGeometry& geometry,
   std::size_t spilling = 0, planned = 0;
   for (const ViewPosition view : {left_eye, right_eye}) {
     const Image<float>& disparity = view < central_view ? geometry.left_disparity : geometry.right_disparity;
-    const ViewSurfaces surfaces{disparity, distance_to_depth_edge(disparity, threshold_px, 2 * layer.radius_px + 2),
-                                threshold_px};
+    const ViewSurfaces surfaces{
+        disparity, distance_to_depth_edge(disparity_in_steps(disparity), threshold_px, 2 * layer.radius_px + 2),
+        threshold_px};
     for (const Stroke& stroke : layer.strokes) {
       if (stroke.reference_view != view) continue;
       ++planned;

@@ -46,80 +46,20 @@ void FrontToBackAccumulator::clamp(int row, int& begin, int& end) const {
 
 namespace {
 
-/// A pixel that lets more light through has no paint to speak of.
-constexpr float least_covered_light = 1 - 1.f / 64;
-
-std::uint8_t rounded(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); }
-
 /// Gives the pixels of a row that nothing covers at all the colour beside them on the farther surface.
-void continue_paint(std::span<const float> light, std::span<const float> surface, std::span<Rgb8> row) {
+void continue_paint(const FrontToBackAccumulator& accumulator, int band_row, std::span<const float> surface,
+                    std::span<Rgb8> row) {
   const int width = static_cast<int>(row.size());
   const auto depth = [&](int x) { return surface.empty() || std::isnan(surface[x]) ? 0 : surface[x]; };
+  const auto is_gap = [&](int x) { return accumulator.light(band_row, x) >= FrontToBackAccumulator::least_gap_light; };
   for (int begin = 0; begin < width; ++begin) {
-    if (light[begin] < least_covered_light) continue;
+    if (!is_gap(begin)) continue;
     int end = begin;
-    while (end < width && light[end] >= least_covered_light) ++end;
+    while (end < width && is_gap(end)) ++end;
     const bool from_left = end == width || (begin > 0 && depth(begin - 1) <= depth(end));
     if (begin > 0 || end < width) std::fill(row.begin() + begin, row.begin() + end, row[from_left ? begin - 1 : end]);
     begin = end;
   }
-}
-
-/// A row of a view, drawn from the nearest stroke to the farthest.
-struct DrawnRow {
-  std::vector<float> red, green, blue, light;
-
-  void take(const FrontToBackAccumulator& accumulator, int row) {
-    constexpr int block_px = FrontToBackAccumulator::block_px;
-    const auto columns = static_cast<std::size_t>(accumulator.block_count() * block_px);
-    for (std::vector<float>* plane : {&red, &green, &blue, &light}) plane->resize(columns);
-    for (int number = 0; number < accumulator.block_count(); ++number) {
-      const FrontToBackAccumulator::Block& block = accumulator.block(row, number);
-      const auto to = static_cast<std::ptrdiff_t>(number * block_px);
-      std::copy_n(block.red, block_px, red.begin() + to);
-      std::copy_n(block.green, block_px, green.begin() + to);
-      std::copy_n(block.blue, block_px, blue.begin() + to);
-      std::copy_n(block.light, block_px, light.begin() + to);
-    }
-  }
-};
-
-/// A row of a view that is finished: its place, and the nearest surfaces in it, which may be unknown.
-struct RowOfView {
-  const ViewToDraw& view;
-  int y;
-  std::span<const float> surface;
-};
-
-/// Writes a finished row over the background.
-void finish_row(const PreparedStrokes& painting, const DrawnRow& drawn, const RowOfView& of) {
-  const std::span<Rgb8> to = of.view.drawn.picture.row(of.y);
-  const ImageView<const Rgb8>& background = of.view.background;
-  if (background.empty() && !painting.canvas_shows) {
-    for (std::size_t x = 0; x < to.size(); ++x) {
-      const float whole = 1 / std::max(1 - drawn.light[x], 1e-6f);
-      to[x] = {rounded(drawn.red[x] * whole), rounded(drawn.green[x] * whole), rounded(drawn.blue[x] * whole)};
-    }
-    continue_paint(drawn.light, of.surface, to);
-    return;
-  }
-  for (std::size_t x = 0; x < to.size(); ++x) {
-    const Rgb8 behind = background.empty() ? painting.canvas_colour : background(static_cast<int>(x), of.y);
-    const float light = drawn.light[x];
-    to[x] = {rounded(drawn.red[x] + light * behind.r), rounded(drawn.green[x] + light * behind.g),
-             rounded(drawn.blue[x] + light * behind.b)};
-  }
-}
-
-/// Marks what is bare in a row, and returns how many pixels that are.
-std::size_t mark_bare(const DrawnRow& drawn, float bare_light, std::span<std::uint8_t> to) {
-  std::size_t bare = 0;
-  for (std::size_t x = 0; x < to.size(); ++x) {
-    const bool is_bare = drawn.light[x] > bare_light;
-    to[x] = is_bare ? 255 : 0;
-    bare += is_bare ? 1 : 0;
-  }
-  return bare;
 }
 
 /// Some columns of a band.
@@ -131,7 +71,7 @@ struct Columns {
 enum class PlannedIn : std::uint8_t { reference_view, photographed_view, other_view };
 
 /// What of a stroke lies in a band, with all that its stamps need: the strokes themselves are far apart in memory.
-struct Piece {
+struct alignas(64) Piece {
   std::uint32_t stroke;
   std::uint32_t rows;       ///< a bit each
   float left, right;        ///< columns in the central view, brush and all
@@ -277,7 +217,7 @@ class BandOfViews {
   }
 
   void make(const FlatLayer& layer, const FlatStroke& stroke, bool between, Stamp& stamp) {
-    const float reach = BrushProfile(stroke.radius_px).reach_px;
+    const float reach = BrushProfile(stroke.radius_px).reach_px + Stamps::margin;
     stamp.left = std::floor(stroke.left - reach) - (between ? 0.5f : 0);
     const int width = static_cast<int>(std::ceil(stroke.right + reach - stamp.left)) + 1;
     if (scratch_.stride < width + 2 * Canvas::widest_vector)
@@ -287,11 +227,17 @@ class BandOfViews {
 
   std::size_t finish(const ViewToDraw& view, ImageView<const float> surface) {
     std::size_t bare = 0;
+    const bool is_opaque = view.background.empty() && !painting_.canvas_shows;
     for (int row = 0; row < band_.row_count; ++row) {
       const int y = band_.top + row;
-      row_.take(accumulator_, row);
-      finish_row(painting_, row_, {view, y, surface.empty() ? std::span<const float>() : surface.row(row)});
-      bare += mark_bare(row_, painting_.bare_light, view.drawn.bare.row(y));
+      const std::span<Rgb8> picture = view.drawn.picture.row(y);
+      const FinishedRow finished =
+          finish_row(accumulator_, row,
+                     {view.background.empty() ? std::span<const Rgb8>() : view.background.row(y),
+                      painting_.canvas_colour, is_opaque, painting_.bare_light, picture, view.drawn.bare.row(y)});
+      bare += finished.bare;
+      if (is_opaque && finished.has_gap)
+        continue_paint(accumulator_, row, surface.empty() ? std::span<const float>() : surface.row(row), picture);
     }
     return bare;
   }
@@ -304,7 +250,6 @@ class BandOfViews {
   std::vector<PiecesOfLayer> layers_;
   Stamps stamps_;
   FrontToBackAccumulator accumulator_;
-  DrawnRow row_;
 };
 
 /// One stroke that covers half a pixel leaves this much light. Strokes that are fading do not say how opaque the paint

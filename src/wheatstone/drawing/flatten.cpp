@@ -6,41 +6,59 @@
 #include <cmath>
 #include <span>
 
+#include "wheatstone/drawing/rasterise_internal.h"
 #include "wheatstone/marks/spline.h"
 
 namespace wheatstone {
 namespace {
 
-constexpr float tolerance_px = 0.125f;
-constexpr int most_segments_a_span = 16;
+/// The square of how far a spline may bend at the controls of a span that one segment stands for: a chord leaves its
+/// curve by at most an eighth of the second difference, and a segment may by an eighth of the brush's rim.
+float squared_bend_of_segment(float radius_px) {
+  const float rim_px = BrushProfile(radius_px).rim_px;
+  return rim_px * rim_px;
+}
 
-/// By how far three controls of a spline bend, in the view where they bend most.
-float squared_second_difference(const SpatialPoint& a, const SpatialPoint& b, const SpatialPoint& c) {
+/// The squared second difference of a spline at one of its controls, in the view where it bends most.
+float squared_bend(const ClampedSpline& spline, int control) {
+  const SpatialPoint a = spline.control(control - 1), b = spline.control(control), c = spline.control(control + 1);
   const float depth = std::abs(a.disparity - 2 * b.disparity + c.disparity) * (right_eye - central_view);
   const float x = std::abs(a.x - 2 * b.x + c.x) + depth, y = a.y - 2 * b.y + c.y;
   return x * x + y * y;
 }
 
-/// Segments that a span needs: a cubic leaves its chord by at most an eighth of its largest second difference, and n
-/// segments divide that by n².
-int segment_count(const ClampedSpline& spline, int span) {
-  const SpatialPoint a = spline.control(span), b = spline.control(span + 1), c = spline.control(span + 2),
-                     d = spline.control(span + 3);
-  const float squared = std::max(squared_second_difference(a, b, c), squared_second_difference(b, c, d));
-  constexpr float enough_for_one = 8 * tolerance_px;
-  if (squared <= enough_for_one * enough_for_one) return 1;
-  return std::min(static_cast<int>(std::ceil(std::sqrt(std::sqrt(squared) / enough_for_one))), most_segments_a_span);
-}
-
-std::uint32_t vertex_count(const ClampedSpline& spline) {
-  int count = 1;
-  for (int span = 0; span < spline.span_count(); ++span) count += segment_count(spline, span);
-  return static_cast<std::uint32_t>(count);
+/// Calls `add` with the vertices of a chain that stands for a spline: some segments for a span that bends much, or one
+/// for some spans. The chord of n spans leaves the curve n² times as far as that of one.
+template <class Add>
+void visit_vertices(const ClampedSpline& spline, float radius_px, Add add) {
+  constexpr int most_segments_a_span = 16;
+  const float most = squared_bend_of_segment(radius_px);
+  add(spline.control(0));
+  for (int first = 0, end = 0; first < spline.span_count(); first = end) {
+    const float bend = std::max(squared_bend(spline, first + 1), squared_bend(spline, first + 2));
+    int segments = 1;
+    end = first + 1;
+    if (bend > most) {
+      segments = std::min(static_cast<int>(std::ceil(std::sqrt(std::sqrt(bend / most)))), most_segments_a_span);
+    } else {
+      for (float largest = bend; end < spline.span_count(); ++end) {
+        largest = std::max(largest, squared_bend(spline, end + 2));
+        const auto spans = static_cast<float>(end + 1 - first);
+        if (largest * spans * spans * spans * spans > most) break;
+      }
+    }
+    for (int i = 1; i <= segments; ++i)
+      add(point_on(spline, end - 1, static_cast<float>(i) / static_cast<float>(segments)));
+  }
 }
 
 void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& flat) {
   std::size_t vertex = stroke.first_vertex;
-  const auto add = [&](const SpatialPoint& p) {
+  const SpatialPoint begin = spline.control(0);
+  stroke.top = stroke.bottom = begin.y;
+  stroke.left = stroke.right = begin.x;
+  stroke.farthest_disparity = stroke.nearest_disparity = begin.disparity;
+  visit_vertices(spline, stroke.radius_px, [&](const SpatialPoint& p) {
     flat.x[vertex] = p.x;
     flat.y[vertex] = p.y;
     flat.disparity[vertex] = p.disparity;
@@ -51,17 +69,7 @@ void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& 
     stroke.right = std::max(stroke.right, p.x);
     stroke.farthest_disparity = std::min(stroke.farthest_disparity, p.disparity);
     stroke.nearest_disparity = std::max(stroke.nearest_disparity, p.disparity);
-  };
-  const SpatialPoint begin = spline.control(0);
-  stroke.top = stroke.bottom = begin.y;
-  stroke.left = stroke.right = begin.x;
-  stroke.farthest_disparity = stroke.nearest_disparity = begin.disparity;
-  add(begin);
-  for (int span = 0; span < spline.span_count(); ++span) {
-    const int segments = segment_count(spline, span);
-    for (int i = 1; i <= segments; ++i)
-      add(point_on(spline, span, static_cast<float>(i) / static_cast<float>(segments)));
-  }
+  });
 }
 
 /// Fits a plane that slopes along the columns to a stroke's disparities.
@@ -97,17 +105,19 @@ FlatLayer flatten(const Layer& layer) {
   const auto spline_of = [&](std::size_t i) {
     return ClampedSpline(layer.points_of(layer.strokes[i]), layer.strokes[i].reference_view);
   };
-  tbb::parallel_for(std::size_t{0}, count,
-                    [&](std::size_t i) { flat.strokes[i].vertex_count = vertex_count(spline_of(i)); });
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    std::uint32_t vertices = 0;
+    visit_vertices(spline_of(i), layer.strokes[i].radius_px, [&](const SpatialPoint&) { ++vertices; });
+    flat.strokes[i].vertex_count = vertices;
+  });
 
   std::uint32_t vertices = 0;
   for (FlatStroke& stroke : flat.strokes) {
     stroke.first_vertex = vertices;
     vertices += stroke.vertex_count;
   }
-  flat.x.resize(vertices);
-  flat.y.resize(vertices);
-  flat.disparity.resize(vertices);
+  for (std::vector<float>* values : {&flat.x, &flat.y, &flat.disparity})
+    values->resize(vertices + FlatLayer::values_after);
 
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     FlatStroke& stroke = flat.strokes[i];

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "wheatstone/drawing/canvas.h"
 #include "wheatstone/marks/stroke_painting.h"
 
 namespace wheatstone {
@@ -27,12 +28,13 @@ struct FlatStroke {
 /// The strokes of one layer, in drawing order, for any view; vertices as a structure of arrays. A vertex at x in the
 /// central view stands at x − v · disparity in the view at v.
 struct FlatLayer {
+  static constexpr std::size_t values_after = 2 * Canvas::widest_vector;  ///< the last vertex: vectors may be loaded
   std::vector<float> x, y, disparity;
   std::vector<FlatStroke> strokes;
 };
 
 /// Bends every stroke's cubic B-spline (clamped: it begins and ends at its outer control points) into segments that
-/// leave the curve by less than an eighth of a pixel in any view from eye to eye.
+/// leave the curve by less than an eighth of the brush's rim in any view from eye to eye.
 FlatLayer flatten(const Layer& layer);
 
 /// A flat layer as one view sees it, in columns that are counted from `left_px`.

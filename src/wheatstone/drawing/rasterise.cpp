@@ -24,13 +24,24 @@ std::vector<std::vector<std::uint32_t>> strokes_by_band(const FlatLayer& layer, 
   return bands;
 }
 
+void Chain::resize(std::size_t count) {
+  const std::size_t padded = count + Canvas::widest_vector;
+  if (x.size() >= padded) return;
+  for (std::vector<float>* values :
+       {&x, &y, &dx, &dy, &disparity, &disparity_step, &along_x, &along_y, &course_x, &course_y, &length, &along_slope,
+        &along_middle, &along_half, &across_slope, &across_half})
+    values->resize(padded);
+  for (std::vector<int>* rows : {&first_row, &end_row}) rows->resize(padded);
+  for (std::vector<int>* columns : {&begin, &end}) columns->resize(padded * band_rows);
+}
+
 DistanceBand::DistanceBand(int top_, int canvas_width, int canvas_height)
     : top(top_),
       row_count(std::min(band_rows, canvas_height - top)),
       stride(canvas_width + 2 * Canvas::widest_vector),
       squared(static_cast<std::size_t>(row_count) * stride),
-      begin(row_count),
-      end(row_count) {}
+      begin(row_count + Canvas::widest_vector),
+      end(row_count + Canvas::widest_vector) {}
 
 void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas) {
   const FlatLayer flat = flatten(layer);

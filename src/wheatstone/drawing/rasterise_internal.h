@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "wheatstone/drawing/canvas.h"
@@ -33,9 +34,27 @@ inline constexpr int band_rows = 32;
 /// For every band of a picture, the strokes that touch it, in drawing order.
 std::vector<std::vector<std::uint32_t>> strokes_by_band(const FlatLayer& layer, int height);
 
-/// The pixels of a band that a brush touches along one segment; rows are counted from the band's first.
-struct SegmentBox {
-  int first_row, end_row;
+/// The segments of a stroke's chain as a band sees them; a dot is one of no length.
+struct Chain {
+  /// For so many segments.
+  void resize(std::size_t count);
+
+  std::vector<float> x, y;    ///< where each begins; rows are counted from the band's first
+  std::vector<float> dx, dy;  ///< from there to its end
+  std::vector<float> disparity, disparity_step;
+  std::vector<float> along_x, along_y;  ///< (dx, dy) by the squared length; 0 where that is 0
+  std::vector<float> course_x, course_y, length;
+
+  // A segment paints a rectangle: on a row, those columns that are both in a run along it and in one across it.
+  std::vector<float> along_slope, along_middle, along_half;
+  std::vector<float> across_slope, across_half;
+  std::vector<int> first_row, end_row;
+
+  std::vector<int> begin, end;  ///< the columns that each segment paints in each row of the band: band_rows for each
+};
+
+/// Columns [begin, end).
+struct ColumnRun {
   int begin, end;
 };
 
@@ -67,8 +86,16 @@ struct DistanceBand {
   std::vector<float> squared;      ///< row_count × stride
   int first_row = 0, end_row = 0;  ///< the band's rows that the stroke touches
   std::vector<int> begin, end;     ///< the columns that it touches in each of them
-  std::vector<SegmentBox> boxes;   ///< of its segments
+  Chain chain;
 };
+
+/// Notes the rows of a band that a stroke touches, and in them the columns within `aside_px` of what it touches. The
+/// band is as wide as the canvas, or wider.
+void find_extents(const SeenLayer& layer, const FlatStroke& stroke, int canvas_width, float aside_px,
+                  DistanceBand& band);
+
+/// Then fills the band with the stroke's squared distances, within its extents; far away where a surface hides it.
+void measure_distances(const FlatStroke& stroke, const HiddenBelow& below, DistanceBand& band);
 
 /// What hides the marks of each kind in a band.
 struct BandHiding {
@@ -93,6 +120,7 @@ class FrontToBackAccumulator {
  public:
   static constexpr int block_px = Canvas::widest_vector;
   static constexpr float dark = 1.f / 1024;  ///< light below this changes an 8-bit value by less than a quarter step
+  static constexpr float least_gap_light = 1 - 1.f / 64;  ///< a pixel that lets more through has no paint to speak of
 
   /// The columns of a block in one row.
   struct alignas(64) Block {
@@ -141,6 +169,23 @@ class FrontToBackAccumulator {
 };
 static_assert(band_rows <= 32 && FrontToBackAccumulator::block_px <= 16);
 
+/// A row of a view that is drawn, and what is to become of it.
+struct RowToFinish {
+  std::span<const Rgb8> background;  ///< empty: the canvas
+  Rgb8 canvas_colour;
+  bool is_opaque;    ///< nothing shows through thin paint
+  float bare_light;  ///< a pixel that lets more through is bare
+  std::span<Rgb8> picture;
+  std::span<std::uint8_t> bare;  ///< 255 where it is
+};
+
+struct FinishedRow {
+  std::size_t bare = 0;  ///< pixels
+  bool has_gap = false;  ///< some have no paint to speak of
+};
+
+FinishedRow finish_row(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to);
+
 /// A stroke of a layer as a view sees it, and what hides it in the band at hand.
 struct StrokeInBand {
   const SeenLayer& layer;
@@ -164,17 +209,23 @@ struct Stamp {
   int first_row = 0, end_row = 0;  ///< of the band
   float left = 0;                  ///< place in the central view from which the columns of the lines are counted
   bool is_made = false;
+
+  /// A bit each, from the lowest.
+  std::uint32_t rows() const {
+    const auto below = [](int row) { return static_cast<std::uint32_t>((std::uint64_t{1} << row) - 1); };
+    return below(end_row) & ~below(first_row);
+  }
 };
 
 /// The stamps of a band.
 struct Stamps {
-  static constexpr int margin = 2;                                 ///< columns without cover between the lines
+  static constexpr int margin = 2;  ///< columns beside a line that tell how its rim goes on
   static constexpr std::size_t slack = 2 * Canvas::widest_vector;  ///< values before the first and after the last one
 
   /// One row of a stamp.
   struct Line {
     std::uint32_t first_value = 0;    ///< of the margin before it
-    std::int32_t begin = 0, end = 0;  ///< the columns that it may cover
+    std::int32_t begin = 0, end = 0;  ///< the columns that it covers
   };
 
   std::vector<Line> lines;

@@ -42,17 +42,26 @@ ReducedScene reduced_scene(const StereoPairView& photographs, const StereoGeomet
 OuterView enlarged(const OuterView& view, int reduction, int width, int height) {
   OuterView whole{view.position, Image<Rgb8>(width, height), Image<float>(width, height),
                   Image<std::uint8_t>(width, height), reduction * view.left_px};
-  const int last_column = view.picture.width() - 1, last_row = view.picture.height() - 1;
-  tbb::parallel_for(0, height, [&](int y) {
-    const int row = std::min(y / reduction, last_row);
+  const int last_column = view.picture.width() - 1, rows = view.picture.height();
+  const auto end_of = [=](int row) { return row + 1 < rows ? reduction * (row + 1) : height; };
+  tbb::parallel_for(0, rows, [&](int row) {
     const auto picture = view.picture.row(row);
     const auto disparity = view.disparity.row(row);
     const auto uncovered = view.uncovered.row(row);
+    const int first = reduction * row;
+    const auto to_picture = whole.picture.row(first);
+    const auto to_disparity = whole.disparity.row(first);
+    const auto to_uncovered = whole.uncovered.row(first);
     for (int x = 0; x < width; ++x) {
       const int column = std::min(x / reduction, last_column);
-      whole.picture(x, y) = picture[column];
-      whole.disparity(x, y) = disparity[column] * static_cast<float>(reduction);
-      whole.uncovered(x, y) = uncovered[column];
+      to_picture[x] = picture[column];
+      to_disparity[x] = disparity[column] * static_cast<float>(reduction);
+      to_uncovered[x] = uncovered[column];
+    }
+    for (int y = first + 1; y < end_of(row); ++y) {
+      std::ranges::copy(to_picture, whole.picture.row(y).begin());
+      std::ranges::copy(to_disparity, whole.disparity.row(y).begin());
+      std::ranges::copy(to_uncovered, whole.uncovered.row(y).begin());
     }
   });
   return whole;

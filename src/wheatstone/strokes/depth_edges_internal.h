@@ -1,22 +1,26 @@
 #pragma once
 
+#include <cstdint>
+
 #include "wheatstone/image/image.h"
 
 namespace wheatstone {
 
-// Disparities are compared to a sixteenth of a pixel, and those beyond ± 2047 pixels count as 2047.
+/// Disparities in steps of a sixteenth of a pixel, in which they are compared; those beyond ± 2047 pixels count as
+/// 2047.
+Image<std::int16_t> disparity_in_steps(ImageView<const float> disparity);
 
 /// 255 for every pixel whose (2R+1)² window holds a disparity that differs from its own by more than `threshold_px`:
 /// a brush of radius R set down there would spill paint onto another surface (Stavrakis & Gelautz 2005, sec. 3.2).
-Image<std::uint8_t> near_depth_edge(ImageView<const float> disparity, float radius_px, float threshold_px);
+Image<std::uint8_t> near_depth_edge(ImageView<const std::int16_t> steps, float radius_px, float threshold_px);
 
 /// Distance in pixels from each pixel's centre to the nearest depth edge, at most `most_px`: 0.5 for the pixels on
 /// either side of one.
-Image<float> distance_to_depth_edge(ImageView<const float> disparity, float threshold_px, float most_px);
+Image<float> distance_to_depth_edge(ImageView<const std::int16_t> steps, float threshold_px, float most_px);
 
 /// 255 for every pixel that has a surface nearer than its own by more than `threshold_px` within `reach_px`. A camera
 /// mixes the two surfaces' colours there, and disparity maps are least to be trusted: a stroke of that colour would
 /// carry a rim of the near object away with the far one.
-Image<std::uint8_t> behind_depth_edge(ImageView<const float> disparity, float reach_px, float threshold_px);
+Image<std::uint8_t> behind_depth_edge(ImageView<const std::int16_t> steps, float reach_px, float threshold_px);
 
 }  // namespace wheatstone

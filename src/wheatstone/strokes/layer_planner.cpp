@@ -22,6 +22,7 @@ LayerPlanner::LayerPlanner(ImageView<const Rgb8> photograph_, ImageView<const fl
                            const Style& style)
     : photograph(photograph_),
       disparity(disparity_),
+      disparity_steps(style.depth_test ? disparity_in_steps(disparity) : Image<std::int16_t>()),
       view(view_),
       canvas(style.background == Background::photograph
                  ? make_canvas(photograph)
@@ -34,11 +35,11 @@ LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, c
   tbb::parallel_invoke([&] { inputs.reference = make_reference(planner.photograph, radius, style); },
                        [&] {
                          if (!style.depth_test) return;
-                         inputs.depth_edges = near_depth_edge(planner.disparity, radius, threshold);
+                         inputs.depth_edges = near_depth_edge(planner.disparity_steps, radius, threshold);
                          if (!finest) return;
-                         inputs.edge_distance = distance_to_depth_edge(planner.disparity, threshold, radius + 1);
+                         inputs.edge_distance = distance_to_depth_edge(planner.disparity_steps, threshold, radius + 1);
                          if (planner.avoid_mixed_colours)
-                           inputs.mixed_colours = behind_depth_edge(planner.disparity, radius / 2, threshold);
+                           inputs.mixed_colours = behind_depth_edge(planner.disparity_steps, radius / 2, threshold);
                        });
   return inputs;
 }

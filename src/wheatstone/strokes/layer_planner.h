@@ -24,6 +24,7 @@ struct LayerPlanner {
 
   ImageView<const Rgb8> photograph;
   ImageView<const float> disparity;
+  Image<std::int16_t> disparity_steps;  ///< as disparity_in_steps; empty where the style wants no depth test
   ViewPosition view;
   Canvas canvas;
   /// Strokes begin where two surfaces' colours mix only if there is no other place: the surfaces part in other views.

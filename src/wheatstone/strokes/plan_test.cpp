@@ -54,7 +54,7 @@ Image<Rgb8> horizontal_stripes(int width, int height) {
 TEST(DepthEdges, AreExactlyThePixelsWhoseWindowHoldsAJump) {
   const Image<float> disparity = test_scene::geometry().left_disparity;
   for (const float radius : {1.f, 2.5f, 9.f}) {
-    const Image<std::uint8_t> marked = near_depth_edge(disparity, radius, 2);
+    const Image<std::uint8_t> marked = near_depth_edge(disparity_in_steps(disparity), radius, 2);
     const int reach = static_cast<int>(std::ceil(radius));
     for (int y = 0; y < disparity.height(); ++y) {
       for (int x = 0; x < disparity.width(); ++x) {
@@ -72,7 +72,7 @@ TEST(DepthEdges, DistanceIsHalfAPixelBesideAnEdge) {
   Image<float> disparity(20, 3, 1);
   for (int y = 0; y < 3; ++y)
     for (int x = 10; x < 20; ++x) disparity(x, y) = 9;
-  const Image<float> distance = distance_to_depth_edge(disparity, 2, 6);
+  const Image<float> distance = distance_to_depth_edge(disparity_in_steps(disparity), 2, 6);
   EXPECT_FLOAT_EQ(distance(9, 1), 0.5f);
   EXPECT_FLOAT_EQ(distance(10, 1), 0.5f);
   EXPECT_NEAR(distance(14, 1), 4.5f, 0.3f);
@@ -82,7 +82,7 @@ TEST(DepthEdges, OnlyTheFarSideLiesBehindOne) {
   Image<float> disparity(20, 3, 1);
   for (int y = 0; y < 3; ++y)
     for (int x = 10; x < 20; ++x) disparity(x, y) = 9;
-  const Image<std::uint8_t> behind = behind_depth_edge(disparity, 2, 2);
+  const Image<std::uint8_t> behind = behind_depth_edge(disparity_in_steps(disparity), 2, 2);
   EXPECT_EQ(behind(9, 1), 255);
   EXPECT_EQ(behind(7, 1), 0);
   EXPECT_EQ(behind(10, 1), 0);
@@ -273,10 +273,10 @@ TEST(Flatten, CurvesBeginAndEndOnTheirOuterControlPoints) {
   const FlatLayer flat = flatten(layer);
   const SeenLayer left(flat, left_eye), right(flat, right_eye);
   EXPECT_FLOAT_EQ(left.x(0), 10);
-  EXPECT_NEAR(left.x(flat.x.size() - 1), 40, 1e-3);
+  EXPECT_NEAR(left.x(flat.strokes[0].vertex_count - 1), 40, 1e-3);
   EXPECT_FLOAT_EQ(right.x(0), 8);
-  EXPECT_NEAR(right.x(flat.x.size() - 1), 38, 1e-3);
-  EXPECT_NEAR(flat.y.back(), 31, 1e-3);
+  EXPECT_NEAR(right.x(flat.strokes[0].vertex_count - 1), 38, 1e-3);
+  EXPECT_NEAR(flat.y[flat.strokes[0].vertex_count - 1], 31, 1e-3);
 }
 
 }  // namespace
