@@ -87,6 +87,7 @@ std::string state_json(const Viewer& viewer, const std::vector<std::pair<std::st
             {"display", state.display},
             {"finest_layer", state.finest_layer},
             {"style", state.style.name},
+            {"compare", comparison_names[static_cast<std::size_t>(state.comparison)]},
             {"full_screen", session.full_screen},
             {"information", session.information},
             {"help", session.help},

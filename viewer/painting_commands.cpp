@@ -42,16 +42,11 @@ void set_parameter(Viewer& viewer, const Words& words) {
 }
 
 void compare(Viewer& viewer, const Words& words) {
-  static constexpr std::array names{std::pair{std::string_view("painting"), Comparison::painting},
-                                    std::pair{std::string_view("photograph"), Comparison::photograph},
-                                    std::pair{std::string_view("split"), Comparison::split}};
-  for (const auto& [name, comparison] : names)
-    if (name == words[0]) {
-      state_of(viewer).comparison = comparison;
-      return;
-    }
-  throw Error(ErrorKind::wrong_usage,
-              fmt::format("'{}' is nothing to compare, expected painting, photograph or split", words[0]));
+  const auto found = std::ranges::find(comparison_names, words[0]);
+  if (found == comparison_names.end())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("'{}' is nothing to compare, expected painting, photograph or split", words[0]));
+  state_of(viewer).comparison = static_cast<Comparison>(found - comparison_names.begin());
 }
 
 constexpr Command table[] = {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "particle_look.h"
@@ -18,6 +20,9 @@ enum class Comparison {
   photograph,  ///< the photograph instead
   split,       ///< the photograph in the left half of the screen
 };
+
+inline constexpr std::array<std::string_view, 3> comparison_names{"painting", "photograph",
+                                                                  "split"};  ///< in their order
 
 /// How the two eyes are brought onto the screen.
 struct Adjustment {

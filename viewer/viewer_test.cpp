@@ -294,6 +294,32 @@ TEST(Viewer, PaintsAPhotographAsPaintDoes) {
   EXPECT_TRUE(read_painting(folder / "shown.wst") == read_painting(folder / "painted/painting.wst"));
 }
 
+TEST(Viewer, ComparesAPaintingWithItsPhotograph) {
+  const TemporaryFolder folder;
+  write_image(folder / "left.png", still().pictures.left);
+  write_image(folder / "right.png", still().pictures.right);
+  Viewer viewer;
+  viewer.set_viewport({240, 160});
+  viewer.session().items.push_back({folder / "left.png", folder / "right.png"});
+  viewer.open(0);
+  viewer.wait();
+  const auto shown = [&](const std::string& comparison) {
+    for (const std::string& line :
+         {std::string("mode left"), std::string("zero-parallax 0"), "compare " + comparison}) {
+      run_line(viewer, line);
+      viewer.wait();
+    }
+    return viewer.frame()->picture;
+  };
+  const Image<Rgb8> painted = shown("painting"), photograph = shown("photograph"), split = shown("split");
+  EXPECT_EQ(photograph, still().pictures.left);
+  EXPECT_NE(painted, photograph);
+  for (int y = 0; y < split.height(); ++y)
+    for (int x = 0; x < split.width(); ++x)
+      ASSERT_EQ(split(x, y), (x < split.width() / 2 ? photograph : painted)(x, y)) << x << ' ' << y;
+  expect_error(ErrorKind::wrong_usage, "nothing to compare", [&] { run_line(viewer, "compare moon"); });
+}
+
 TEST(Viewer, ShowsAPhotographAsItCameWhileItIsMadeReady) {
   const TemporaryFolder folder;
   write_image(folder / "left.png", still().pictures.left);

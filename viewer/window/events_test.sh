@@ -147,6 +147,10 @@ xdotool key question
 is help true "? shows all keys"
 xdotool key question
 is help false "? hides them"
+xdotool keydown c
+is compare photograph "C shows the photograph"
+xdotool keyup c
+is compare painting "C shows it as long as it is held"
 xdotool key f
 is full_screen true "F shows the full screen"
 is width 1280.0 "the full screen is as wide as the screen"
@@ -210,6 +214,21 @@ awk '{ gap[NR] = $1; if ($2 > 50) { print $0; failed = 1 } }
 kill -TERM "$window"
 wait "$window" || true
 window=''
+
+# The mode and the files stay from one session to the next, but for scripts.
+export XDG_CONFIG_HOME=$folder/kept
+kept_file=$XDG_CONFIG_HOME/Wheatstone/wheatstone-view.conf
+for session in 1 2; do
+  "$view" painted/painting.wst --size 480x400 2>errors.txt &
+  window=$!
+  xdotool search --sync --onlyvisible --pid "$window" >found.txt
+  xdotool windowfocus --sync "$(head -1 found.txt)" key t key q
+  wait "$window" || fail "a session without a script ends with $?: $(cat errors.txt)"
+  window=''
+  grep '^mode=' "$kept_file" >>modes.txt || fail "the mode is not kept: $(cat "$kept_file")"
+  grep --quiet "^recent=$folder/painted/painting.wst$" "$kept_file" || fail "the file is not kept: $(cat "$kept_file")"
+done
+[[ $(uniq modes.txt | wc -l) == 2 ]] || fail "the mode that was kept is not brought back: $(cat modes.txt)"
 
 # Without any OpenGL the window says so; a signal ends the window in order.
 export QT_XCB_GL_INTEGRATION=none

@@ -4,10 +4,13 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QSettings>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "viewer/command_table.h"
 #include "viewer/output_mode.h"
+#include "viewer/recent_files.h"
 #include "wheatstone/error.h"
 #include "window.h"
 
@@ -15,7 +18,6 @@ namespace wheatstone::viewer {
 namespace {
 
 constexpr auto recent_key = "recent", mode_key = "mode", display_key = "display", size_key = "size";
-constexpr qsizetype most_files = 10;
 constexpr QChar between_eyes = '\n';
 
 constexpr auto organisation = "Wheatstone", program = "wheatstone-view";
@@ -37,15 +39,19 @@ KeptSettings::KeptSettings(Window& window) : window_(window) {
 }
 
 QStringList KeptSettings::recent_files() const {
-  QStringList files;
-  for (const Item& item : window_.viewer().session().items) {
-    QStringList names;
-    for (const auto& file : item) names << QFileInfo(QString::fromStdString(file.string())).absoluteFilePath();
-    files.prepend(names.join(between_eyes));
+  std::vector<Item> before;
+  for (const QString& line : QSettings(organisation, program).value(recent_key).toStringList()) {
+    Item item;
+    for (const QString& name : line.split(between_eyes)) item.emplace_back(name.toStdString());
+    before.push_back(std::move(item));
   }
-  files << QSettings(organisation, program).value(recent_key).toStringList();
-  files.removeDuplicates();
-  return files.mid(0, most_files);
+  QStringList files;
+  for (const Item& item : recent_items(window_.viewer().session().items, before)) {
+    QStringList names;
+    for (const auto& file : item) names << QString::fromStdString(file.string());
+    files << names.join(between_eyes);
+  }
+  return files;
 }
 
 void KeptSettings::fill_menu(QMenu& menu) {

@@ -90,7 +90,7 @@ Window::Window(const WindowOptions& options)
   connect(qApp, &QGuiApplication::screenAdded, this, count_screens);
   connect(qApp, &QGuiApplication::screenRemoved, this, [this, count_screens](const QScreen* removed) {
     count_screens();
-    full_screen_.screen_removed(*this, removed);
+    if (full_screen_.screen_removed(*this, removed)) viewer_.session().full_screen = false;
     refresh();
   });
   connect(&click_timer_, &QTimer::timeout, this, [this] {

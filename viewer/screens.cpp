@@ -1,0 +1,52 @@
+#include "screens.h"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+
+#include "stage.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+/// Letters and digits alone, as "Looking Glass Go" and "looking-glass-go" have them in common.
+std::string plain(std::string_view name) {
+  std::string letters;
+  for (const char letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)))
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return letters;
+}
+
+}  // namespace
+
+int screen_to_fill(const Session& session, std::span<const Screen> screens) {
+  if (session.screen > 0 && session.screen <= static_cast<int>(screens.size())) return session.screen;
+  const auto first = [&](auto&& fits) {
+    const auto found = std::ranges::find_if(screens, fits);
+    return found == screens.end() ? 0 : static_cast<int>(found - screens.begin()) + 1;
+  };
+  const std::string display = plain(session.state.display);
+  if (const int called =
+          first([&](const Screen& screen) { return plain(screen.name).find(display) != std::string::npos; }))
+    return called;
+  const std::optional<PictureSize> size = screen_size_of(session.state);
+  return size
+             ? first([&](const Screen& screen) { return screen.width == size->width && screen.height == size->height; })
+             : 0;
+}
+
+bool is_lost(const DesktopArea& window, std::span<const DesktopArea> screens) {
+  return std::ranges::none_of(screens, [&](const DesktopArea& screen) {
+    return window.left < screen.left + screen.width && screen.left < window.left + window.width &&
+           window.top < screen.top + screen.height && screen.top < window.top + window.height;
+  });
+}
+
+DesktopArea brought_to(const DesktopArea& available, const DesktopArea& window) {
+  const int width = std::min(window.width, available.width), height = std::min(window.height, available.height);
+  return {available.left + (available.width - width) / 2, available.top + (available.height - height) / 2, width,
+          height};
+}
+
+}  // namespace wheatstone::viewer
