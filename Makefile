@@ -1,5 +1,5 @@
 # The most common tasks. Each target first installs missing packages and builds what it needs.
-.PHONY: build test test-long demo view bench format lint fuzz configured
+.PHONY: build test test-long demo view package bench format lint fuzz configured
 
 build: configured
 	@cmake --build --preset release
@@ -18,6 +18,10 @@ view: configured
 	@cmake --build --preset release --target wheatstone_cli wheatstone_view
 	@scripts/demo
 	@build/release/bin/wheatstone view demo/*/painting.wst
+
+package: build
+	@cd build/release && cpack --config CPackConfig.cmake
+	@ls build/release/packages/*.deb
 
 bench: build
 	@scripts/bench

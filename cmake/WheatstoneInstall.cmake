@@ -17,14 +17,15 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/wheatstone/wheatstone.h
 target_include_directories(wheatstone INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Wheatstone)
-install(TARGETS wheatstone ${rooms} EXPORT WheatstoneTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT WheatstoneTargets NAMESPACE Wheatstone:: DESTINATION ${package_folder})
-install(TARGETS wheatstone_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS wheatstone ${rooms} EXPORT WheatstoneTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(EXPORT WheatstoneTargets NAMESPACE Wheatstone:: DESTINATION ${package_folder} COMPONENT development)
+install(TARGETS wheatstone_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wheatstone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
+  COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/generated/wheatstone/wheatstone.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wheatstone)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wheatstone COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)
 
 # What each module needs, as the package's configuration reads it.
 set(needs "")
@@ -47,4 +48,4 @@ install(FILES
   ${PROJECT_BINARY_DIR}/WheatstoneConfigVersion.cmake
   ${PROJECT_BINARY_DIR}/WheatstoneRooms.cmake
   ${PROJECT_SOURCE_DIR}/cmake/WheatstoneLibraries.cmake
-  DESTINATION ${package_folder})
+  DESTINATION ${package_folder} COMPONENT development)

@@ -1,0 +1,60 @@
+# Debian packages by CPack: the command line, the window, and what programs are built with.
+set(WHEATSTONE_MAINTAINER "Wheatstone authors <wheatstone@example.org>" CACHE STRING "Who answers for the packages")
+
+# Debian's policy: each package has its copyright and its changes.
+configure_file(changelog.in changelog @ONLY)
+add_custom_command(OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz
+  COMMAND gzip --best --no-name --keep --force changelog DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog VERBATIM)
+add_custom_target(wheatstone_changelog ALL DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
+foreach(named "wheatstone program" "wheatstone-view window" "libwheatstone-dev development")
+  string(REPLACE " " ";" named ${named})
+  list(GET named 0 package)
+  list(GET named 1 component)
+  install(FILES copyright ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
+    COMPONENT ${component})
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME wheatstone)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "stereo paintings and particles for 3D displays")
+set(CPACK_PACKAGE_CONTACT ${WHEATSTONE_MAINTAINER})
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL program development)
+if(WHEATSTONE_VIEWER)
+  list(APPEND CPACK_COMPONENTS_ALL window)
+endif()
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wheatstone)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+"The program wheatstone paints stereo photographs and films so that both eyes
+see one painting, and renders particle data sets for stereo, lenticular and
+light-field displays.")
+set(CPACK_DEBIAN_WINDOW_PACKAGE_NAME wheatstone-view)
+set(CPACK_DEBIAN_WINDOW_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_WINDOW_PACKAGE_DEPENDS "wheatstone (= ${PROJECT_VERSION})")
+set(CPACK_COMPONENT_WINDOW_DESCRIPTION
+"The window of Wheatstone shows photographs, paintings, films and particles in
+any stereo layout and from any place, and paints what it shows.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwheatstone-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "libopencv-dev, libopencv-contrib-dev, libopenimageio-dev, openimageio-tools, liblcms2-dev, libheif-dev, \
+libwebp-dev, libtbb-dev, libhwy-dev, zlib1g-dev, libhdf5-dev, libcfitsio-dev, libzip-dev, libnanoflann-dev, \
+libfftw3-dev, libavformat-dev, libavcodec-dev, libavutil-dev, libswscale-dev, libtomlplusplus-dev, libfmt-dev, \
+nlohmann-json3-dev, libflatbuffers-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+"The static library of Wheatstone, its headers, and what CMake's
+find_package(Wheatstone) reads.")
+
+include(CPack)
