@@ -13,15 +13,21 @@ target_compile_options(wheatstone_warnings INTERFACE
   # Options are structs with defaults: naming only those that differ is how they are meant to be filled.
   -Wno-missing-field-initializers)
 
-# A test program is two entries of ctest, each of which runs every second test: its libraries are loaded twice, not once
-# a test, and both processors have work. What takes long by nature (random runs, real photographs and films of full size)
-# is in suites whose names end in "Long": `make test` leaves them out, `make test-long` runs them and nothing else.
+# A test program is one entry of ctest: what its tests share, such as rendered scenes, is made once. The programs that
+# take longest are two entries, each of which runs every second test, and begin first, so that no processor is without
+# work at the end. What takes long by nature (random runs, real photographs and films of full size) is in suites whose
+# names end in "Long": `make test` leaves them out, `make test-long` runs them and nothing else.
+set(wheatstone_longest_tests cli app examples matching)
 function(wheatstone_add_gtest name target)
-  foreach(shard 1 2)
+  set(shards 1)
+  if(name IN_LIST wheatstone_longest_tests)
+    set(shards 2)
+  endif()
+  foreach(shard RANGE 1 ${shards})
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND ${target})
-    set_tests_properties(${name}.${shard} PROPERTIES
-      TIMEOUT 900 ENVIRONMENT "GTEST_FILTER=-*Long.*;GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
+    set_tests_properties(${name}.${shard} PROPERTIES COST ${shards} TIMEOUT 900
+      ENVIRONMENT "GTEST_FILTER=-*Long.*;GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
   endforeach()
   add_test(NAME ${name}.long COMMAND ${target})
   set_tests_properties(${name}.long PROPERTIES

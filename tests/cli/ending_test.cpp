@@ -52,7 +52,7 @@ TEST(Ending, OfAnInterruptedRunIsExitCodeFive) {
     const TemporaryFolder folder;
     const ProgramResult result = run_program(long_run, {.folder = folder / "", .while_running = [signal](int process) {
                                                           wait_until_caught(process, signal);
-                                                          std::this_thread::sleep_for(std::chrono::milliseconds(300));
+                                                          std::this_thread::sleep_for(std::chrono::milliseconds(100));
                                                           ::kill(process, signal);
                                                         }});
     EXPECT_EQ(result.exit_code, 5);
@@ -82,7 +82,7 @@ void expect_ends_within_a_second(const Lines& lines) {
     std::chrono::steady_clock::time_point sent;
     const ProgramResult result = run_program(line, {.folder = folder / "", .while_running = [&sent](int process) {
                                                       wait_until_caught(process, SIGINT);
-                                                      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+                                                      std::this_thread::sleep_for(std::chrono::milliseconds(300));
                                                       sent = std::chrono::steady_clock::now();
                                                       ::kill(process, SIGINT);
                                                     }});

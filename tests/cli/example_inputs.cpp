@@ -98,6 +98,12 @@ void make_multi_picture(const fs::path& path) {
   write_mpo(path, views);
 }
 
+/// Beside one of the size that others have, it need not be as large.
+void make_small_multi_picture(const fs::path& path) {
+  const StereoPair pair = still_for_test(photograph_width / 2, photograph_height / 2);
+  write_mpo(path, std::array<ImageView<const Rgb8>, 2>{pair.left, pair.right});
+}
+
 /// The scene of `photographs`, with its exact disparity.
 void make_still(const fs::path& folder) {
   make_with_program({"synth", "still", "--size", fmt::format("{}x{}", photograph_width, photograph_height), "--samples",
@@ -135,8 +141,8 @@ const std::map<std::string, Maker>& makers() {
              {"pack", example_input("left.png"), example_input("right.png"), "--to", "colour", "-o", path});
        }},
       {"one.mpo", make_multi_picture},
-      {"two.mpo", make_multi_picture},
-      {"three.mpo", make_multi_picture},
+      {"two.mpo", make_small_multi_picture},
+      {"three.mpo", make_small_multi_picture},
       {"photograph.jpg",
        [](const fs::path& path) { write_image(path, joined(photographs().left, photographs().right, true)); }},
       {"photo.jpg", left},

@@ -196,11 +196,12 @@ TEST(PaintCommand, OnePhotographForEveryViewOfADisplay) {
   const TemporaryFolder folder;
   put_still(folder);
   run_in(folder, {"pack", "left.png", "right.png", "-o", "photo.mpo"});
-  const auto facts = nlohmann::json::parse(
-      run_in(folder, {"paint", "photo.mpo", "--display", "looking-glass-portrait", "-o", "photo", "--json"}).output);
+  const auto facts = nlohmann::json::parse(run_in(folder, {"paint", "photo.mpo", "--display", "looking-glass-portrait",
+                                                           "--format", "jpg", "-o", "photo", "--json"})
+                                               .output);
   EXPECT_EQ(facts["views"], 48);
   EXPECT_LT(facts["worst_bare_share"].get<double>(), 0.01);
-  const Image<Rgb8> quilt = read_image(folder / "photo_qs8x6a0.75.png");
+  const Image<Rgb8> quilt = read_image(folder / "photo_qs8x6a0.75.jpg");
   EXPECT_EQ(quilt.width(), 3360);
   EXPECT_EQ(quilt.height(), 3360);
   run_in(folder, {"paint", "photo.mpo", "--display", "nine-view", "--views", "3", "--size", "160x90", "-o", "three"});

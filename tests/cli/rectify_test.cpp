@@ -30,7 +30,7 @@ Image<Rgb8> spoiled(const Image<Rgb8>& picture) {
 }
 
 void write_spoiled_pair(const TemporaryFolder& folder) {
-  const StereoPair still = make_synthetic_still({.width = 480, .height = 360}).pictures;
+  static const StereoPair still = make_synthetic_still({.width = 400, .height = 300, .samples_a_side = 1}).pictures;
   write_image(folder / "left.png", still.left);
   write_image(folder / "right.png", spoiled(still.right));
 }
@@ -98,7 +98,7 @@ TEST(RectifyCommand, LeavesColoursAloneWhenAsked) {
 TEST(RectifyCommand, RefusesWhatIsNoPair) {
   const TemporaryFolder folder;
   write_spoiled_pair(folder);
-  write_image(folder / "blank.png", Image<Rgb8>(480, 360, {120, 130, 140}));
+  write_image(folder / "blank.png", Image<Rgb8>(400, 300, {120, 130, 140}));
   expect_refused(folder, {"rectify", "left.png", "blank.png", "--quiet"}, 3,
                  "left.png, blank.png: the right picture has only 0 distinct points");
   expect_refused(folder, {"rectify", "left.png", "left.png", "--quiet"}, 3, "taken from the same position");

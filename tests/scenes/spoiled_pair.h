@@ -14,6 +14,7 @@ inline SyntheticStill small_still(bool converged = false) {
   SyntheticStillOptions options;
   options.width = 400;
   options.height = 300;
+  options.samples_a_side = 1;
   options.converged = converged;
   return make_synthetic_still(options);
 }

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const SyntheticStill& still() {
-  static const SyntheticStill made = make_synthetic_still({.width = 240, .height = 180});
+  static const SyntheticStill made = make_synthetic_still({.width = 240, .height = 180, .samples_a_side = 1});
   return made;
 }
 
@@ -81,7 +81,7 @@ TEST(Redraw, KeepsThePaintingWhenItIsMadeLarger) {
 
 TEST(Redraw, MakesTheSamePicturesOfAPaintingFileInEveryStyle) {
   const TemporaryFolder folder;
-  const SyntheticStill small = make_synthetic_still({.width = 120, .height = 90, .samples_a_side = 1});
+  const SyntheticStill small = make_synthetic_still({.width = 80, .height = 60, .samples_a_side = 1});
   PaintPhotographOptions options;
   options.left_disparity = small.geometry.left_disparity;
   for (const std::string_view name : style_names()) {

@@ -60,7 +60,7 @@ PaintedFilm paint_film(double right_turn_degrees, int frames, RectifyPolicy poli
 }
 
 TEST(SceneRectification, MakesATurnedEyesFilmAsSteadyAsAStraightOnes) {
-  const PaintedFilm straight = paint_film(0, 4), turned = paint_film(1, 4);
+  const PaintedFilm straight = paint_film(0, 3), turned = paint_film(1, 3);
   EXPECT_FALSE(straight.rectified);
   EXPECT_TRUE(turned.rectified);
   EXPECT_THAT(turned.note, testing::HasSubstr("rectified"));

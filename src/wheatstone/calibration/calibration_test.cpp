@@ -29,7 +29,7 @@ struct Rig {
 };
 
 /// Rays of a camera a side of a pixel.
-constexpr int finer = 3;
+constexpr int finer = 2;
 
 /// The rays through every pixel of a camera.
 std::vector<cv::Point2d> rays_of(const cv::Matx33d& camera, const cv::Vec<double, 5>& distortion, cv::Size size) {

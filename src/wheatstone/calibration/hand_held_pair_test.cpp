@@ -43,7 +43,7 @@ double share_off(const PhonePair& truth, const PreparedPair& prepared, const Ima
 
 TEST(HandHeldPair, HasItsPartnersFound) {
   const TemporaryFolder folder;
-  const PhonePair truth = make_phone_pair({.width = 960, .height = 720, .seed = 2, .samples_a_side = 1});
+  const PhonePair truth = make_phone_pair({.width = 800, .height = 600, .seed = 2, .samples_a_side = 1});
   const StereoPair photographs{through_jpeg(truth.pictures.left, folder / "left.jpg"),
                                through_jpeg(truth.pictures.right, folder / "right.jpg")};
   const PreparedPair prepared = prepare_pair(photographs);

@@ -21,7 +21,7 @@ namespace wheatstone {
 namespace {
 
 const SyntheticStill& still() {
-  static const SyntheticStill made = make_synthetic_still({.width = 480, .height = 360});
+  static const SyntheticStill made = make_synthetic_still({.width = 480, .height = 360, .samples_a_side = 1});
   return made;
 }
 
@@ -78,7 +78,8 @@ TEST(Match, FindsTheRangeByItself) {
 }
 
 TEST(Match, WorksWhereDisparitiesHaveBothSigns) {
-  const SyntheticStill converged = make_synthetic_still({.width = 480, .height = 360, .converged = true});
+  const SyntheticStill converged =
+      make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1, .converged = true});
   const MatchedPair matched = match(converged.pictures);
   EXPECT_LT(matched.range.least, 0);
   EXPECT_LT(bad_2(matched.geometry.left_disparity, converged.geometry.left_disparity), 0.12);
@@ -87,7 +88,7 @@ TEST(Match, WorksWhereDisparitiesHaveBothSigns) {
 TEST(Match, GivesTheSameOnEveryRunAndAnyNumberOfThreads) {
   Image<float> first;
   const int threads_before = cv::getNumThreads();
-  for (const int threads : {1, 2, 2, 3, 1}) {
+  for (const int threads : {1, 2, 3, 2}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     cv::setNumThreads(threads);
     // A block that is wide against what is left of the width.

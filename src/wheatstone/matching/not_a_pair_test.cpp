@@ -18,7 +18,7 @@ struct NamedPair {
 const std::vector<NamedPair>& all_pairs() {
   static const std::vector<NamedPair> made = [] {
     std::vector<NamedPair> pairs;
-    for (const std::uint64_t seed : {1, 2, 3})
+    for (const std::uint64_t seed : {1, 2})
       pairs.push_back({"still " + std::to_string(seed), still_for_test(480, 360, seed)});
     for (const char* name : {"teddy", "motorcycle", "aloe"})
       if (auto pair = shared_pair(name)) pairs.push_back({name, std::move(*pair)});
@@ -30,7 +30,7 @@ const std::vector<NamedPair>& all_pairs() {
 /// Two seeds move the same things about on the same table, neither one scene nor two: one of them only.
 std::vector<NamedPair> pairs_of_different_scenes() {
   std::vector<NamedPair> pairs = all_pairs();
-  pairs.erase(pairs.begin() + 1, pairs.begin() + 3);
+  pairs.erase(pairs.begin() + 1);
   return pairs;
 }
 

@@ -93,7 +93,7 @@ TEST(FilmMeasures, TheSourceItselfHasAlmostNoErrorAlongItsTrueFlow) {
 }
 
 TEST(FilmMeasures, NoiseAFrameAddsWhatItMust) {
-  constexpr int frames = 3;
+  constexpr int frames = 2;
   const std::vector<SyntheticFilmFrame> source(small_film().begin(), small_film().begin() + frames);
   const double clean = error_of(source, source).mean(), gain = noise_gain(source);
   EXPECT_GT(gain, 1.25);

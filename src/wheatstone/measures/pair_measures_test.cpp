@@ -16,7 +16,7 @@ namespace wheatstone {
 namespace {
 
 const SyntheticStill& still() {
-  static const SyntheticStill made = make_synthetic_still({.width = 480, .height = 360});
+  static const SyntheticStill made = make_synthetic_still({.width = 480, .height = 360, .samples_a_side = 1});
   return made;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 TEST(CentralFlow, LeadsFromOneCentralViewToTheNext) {
   SyntheticFilmOptions options;
-  options.still = {.width = 320, .height = 180, .samples_a_side = 2};
+  options.still = {.width = 320, .height = 180, .samples_a_side = 1};
   options.cut = 0;
   const SyntheticFilmFrame first = make_synthetic_film_frame(options, 3),
                            second = make_synthetic_film_frame(options, 4);

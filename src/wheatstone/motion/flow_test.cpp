@@ -21,7 +21,7 @@ TwoFrames two_frames() {
   SyntheticFilmOptions options;
   options.still.width = 480;
   options.still.height = 270;
-  options.still.samples_a_side = 2;
+  options.still.samples_a_side = 1;
   options.cut = 0;
   return {make_synthetic_film_frame(options, 3), make_synthetic_film_frame(options, 4)};
 }

@@ -21,6 +21,18 @@ SyntheticStillOptions small(std::uint64_t seed = 1) {
   return options;
 }
 
+/// The same scene with one sample a pixel, where colours count only as being the same or not.
+SyntheticStillOptions plain(std::uint64_t seed = 1) {
+  SyntheticStillOptions options = small(seed);
+  options.samples_a_side = 1;
+  return options;
+}
+
+const SyntheticStill& still_of_small() {
+  static const SyntheticStill made = make_synthetic_still(small());
+  return made;
+}
+
 /// A value between two pixels of a row; x counts from the row's left edge, so that pixel 0's is at ½.
 template <class Value>
 double between(Value value, double x, int width) {
@@ -50,7 +62,7 @@ double mean_difference(const Image<Rgb8>& own, const Image<Rgb8>& other, const I
 }
 
 TEST(SyntheticStill, APointHasTheSameColourInBothEyes) {
-  const SyntheticStill still = make_synthetic_still(small());
+  const SyntheticStill& still = still_of_small();
   const auto seen = [&](int x, int y) { return still.geometry.left_occlusion(x, y) == 0; };
   const auto difference = [&](double error_px) {
     return mean_difference(still.pictures.left, still.pictures.right, still.geometry.left_disparity, 1, error_px, seen);
@@ -62,7 +74,7 @@ TEST(SyntheticStill, APointHasTheSameColourInBothEyes) {
 }
 
 TEST(SyntheticStill, RightEyeAgreesWithLeft) {
-  const SyntheticStill still = make_synthetic_still(small());
+  const SyntheticStill& still = still_of_small();
   const StereoGeometry& g = still.geometry;
   int seen = 0, agree = 0, occluded = 0;
   for (int y = 0; y < 240; ++y) {
@@ -137,7 +149,7 @@ TEST(SyntheticStill, CentralViewLiesHalfWay) {
 }
 
 TEST(SyntheticStill, EyesAreViewsAtHalfADisparity) {
-  const SyntheticStill still = make_synthetic_still(small());
+  const SyntheticStill& still = still_of_small();
   const SyntheticView left = make_synthetic_view(small(), left_eye), right = make_synthetic_view(small(), right_eye);
   EXPECT_EQ(left.picture, still.pictures.left);
   EXPECT_EQ(left.disparity, still.geometry.left_disparity);
@@ -168,7 +180,7 @@ TEST(SyntheticStill, DisparitiesHaveTheRangeAskedFor) {
 }
 
 TEST(SyntheticStill, ConvergenceOnlyShiftsTheViews) {
-  SyntheticStillOptions options = small();
+  SyntheticStillOptions options = plain();
   options.largest_disparity_px = 26;
   options.least_disparity_px = 2;
   const SyntheticView parallel = make_synthetic_view(options, left_eye);
@@ -217,9 +229,9 @@ TEST(SyntheticStill, HasTextureWhereverAMatcherLooks) {
 }
 
 TEST(SyntheticStill, TheSeedDecides) {
-  EXPECT_EQ(make_synthetic_view(small(5), central_view).picture, make_synthetic_view(small(5), central_view).picture);
-  const SyntheticView one = make_synthetic_view(small(5), central_view),
-                      other = make_synthetic_view(small(6), central_view);
+  EXPECT_EQ(make_synthetic_view(plain(5), central_view).picture, make_synthetic_view(plain(5), central_view).picture);
+  const SyntheticView one = make_synthetic_view(plain(5), central_view),
+                      other = make_synthetic_view(plain(6), central_view);
   int differ = 0, moved = 0;
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x) {
@@ -232,9 +244,9 @@ TEST(SyntheticStill, TheSeedDecides) {
 
 TEST(SyntheticStill, IsTheSameOnAnyNumberOfThreads) {
   SyntheticStill alone, crowd;
-  tbb::task_arena(1).execute([&] { alone = make_synthetic_still(small()); });
+  tbb::task_arena(1).execute([&] { alone = make_synthetic_still(plain()); });
   const tbb::global_control seven(tbb::global_control::max_allowed_parallelism, 7);
-  tbb::task_arena(7).execute([&] { crowd = make_synthetic_still(small()); });
+  tbb::task_arena(7).execute([&] { crowd = make_synthetic_still(plain()); });
   EXPECT_EQ(alone.pictures.left, crowd.pictures.left);
   EXPECT_EQ(alone.pictures.right, crowd.pictures.right);
   EXPECT_EQ(alone.geometry.right_disparity, crowd.geometry.right_disparity);
