@@ -68,6 +68,8 @@ void expect_consistent(const Subject& subject) {
   EXPECT_NEAR(ours.painting.left_gradient_energy / ours.painting.right_gradient_energy, 1, 0.05);
   EXPECT_GT(ours.strokes.paired_share, 0.99);
   EXPECT_LT(ours.strokes.shape_differs_share, 0.05);
+  EXPECT_LE(ours.wrong_spots.spots_per_100000_px, 5);
+  EXPECT_LE(ours.wrong_spots.share, 0.002);
 }
 
 /// `untested_share` is what strokes reach that do not look at depth.
@@ -116,7 +118,7 @@ TEST(PaintingQuality, TeddyIsConsistent) {
 TEST(PaintingQuality, TeddyDoesNotSpill) {
   const auto teddy = shared_subject("teddy", 4.f);
   if (!teddy) GTEST_SKIP() << "no shared data: teddy";
-  expect_no_spilling(*teddy, 0.023);  // reached: .0257
+  expect_no_spilling(*teddy, 0.018);  // reached: .0208
 }
 
 TEST(PaintingQuality, MotorcycleKeepsItsDepthWithOurOwnMatching) {

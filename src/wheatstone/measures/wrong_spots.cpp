@@ -14,7 +14,7 @@ namespace wheatstone {
 namespace {
 
 bool differ(const Rgb8& a, const Rgb8& b) {
-  constexpr int most = 60;
+  constexpr int most = static_cast<int>(unlike_colours);
   const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
   return red * red + green * green + blue * blue > most * most;
 }

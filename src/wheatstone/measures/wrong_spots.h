@@ -4,14 +4,17 @@
 
 namespace wheatstone {
 
+/// An RGB distance, 0..441, above which nobody takes one colour for the other.
+inline constexpr float unlike_colours = 60;
+
 /// Places of a painting whose colour its photograph has nowhere near, as where paint of one surface lies on another.
 struct WrongSpots {
   double spots_per_100000_px = 0;
   double share = 0;  ///< of the pixels, 0..1, that lie in a spot
 };
 
-/// 255 where every pixel of the photograph within 4 pixels (of a picture 640 wide, in proportion otherwise) has an RGB
-/// distance of more than 60. Throws Error{bad_input} where the sizes differ.
+/// 255 where every pixel of the photograph within 4 pixels (of a picture 640 wide, in proportion otherwise) has an
+/// unlike colour. Throws Error{bad_input} where the sizes differ.
 Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph);
 
 /// A spot is a connected set (8 neighbours) of at least 4 wrong pixels. Throws as wrong_pixels.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/visible_runs_internal.h"
 
 namespace wheatstone {
@@ -159,18 +160,15 @@ FitSums sum_fits(std::span<const ControlPoint> points, Rgb8 colour, const FitGro
       continue;
     const int column = static_cast<int>(x), row = static_cast<int>(y);
     if (ground.disparity(column, row) * ground.reduction > point.disparity + ground.depth_threshold_px) continue;
-    const auto distance_to = [&](float red, float green, float blue) {
-      const float r = static_cast<float>(ground.reference.red(column, row)) - red;
-      const float g = static_cast<float>(ground.reference.green(column, row)) - green;
-      const float b = static_cast<float>(ground.reference.blue(column, row)) - blue;
-      return std::sqrt(r * r + g * g + b * b);
-    };
-    const float difference = distance_to(colour.r, colour.g, colour.b);
+    const auto red = static_cast<float>(ground.reference.red(column, row) - colour.r);
+    const auto green = static_cast<float>(ground.reference.green(column, row) - colour.g);
+    const auto blue = static_cast<float>(ground.reference.blue(column, row) - colour.b);
+    const float difference = std::sqrt(red * red + green * green + blue * blue);
     sums.own += difference;
     ++sums.count;
-    const Canvas& canvas = ground.canvas;
-    if (canvas.coverage(column, row) < 0.5f) continue;
-    sums.gain += distance_to(canvas.red(column, row), canvas.green(column, row), canvas.blue(column, row)) - difference;
+    const float under = ground.errors(column, row);
+    if (under < 0 || under >= bare_error) continue;
+    sums.gain += std::sqrt(under) - difference;
     ++sums.covered;
   }
   return sums;

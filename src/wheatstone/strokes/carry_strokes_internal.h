@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include "wheatstone/drawing/canvas.h"
 #include "wheatstone/strokes/reference_picture.h"
 #include "wheatstone/strokes/scene_motion_internal.h"
 #include "wheatstone/strokes/strokes_in_time.h"
@@ -46,14 +45,14 @@ bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, const
 /// long, where each is worst.
 struct ColourFit {
   float difference = 0;  ///< of its colour from the picture
-  float gain = 0;        ///< by how much more the paint under it differs from the picture; 0 over bare canvas
+  float gain = 0;        ///< by how much more the coarser layers' paint differs from the picture; 0 over bare canvas
 };
 
-/// `reference`, `canvas` and `disparity` are of one size, and each point `reduction` times nearer to the corner there.
+/// `reference`, `errors` and `disparity` are of one size, and each point `reduction` times nearer to the corner there.
 /// Only points in the picture and not behind its surface count; where there is none, all fits.
 struct FitGround {
   const ReferencePicture& reference;
-  const Canvas& canvas;
+  const Image<float>& errors;  ///< squared RGB errors that the coarser layers left; negative: not wanted
   ImageView<const float> disparity;
   float reduction = 1;
   float depth_threshold_px = 2;  ///< in the stroke's pixels

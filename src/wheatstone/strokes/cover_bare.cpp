@@ -34,6 +34,26 @@ void strike_out(int x, int y, float radius_px, Image<std::uint8_t>& bare) {
   bare(x, y) = 0;
 }
 
+/// The photograph's colour at a pixel, or where two surfaces' colours mix there, of the nearest pixel of its surface
+/// where they do not; its own where none is near.
+Rgb8 colour_of_surface(const LayerPlanner& planner, ImageView<const std::uint8_t> mixed_colours, int x, int y,
+                       const ScaledStyle& scaled) {
+  if (mixed_colours.empty() || mixed_colours(x, y) == 0) return planner.photograph(x, y);
+  const int reach = static_cast<int>(std::ceil(scaled.radii_px.back()));
+  int nearest = 2 * reach * reach + 1;
+  Rgb8 colour = planner.photograph(x, y);
+  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, mixed_colours.height() - 1); ++row) {
+    for (int column = std::max(x - reach, 0); column <= std::min(x + reach, mixed_colours.width() - 1); ++column) {
+      const int distance = (column - x) * (column - x) + (row - y) * (row - y);
+      if (distance >= nearest || mixed_colours(column, row) != 0) continue;
+      if (std::abs(planner.disparity(column, row) - planner.disparity(x, y)) > scaled.depth_threshold_px) continue;
+      nearest = distance;
+      colour = planner.photograph(column, row);
+    }
+  }
+  return colour;
+}
+
 }  // namespace
 
 Layer strokes_near_bare(const Layer& layer, const Canvas& canvas) {
@@ -61,7 +81,7 @@ Layer strokes_near_bare(const Layer& layer, const Canvas& canvas) {
   return near;
 }
 
-Layer cover_bare(const LayerPlanner& planner, const ScaledStyle& scaled, const Style& style,
+Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const ScaledStyle& scaled, const Style& style,
                  ImageView<const std::uint8_t> wanted) {
   const int width = planner.photograph.width(), height = planner.photograph.height();
   Image<std::uint8_t> bare(width, height);
@@ -76,7 +96,7 @@ Layer cover_bare(const LayerPlanner& planner, const ScaledStyle& scaled, const S
       Stroke dot{.first_point = static_cast<std::uint32_t>(dots.points.size()), .point_count = 1};
       dot.radius_px = fitting_radius(planner.disparity, x, y, scaled.radii_px.back(), scaled.depth_threshold_px);
       dot.opacity = style.opacity;
-      dot.colour = planner.photograph(x, y);
+      dot.colour = colour_of_surface(planner, inputs.mixed_colours, x, y, scaled);
       dot.disparity = disparity;
       dot.reference_view = planner.view;
       dot.views = all_views;

@@ -8,8 +8,9 @@ namespace wheatstone {
 Layer strokes_near_bare(const Layer& layer, const Canvas& canvas);
 
 /// Dots of the photograph's colours for the pixels of a planner's canvas that no stroke covers, as far as they are
-/// wanted: `wanted` is not 0 there, or empty. Each lies on one surface.
-Layer cover_bare(const LayerPlanner& planner, const ScaledStyle& scaled, const Style& style,
+/// wanted: `wanted` is not 0 there, or empty. Each lies on one surface and has that surface's colour. `inputs` are the
+/// finest layer's.
+Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const ScaledStyle& scaled, const Style& style,
                  ImageView<const std::uint8_t> wanted);
 
 }  // namespace wheatstone

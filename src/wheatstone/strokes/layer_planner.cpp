@@ -1,8 +1,11 @@
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "wheatstone/drawing/rasterise.h"
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/random.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
 #include "wheatstone/strokes/layer_order.h"
@@ -44,12 +47,25 @@ LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, c
   return inputs;
 }
 
+Image<std::uint8_t> misplaced_paint(const LayerPlanner& planner, const Style& style) {
+  if (style.jitter != ColourJitter{}) return {};
+  const Canvas& canvas = planner.canvas;
+  const auto level = [](float value) { return static_cast<std::uint8_t>(std::lround(value)); };
+  Image<Rgb8> painted(canvas.width, canvas.height);
+  tbb::parallel_for(0, canvas.height, [&](int y) {
+    for (int x = 0; x < canvas.width; ++x)
+      painted(x, y) = {level(canvas.red(x, y)), level(canvas.green(x, y)), level(canvas.blue(x, y))};
+  });
+  return wrong_pixels(painted, planner.photograph);
+}
+
 Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Style& style, const ScaledStyle& scaled,
-              ImageView<const std::uint8_t> seeds) {
+              const StrokePlaces& places) {
   const LayerPlan plan{.reference = inputs.reference,
                        .canvas = planner.canvas,
                        .disparity = planner.disparity,
-                       .seeds = seeds,
+                       .seeds = places.allowed,
+                       .misplaced = places.misplaced,
                        .view = planner.view,
                        .radius_px = scaled.radii_px[inputs.layer],
                        .layer = inputs.layer,
@@ -58,11 +74,6 @@ Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Styl
                        .edge_distance = inputs.edge_distance,
                        .mixed_colours = inputs.mixed_colours};
   return plan_layer(plan, style);
-}
-
-Layer plan_on(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer,
-              ImageView<const std::uint8_t> seeds) {
-  return plan_on(planner, make_layer_inputs(planner, style, scaled, layer), style, scaled, seeds);
 }
 
 void order_strokes(Layer& strokes, const Style& style, int layer) {
@@ -75,7 +86,9 @@ StrokePainting plan_alone(LayerPlanner& planner, const Style& style, const Scale
   const int layers = static_cast<int>(scaled.radii_px.size());
   for (int i = 0; i < layers; ++i) {
     report(progress, "painting", static_cast<double>(i) / layers);
-    painting.layers.push_back(plan_on(planner, style, scaled, i, seeds));
+    const LayerInputs inputs = make_layer_inputs(planner, style, scaled, i);
+    const Image<std::uint8_t> misplaced = i + 1 == layers ? misplaced_paint(planner, style) : Image<std::uint8_t>();
+    painting.layers.push_back(plan_on(planner, inputs, style, scaled, {seeds, misplaced}));
     order_strokes(painting.layers.back(), style, i);
     if (i + 1 < layers)
       rasterise(painting.layers.back(), planner.view,

@@ -42,18 +42,26 @@ struct LayerInputs {
 
 LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer);
 
-/// Plans one layer of one eye, with strokes that begin only on the seeds, pixels that are not 0, or anywhere where
-/// `seeds` is empty.
+/// 255 where the paint on the canvas has a colour that the photograph has nowhere near (measures/wrong_spots.h):
+/// strokes of the finest layer are wanted there whatever the style's threshold. Empty for styles whose colours are
+/// changed at random.
+Image<std::uint8_t> misplaced_paint(const LayerPlanner& planner, const Style& style);
+
+/// Where strokes begin; pixels that are not 0.
+struct StrokePlaces {
+  ImageView<const std::uint8_t> allowed;    ///< only here; empty: anywhere
+  ImageView<const std::uint8_t> misplaced;  ///< as misplaced_paint; empty: nowhere
+};
+
+/// Plans one layer of one eye.
 Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Style& style, const ScaledStyle& scaled,
-              ImageView<const std::uint8_t> seeds);
-/// The same for layer number `layer`, with inputs made for it.
-Layer plan_on(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer,
-              ImageView<const std::uint8_t> seeds = {});
+              const StrokePlaces& places);
 
 /// Puts the strokes of layer number `layer` into drawing order.
 void order_strokes(Layer& strokes, const Style& style, int layer);
 
-/// Plans all layers of one eye, for it alone, each against what the coarser ones left on the canvas.
+/// Plans all layers of one eye, for it alone, each against what the coarser ones left on the canvas, with strokes that
+/// begin only on the seeds, pixels that are not 0, or anywhere where `seeds` is empty.
 StrokePainting plan_alone(LayerPlanner& planner, const Style& style, const ScaledStyle& scaled,
                           ImageView<const std::uint8_t> seeds, const Progress& progress = {});
 

@@ -67,11 +67,18 @@ float desire(const Pass& pass, float error, int x, int y, const Target& target) 
   return bare_error - std::min(dx * dx + dy * dy, bare_error / 2);
 }
 
+/// Misplaced paint is worse than any other, and better than none.
+constexpr float misplaced_error = 3 * 255 * 255;
+static_assert(2 * misplaced_error < bare_error / 2);
+
 /// Looks through one row of one cell for a better pixel than the seed's. `errors` is by column of the picture.
 void improve_seed(const Pass& pass, const RowPart& part, const float* errors, const Target& target, Seed& seed) {
   for (int x = part.begin; x < part.end; ++x) {
     if (!may_begin(pass.plan, pass.place, x, part.row)) continue;
-    const float error = desire(pass, errors[x], x, part.row, target);
+    const bool misplaced = !pass.plan.misplaced.empty() && pass.plan.misplaced(x, part.row) != 0;
+    const bool is_bare = errors[x] >= bare_error;
+    const float own_error = errors[x] + (misplaced && !is_bare ? misplaced_error : 0);
+    const float error = desire(pass, own_error, x, part.row, target);
     if (error > seed.error) seed = {error, x, part.row};
   }
 }

@@ -10,9 +10,10 @@ namespace wheatstone {
 /// What one layer of one view is planned from; everything has the view's size.
 struct LayerPlan {
   const ReferencePicture& reference;
-  const Canvas& canvas;                 ///< as the coarser layers left it
-  ImageView<const float> disparity;     ///< pixels, no unknowns
-  ImageView<const std::uint8_t> seeds;  ///< strokes begin only where it is not 0; empty: everywhere
+  const Canvas& canvas;                     ///< as the coarser layers left it
+  ImageView<const float> disparity;         ///< pixels, no unknowns
+  ImageView<const std::uint8_t> seeds;      ///< strokes begin only where it is not 0; empty: everywhere
+  ImageView<const std::uint8_t> misplaced;  ///< strokes are wanted first where it is not 0; empty: nowhere
   ViewPosition view = left_eye;
   float radius_px = 4;
   int layer = 0;  ///< numbers the layer's random choices
@@ -25,9 +26,9 @@ struct LayerPlan {
 };
 
 /// Plans the strokes of one layer (Hertzmann 1998; Stavrakis & Gelautz 2004, sec. 3.2 and 3.3): one for every grid cell
-/// whose largest error, over the cell, is above the threshold. Beside depth edges, where the brush does not fit, it is
-/// used edgeways: on a grid of half the cells, strokes as wide as the distance to the edge allows. In the order of the
-/// cells, not yet in drawing order.
+/// whose largest error, over the cell, is above the threshold, or that has misplaced paint. Beside depth edges, where
+/// the brush does not fit, it is used edgeways: on a grid of half the cells, strokes as wide as the distance to the
+/// edge allows. In the order of the cells, not yet in drawing order.
 Layer plan_layer(const LayerPlan& plan, const Style& style);
 
 }  // namespace wheatstone

@@ -7,9 +7,11 @@
 
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/flatten_internal.h"
+#include "wheatstone/strokes/cover_bare_internal.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/layer_planner.h"
 #include "wheatstone/strokes/reference_picture.h"
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/trace_stroke_internal.h"
@@ -145,6 +147,66 @@ TEST(Plan, AStrokeBeginsAtTheLargestErrorOfItsCell) {
   ASSERT_EQ(layer.strokes.size(), 1u);
   EXPECT_EQ(layer.points[0], (ControlPoint{13.5f, 22.5f, 5}));
   EXPECT_EQ(layer.strokes[0].colour, (Rgb8{255, 255, 255}));
+}
+
+/// Grey, and from column 50 on so red that it is unlike grey, though less than T.
+Image<Rgb8> grey_then_red() {
+  Image<Rgb8> picture(80, 60, {100, 100, 100});
+  for (int y = 0; y < 60; ++y) std::fill_n(&picture(50, y), 30, Rgb8{180, 100, 100});
+  return picture;
+}
+
+TEST(Plan, AStrokeEndsBeforeItCoversPaintOfAColourUnlikeItsOwn) {
+  Style style;
+  style.min_length = style.max_length = 16;
+  style.orientation = Orientation::gradient;
+  Bench bench(grey_then_red(), style);
+  bench.cover(0);
+  // A slope of brightness, too slight to see, sends strokes along the rows.
+  for (int y = 0; y < 60; ++y)
+    for (std::uint8_t& level : bench.reference.luminance.row(y)) level = static_cast<std::uint8_t>(4 * y);
+  for (const bool backwards : {false, true}) {
+    std::vector<ControlPoint> points;
+    trace_stroke(bench.plan(), bench.style, {{.x = 30, .y = 30}, 4, backwards}, points);
+    EXPECT_GT(points.size(), 4u);
+    for (const ControlPoint& point : points) EXPECT_LT(point.x, 50);
+  }
+}
+
+TEST(Plan, MisplacedPaintIsPaintedOverWhateverTheThreshold) {
+  Bench bench(grey_then_red());
+  bench.cover(100);
+  EXPECT_TRUE(plan_layer(bench.plan(), bench.style).strokes.empty());
+  const LayerPlanner planner = [&] {
+    LayerPlanner made(bench.photograph, bench.disparity, left_eye, bench.style);
+    made.canvas = bench.canvas;
+    return made;
+  }();
+  const Image<std::uint8_t> misplaced = misplaced_paint(planner, bench.style);
+  EXPECT_EQ(misplaced(30, 30), 0);
+  EXPECT_EQ(misplaced(60, 30), 255);
+  LayerPlan plan = bench.plan();
+  plan.misplaced = misplaced;
+  const Layer layer = plan_layer(plan, bench.style);
+  EXPECT_FALSE(layer.strokes.empty());
+  for (const Stroke& stroke : layer.strokes) EXPECT_GT(stroke.colour.r, 160);
+
+  Style jittered;
+  jittered.jitter.hue = 0.5f;
+  EXPECT_TRUE(misplaced_paint(planner, jittered).empty()) << "its colours are meant to be others";
+}
+
+TEST(CoverBare, ADotBehindADepthEdgeHasItsSurfacesColour) {
+  Bench bench(grey_then_red());
+  for (int y = 0; y < 60; ++y) std::fill_n(&bench.disparity(51, y), 29, 20.f);  // column 50 is red and far
+  const LayerPlanner planner(bench.photograph, bench.disparity, left_eye, bench.style);
+  const ScaledStyle scaled(bench.style, 640);
+  const LayerInputs inputs = make_layer_inputs(planner, bench.style, scaled, 2);
+  Image<std::uint8_t> wanted(80, 60);
+  wanted(50, 30) = 255;
+  const Layer dots = cover_bare(planner, inputs, scaled, bench.style, wanted);
+  ASSERT_EQ(dots.strokes.size(), 1u);
+  EXPECT_EQ(dots.strokes[0].colour, (Rgb8{100, 100, 100}));
 }
 
 TEST(Plan, StrokesRunAcrossTheGradientWithPointsOneRadiusApart) {

@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/error.h"
@@ -66,22 +67,41 @@ class ViewAtWork {
     const LayerInputs inputs = make_layer_inputs(planner_, style_, scaled_, layer);
     const ImageView<const std::uint8_t> part = part_ ? part_->seeds.view() : ImageView<const std::uint8_t>();
     Image<std::uint8_t> seeds;
+    const Image<float> before = errors_left(inputs);
     if (!tracked.tracks.empty()) {
-      const Image<float> before = errors_left(inputs);
-      end_wrong_colours(inputs, options, tracked);
-      draw_on_canvas(carried(tracked));
-      seeds = where_strokes_are_missing(inputs, before, tracked);
+      end_wrong_colours(inputs, before, options, tracked);
+      draw_on_canvas(shown(tracked, [](const StrokeTrack& track) { return track.ends == 0; }));
     }
-    Layer begun = plan_on(planner_, inputs, style_, scaled_, seeds.empty() ? part : seeds.view());
+    const bool finest = layer + 1 == static_cast<int>(scaled_.radii_px.size());
+    const Image<std::uint8_t> misplaced = finest ? misplaced_paint(planner_, style_) : Image<std::uint8_t>();
+    if (!tracked.tracks.empty()) seeds = where_strokes_are_missing(inputs, before, misplaced, tracked);
+    Layer begun = plan_on(planner_, inputs, style_, scaled_, {seeds.empty() ? part : seeds.view(), misplaced});
     numbers_.give(begun);
     sort_numbered_far_to_near(begun, style_.seed);
-    add(begun, inputs, options, tracked);
-    const bool finest = layer + 1 == static_cast<int>(scaled_.radii_px.size());
+    add(begun, inputs, before, options, tracked);
     rasterise(finest ? strokes_near_bare(begun, planner_.canvas) : begun, planner_.view, hiding(), planner_.canvas);
     if (!finest) return;
-    Layer dots = cover_bare(planner_, scaled_, style_, part);
+    Layer dots = cover_bare(planner_, inputs, scaled_, style_, part);
     numbers_.give(dots);
-    add(std::move(dots), inputs, options, tracked);
+    add(std::move(dots), inputs, before, options, tracked);
+  }
+
+  /// Once all layers are planned: fading strokes whose paint the frame has nowhere near are gone at once.
+  void drop_misplaced(std::span<TrackedLayer> layers) {
+    if (part_) return;
+    for (const TrackedLayer& tracked : layers)
+      draw_on_canvas(shown(tracked, [](const StrokeTrack& track) { return track.ends != 0; }));
+    const Image<std::uint8_t> misplaced = misplaced_paint(planner_, style_);
+    if (misplaced.empty()) return;
+    for (TrackedLayer& tracked : layers) {
+      keep_if(tracked, [&](std::size_t i) {
+        return tracked.tracks[i].ends == 0 ||
+               std::ranges::none_of(tracked.layer.points_of(tracked.layer.strokes[i]), [&](const ControlPoint& point) {
+                 const int x = static_cast<int>(std::floor(point.x)), y = static_cast<int>(std::floor(point.y));
+                 return misplaced.contains(x, y) && misplaced(x, y) != 0;
+               });
+      });
+    }
   }
 
  private:
@@ -122,10 +142,10 @@ class ViewAtWork {
 
   float depth_threshold_px() const { return scaled_.depth_threshold_px * static_cast<float>(reduction_); }
 
-  ColourFit fit(const LayerInputs& inputs, const Layer& layer, const Stroke& stroke) const {
+  ColourFit fit(const LayerInputs& inputs, const Image<float>& before, const Layer& layer, const Stroke& stroke) const {
     return colour_fit(
         layer.points_of(stroke), stroke.colour,
-        {inputs.reference, planner_.canvas, planner_.disparity, static_cast<float>(reduction_), depth_threshold_px()});
+        {inputs.reference, before, planner_.disparity, static_cast<float>(reduction_), depth_threshold_px()});
   }
 
   /// True where a depth edge came under more than a quarter of a stroke's points, into the inner half of the brush.
@@ -142,11 +162,12 @@ class ViewAtWork {
   }
 
   /// A stroke whose colour fits worse than at first, or that now makes the picture worse, has stayed behind.
-  void end_wrong_colours(const LayerInputs& inputs, const CarryOptions& options, TrackedLayer& tracked) const {
+  void end_wrong_colours(const LayerInputs& inputs, const Image<float>& before, const CarryOptions& options,
+                         TrackedLayer& tracked) const {
     tbb::parallel_for(std::size_t{0}, tracked.tracks.size(), [&](std::size_t i) {
       StrokeTrack& track = tracked.tracks[i];
       if (track.ends != 0) return;
-      const ColourFit now = fit(inputs, tracked.layer, tracked.layer.strokes[i]);
+      const ColourFit now = fit(inputs, before, tracked.layer, tracked.layer.strokes[i]);
       if (now.difference <= track.first_colour_difference + options.colour_tolerance &&
           now.gain >= std::min(track.first_gain, 0.f) - options.gain_tolerance &&
           !spills(inputs, tracked.layer, tracked.layer.strokes[i]))
@@ -157,11 +178,12 @@ class ViewAtWork {
     });
   }
 
-  /// The strokes that stay, as the planner's canvas is to have them.
-  Layer carried(const TrackedLayer& tracked) const {
+  /// The strokes that `is_shown` holds for, as the planner's canvas is to have them.
+  template <class IsShown>
+  Layer shown(const TrackedLayer& tracked, IsShown is_shown) const {
     Layer layer{tracked.layer.radius_px, tracked.layer.points, {}};
     for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
-      if (tracked.tracks[i].ends != 0) continue;
+      if (!is_shown(tracked.tracks[i])) continue;
       layer.strokes.push_back(tracked.layer.strokes[i]);
       layer.strokes.back().opacity *= tracked.tracks[i].shown;
     }
@@ -207,19 +229,25 @@ class ViewAtWork {
       const ControlPoint& first = tracked.layer.points[stroke.first_point];
       const bool edgeways = stroke.radius_px < tracked.layer.radius_px;
       const float reach = (edgeways ? 0.25f : 0.5f) * cell_px;
-      const auto bound = [&](float place, float offset, int size) {
-        return std::clamp(static_cast<int>(std::lround(place / reduction + offset)), 0, size);
+      // Where cells are narrower than a pixel, it is the pixel in which the stroke begins.
+      const auto begin = [&](float place) {
+        return std::max(static_cast<int>(std::min(std::round(place - reach), std::floor(place))), 0);
       };
-      const int left = bound(first.x, -reach, begun.width()), right = bound(first.x, reach, begun.width());
-      const int top = bound(first.y, -reach, begun.height()), bottom = bound(first.y, reach, begun.height());
+      const auto end = [&](float place, int size) {
+        return std::min(static_cast<int>(std::max(std::round(place + reach), std::floor(place) + 1)), size);
+      };
+      const float first_x = first.x / reduction, first_y = first.y / reduction;
+      const int left = begin(first_x), right = end(first_x, begun.width());
+      const int top = begin(first_y), bottom = end(first_y, begun.height());
       for (int y = top; y < bottom && left < right; ++y) std::fill_n(&begun(left, y), right - left, std::uint8_t{255});
     }
     return begun;
   }
 
-  /// 255 where new strokes may begin: where carried ones do not do what painting anew would, and on what they left
-  /// bare.
+  /// 255 where new strokes may begin: where carried ones do not do what painting anew would, on what they left bare,
+  /// and on misplaced paint, but where one begins already.
   Image<std::uint8_t> where_strokes_are_missing(const LayerInputs& inputs, const Image<float>& before,
+                                                ImageView<const std::uint8_t> misplaced,
                                                 const TrackedLayer& tracked) const {
     const float cell_px = style_.grid * scaled_.radii_px[inputs.layer];
     const Image<float> after = errors_left(inputs);
@@ -227,20 +255,24 @@ class ViewAtWork {
     Image<std::uint8_t> seeds = missing_strokes({before, after, begun, inputs.depth_edges, cell_px, style_.threshold});
     const float squared_threshold = style_.threshold * style_.threshold;
     tbb::parallel_for(0, seeds.height(), [&](int y) {
-      for (int x = 0; x < seeds.width(); ++x)
+      for (int x = 0; x < seeds.width(); ++x) {
         if (planner_.canvas.coverage(x, y) < 0.5f) seeds(x, y) = before(x, y) > squared_threshold ? 255 : 0;
+        const bool may_begin = before(x, y) >= 0 && begun(x, y) == 0;
+        if (may_begin && !misplaced.empty() && misplaced(x, y) != 0) seeds(x, y) = 255;
+      }
     });
     return seeds;
   }
 
-  void add(Layer begun, const LayerInputs& inputs, const CarryOptions& options, TrackedLayer& tracked) const {
+  void add(Layer begun, const LayerInputs& inputs, const Image<float>& before, const CarryOptions& options,
+           TrackedLayer& tracked) const {
     if (part_) resize_strokes(begun, static_cast<float>(reduction_));
     tracked.layer.radius_px = begun.radius_px;
     for (const Stroke& stroke : begun.strokes) {
       StrokeTrack track;
       track.shown = first_shown(motion_ == nullptr, options);
       track.first_length_px = length_px(begun.points_of(stroke));
-      const ColourFit first = fit(inputs, begun, stroke);
+      const ColourFit first = fit(inputs, before, begun, stroke);
       track.first_colour_difference = first.difference;
       track.first_gain = first.gain;
       tracked.tracks.push_back(track);
@@ -402,6 +434,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
       work.plan(static_cast<int>(i), options, memory.views[view][i]);
       plan.report_step();
     }
+    if (!scene_begins) work.drop_misplaced(memory.views[view]);
     for (TrackedLayer& tracked : memory.views[view])
       drop_needless(frame, view, memory.last_number, depth_threshold_px, tracked);
   });

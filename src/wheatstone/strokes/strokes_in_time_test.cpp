@@ -15,6 +15,7 @@
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/measures/film_measures.h"
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
 #include "wheatstone/strokes/missing_strokes_internal.h"
@@ -155,6 +156,25 @@ TEST(StrokesInTime, OfOneEyeStandStillWhereTheFilmDoes) {
   EXPECT_TRUE(layers_of(frames[6]) == layers_of(frames[7]));
 }
 
+TEST(StrokesInTime, WhereTheFlowIsWrongPaintDoesNotLinger) {
+  const auto bar_at = [](int left) {
+    Image<Rgb8> picture(160, 90, {170, 160, 150});
+    for (int y = 0; y < 90; ++y) std::fill_n(&picture(left, y), 20, Rgb8{30, 20, 60});
+    return picture;
+  };
+  const Image<float> flat(160, 90);
+  const FlowPair none{{flat, flat}, {flat, flat}};
+  PaintingMemory memory;
+  double wrong = 0;
+  for (int i = 0; i < 2; ++i) {
+    const Image<Rgb8> picture = bar_at(30 + 60 * i);
+    const std::vector<SceneView> scene{{picture, flat, {}, central_view}};
+    const PaintedFrame frame = paint_frame({scene, i == 0 ? nullptr : &none}, {}, {}, memory);
+    wrong = measure_wrong_spots(frame.painted.pictures.left, picture).share;
+  }
+  EXPECT_LT(wrong, 0.02) << "the bar of the frame before takes .22 of the picture";
+}
+
 TEST(FadingFrames, AreFewerWhereAStrokeWouldLeaveATrail) {
   const CarryOptions options{.fade_in_frames = 2, .fade_out_frames = 4};
   EXPECT_EQ(fading_frames(4, 0, options), 4u);
@@ -172,7 +192,8 @@ TEST(ColourFit, IsThatOfTheWorstPartOfAStroke) {
   }();
   const ReferencePicture reference = make_reference(picture, 0.5f, {});
   const Image<float> flat(24, 8);
-  const FitGround ground{reference, Canvas(24, 8, {0, 0, 0}), flat};
+  const Image<float> black(24, 8, 3 * 100 * 100);
+  const FitGround ground{reference, black, flat};
   std::vector<ControlPoint> points;
   for (int i = 0; i < 12; ++i) points.push_back({2.f * static_cast<float>(i) + 0.5f, 4, 0});
   const Rgb8 grey{100, 100, 100};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "wheatstone/measures/wrong_spots.h"
+
 namespace wheatstone {
 namespace {
 
@@ -63,6 +65,14 @@ bool crosses_depth_edge(const LayerPlan& plan, const ControlPoint& from, const C
   return std::abs(to.disparity - from.disparity) > plan.depth_threshold_px;
 }
 
+/// True where a stroke would come to lie on paint although the picture's colour there is unlike its own: one of the
+/// least length would cover small things that no finer layer need bring back.
+bool would_cover_unlike(const LayerPlan& plan, const Rgb& colour, const ControlPoint& to) {
+  const int x = static_cast<int>(to.x), y = static_cast<int>(to.y);
+  const bool bare = plan.canvas.coverage(x, y) < 0.5f;
+  return !bare && squared_distance(reference_at(plan.reference, x, y), colour) > unlike_colours * unlike_colours;
+}
+
 /// Criterion (d): paint would spill onto another surface, around the next point or on the way to it. A stroke that was
 /// set down edgeways, narrower than the layer's brush, needs no more room than its own radius.
 bool would_spill(const LayerPlan& plan, float radius_px, bool edgeways, const ControlPoint& from,
@@ -112,7 +122,7 @@ void trace_stroke(const LayerPlan& plan, const Style& style, const StrokeStart& 
     ControlPoint next{point.x + plan.radius_px * direction->x, point.y + plan.radius_px * direction->y, 0};
     if (!(next.x >= 0 && next.y >= 0 && next.x < width && next.y < height)) return;
     next.disparity = plan.disparity(static_cast<int>(next.x), static_cast<int>(next.y));
-    if (would_spill(plan, start.radius_px, edgeways, point, next)) return;
+    if (would_spill(plan, start.radius_px, edgeways, point, next) || would_cover_unlike(plan, colour, next)) return;
     points.push_back(next);
     point = next;
   }
