@@ -54,6 +54,7 @@ struct Arguments {
   std::string truth;
   DisplayArguments display;
   std::string depth_budget = "3%";
+  std::string flow_values = "255";
   DepthArguments depth;
   RotoscopeFilmOptions options;
   MatchArguments matching;
@@ -166,12 +167,16 @@ void refuse_options_without_effect(const CLI::App& command, const Arguments& arg
   if (style.marks != Marks::strokes)
     refuse({"--fade-in", "--fade-out"}, fmt::format("on a painting of {}", name_of(style.marks)),
            "it works with strokes");
-  if (arguments.options.frames.anew)
-    refuse({"--flow", "--fade-in", "--fade-out"}, "with --frame-by-frame", "nothing is carried from frame to frame");
+  const RotoscopeOptions& frames = arguments.options.frames;
+  if (frames.anew)
+    refuse({"--flow", "--flow-model", "--flow-values", "--fade-in", "--fade-out"}, "with --frame-by-frame",
+           "nothing is carried from frame to frame");
   if (deep) refuse({"--truth", "--rectify"}, with_depth, "it works where there are two eyes");
   if (!arguments.depth.model.empty()) refuse({"--depth-is"}, with_depth, "a network gives inverse depth");
   if (!deep) refuse({"--depth-is", "--strength"}, "without --depth", "");
-  if (known) refuse({"--flow", "--rectify"}, "with --truth", "the exact flow and disparity are read");
+  if (known)
+    refuse({"--flow", "--flow-model", "--flow-values", "--rectify"}, "with --truth",
+           "the exact flow and disparity are read");
 }
 
 /// Depth makes a pair of a film of one eye.
@@ -215,6 +220,17 @@ void take_depth_budget(const CLI::App& command, Arguments& arguments) {
     arguments.options.frames.depth_budget = parse_share("--depth-budget", arguments.depth_budget, {0.1, 100});
 }
 
+/// A network for the optical flow, and nothing of it without one.
+void take_flow(Arguments& arguments) {
+  RotoscopeOptions& frames = arguments.options.frames;
+  const bool by_network = frames.flow == FlowMethod::onnx;
+  if (by_network && frames.flow_model.empty())
+    throw Error(ErrorKind::wrong_usage, "--flow: onnx needs a network, expected --flow-model FILE.onnx");
+  if (!by_network && !frames.flow_model.empty())
+    throw Error(ErrorKind::wrong_usage, "--flow-model: has no effect with this --flow; it works with onnx");
+  frames.flow_model_values = *network_values_by_name(arguments.flow_values);
+}
+
 /// What a display asks for, where the user does not say otherwise.
 void take_display(const CLI::App& command, Arguments& arguments) {
   arguments.options.frames.display = film_display_from(arguments.display);
@@ -251,7 +267,8 @@ FilmFiles films_from(const Arguments& arguments) {
   FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
-  check_not_an_input(arguments.output, std::array{film.film, film.right, depth, model});
+  check_not_an_input(arguments.output,
+                     std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model});
   return film;
 }
 
@@ -281,6 +298,7 @@ void refuse_for_one_eye(const CLI::App& command, const FilmFiles& film, const Ro
 void run(Arguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.style = style_from(arguments.style, session.seed);
   arguments.options.frames.matching = match_options_from(arguments.matching);
+  take_flow(arguments);
   take_display(command, arguments);
   take_depth_budget(command, arguments);
   arguments.options.frames.depth = {.kind = arguments.depth.kind, .strength = parse_strength(arguments.depth.strength)};
@@ -365,10 +383,22 @@ void add_time_options(CLI::App& command, Arguments& arguments) {
   RotoscopeOptions& frames = arguments.options.frames;
   add_rectify_option(command, frames.rectify)->group(group);
   static constexpr std::array flows{std::pair{std::string_view("dis"), FlowMethod::dis},
-                                    std::pair{std::string_view("farneback"), FlowMethod::farneback}};
-  add_choice<FlowMethod>(
-      command, "--flow", frames.flow, flows,
-      "Optical flow method: dis (dense inverse search), or farneback (polynomial expansion), which is slower")
+                                    std::pair{std::string_view("farneback"), FlowMethod::farneback},
+                                    std::pair{std::string_view("onnx"), FlowMethod::onnx}};
+  CLI::Option* flow =
+      add_choice<FlowMethod>(command, "--flow", frames.flow, flows,
+                             "Optical flow method: dis (dense inverse search), farneback (polynomial expansion), which "
+                             "is slower, or onnx, a network (--flow-model)")
+          ->group(group);
+  CLI::Option* model = command
+                           .add_option("--flow-model", frames.flow_model,
+                                       "Network (.onnx) for --flow onnx: takes two frames, 1x3xHxW each or stacked "
+                                       "1x6xHxW; returns a flow, 1x2xHxW")
+                           ->needs(flow)
+                           ->group(group);
+  add_name(command, "--flow-values", arguments.flow_values, network_values_names(),
+           "Value range of that network's inputs: 0..255, 0..1, or ImageNet's normalisation")
+      ->needs(model)
       ->group(group);
   static constexpr std::array merges{std::pair{std::string_view("visible"), CentralMerge::visible},
                                      std::pair{std::string_view("average"), CentralMerge::average}};

@@ -71,6 +71,17 @@ TEST(DepthFilm, ANetworkFindsTheDepthOfEachFrame) {
   expect_refused(folder, rotoscope_line({"--depth-model", "red.onnx", "--depth-is", "metric"}), 2, "--depth-is");
 }
 
+TEST(DepthFilm, AnotherNetworkMayFindTheFlow) {
+  const TemporaryFolder folder;
+  make_film(folder / "walk.mp4", 3, {.preset = "ultrafast"});
+  put_bytes(folder / "flow.onnx", tiny_network::no_flow_of_two_pictures(64, 32));
+  EXPECT_EQ(painted(folder, {"--flow", "onnx", "--flow-model", "flow.onnx", "-o", "o.mp4"})["frames"], 3);
+  put_bytes(folder / "red.onnx", tiny_network::red_of_one_picture(48, 32));
+  expect_refused(folder, rotoscope_line({"--flow", "onnx", "--flow-model", "red.onnx"}), 3,
+                 "red.onnx: input 'image' is not 1x6xHEIGHTxWIDTH");
+  expect_refused(folder, rotoscope_line({"--flow", "onnx"}), 2, "--flow-model FILE.onnx");
+}
+
 TEST(DepthFilm, DepthThatDoesNotFitTheFilmIsRefused) {
   const TemporaryFolder folder;
   make_film(folder / "walk.mp4", 4, {.preset = "ultrafast"});

@@ -30,9 +30,10 @@ inline std::string value(const std::string& name, const std::vector<int>& sides)
   return message(1, name) + message(2, message(1, number(1, 1) + message(2, shape)));
 }
 
-/// A TensorProto: the weights of a convolution of one pixel, to one channel.
-inline std::string weights(const std::string& name, const std::vector<float>& values) {
-  std::string bytes = number(1, 1) + number(1, values.size()) + number(1, 1) + number(1, 1) + number(2, 1);
+/// A TensorProto: the weights of a convolution of one pixel, to one channel or several, channel after channel.
+inline std::string weights(const std::string& name, const std::vector<float>& values, std::size_t channels = 1) {
+  std::string bytes =
+      number(1, channels) + number(1, values.size() / channels) + number(1, 1) + number(1, 1) + number(2, 1);
   std::string raw(values.size() * sizeof(float), '\0');
   std::memcpy(raw.data(), values.data(), raw.size());
   return bytes + message(8, name) + message(9, raw);
@@ -59,6 +60,16 @@ inline std::string model(const std::string& graph) {
 inline std::string red_of_one_picture(int width, int height) {
   return model(message(1, node("Conv", {"image", "of_image"}, "depth")) + message(5, weights("of_image", {1, 0, 0})) +
                message(11, value("image", {1, 3, height, width})) + message(12, value("depth", {1, 1, height, width})));
+}
+
+/// Answers with a flow of 0 between two pictures.
+inline std::string no_flow_of_two_pictures(int width, int height) {
+  const std::vector<float> nothing(6, 0.f);
+  return model(message(1, node("Conv", {"first", "of_first"}, "a")) +
+               message(1, node("Conv", {"second", "of_second"}, "b")) + message(1, node("Add", {"a", "b"}, "flow")) +
+               message(5, weights("of_first", nothing, 2)) + message(5, weights("of_second", nothing, 2)) +
+               message(11, value("first", {1, 3, height, width})) +
+               message(11, value("second", {1, 3, height, width})) + message(12, value("flow", {1, 2, height, width})));
 }
 
 }  // namespace wheatstone::tiny_network

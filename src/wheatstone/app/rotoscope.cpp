@@ -135,7 +135,9 @@ FlowPair find_flow(const FrameAtWork& frame, const FrameTask& task, const Rotosc
                         {frame.geometry.left_disparity, frame.centre.disparity});
   const FlowPair* start = state.flow_before.forward.x.empty() ? nullptr : &state.flow_before;
   const double size = share_of_width(state.central_before, task.options.widest_flow_px);
-  return estimate_flow(state.central_before, frame.centre.picture, {task.options.flow, start, size});
+  const RotoscopeOptions& options = task.options;
+  return estimate_flow(state.central_before, frame.centre.picture,
+                       {options.flow, start, size, options.flow_model, options.flow_model_values});
 }
 
 FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes& times) {

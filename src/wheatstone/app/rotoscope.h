@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct RotoscopeOptions {
   int widest_matched_px = 1280;  ///< wider frames are matched in copies of this width
   int widest_flow_px = 960;      ///< and their flow is found in copies of this one
   FlowMethod flow = FlowMethod::dis;
+  std::filesystem::path flow_model;  ///< with FlowMethod::onnx, as FlowOptions
+  NetworkValues flow_model_values = NetworkValues::to_255;
   CentralMerge central = CentralMerge::visible;
   CarryOptions carrying;
   std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for two eyes

@@ -30,10 +30,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Of all threads of this process.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The sources of the film's bytes, the network that matches among them.
+/// The sources of the film's bytes, the networks among them.
 std::vector<fs::path> sources_of(const RotoscopeFilmOptions& options) {
   std::vector<fs::path> sources = options.made_from;
-  if (!options.frames.matching.model.empty()) sources.push_back(options.frames.matching.model);
+  for (const fs::path& network : {options.frames.matching.model, options.frames.flow_model})
+    if (!network.empty()) sources.push_back(network);
   return sources;
 }
 
@@ -193,7 +194,8 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
   // the run goes: resume, keep_going, expected_frames.
   static_assert(field_count<RotoscopeFilmOptions>() == 11);
   RotoscopeOptions frames = options.frames;
-  frames.matching.model.clear();  // its content is compared
+  frames.matching.model.clear();  // their content is compared
+  frames.flow_model.clear();
   FilmReaderOptions reading = options.reading;
   reading.threads = 0;  // the same frames on any number
   return fmt::format("{}\n{}\n{}\nmarks {}\nknown {}", options.made_by, text_of_fields(frames), text_of_fields(reading),

@@ -10,6 +10,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/motion/flow.h"
+#include "wheatstone/motion/flow_network_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -119,6 +120,7 @@ FlowPair estimate_flow(ImageView<const Rgb8> first, ImageView<const Rgb8> second
   if (!(options.size > 0 && options.size <= 1))
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("the optical flow scale is {}, expected above 0 and at most 1", options.size));
+  if (options.method == FlowMethod::onnx) return flow_by_network(first, second, options);
   const cv::Mat a = luminance_at(first, options.size), b = luminance_at(second, options.size);
   const cv::Size full_size(first.width(), first.height());
   const FlowPair* start = options.start;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <filesystem>
+
 #include "wheatstone/image/image.h"
+#include "wheatstone/matching/match.h"
 
 namespace wheatstone {
 
@@ -18,17 +21,23 @@ struct FlowPair {
 
 enum class FlowMethod {
   farneback,  ///< polynomial expansion (Farnebäck 2003): the one that the rotoscoping paper uses
-  dis         ///< dense inverse search (Kroeger et al. 2016): faster, and keeps motion edges better
+  dis,        ///< dense inverse search (Kroeger et al. 2016): faster, and keeps motion edges better
+  onnx        ///< the user's own network
 };
 
 struct FlowOptions {
   FlowMethod method = FlowMethod::dis;
   const FlowPair* start = nullptr;  ///< of the frames before, of the same size: where to start from; borrowed
   double size = 1;                  ///< estimated in copies of this share of the frames' width, above 0 and up to 1
+  /// For onnx: takes the two frames, 1x3xHEIGHTxWIDTH each, or 1x6xHEIGHTxWIDTH together, and answers 1x2xHEIGHTxWIDTH:
+  /// the flow across and down, in pixels of what went in, as exports of RAFT (Teed & Deng 2020) do. Of several answers
+  /// the last counts. A side that it leaves open becomes a multiple of 32. It starts from no other flow.
+  std::filesystem::path model;
+  NetworkValues model_values = NetworkValues::to_255;
 };
 
-/// Estimates the flow between two frames, by OpenCV on their luminance. Throws Error{bad_input} where they, or the flow
-/// to start from, differ in size.
+/// Estimates the flow between two frames, by OpenCV, on their luminance or with a network. Throws Error{bad_input}
+/// where they, or the flow to start from, differ in size, and where the network is missing, or no such one.
 FlowPair estimate_flow(ImageView<const Rgb8> first, ImageView<const Rgb8> second, const FlowOptions& options = {});
 
 /// True where a step forward and the step back from where it leads undo each other (Sundaram et al. 2010):
