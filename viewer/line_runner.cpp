@@ -52,6 +52,7 @@ void LineRunner::begin(Viewer& viewer, const std::string& line) {
 bool LineRunner::is_done(Viewer& viewer) {
   if (waits_until_ && Clock::now() < *waits_until_) return false;
   waits_until_.reset();
+  if (waits_ && host_.show) host_.show();
   if (waits_ && viewer.is_busy()) return false;
   Session& session = viewer.session();
   if (saves_) {

@@ -14,6 +14,7 @@ namespace wheatstone::viewer {
 
 /// What lines can do that only the program around the viewer can.
 struct ScriptHost {
+  std::function<void()> show = {};  ///< what lines have changed, before it is asked whether anything is still pending
   std::function<void(const std::filesystem::path&)> screenshot = {};  ///< of the window; none: of the frame
   std::function<void(int width, int height)> resize = {};             ///< the window; none: the viewport
   std::function<void(const std::string&)> print = {};                 ///< a line of the result
@@ -22,9 +23,8 @@ struct ScriptHost {
 };
 
 /// Does one line after the other: commands, as run_line takes them, which are done when what they save is written, and
-/// these: `wait` is done when nothing is being
-/// opened, painted, moved or drawn, `wait SECONDS` after so long, `screenshot FILE`, `resize WIDTH HEIGHT`, `print`
-/// prints the state as one line of JSON.
+/// these: `wait` is done when nothing is being opened, painted, moved or drawn, `wait SECONDS` after so long,
+/// `screenshot FILE`, `resize WIDTH HEIGHT`, `print` prints the state as one line of JSON.
 class LineRunner {
  public:
   explicit LineRunner(ScriptHost host = {}) : host_(std::move(host)) {}

@@ -1,6 +1,7 @@
 #include "panels.h"
 
 #include <QDockWidget>
+#include <QLayout>
 #include <QMainWindow>
 #include <QScrollArea>
 #include <utility>
@@ -35,12 +36,15 @@ struct Panels::Parts {
   DepthPanel depth;
   QDockWidget* style_dock;
   QDockWidget* depth_dock;
+  QMainWindow& window;
+  Panel shown = Panel::off;
 
-  Parts(QMainWindow& window, const DoCommand& do_command)
+  Parts(QMainWindow& around, const DoCommand& do_command)
       : style(do_command),
         depth(do_command),
-        style_dock(make_dock(window, "Style", style.widget())),
-        depth_dock(make_dock(window, "Depth", depth.widget())) {}
+        style_dock(make_dock(around, "Style", style.widget())),
+        depth_dock(make_dock(around, "Depth", depth.widget())),
+        window(around) {}
 };
 
 Panels::Panels(QMainWindow& window, DoCommand do_command)
@@ -52,6 +56,8 @@ void Panels::show(const Viewer& viewer) {
   const Panel panel = viewer.session().panel;
   parts_->style_dock->setVisible(panel == Panel::style);
   parts_->depth_dock->setVisible(panel == Panel::depth);
+  // The picture gets its new size at once, so that it is drawn in it before anybody asks whether all is drawn.
+  if (std::exchange(parts_->shown, panel) != panel) parts_->window.layout()->activate();
   if (panel == Panel::style) parts_->style.show(viewer);
   if (panel == Panel::depth) parts_->depth.show(viewer);
 }

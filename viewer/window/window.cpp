@@ -354,7 +354,8 @@ void Window::save_screenshot(const std::filesystem::path& path) {
 }
 
 ScriptHost Window::script_host() {
-  return {.screenshot = [this](const std::filesystem::path& path) { save_screenshot(path); },
+  return {.show = [this] { refresh(); },
+          .screenshot = [this](const std::filesystem::path& path) { save_screenshot(path); },
           .resize = [this](int width, int height) { resize(width, height); },
           .print =
               [](const std::string& line) {
