@@ -6,7 +6,8 @@ configure_file(changelog.in changelog @ONLY)
 add_custom_command(OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz
   COMMAND gzip --best --no-name --keep --force changelog DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog VERBATIM)
 add_custom_target(wheatstone_changelog ALL DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
-foreach(named "wheatstone program" "wheatstone-view window" "libwheatstone-dev development")
+foreach(named "wheatstone program" "wheatstone-view window" "libwheatstone-dev development"
+  "python3-wheatstone python")
   string(REPLACE " " ";" named ${named})
   list(GET named 0 package)
   list(GET named 1 component)
@@ -28,6 +29,9 @@ set(CPACK_COMPONENTS_ALL program development)
 if(WHEATSTONE_VIEWER)
   list(APPEND CPACK_COMPONENTS_ALL window)
 endif()
+if(WHEATSTONE_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -46,6 +50,12 @@ set(CPACK_DEBIAN_WINDOW_PACKAGE_DEPENDS "wheatstone (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_WINDOW_DESCRIPTION
 "The window of Wheatstone shows photographs, paintings, films and particles in
 any stereo layout and from any place, and paints what it shows.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wheatstone)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+"The package wheatstone for Python matches and paints pairs of pictures and
+renders particles, from and to NumPy's arrays.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwheatstone-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS

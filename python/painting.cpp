@@ -1,0 +1,139 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "wheatstone/app/display_views.h"
+#include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/error.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/matching/match.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/pictures/write_image.h"
+
+namespace wheatstone::python {
+namespace {
+
+namespace py = pybind11;
+
+/// A painting, and the pictures of its eyes.
+struct PyPainting {
+  Painting painting;
+  py::array left, right;
+};
+
+template <class Pixel>
+Image<Pixel> copy_of(ImageView<const Pixel> view) {
+  Image<Pixel> image(view.width(), view.height());
+  for (int y = 0; y < view.height(); ++y) std::ranges::copy(view.row(y), image.row(y).begin());
+  return image;
+}
+
+MatchOptions matching_for(const std::string& quality) {
+  const std::optional<MatchQuality> found = match_quality_by_name(quality);
+  if (!found) throw py::value_error("quality is '" + quality + "', expected fast, good or best");
+  return match_options_for(*found);
+}
+
+py::dict match_pictures(const py::object& left, const py::object& right, const std::string& quality) {
+  const MatchOptions options = matching_for(quality);
+  const ImageView<const Rgb8> first = picture_in(left, "left"), second = picture_in(right, "right");
+  MatchedPair matched;
+  {
+    const py::gil_scoped_release unlocked;
+    matched = match({copy_of(first), copy_of(second)}, options, with_signals());
+  }
+  py::dict result;
+  result["left_disparity"] = array_of(std::move(matched.geometry.left_disparity));
+  result["right_disparity"] = array_of(std::move(matched.geometry.right_disparity));
+  result["left_occlusion"] = array_of(std::move(matched.geometry.left_occlusion));
+  result["right_occlusion"] = array_of(std::move(matched.geometry.right_occlusion));
+  result["found_share"] = matched.left_found_share;
+  return result;
+}
+
+Style style_of(const std::string& preset, const std::map<std::string, std::string>& parameters, std::uint64_t seed) {
+  Style style = read_style(preset);
+  for (const auto& [name, value] : parameters) {
+    const auto known = style_parameters();
+    const auto found = std::ranges::find(known, name, &StyleParameter::name);
+    if (found == known.end()) throw py::value_error("there is no style parameter '" + name + "'");
+    found->set(style, value);
+  }
+  style.seed = seed;
+  return style;
+}
+
+std::unique_ptr<PyPainting> paint_pictures(const py::object& left, const py::object& right, const Style& style,
+                                           const std::string& quality, const py::object& disparity) {
+  PaintPhotographOptions options{.style = style, .matching = matching_for(quality)};
+  const ImageView<const Rgb8> first = picture_in(left, "left"), second = picture_in(right, "right");
+  if (!disparity.is_none()) options.left_disparity = copy_of(disparities_in(disparity, "disparity"));
+  std::optional<PaintedPhotograph> made;
+  {
+    const py::gil_scoped_release unlocked;
+    made = paint_photograph({copy_of(first), copy_of(second)}, options, with_signals());
+  }
+  StereoPair& pictures = made->painted.pictures;
+  return std::make_unique<PyPainting>(PyPainting{std::move(made->painted.painting), array_of(std::move(pictures.left)),
+                                                 array_of(std::move(pictures.right))});
+}
+
+py::array draw_views(const PyPainting& painting, int count, float span, std::optional<float> screen_disparity) {
+  if (count < 1) throw py::value_error("the number of views is " + std::to_string(count) + ", expected at least 1");
+  const DisplayViewsOptions options{.views = count,
+                                    .width = width_of(painting.painting),
+                                    .height = height_of(painting.painting),
+                                    .span = span,
+                                    .zero_parallax_px = screen_disparity};
+  std::vector<Image<Rgb8>> views;
+  {
+    const py::gil_scoped_release unlocked;
+    views = draw_display_views(painting.painting, options, with_signals()).views;
+  }
+  return array_of(views);
+}
+
+std::unique_ptr<PyPainting> load_painting(const std::filesystem::path& path) {
+  Painting painting = read_painting(path);
+  const PreparedPainting prepared = prepare(painting);
+  Image<Rgb8> left = draw(prepared, left_eye).picture, right = draw(prepared, right_eye).picture;
+  return std::make_unique<PyPainting>(
+      PyPainting{std::move(painting), array_of(std::move(left)), array_of(std::move(right))});
+}
+
+}  // namespace
+
+void add_painting(py::module_& module) {
+  py::class_<Style>(module, "Style").def("toml", &style_to_toml);
+  module.def("style", &style_of);
+  module.def("style_names", [] {
+    std::vector<std::string> names;
+    for (const StyleParameter& parameter : style_parameters()) names.emplace_back(parameter.name);
+    return names;
+  });
+  py::class_<PyPainting>(module, "Painting")
+      .def_readonly("left", &PyPainting::left)
+      .def_readonly("right", &PyPainting::right)
+      .def_property_readonly("width", [](const PyPainting& p) { return width_of(p.painting); })
+      .def_property_readonly("height", [](const PyPainting& p) { return height_of(p.painting); })
+      .def("views", &draw_views)
+      .def("save", [](const PyPainting& p, const std::filesystem::path& path) { write_painting(path, p.painting); });
+  module.def("match", &match_pictures);
+  module.def("paint", &paint_pictures);
+  module.def("load_painting", &load_painting);
+  module.def("load_picture", [](const std::filesystem::path& path) { return array_of(read_image(path)); });
+  module.def("png", [](const py::object& picture) { return py::bytes(encode_png(picture_in(picture, "picture"))); });
+}
+
+}  // namespace wheatstone::python

@@ -1,0 +1,143 @@
+"""What the Python package promises. Run with PYTHONPATH at the built package, and the program's path as WHEATSTONE."""
+
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+import wheatstone
+
+PROGRAM = os.environ["WHEATSTONE"]
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.kept = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.kept.name)
+        cls.run_program("synth", "still", "--size", "240x180", "-o", "still")
+        cls.left = wheatstone.load(cls.folder / "still/left.png")
+        cls.right = wheatstone.load(cls.folder / "still/right.png")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.kept.cleanup()
+
+    @classmethod
+    def run_program(cls, *words):
+        subprocess.run([PROGRAM, *words, "--quiet"], check=True, cwd=cls.folder, stdout=subprocess.DEVNULL)
+
+    def test_paintings_are_those_of_the_command_line(self):
+        self.run_program("paint", "still/left.png", "still/right.png", "--rectify", "never", "-o", "painted")
+        painting = wheatstone.paint(self.left, self.right)
+        np.testing.assert_array_equal(painting.left, wheatstone.load(self.folder / "painted/left.png"))
+        np.testing.assert_array_equal(painting.right, wheatstone.load(self.folder / "painted/right.png"))
+
+    def test_views_have_the_shape_and_bytes_of_the_command_line(self):
+        painting = wheatstone.paint(self.left, self.right, wheatstone.Style("impressionist", {"texture": False}))
+        views = painting.views(5, span=2)
+        self.assertEqual(views.shape, (5, 180, 240, 3))
+        path = self.folder / "saved.wst"
+        painting.save(path)
+        self.run_program("pack", "saved.wst", "--to", "views", "--views", "5", "--span", "2", "-o", "views")
+        np.testing.assert_array_equal(views[0], wheatstone.load(self.folder / "views/view_000.png"))
+        np.testing.assert_array_equal(views[4], wheatstone.load(self.folder / "views/view_004.png"))
+        np.testing.assert_array_equal(wheatstone.load(path).views(5, span=2), views)
+
+    def test_pictures_are_not_copied_out(self):
+        painting = wheatstone.paint(self.left, self.right, "pointillist")
+        first, again = painting.left, painting.left
+        self.assertEqual(first.ctypes.data, again.ctypes.data)
+        self.assertFalse(first.flags.owndata)
+        del painting
+        self.assertGreater(first.max(), 0)  # the array keeps its picture
+
+    def test_match_gives_disparities_in_pixels(self):
+        geometry = wheatstone.match(self.left, self.right, quality="fast")
+        self.assertEqual(geometry.left_disparity.shape, (180, 240))
+        self.assertEqual(geometry.left_disparity.dtype, np.float32)
+        self.assertGreater(geometry.found_share, 0.5)
+
+    def test_render_gives_the_views_of_the_command_line(self):
+        self.run_program("synth", "universe", "--particles", "3000", "-o", "u.hdf5")
+        self.run_program("render", "u.hdf5", "--views", "3", "--size", "96x54", "-o", "gas")
+        views = wheatstone.render(self.folder / "u.hdf5", views=3, size=(96, 54))
+        self.assertEqual(views.shape, (3, 54, 96, 3))
+        np.testing.assert_array_equal(views[2], wheatstone.load(self.folder / "gas/view_002.png"))
+
+    def test_render_takes_positions_far_from_zero(self):
+        near = np.random.default_rng(1).normal(size=(2000, 3))
+        a = wheatstone.render(near, views=1, size=(64, 36), exposure=0.1)
+        b = wheatstone.render(near + 1e8, views=1, size=(64, 36), exposure=0.1)
+        self.assertLessEqual(np.abs(a.astype(int) - b).max(), 1)
+
+    def test_wrong_arguments_are_named(self):
+        for call, message in [
+            (lambda: wheatstone.paint(self.left[:, :, 0], self.right), r"left is an array of uint8 and shape \(180, 240\)"),
+            (lambda: wheatstone.paint(self.left, self.right.astype(float)), "right is an array of float64"),
+            (lambda: wheatstone.paint(self.left, "right.png"), "right is str, expected an array of uint8"),
+            (lambda: wheatstone.paint(self.left, self.right[::2, ::2].copy()), "expected"),
+            (lambda: wheatstone.paint(self.left, self.right, "cubist"), "cubist"),
+            (lambda: wheatstone.paint(self.left, self.right, wheatstone.Style(parameters={"colour": 3})), "colour"),
+            (lambda: wheatstone.match(self.left, self.right, "perfect"), "fast, good or best"),
+            (lambda: wheatstone.render(np.zeros((4, 2))), r"shape \(number, 3\)"),
+            (lambda: wheatstone.render(np.zeros((4, 3)), density=[1, 2]), "4 numbers, one a particle"),
+        ]:
+            with self.assertRaisesRegex(ValueError, message):
+                call()
+        with self.assertRaises(OSError):
+            wheatstone.paint(self.left, self.right).save("/nowhere/painting.wst")
+
+    def test_other_threads_run_while_it_paints(self):
+        beats = []
+        done = threading.Event()
+
+        def beat():
+            while not done.is_set():
+                beats.append(time.monotonic())
+                time.sleep(0.002)
+
+        thread = threading.Thread(target=beat)
+        thread.start()
+        begin = time.monotonic()
+        wheatstone.paint(np.tile(self.left, (2, 2, 1)), np.tile(self.right, (2, 2, 1)))
+        took = time.monotonic() - begin
+        done.set()
+        thread.join()
+        self.assertGreater(len(beats), 10)
+        self.assertLess(max(np.diff(beats)), max(0.5 * took, 0.1))
+
+    def test_ctrl_c_ends_a_long_call(self):
+        code = ("import numpy as n, wheatstone as w; a = n.random.default_rng(1).integers(0, 255, (2000, 3000, 3), 'uint8');"
+                "print('go', flush=True); w.paint(a, a)")
+        run = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run.stdout.readline()
+        time.sleep(0.3)
+        run.send_signal(signal.SIGINT)
+        errors = run.communicate(timeout=60)[1]
+        self.assertIn("KeyboardInterrupt", errors)
+
+    def test_examples_of_the_documentation_run(self):
+        page = (pathlib.Path(__file__).parents[2] / "docs/python.md").read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+        self.assertEqual(len(blocks), 2)
+        run = subprocess.run([sys.executable, "-c", "".join(blocks)], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(run.stderr, "")
+        self.assertIn("radii = [6, 3]", run.stdout)
+
+    def test_notebooks_show_paintings(self):
+        png = wheatstone.paint(self.left, self.right)._repr_png_()
+        path = self.folder / "shown.png"
+        path.write_bytes(png)
+        self.assertEqual(wheatstone.load(path).shape, (180, 480, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()
