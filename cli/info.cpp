@@ -168,7 +168,12 @@ ordered_json facts_of_slices(const fs::path& path) {
   ordered_json facts = {{"kind", "slices"}, {"width", stack.width}, {"height", stack.height}};
   facts["slices"] = stack.slices.size();
   facts["span_in_eye_separations"] = stack.span;
-  facts["exposure"] = stack.exposure;
+  if (stack.tone.look == Look::thesis) {
+    facts["exposure"] = stack.tone.exposure;
+  } else {
+    facts["least"] = stack.tone.least;
+    facts["most"] = stack.tone.most;
+  }
   if (!stack.slices.empty()) {
     facts["nearest_parallax_px"] = stack.slices.front().parallax_px;
     facts["farthest_parallax_px"] = stack.slices.back().parallax_px;

@@ -144,8 +144,8 @@ void add_measure_views(CLI::App& measure, const Session& session) {
              "Count the pixels that differ by more than this, in 0..255");
   command.footer(
       "Example:\n"
-      "  wheatstone render universe.hdf5 --views 9 --method exact --exposure 0.04 -o exact\n"
-      "  wheatstone render universe.hdf5 --views 9 --method layered --exposure 0.04 -o layered\n"
+      "  wheatstone render universe.hdf5 --views 9 --method exact -o exact\n"
+      "  wheatstone render universe.hdf5 --views 9 --method layered -o layered\n"
       "  wheatstone measure views layered --against exact");
   command.callback([arguments, &session] { run(*arguments, session); });
 }

@@ -14,6 +14,7 @@
 #include "render_film.h"
 #include "render_options.h"
 #include "slices_argument.h"
+#include "wheatstone/app/write_values.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
@@ -65,8 +66,27 @@ std::string write_views(const RenderArguments& arguments, const RenderedParticle
   return arguments.output;
 }
 
+/// Writes the views as numbers: one under the name that was given, several under numbered ones.
+void write_all_values(const RenderArguments& arguments, const RenderedParticles& result) {
+  const std::filesystem::path name = arguments.values;
+  const Scene& scene = result.scene;
+  const ValueAxes axes{.name = result.units.name,
+                       .unit = result.units.value,
+                       .length_unit = result.units.length,
+                       .camera = scene.camera,
+                       .depth = scene.splat_style.size_depth};
+  for (std::size_t v = 0; v < result.values.size(); ++v) {
+    const ViewValues& of_view = result.values[v];
+    std::filesystem::path file = name;
+    if (result.values.size() > 1)
+      file.replace_filename(fmt::format("{}_{:03}{}", name.stem().string(), v, name.extension().string()));
+    write_values(file, of_view.mean.empty() ? of_view.column : of_view.mean, axes);
+  }
+}
+
 /// Writes what was asked for: the slices get their name when the views have theirs. Says where the views are.
 std::string write_output(const RenderArguments& arguments, const RenderedParticles& result, const Session& session) {
+  write_all_values(arguments, result);
   if (arguments.save_slices.empty()) return write_views(arguments, result, session);
   TemporaryFile slices(arguments.save_slices);
   write_slices(slices, result.stack);
@@ -75,12 +95,24 @@ std::string write_output(const RenderArguments& arguments, const RenderedParticl
   return written;
 }
 
+/// What --verbose adds.
+void tell_how(const RenderedParticles& result, const Session& session) {
+  fmt::print(session.output, "method: {}\nplanes: {}\n", result.rendered.reason, result.rendered.planes);
+  if (result.rendered.tone.look == Look::thesis) {
+    fmt::print(session.output, "exposure: {:.4g}\n", result.rendered.exposure);
+  } else {
+    fmt::print(session.output, "shown: {} from {:.4g} to {:.4g} {}\n", result.units.name, result.least, result.most,
+               result.units.value);
+  }
+}
+
 void tell(const RenderedParticles& result, const std::string& written, const Session& session) {
   if (session.json) {
     nlohmann::ordered_json facts{{"output", written},
                                  {"format", result.format},
                                  {"particles", result.particles},
                                  {"dropped", result.dropped},
+                                 {"weightless", result.weightless},
                                  {"mended", result.mended},
                                  {"extreme", result.extreme},
                                  {"outside", result.outside},
@@ -89,13 +121,21 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"method", name_of(result.rendered.method)},
                                  {"reason", result.rendered.reason},
                                  {"planes", result.rendered.planes},
-                                 {"exposure", result.rendered.exposure},
                                  {"warnings", result.warnings}};
+    if (result.rendered.tone.look == Look::thesis) {
+      facts["exposure"] = result.rendered.exposure;
+    } else {
+      facts["least"] = result.least;
+      facts["most"] = result.most;
+      facts["unit"] = result.units.value;
+    }
     print_facts(facts, session);
     return;
   }
   if (result.dropped > 0)
     fmt::print(session.output, "skipped: {} particles without a finite position\n", result.dropped);
+  if (result.weightless > 0)
+    fmt::print(session.output, "skipped: {} particles without a mass or without what is shown\n", result.weightless);
   if (result.mended > 0)
     fmt::print(session.output,
                "set to the smallest positive value: {} densities or temperatures that are not above 0\n",
@@ -109,9 +149,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                result.particles);
   if (result.density_estimated) fmt::print(session.output, "density: estimated from the neighbours of each particle\n");
   for (const std::string& warning : result.warnings) fmt::print(session.output, "note: {}\n", warning);
-  if (session.verbose)
-    fmt::print(session.output, "method: {}\nplanes: {}\nexposure: {:.4g}\n", result.rendered.reason,
-               result.rendered.planes, result.rendered.exposure);
+  if (session.verbose) tell_how(result, session);
   fmt::print(session.output, "written to {}\n", written);
 }
 
@@ -121,6 +159,7 @@ void check_output(const RenderArguments& arguments, const RenderParticlesOptions
   const ViewsOutput output = output_of(arguments);
   check_views_output(output);
   check_not_an_input(arguments.save_slices, output.inputs);
+  check_not_an_input(arguments.values, output.inputs);
   if (!arguments.interleave.empty()) {
     const LenticularScreen screen = find_lenticular(arguments.interleave);
     if (!slices) check_screen(screen, options.width, options.height);

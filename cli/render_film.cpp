@@ -116,7 +116,8 @@ void tell(const RenderArguments& arguments, const RenderedFilm& film, const Sess
                  {"views", film.last.rig.positions.size()},
                  {"method", name_of(film.last.rendered.method)},
                  {"reason", film.last.rendered.reason},
-                 {"exposure", film.last.rendered.exposure},
+                 {"least", film.last.least},
+                 {"most", film.last.most},
                  {"notes", film.notes}},
                 session);
     return;
@@ -126,8 +127,7 @@ void tell(const RenderArguments& arguments, const RenderedFilm& film, const Sess
   if (film.skipped_frames > 0) fmt::print(session.output, ", of which {} were there", film.skipped_frames);
   fmt::print(session.output, "\n");
   if (session.verbose && film.last.particles > 0)
-    fmt::print(session.output, "method           {}\nexposure         {:.4g}\n", film.last.rendered.reason,
-               film.last.rendered.exposure);
+    fmt::print(session.output, "method           {}\n", film.last.rendered.reason);
   for (const std::string& note : film.notes) fmt::print(session.output, "note             {}\n", note);
   fmt::print(session.output, "written to       {}\n", arguments.output);
 }

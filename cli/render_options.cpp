@@ -12,6 +12,7 @@
 #include "output_option.h"
 #include "picture_format.h"
 #include "typed_options.h"
+#include "wheatstone/app/write_values.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
 
@@ -24,8 +25,15 @@ constexpr std::array<std::pair<std::string_view, Method>, 4> methods{{{"auto", M
                                                                       {"layered", Method::layered}}};
 constexpr std::array<std::pair<std::string_view, SliceFilter>, 3> filters{
     {{"nearest", SliceFilter::nearest}, {"linear", SliceFilter::linear}, {"centroid", SliceFilter::centroid}}};
-constexpr std::array<std::pair<std::string_view, SizeRule>, 3> size_rules{
-    {{"denser-smaller", SizeRule::denser_smaller},
+constexpr std::array<std::pair<std::string_view, Look>, 2> looks{{{"mass", Look::mass}, {"thesis", Look::thesis}}};
+constexpr std::array<std::pair<std::string_view, Stretch>, 3> stretches{
+    {{"asinh", Stretch::asinh}, {"log", Stretch::log}, {"linear", Stretch::linear}}};
+constexpr std::array<std::pair<std::string_view, bool>, 2> projections{
+    {{"perspective", false}, {"orthographic", true}}};
+constexpr std::array<std::pair<std::string_view, SizeRule>, 5> size_rules{
+    {{"auto", SizeRule::automatic},
+     {"density", SizeRule::density},
+     {"denser-smaller", SizeRule::denser_smaller},
      {"denser-larger", SizeRule::denser_larger},
      {"smoothing-length", SizeRule::smoothing_length}}};
 
@@ -72,6 +80,7 @@ void add_particle_options(CLI::App& command, RenderArguments& arguments) {
   text("--density", choice.density, "Dataset or column of the density");
   text("--temperature", choice.temperature, "Dataset or column of the temperature, which sets the colours");
   text("--smoothing-length", choice.smoothing_length, "Dataset or column of the smoothing length");
+  text("--mass", choice.mass, "Dataset or column of the mass; each particle counts 1 where there is none");
   text("--centre", arguments.centre, "Point X,Y,Z of a periodic box that is moved to the middle of the views");
   text("--select", arguments.selection, "Keep the particles in sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1 only");
   add_number(command, "--subsample", arguments.options.selection.every, {1, 1e12}, "Keep every Nth particle")
@@ -93,8 +102,25 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
   const auto number = [&](const char* name, float& value, NumberRange range, const char* help) {
     add_number(command, name, value, range, help)->group(appearance_group);
   };
-  command.add_option("--splat", arguments.splat, "Smallest and largest splat diameter in pixels: MIN,MAX")
-      ->capture_default_str()
+  add_choice<Look>(command, "--look", appearance.look, looks,
+                   "What is shown: mass, whose column density is the brightness; or the light of Hassaine's thesis")
+      ->group(appearance_group);
+  command
+      .add_option("--quantity", arguments.options.quantity,
+                  "Show numbers in the colours of a map: column-density, or the mean of temperature, density, "
+                  "velocity-x or any dataset or column along each line of sight, weighted by mass")
+      ->group(appearance_group);
+  add_choice<Stretch>(command, "--stretch", arguments.options.rendering.tone.stretch, stretches,
+                      "How numbers between --least and --most become brightness")
+      ->group(appearance_group);
+  number("--least", arguments.options.least, coordinates,
+         "Column density, or quantity, where brightness begins; 0 or the 1st percentile by default");
+  number("--most", arguments.options.most, coordinates,
+         "Column density, or quantity, where brightness ends; the 99.9th percentile by default");
+  command
+      .add_option("--splat", arguments.splat,
+                  "Smallest and largest splat diameter in pixels: MIN,MAX; 2,6 by default. The largest counts for the "
+                  "size rules denser-smaller and denser-larger")
       ->group(appearance_group);
   add_choice<SizeRule>(command, "--size-rule", appearance.size_rule, size_rules, "What sets the size of a splat")
       ->group(appearance_group);
@@ -110,12 +136,10 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
                                      "Colour map: inferno, magma, plasma, viridis, cividis, turbo, twilight, hot, jet, "
                                      "bone")
                          ->group(appearance_group);
-  command.add_option("--cold", arguments.cold, "Colour of the coldest particles; 2860FF by default")
+  command.add_option("--cold", arguments.cold, "Colour of the coldest particles")
       ->excludes(map)
       ->group(appearance_group);
-  command.add_option("--hot", arguments.hot, "Colour of the hottest particles; FF781E by default")
-      ->excludes(map)
-      ->group(appearance_group);
+  command.add_option("--hot", arguments.hot, "Colour of the hottest particles")->excludes(map)->group(appearance_group);
   number("--coldest", appearance.coldest, coordinates,
          "Temperature where the colours begin; 2nd percentile by default");
   number("--hottest", appearance.hottest, coordinates, "Temperature where they end; 98th percentile by default");
@@ -149,6 +173,10 @@ void add_camera_options(CLI::App& command, RenderArguments& arguments) {
   number("--elevation", framing.elevation_deg, {-90, 90}, "Height of the camera above the horizon, in degrees");
   number("--fov", framing.field_of_view_deg, {1, 150}, "Horizontal field of view, in degrees");
   number("--zoom", framing.zoom, {0.01, 1000}, "Magnification: 2 shows half as much");
+  add_choice<bool>(command, "--projection", framing.orthographic, projections,
+                   "Perspective, or orthographic: everything is as large as at the point that is looked at, and the "
+                   "views are sheared")
+      ->group(views_group);
 }
 
 void add_depth_options(CLI::App& command, RenderArguments& arguments) {
@@ -209,6 +237,12 @@ void add_method_options(CLI::App& command, RenderArguments& arguments) {
                                             "(.json)")
                                 ->excludes(quilt)
                                 ->group(method_group);
+  command
+      .add_option("--values", arguments.values,
+                  "Also write the views as numbers with their units: FILE.fits, .exr or .npy; of several views, "
+                  "FILE_000.fits and so on")
+      ->check(not_empty())
+      ->group(method_group);
   command.add_option("--save-slices", arguments.save_slices, "Also write the depth planes: FILE.exr")
       ->check(not_empty())
       ->group(method_group);
@@ -224,18 +258,52 @@ void refuse_for_slices(const CLI::App& command) {
   refuse_group(command, views_group,
                {"--display", "--views", "--span", "--near", "--far", "--eye", "--distance", "--screen-width"},
                situation, where);
-  refuse_options(command, {"--method", "--planes"}, situation, where);
+  refuse_options(command, {"--method", "--planes", "--values"}, situation, where);
   if (!was_given(command, "--near") && !was_given(command, "--far"))
     refuse_options(command, {"--eye", "--distance", "--screen-width"}, "on slices (.exr) whose depth stays as it is",
                    "it works with --near or --far");
 }
 
+/// What belongs to the other look has no effect.
+void refuse_for_look(const CLI::App& command, const RenderArguments& arguments) {
+  const Appearance& appearance = arguments.options.appearance;
+  const bool opaque = arguments.options.rendering.opaque;
+  if (opaque && appearance.look == Look::mass)
+    refuse_options(command, {"--look"}, "with --opaque", "opaque particles are drawn in --look thesis");
+  if (appearance.look == Look::thesis || opaque) {
+    refuse_options(command, {"--quantity", "--stretch", "--least", "--most", "--values"},
+                   opaque ? "with --opaque" : "with --look thesis", "it works with --look mass");
+    return;
+  }
+  refuse_options(command, {"--opacity", "--least-opacity", "--exposure"}, "with --look mass",
+                 "it works with --look thesis");
+  const bool by_rank =
+      appearance.size_rule == SizeRule::denser_smaller || appearance.size_rule == SizeRule::denser_larger;
+  if (!by_rank)
+    refuse_options(command, {"--density-slope", "--density-shift"}, "with --look mass",
+                   "it works with --look thesis, or with --size-rule denser-smaller or denser-larger");
+  if (!arguments.options.quantity.empty())
+    refuse_options(command, {"--cold", "--hot", "--coldest", "--hottest", "--linear-colours"}, "with --quantity",
+                   "the colours are those of --colours between --least and --most");
+}
+
+/// Throws Error{wrong_usage} for limits the wrong way round.
+void check_limits(const RenderParticlesOptions& options) {
+  if (options.least >= options.most)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--least: is {}, expected below --most, {}", options.least, options.most));
+  if (options.rendering.tone.stretch == Stretch::log && options.least <= 0)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--least: is {}, expected above 0 with --stretch log", options.least));
+}
+
 void refuse_for_particles(const CLI::App& command, const RenderArguments& arguments) {
+  refuse_for_look(command, arguments);
   const RenderOptions& rendering = arguments.options.rendering;
-  const bool makes_slices = arguments.options.stream || !arguments.save_slices.empty() || !arguments.interleave.empty();
+  const bool makes_slices = !arguments.save_slices.empty() || !arguments.interleave.empty();
   const bool other_method = rendering.method == Method::exact || rendering.method == Method::incremental;
   if (makes_slices && other_method)
-    refuse_options(command, {"--method"}, "with --stream, --save-slices or --interleave", "these render depth planes");
+    refuse_options(command, {"--method"}, "with --save-slices or --interleave", "these render depth planes");
   if (other_method)
     refuse_options(command, {"--filter", "--planes"}, fmt::format("with --method {}", name_of(rendering.method)),
                    "it works with --method layered");
@@ -311,10 +379,11 @@ RenderArguments for_display(const RenderArguments& given, const CLI::App& comman
 RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   RenderParticlesOptions options = arguments.options;
   constexpr double most_pixels = 16384;
-  const auto splat = parse_numbers("--splat", arguments.splat, {',', 2, {0, SplatStyle::widest_px}, "MIN,MAX"});
+  const std::string splat_text = arguments.splat.empty() ? "2,6" : arguments.splat;
+  const auto splat = parse_numbers("--splat", splat_text, {',', 2, {0, SplatStyle::widest_px}, "MIN,MAX"});
   if (!(splat[0] > 0 && splat[0] <= splat[1]))
     throw Error(ErrorKind::wrong_usage, fmt::format("--splat: is '{}', expected MIN,MAX with 0 < MIN <= MAX <= {}",
-                                                    arguments.splat, SplatStyle::widest_px));
+                                                    splat_text, SplatStyle::widest_px));
   const Size size = parse_size("--size", arguments.size, {1, most_pixels});
   options.width = size.width;
   options.height = size.height;
@@ -335,6 +404,10 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
     options.depth.regions = parse_depth_regions(arguments.depth_mapping, "--depth-mapping");
   if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);
   if (!arguments.hot.empty()) options.appearance.hot = parse_colour("--hot", arguments.hot);
+  check_limits(options);
+  if (options.rendering.opaque) options.appearance.look = Look::thesis;
+  options.values = !arguments.values.empty();
+  if (options.values) check_values_ending("--values", arguments.values);
   options.slices = !arguments.save_slices.empty() || !arguments.interleave.empty();
   options.without_views = !arguments.interleave.empty();
   return options;

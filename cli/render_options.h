@@ -27,9 +27,10 @@ struct RenderArguments {
   std::string output = "views";
   RenderParticlesOptions options;
   std::string size = "640x360";
-  std::string splat = "2,6";
+  std::string splat;
   std::string display, centre, look_at, selection, depth_mapping;
   std::string fit = "auto";
+  std::string values;
   std::string cold, hot;
   std::string quilt, interleave, save_slices;
   std::string format = "png";

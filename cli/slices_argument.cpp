@@ -19,7 +19,9 @@ RenderedParticles render_slice_file(const std::filesystem::path& file, const CLI
     const DepthMapping mapping = mapping_for(options.depth, result.stack.width, 1, 2);
     map_depth(result.stack, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
   }
-  if (!std::isnan(options.rendering.exposure)) result.stack.exposure = options.rendering.exposure;
+  if (result.stack.tone.look == Look::mass)
+    refuse_options(command, {"--exposure"}, "on these slices", "it works on slices of --look thesis");
+  if (!std::isnan(options.rendering.exposure)) result.stack.tone.exposure = options.rendering.exposure;
   result.rig = evenly_spaced(result.stack.width, result.stack.height, options.views, options.span);
   result.rendered = {.views = options.without_views
                                   ? std::vector<Image<Rgb8>>{}
@@ -27,7 +29,8 @@ RenderedParticles render_slice_file(const std::filesystem::path& file, const CLI
                      .method = Method::layered,
                      .reason = "layered: the file has slices",
                      .planes = static_cast<int>(result.stack.slices.size()),
-                     .exposure = result.stack.exposure};
+                     .exposure = result.stack.tone.exposure,
+                     .tone = result.stack.tone};
   if (options.span > result.stack.span * 1.001f)
     result.warnings.push_back(
         fmt::format("the slices were made for a span of {} eye separations; with {} the sides of the views lack light",

@@ -92,7 +92,10 @@ void add_particles(py::module_& module) {
           [](RenderParticlesOptions& o, float value) { o.framing.zoom = value; })
       .def_property(
           "exposure", [](const RenderParticlesOptions& o) { return o.rendering.exposure; },
-          [](RenderParticlesOptions& o, float value) { o.rendering.exposure = value; });
+          [](RenderParticlesOptions& o, float value) {
+            o.rendering.exposure = value;
+            o.appearance.look = Look::thesis;  // the only one that has an exposure
+          });
   module.def("render_positions", &render_positions);
   module.def("render_file", &render_file);
 }

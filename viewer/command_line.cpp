@@ -142,7 +142,7 @@ std::string view_options(const Session& session, const std::array<double, 3>& or
 std::string look_options(const ViewState& state) {
   const ParticleLook& look = state.look;
   const ParticleLook usual;
-  std::string text;
+  std::string text = " --look thesis";
   if (look.exposure) text += fmt::format(" --exposure {}", *look.exposure);
   if (look.coldest) text += fmt::format(" --coldest {}", *look.coldest);
   if (look.hottest) text += fmt::format(" --hottest {}", *look.hottest);

@@ -42,6 +42,7 @@ Scene particle_scene(const Particles& particles, const ViewState& state, const R
   options.height = rig.height;
   options.framing = state.orbit;
   options.depth = perceived_depth(state);
+  options.appearance.look = Look::thesis;
   options.appearance.coldest = look.coldest.value_or(unknown);
   options.appearance.hottest = look.hottest.value_or(unknown);
   options.appearance.colour_map = look.colours;

@@ -1,4 +1,5 @@
-// Particles to N views: the figures and tables of Hassaine 2010, ch. 5, again, and ours beside them.
+// Particles to N views: the figures and tables of Hassaine 2010, ch. 5, again, and ours beside them. "Exact" is the
+// exact renderer of multiview/baseline.
 //
 //   bench_multiview [THREADS]
 
@@ -7,11 +8,13 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <optional>
 
+#include "multiview/baseline/exact.h"
 #include "stopwatch.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/multiview/naive_view.h"
@@ -55,7 +58,8 @@ struct Stage {
     for (std::size_t axis = 0; axis < 3; ++axis)
       depth += (statistics.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
     scene.mapping.points = {{depth - statistics.radius(), -20.f}, {depth + statistics.radius(), 15.f}};
-    scene.splat_style = make_splat_style({.smallest_px = smallest, .largest_px = largest}, statistics);
+    scene.splat_style =
+        make_splat_style({.look = Look::thesis, .smallest_px = smallest, .largest_px = largest}, statistics);
     scene.splat_style.size_depth = depth;
     exposure = automatic_exposure(cloud, scene, rig);
   }
@@ -73,9 +77,12 @@ struct Canvases {
       : images(rig.positions.size(), Image<Rgb8>(rig.width, rig.height)), views(images.begin(), images.end()) {}
 };
 
+ToneMap tone_of(const Stage& stage) { return ToneMap(ToneSettings{.exposure = stage.exposure}); }
+
 Times measure(const Stage& stage, SliceFilter filter, int planes = planes_of_display, bool incremental = true) {
-  const ToneMap tone(stage.exposure);
-  const RenderJob job{stage.cloud, stage.scene, stage.rig, stage.statistics, tone};
+  const ToneMap tone = tone_of(stage);
+  const Chunks chunks = chunks_of(stage.cloud);
+  const RenderJob job{chunks, stage.scene, stage.rig, stage.statistics, tone};
   const DepthPlanes depth_planes = planes_of(stage.scene.mapping, planes);
   Canvases canvases(stage.rig);
   Times times;
@@ -89,7 +96,8 @@ Times measure(const Stage& stage, SliceFilter filter, int planes = planes_of_dis
     };
     time(0, [&] {
       for (std::size_t v = 0; v < canvases.views.size(); ++v)
-        render_exact(job, stage.rig.positions[v], canvases.views[v]);
+        baseline::render_exact(stage.cloud, stage.scene, stage.rig, stage.rig.positions[v], stage.exposure,
+                               canvases.views[v]);
     });
     if (incremental) time(1, [&] { render_incremental(job, canvases.views); });
     time(2, [&] { render_layered(job, depth_planes, filter, {}); });
@@ -196,12 +204,13 @@ void print_break_even(const Cloud& universe) {
 }
 
 void print_many_regions(const Stage& stage) {
-  const ToneMap tone(stage.exposure);
+  const ToneMap tone = tone_of(stage);
+  const Chunks chunks = chunks_of(stage.cloud);
   Canvases canvases(stage.rig);
   const auto seconds_with = [&](const DepthMapping& mapping) {
     Scene scene = stage.scene;
     scene.mapping = mapping;
-    const RenderJob job{stage.cloud, scene, stage.rig, stage.statistics, tone};
+    const RenderJob job{chunks, scene, stage.rig, stage.statistics, tone};
     const DepthPlanes planes = planes_of(mapping, planes_of_display);
     return median_seconds([&] { render_layered(job, planes, SliceFilter::linear, canvases.views); }, 3);
   };
@@ -231,12 +240,15 @@ double processor_seconds() {
 }
 
 void print_exact(const Stage& stage) {
-  const ToneMap tone(stage.exposure);
-  const RenderJob job{stage.cloud, stage.scene, stage.rig, stage.statistics, tone};
+  const ToneMap tone = tone_of(stage);
+  const Chunks chunks = chunks_of(stage.cloud);
+  const RenderJob job{chunks, stage.scene, stage.rig, stage.statistics, tone};
   Image<Rgb8> picture(stage.rig.width, stage.rig.height);
+  const std::array<ViewPosition, 1> view{central_view};
+  const std::array<ImageView<Rgb8>, 1> pictures{picture};
   const auto start = std::chrono::steady_clock::now();
   const double before = processor_seconds();
-  for (int i = 0; i < 10; ++i) render_exact(job, central_view, picture);
+  for (int i = 0; i < 10; ++i) render_exact(job, view, pictures);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double cores = (processor_seconds() - before) / wall;
   const double naive =

@@ -109,7 +109,8 @@ def render(particles, *, density=None, temperature=None, smoothing_length=None, 
            azimuth=None, elevation=None, zoom=None, exposure=None):
     """Views of particles, leftmost first, as an array of shape (views, height, width, 3).
 
-    `particles` is a file (GADGET, HDF5, PLY, LAS, NumPy, FITS or text), or positions of shape (number, 3).
+    `particles` is a file (GADGET, HDF5, PLY, LAS, NumPy, FITS or text), or positions of shape (number, 3). The views
+    show mass; with `exposure` they are those of `--look thesis`.
     """
     options = _wheatstone.RenderOptions(views, tuple(size), span)
     for name, value in [("azimuth", azimuth), ("elevation", elevation), ("zoom", zoom), ("exposure", exposure)]:

@@ -66,8 +66,7 @@ TEST(RenderCommand, WritesTheViewsAndSaysWhy) {
 TEST(RenderCommand, MethodsAgreeByMeasureViews) {
   const TemporaryFolder folder;
   for (const std::string method : {"exact", "incremental", "layered"})
-    run_in(folder, {"render", universe(), "--views", "3", "--size", "320x180", "--method", method, "--exposure", "0.1",
-                    "-o", method});
+    run_in(folder, {"render", universe(), "--views", "3", "--size", "320x180", "--method", method, "-o", method});
   const auto measured = [&](const std::string& method) {
     return nlohmann::json::parse(
         run_in(folder, {"measure", "views", method, "--against", "exact", "--json"}).output)["views"];
@@ -80,8 +79,8 @@ TEST(RenderCommand, MethodsAgreeByMeasureViews) {
 TEST(RenderCommand, StreamsWhatItRendersWhole) {
   const TemporaryFolder folder;
   for (const std::string out : {"stream", "whole"}) {
-    std::vector<std::string> line{"render",     universe(), "--views",  "2",       "--size", "320x180",
-                                  "--exposure", "0.1",      "--method", "layered", "-o",     out};
+    std::vector<std::string> line{"render",  universe(), "--views", "2",  "--size",
+                                  "320x180", "--method", "layered", "-o", out};
     if (out == "stream") line.insert(line.end(), {"--stream", "--chunk", "3000"});
     run_in(folder, line);
   }
@@ -125,6 +124,44 @@ TEST(RenderCommand, AsADisplayWantsIt) {
                   "--smooth-depth", "-o", "three"});
   EXPECT_TRUE(std::filesystem::exists(folder / "three" / "view_002.png"));
   EXPECT_FALSE(std::filesystem::exists(folder / "three" / "view_003.png"));
+}
+
+TEST(RenderCommand, WritesNumbersWithTheirUnits) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "gas.csv", "x [kpc],y [kpc],z [kpc],mass,age,hsml\n0,0,0,3,10,1\n5,0,0,1,30,1\n0,0,5,1,50,1\n");
+  const auto facts = nlohmann::json::parse(
+      run_in(folder, {"render", "gas.csv", "--views", "1", "--size", "64x48", "--projection", "orthographic",
+                      "--quantity", "column-density", "--values", "n.fits", "-o", "a", "--json"})
+          .output);
+  EXPECT_EQ(facts["unit"], "code mass / kpc^2");
+  EXPECT_TRUE(facts["warnings"].empty());
+  const std::string fits = bytes_of(folder / "n.fits");
+  for (const char* keyword : {"CDELT1", "CUNIT1  = 'kpc", "BUNIT   = 'code mass / kpc^2'"})
+    EXPECT_THAT(fits, testing::HasSubstr(keyword));
+  run_in(folder, {"render", "gas.csv", "--views", "2", "--size", "64x48", "--quantity", "mean:age", "--values", "n.npy",
+                  "-o", "b"});
+  EXPECT_EQ(bytes_of(folder / "n_001.npy").size(), 128 + 4u * 64 * 48);
+  run_in(folder, {"render", "gas.csv", "--views", "1", "--size", "64x48", "--values", "n.exr", "-o", "c"});
+  EXPECT_EQ(read_disparity(folder / "n.exr").width(), 64);
+}
+
+TEST(RenderCommand, RefusesNumbersThatThereAreNot) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "gas.csv", "x,y,z,mass,age\n0,0,0,3,10\n5,0,0,1,30\n0,0,5,1,50\n");
+  put_bytes(folder / "nan.csv", "x,y,z,mass\n0,0,0,nan\n5,0,0,nan\n");
+  const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& part) {
+    std::vector<std::string> line{"render", "gas.csv", "-o", "out"};
+    line.insert(line.end(), more.begin(), more.end());
+    expect_refused(folder, line, code, part);
+  };
+  refused({"--quantity", "spin"}, 3, "no column 'spin', but x, y, z, mass, age");
+  refused({"--quantity", "temperature"}, 3, "no temperature");
+  refused({"--least", "5", "--most", "2"}, 2, "--least: is 5, expected below --most, 2");
+  refused({"--least", "0", "--stretch", "log"}, 2, "--least");
+  refused({"--values", "n.txt"}, 2, "--values: is 'n.txt', expected a name ending in .fits, .exr or .npy");
+  refused({"--exposure", "2"}, 2, "--look thesis");
+  refused({"--look", "thesis", "--values", "n.npy"}, 2, "--look mass");
+  expect_refused(folder, {"render", "nan.csv", "-o", "out"}, 3, "2 have no mass");
 }
 
 TEST(RenderCommand, LooksAtAPoint) {

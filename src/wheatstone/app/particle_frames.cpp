@@ -20,7 +20,7 @@ ParticleFrames::ParticleFrames(const std::string& input, const ParticleFramesOpt
   if (options_.count == 0) options_.count = series ? static_cast<int>(series->files.size()) : 1;
   if (series) series_.emplace(*std::move(series), choice_of(particles));
   survey(input, progress);
-  if (std::isnan(particles.rendering.exposure)) hold_exposure();
+  hold_brightness();
 }
 
 /// Learns what is held through the film.
@@ -42,10 +42,24 @@ void ParticleFrames::survey(const std::string& input, const Progress& progress) 
 }
 
 /// The darker of what the first and the last frame would choose: nothing is too bright.
-void ParticleFrames::hold_exposure() {
-  float least = frame(0).rendered.exposure;
-  if (options_.count > 1) least = std::min(least, frame(options_.count - 1).rendered.exposure);
-  options_.particles.rendering.exposure = least;
+void ParticleFrames::hold_brightness() {
+  RenderParticlesOptions& options = options_.particles;
+  const bool thesis = options.appearance.look == Look::thesis;
+  if (thesis ? !std::isnan(options.rendering.exposure) : !std::isnan(options.least) && !std::isnan(options.most))
+    return;
+  RenderedParticles first = frame(0);
+  if (options_.count > 1) {
+    const RenderedParticles last = frame(options_.count - 1);
+    first.rendered.exposure = std::min(first.rendered.exposure, last.rendered.exposure);
+    first.least = std::min(first.least, last.least);
+    first.most = std::max(first.most, last.most);
+  }
+  if (thesis) {
+    options.rendering.exposure = first.rendered.exposure;
+  } else {
+    options.least = first.least;
+    options.most = first.most;
+  }
 }
 
 double ParticleFrames::share_of(int number) const {
@@ -74,7 +88,12 @@ RenderedParticles ParticleFrames::frame(int number, const Progress& progress) {
   const std::vector<double>& times = series_->series().times;
   const double time = key.time.value_or(std::lerp(times.front(), times.back(), share_of(number)));
   ReadyParticles particles = ready_particles(series_->at(time, progress), input_, options, progress);
-  particles.statistics = statistics_;
+  // What frames the views and colours the particles is held; how many there are is the frame's own.
+  CloudStatistics held = statistics_;
+  held.count = particles.statistics.count;
+  held.mass = particles.statistics.mass;
+  held.sample = std::move(particles.statistics.sample);
+  particles.statistics = std::move(held);
   return render_ready(particles, options, progress);
 }
 

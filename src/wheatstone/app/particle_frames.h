@@ -34,7 +34,7 @@ class ParticleFrames {
 
  private:
   void survey(const std::string& input, const Progress& progress);
-  void hold_exposure();
+  void hold_brightness();
   RenderParticlesOptions options_at(int number, const CameraKey& key) const;
   double share_of(int number) const;
 

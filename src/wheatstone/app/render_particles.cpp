@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <future>
 #include <optional>
 #include <utility>
@@ -31,6 +32,9 @@ Staged stage(const RenderParticlesOptions& options, const CloudStatistics& stati
 }
 
 [[noreturn]] void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts) {
+  if (counts.weightless > 0)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: no particles to draw, {} have no mass or nothing to show",
+                                                  file.string(), counts.weightless));
   throw Error(ErrorKind::bad_input,
               counts.dropped > 0
                   ? fmt::format("{}: no particles to draw, {} have no finite position", file.string(), counts.dropped)
@@ -49,6 +53,7 @@ void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
 
 void add(SelectionCounts& sum, const SelectionCounts& more) {
   sum.dropped += more.dropped;
+  sum.weightless += more.weightless;
   sum.mended += more.mended;
   sum.extreme += more.extreme;
 }
@@ -62,6 +67,21 @@ std::optional<std::array<double, 3>> middle_of(const Region& region) {
   std::array<double, 3> middle{};
   for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = box->lower[axis] / 2 + box->upper[axis] / 2;
   return middle;
+}
+
+/// The quantity's name without "mean:"; nothing where none is shown.
+std::string quantity_name_of(const std::string& quantity) {
+  if (quantity == "column-density") return {};
+  return quantity.starts_with("mean:") ? quantity.substr(5) : quantity;
+}
+
+/// Columns that every cloud may have become the quantity without being read again.
+void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::string& quantity) {
+  const std::string name = quantity_name_of(quantity);
+  if (name != "temperature" && name != "density") return;
+  cloud.quantity = name == "temperature" ? cloud.temperature : cloud.density;
+  if (cloud.quantity.empty() && cloud.size() > 0)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no {} to show", file.string(), name));
 }
 
 /// Calls `visit` with every chunk of the file that has something selected in it.
@@ -79,6 +99,7 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
     const std::size_t read = chunk.size();
     if (read == 0) return counts;
     pending = read_next();
+    put_quantity(chunk, file, options.quantity);
     add(counts, select_particles(chunk, options.selection, first));
     check_positions(file, chunk);
     first += read;
@@ -87,42 +108,202 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
   }
 }
 
+/// What a unit of the tone map's limits is, in units of what is shown.
+float unit_of_tone(const Scene& scene) {
+  return scene.splat_style.colour_source == ColourSource::quantity ? 1 / scene.splat_style.quantity_scale
+                                                                   : column_of_light(scene);
+}
+
+/// Sets up what is shown instead of the usual picture, and the limits in units of light.
+void show_quantity(const RenderParticlesOptions& options, const CloudStatistics& statistics, Scene& scene,
+                   ToneSettings& tone) {
+  if (options.appearance.look == Look::thesis) return;
+  tone.colour_map = options.appearance.colour_map;
+  const UsualColours usual = usual_colours(Look::mass);
+  tone.cold = options.appearance.cold.value_or(usual.cold);
+  tone.hot = options.appearance.hot.value_or(usual.hot);
+  if (options.quantity == "column-density") {
+    tone.shown = Shown::column;
+  } else if (!options.quantity.empty()) {
+    tone.shown = Shown::mean;
+    scene.splat_style.colour_source = ColourSource::quantity;
+    scene.splat_style.quantity_scale = statistics.largest_quantity > 0 ? 1 / statistics.largest_quantity : 1;
+  }
+  const float unit = unit_of_tone(scene);
+  tone.least = options.least / unit;
+  tone.most = options.most / unit;
+}
+
+/// Particles of a file, known as a whole, and as they come in chunks.
+struct SurveyedParticles {
+  CloudStatistics statistics;
+  SelectionCounts counts;
+  std::vector<Cloud> kept;  ///< all chunks, where they are few enough
+  bool all_kept = true;
+};
+
+std::size_t bytes_of(const Cloud& cloud) {
+  std::size_t numbers = 0;
+  for (const std::vector<float>* column : {&cloud.x, &cloud.y, &cloud.z, &cloud.density, &cloud.temperature,
+                                           &cloud.smoothing_length, &cloud.mass, &cloud.quantity})
+    numbers += column->size();
+  return numbers * sizeof(float) + cloud.colour.size() * sizeof(Rgb8);
+}
+
+/// Reads all particles once. Those of a small file stay in memory, so that they need not be read again.
+SurveyedParticles survey(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                         const Progress& progress) {
+  constexpr std::size_t most_bytes_kept = std::size_t{128} << 20;
+  SurveyedParticles surveyed;
+  surveyed.all_kept = !options.stream;
+  std::size_t bytes = 0;
+  surveyed.counts = for_each_chunk(file, options, "reading", progress, [&](Cloud& chunk) {
+    surveyed.statistics.add(chunk);
+    bytes += bytes_of(chunk);
+    if (surveyed.all_kept && bytes > most_bytes_kept) {
+      surveyed.all_kept = false;
+      surveyed.kept.clear();
+    }
+    if (surveyed.all_kept) surveyed.kept.push_back(std::move(chunk));
+  });
+  if (surveyed.statistics.count == 0) refuse_nothing(file, surveyed.counts);
+  surveyed.statistics.framed = framed_region(surveyed.statistics, options.fit);
+  return surveyed;
+}
+
+/// The particles in chunks: those that were kept, or from the file again.
+Chunks chunks_from(const SurveyedParticles& surveyed, const std::filesystem::path& file,
+                   const RenderParticlesOptions& options, const Progress& progress) {
+  if (surveyed.all_kept)
+    return [&surveyed](const std::function<void(const Cloud&)>& visit) {
+      for (const Cloud& chunk : surveyed.kept) visit(chunk);
+    };
+  return [&file, &options, &progress](const std::function<void(const Cloud&)>& visit) {
+    for_each_chunk(file, options, "drawing", progress, visit);
+  };
+}
+
+/// Whether kernels or brightness need a density that only the neighbours tell.
+bool needs_density(const CloudStatistics& statistics, const RenderParticlesOptions& options) {
+  const bool sized = options.appearance.look == Look::mass && statistics.has_smoothing_length;
+  return !options.stream && !statistics.has_density && !statistics.has_colour && !sized;
+}
+
 /// The views from the slices that were made.
-void draw_slices(const RenderParticlesOptions& options, const std::string& reason, RenderedParticles& result,
-                 const Progress& progress) {
+void draw_slices(const RenderParticlesOptions& options, RenderedParticles& result, const Progress& progress) {
   result.rendered.method = Method::layered;
-  result.rendered.reason = reason;
+  result.rendered.reason = "layered: slices are asked for";
   result.rendered.planes = static_cast<int>(result.stack.slices.size());
-  result.rendered.exposure = result.stack.exposure;
+  result.rendered.exposure = result.stack.tone.exposure;
+  result.rendered.tone = result.stack.tone;
   if (!options.without_views)
     result.rendered.views = render_slices(result.stack, result.rig, options.rendering.filter, progress);
 }
 
-RenderedParticles stream(const std::filesystem::path& file, const RenderParticlesOptions& options,
-                         const Progress& progress) {
-  RenderedParticles result;
-  CloudStatistics statistics;
-  const SelectionCounts counts =
-      for_each_chunk(file, options, "statistics", progress, [&](const Cloud& chunk) { statistics.add(chunk); });
-  if (statistics.count == 0) refuse_nothing(file, counts);
-  statistics.framed = framed_region(statistics, options.fit);
-  const Staged staged = stage(options, statistics);
-  SliceMaker maker(staged.scene, statistics, staged.rig, options.rendering);
-  for_each_chunk(file, options, "slices", progress, [&](const Cloud& chunk) {
-    maker.add(chunk);
-    result.outside += count_outside(chunk, *statistics.framed);
-  });
-  result.stack = maker.finish(staged.viewing);
-  result.rig = staged.rig;
-  draw_slices(options, "layered: particles are streamed", result, progress);
-  if (!statistics.has_density && !statistics.has_colour)
+void note_what_is_missing(const CloudStatistics& statistics, const RenderParticlesOptions& options,
+                          RenderedParticles& result) {
+  const bool mass = options.appearance.look == Look::mass;
+  if (mass && (options.values || options.quantity == "column-density") && !options.framing.orthographic)
+    result.warnings.emplace_back(
+        "in perspective a column density counts per area at the depth that is looked at; --projection orthographic "
+        "gives it in the units of the file");
+  if (mass && !options.quantity.empty() && !statistics.has_mass)
+    result.warnings.emplace_back("the file has no masses: each particle counts 1");
+  if (!options.stream || statistics.has_density || statistics.has_colour) return;
+  if (mass && !statistics.has_smoothing_length) {
+    result.warnings.emplace_back(
+        "the file has neither smoothing lengths nor densities, and streamed particles cannot estimate them: all are "
+        "equally wide");
+  } else if (!mass) {
     result.warnings.emplace_back(
         "the file has no density, and streamed particles cannot estimate it: all are equally bright");
+  }
+}
+
+/// Particles of which all is known.
+struct KnownParticles {
+  const Chunks& chunks;
+  const CloudStatistics& statistics;
+  const SelectionCounts& counts;
+};
+
+RenderedParticles render_known(const KnownParticles& particles, const RenderParticlesOptions& options,
+                               const Progress& progress) {
+  const auto& [chunks, statistics, counts] = particles;
+  RenderedParticles result;
   result.particles = statistics.count;
   result.dropped = counts.dropped;
+  result.weightless = counts.weightless;
   result.mended = counts.mended;
   result.extreme = counts.extreme;
+  result.has_mass = statistics.has_mass;
+  Staged staged = stage(options, statistics);
+  RenderOptions rendering = options.rendering;
+  show_quantity(options, statistics, staged.scene, rendering.tone);
+  result.rig = staged.rig;
+  bool first_pass = true;
+  const Chunks counted = [&](const std::function<void(const Cloud&)>& visit) {
+    particles.chunks([&](const Cloud& chunk) {
+      if (first_pass) result.outside += count_outside(chunk, *particles.statistics.framed);
+      visit(chunk);
+    });
+    first_pass = false;
+  };
+  if (options.slices) {
+    report(progress, "slices", 0);
+    SliceMaker maker(staged.scene, statistics, staged.rig, rendering);
+    counted([&](const Cloud& chunk) { maker.add(chunk); });
+    result.stack = maker.finish(staged.viewing);
+    draw_slices(options, result, progress);
+  } else {
+    result.rendered = render(counted, statistics, staged.scene, staged.rig, rendering, progress);
+  }
+  if (options.values) result.values = view_values(chunks, statistics, staged.scene, staged.rig);
+  const float unit = unit_of_tone(staged.scene);
+  result.least = result.rendered.tone.least * unit;
+  result.most = result.rendered.tone.most * unit;
+  result.scene = std::move(staged.scene);
   return result;
+}
+
+RenderedParticles render_surveyed(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                                  const Progress& progress) {
+  SurveyedParticles surveyed = survey(file, options, progress);
+  if (needs_density(surveyed.statistics, options)) {
+    surveyed = {};
+    return render_ready(read_particles(file, options, progress), options, progress);
+  }
+  const Chunks chunks = chunks_from(surveyed, file, options, progress);
+  RenderedParticles result = render_known({chunks, surveyed.statistics, surveyed.counts}, options, progress);
+  note_what_is_missing(surveyed.statistics, options, result);
+  return result;
+}
+
+/// The unit that a file tells for a quantity: what stands in brackets, as a name, where there is one.
+std::string unit_of(const CloudSource& source, const std::string& name, std::string otherwise) {
+  for (const auto& [known, unit] : source.units) {
+    if (known != name) continue;
+    const std::size_t opening = unit.find('(');
+    if (opening == std::string::npos || !unit.ends_with(')')) return unit;
+    return unit.substr(opening + 1, unit.size() - opening - 2);
+  }
+  return otherwise;
+}
+
+ShownUnits units_of(const CloudSource& source, const RenderParticlesOptions& options, bool has_mass) {
+  ShownUnits units;
+  units.length = unit_of(source, "length", unit_of(source, "x", "code length"));
+  const std::string name = quantity_name_of(options.quantity);
+  if (name.empty()) {
+    const std::string mass = has_mass ? unit_of(source, "mass", "code mass") : "particles";
+    units.name = "column density";
+    const bool one_word = units.length.find(' ') == std::string::npos;
+    units.value = fmt::format("{} / {}^2", mass, one_word ? units.length : fmt::format("({})", units.length));
+  } else {
+    units.name = name;
+    units.value = unit_of(source, name, name == "temperature" ? "K" : "code units");
+  }
+  return units;
 }
 
 }  // namespace
@@ -130,6 +311,7 @@ RenderedParticles stream(const std::filesystem::path& file, const RenderParticle
 ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, const RenderParticlesOptions& options,
                                const Progress& progress) {
   ReadyParticles ready{.cloud = std::move(cloud)};
+  put_quantity(ready.cloud, file, options.quantity);
   ready.counts = select_particles(ready.cloud, options.selection);
   if (ready.cloud.size() == 0) refuse_nothing(file, ready.counts);
   check_positions(file, ready.cloud);
@@ -151,6 +333,8 @@ ReadyParticles read_particles(const std::filesystem::path& file, const RenderPar
 // same picture.
 CloudChoice choice_of(const RenderParticlesOptions& options) {
   CloudChoice choice = options.choice;
+  const std::string quantity = quantity_name_of(options.quantity);
+  if (quantity != "temperature" && quantity != "density") choice.quantity = quantity;
   for (const std::optional<std::array<double, 3>>& middle :
        {options.selection.centre, middle_of(options.fit), middle_of(options.selection.cut)})
     if (middle && !choice.origin) choice.origin = middle;
@@ -201,23 +385,10 @@ DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float neares
 
 RenderedParticles render_ready(const ReadyParticles& particles, const RenderParticlesOptions& options,
                                const Progress& progress) {
-  const Cloud& cloud = particles.cloud;
-  RenderedParticles result;
-  result.particles = cloud.size();
-  result.dropped = particles.counts.dropped;
-  result.mended = particles.counts.mended;
-  result.extreme = particles.counts.extreme;
+  const Chunks chunks = chunks_of(particles.cloud);
+  RenderedParticles result = render_known({chunks, particles.statistics, particles.counts}, options, progress);
   result.density_estimated = particles.density_estimated;
-  result.outside = count_outside(cloud, *particles.statistics.framed);
-  const Staged staged = stage(options, particles.statistics);
-  result.rig = staged.rig;
-  if (options.slices) {
-    report(progress, "slices", 0);
-    result.stack = make_slices(cloud, staged.scene, staged.rig, options.rendering, staged.viewing);
-    draw_slices(options, "layered: slices are asked for", result, progress);
-  } else {
-    result.rendered = render(cloud, staged.scene, staged.rig, options.rendering, progress);
-  }
+  note_what_is_missing(particles.statistics, options, result);
   return result;
 }
 
@@ -228,9 +399,10 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
   const CloudSource source = open_cloud(file, options.choice);
   if (options.selection.centre && !(source.box_size > 0))
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no periodic box, which a centre needs", file.string()));
-  RenderedParticles result = options.stream ? stream(file, options, progress)
-                                            : render_ready(read_particles(file, options, progress), options, progress);
+  RenderedParticles result = render_surveyed(file, options, progress);
   result.format = source.format;
+  result.redshift = source.redshift;
+  result.units = units_of(source, options, result.has_mass);
   const ViewingGeometry viewing = viewing_of(options);
   const bool regions = !options.depth.regions.empty();
   float nearest = regions ? options.depth.regions.front().behind_mm : -options.depth.near_mm;

@@ -48,10 +48,25 @@ struct RenderParticlesOptions {
   int views = 2;
   float span = 1;  ///< eye separations from the first view to the last
   RenderOptions rendering;
-  bool slices = false;            ///< make slices, and the views from them
-  bool without_views = false;     ///< make slices only
-  bool stream = false;            ///< never hold all particles: two passes over the file, chunk by chunk; by slices
-  std::size_t chunk = 1'000'000;  ///< particles
+  /// What is shown in place of the usual picture: "column-density"; or a quantity, of which the mean along each line of
+  /// sight is shown, weighted by mass: "temperature", "density", or the name of a dataset or column
+  /// (CloudChoice::quantity), with or without "mean:" before it. Empty: the usual picture.
+  std::string quantity;
+  /// Where the colours of what is shown begin and end, in its own units: a column density's, unless a quantity is
+  /// shown. NaN: found.
+  float least = ToneSettings::automatic, most = ToneSettings::automatic;
+  bool values = false;          ///< views as numbers too
+  bool slices = false;          ///< make slices, and the views from them
+  bool without_views = false;   ///< make slices only
+  bool stream = false;          ///< never hold all particles: two passes over the file, chunk by chunk; by slices
+  std::size_t chunk = 250'000;  ///< particles
+};
+
+/// What numbers of a picture are counted in, as far as the file tells: "kpc", "code length".
+struct ShownUnits {
+  std::string length;
+  std::string value;  ///< of what is shown: "Msun kpc^-2"
+  std::string name;   ///< of what is shown: "column density"
 };
 
 /// What became of a file of particles.
@@ -59,13 +74,20 @@ struct RenderedParticles {
   RenderedViews rendered;
   SliceStack stack;  ///< empty unless slices were made
   Rig rig;
+  Scene scene;
+  std::vector<ViewValues> values;  ///< of the views, where they were asked for
+  ShownUnits units;
+  float least = 0, most = 0;  ///< where the brightness of what is shown begins and ends
+  std::optional<double> redshift;
   std::string format;
-  std::uint64_t particles = 0;  ///< drawn
-  std::uint64_t dropped = 0;    ///< without a finite position
-  std::uint64_t mended = 0;     ///< with a density or temperature that is not above 0, which got the least one
-  std::uint64_t extreme = 0;    ///< densities and temperatures beyond single precision, put at its limits
-  std::uint64_t outside = 0;    ///< of what the views are framed by
+  std::uint64_t particles = 0;   ///< drawn
+  std::uint64_t dropped = 0;     ///< without a finite position
+  std::uint64_t weightless = 0;  ///< left out: without a mass, or without what is to be shown
+  std::uint64_t mended = 0;      ///< with a density or temperature that is not above 0, which got the least one
+  std::uint64_t extreme = 0;     ///< densities and temperatures beyond single precision, put at its limits
+  std::uint64_t outside = 0;     ///< of what the views are framed by
   bool density_estimated = false;
+  bool has_mass = false;              ///< else each particle counts 1
   std::vector<std::string> warnings;  ///< of comfort and of what is missing, in words for people
 };
 

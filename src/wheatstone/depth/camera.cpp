@@ -27,6 +27,7 @@ Camera camera_around(const std::array<float, 3>& centre, float radius, int width
   camera.centre_x_px = static_cast<float>(width) / 2;
   camera.centre_y_px = static_cast<float>(height) / 2;
   camera.nearest_depth = distance / 1000;
+  if (framing.orthographic) camera.orthographic_depth = distance;
   return camera;
 }
 

@@ -17,6 +17,12 @@ struct Camera {
   float centre_x_px = 320;
   float centre_y_px = 180;
   float nearest_depth = 0;  ///< what is nearer, or behind the camera, is not seen
+  /// Above 0: everything is as large as at this depth, an orthographic projection. The views of a rig are then sheared:
+  /// parallax follows from the depth as ever.
+  float orthographic_depth = 0;
+
+  /// 1 over the depth by which a point at `depth` is scaled; times focal_px, pixels a unit of length.
+  float nearness(float depth) const { return 1 / (orthographic_depth > 0 ? orthographic_depth : depth); }
 };
 
 /// From which side, and how much of it.
@@ -25,6 +31,7 @@ struct Framing {
   float elevation_deg = 20;      ///< above the horizontal plane
   float field_of_view_deg = 40;  ///< across the width of a view
   float zoom = 1;                ///< 2 shows half as much
+  bool orthographic = false;     ///< everything is as large as at the point that is looked at
   /// The point in the middle of the view, around which the camera turns; none: the scene's own centre.
   std::optional<std::array<float, 3>> look_at = {};
   friend bool operator==(const Framing&, const Framing&) = default;

@@ -21,15 +21,112 @@ constexpr std::ptrdiff_t lanes = hn::MaxLanes(Floats());
 constexpr int block_width = 4 * 16;
 constexpr int vectors = block_width / lanes;
 
-/// Bytes of exposed, tone-mapped light. `to` takes block_width bytes.
-HWY_INLINE void tone(Vec light, const ToneMap& map, std::uint8_t* to) {
+/// The sums of a block of pixels, channel by channel.
+using Sums = float[3][block_width];
+using Bytes = std::uint8_t[3][block_width];
+
+HWY_INLINE void store_bytes(hn::Vec<hn::RebindToSigned<Floats>> values, std::uint8_t* to) {
+  const hn::Rebind<std::uint8_t, Floats> bytes;
+  hn::StoreU(hn::DemoteTo(bytes, values), bytes, to);
+}
+
+/// sRGB bytes of linear light 0..1.
+HWY_INLINE void store_srgb(Vec linear, const ToneMap& map, std::uint8_t* to) {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
-  const hn::Rebind<std::uint8_t, Floats> bytes;
-  const Vec exposed = hn::Max(hn::Mul(light, hn::Set(d, map.exposure)), hn::Zero(d));
-  const Vec mapped = hn::Div(exposed, hn::Add(exposed, hn::Set(d, 1.f)));
-  const auto entry = hn::NearestInt(hn::Mul(mapped, hn::Set(d, ToneMap::table_size - 1.f)));
-  hn::StoreU(hn::DemoteTo(bytes, hn::GatherIndex(di, map.table.data(), entry)), bytes, to);
+  const auto entry = hn::NearestInt(hn::Mul(linear, hn::Set(d, ToneMap::table_size - 1.f)));
+  store_bytes(hn::GatherIndex(di, map.table.data(), entry), to);
+}
+
+HWY_INLINE void tone_light(const Sums& sums, const ToneMap& map, Bytes& bytes) {
+  const Floats d;
+  for (int channel = 0; channel < 3; ++channel)
+    for (int i = 0; i < block_width; i += lanes) {
+      const Vec light = hn::Load(d, sums[channel] + i);
+      const Vec exposed = hn::Max(hn::Mul(light, hn::Set(d, map.exposure)), hn::Zero(d));
+      store_srgb(hn::Div(exposed, hn::Add(exposed, hn::Set(d, 1.f))), map, bytes[channel] + i);
+    }
+}
+
+/// Where the stretch of a number stands in its table.
+HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> stretch_index(Vec value, const ToneMap& map) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  const Vec share = hn::Max(hn::MulAdd(value, hn::Set(d, map.scale), hn::Set(d, map.offset)), hn::Zero(d));
+  const auto index =
+      hn::Sub(hn::ShiftRight<ToneMap::index_shift>(hn::BitCast(di, share)), hn::Set(di, ToneMap::first_index));
+  return hn::Min(hn::Max(index, hn::Zero(di)), hn::Set(di, ToneMap::stretch_size - 1));
+}
+
+HWY_INLINE void tone_mass(const Sums& sums, const ToneMap& map, Bytes& bytes) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  const Vec nothing = hn::Set(d, 1e-30f);
+  const Vec most_hue = hn::Set(d, static_cast<float>(map.hues - 1));
+  for (int i = 0; i < block_width; i += lanes) {
+    const Vec column = hn::Load(d, sums[0] + i);
+    const Vec mean = hn::Div(hn::Load(d, sums[1] + i), hn::Max(column, nothing));
+    const auto brightness =
+        hn::GatherIndex(di, map.stretch.data(), stretch_index(map.shown == Shown::mean ? mean : column, map));
+    const auto hue = hn::NearestInt(hn::Clamp(hn::Mul(mean, most_hue), hn::Zero(d), most_hue));
+    const auto found = hn::GatherIndex(di, map.colours.data(), hn::Add(brightness, hue));
+    const auto colour = hn::IfThenElseZero(hn::RebindMask(di, hn::Gt(column, nothing)), found);
+    const auto low = hn::Set(di, 255);
+    store_bytes(hn::And(colour, low), bytes[0] + i);
+    store_bytes(hn::And(hn::ShiftRight<8>(colour), low), bytes[1] + i);
+    store_bytes(hn::ShiftRight<16>(colour), bytes[2] + i);
+  }
+}
+
+HWY_INLINE void tone_colours(const Sums& sums, const ToneMap& map, Bytes& bytes) {
+  const Floats d;
+  for (int i = 0; i < block_width; i += lanes) {
+    const Vec most = hn::Max(hn::Max(hn::Load(d, sums[0] + i), hn::Load(d, sums[1] + i)), hn::Load(d, sums[2] + i));
+    const Vec bright = hn::GatherIndex(d, map.linear_stretch.data(), stretch_index(most, map));
+    const Vec factor = hn::Div(bright, hn::Max(most, hn::Set(d, 1e-30f)));
+    for (int channel = 0; channel < 3; ++channel) {
+      const Vec light = hn::Mul(hn::Load(d, sums[channel] + i), factor);
+      store_srgb(hn::Clamp(light, hn::Zero(d), hn::Set(d, 1.f)), map, bytes[channel] + i);
+    }
+  }
+}
+
+HWY_INLINE void tone(const Sums& sums, const ToneMap& map, Bytes& bytes) {
+  if (map.look == Look::thesis) return tone_light(sums, map, bytes);
+  if (map.shown == Shown::colours) return tone_colours(sums, map, bytes);
+  tone_mass(sums, map, bytes);
+}
+
+/// Adds what the picture of half the size has in a block of a row: it is interpolated between its pixels, which keeps
+/// the sum. Pixel i of a picture lies between pixels (i − pad) / 2 + 1 and + 3 of the smaller one, whose pad is 2.
+HWY_INLINE void add_smaller(const ViewTarget& target, int row, int x, int channels, Sums& sums) {
+  const Floats d;
+  const int y = row - target.pad;
+  const int half_row = (y - (y & 1)) / 2;
+  const int near_row = half_row + 2;
+  const int far_row = (y & 1) != 0 ? half_row + 3 : half_row + 1;
+  const int first = (x - target.pad) / 2 + 1;
+  const Vec near_share = hn::Set(d, 0.75f);
+  const Vec far_share = hn::Set(d, 0.25f);
+  HWY_ALIGN float blend[block_width / 2 + 2 * 16];
+  for (int channel = 0; channel < channels; ++channel) {
+    const float* const near = target.smaller->row(near_row, channel) + first;
+    const float* const far = target.smaller->row(far_row, channel) + first;
+    for (int i = 0; i < block_width / 2 + 2; i += lanes)
+      hn::Store(hn::MulAdd(near_share, hn::LoadU(d, near + i), hn::Mul(far_share, hn::LoadU(d, far + i))), d,
+                blend + i);
+    HWY_ALIGN float wide[2 * 16];
+    for (int i = 0; i < block_width / 2; i += lanes) {
+      const Vec middle = hn::Mul(near_share, hn::LoadU(d, blend + i + 1));
+      const Vec even = hn::MulAdd(far_share, hn::LoadU(d, blend + i), middle);
+      const Vec odd = hn::MulAdd(far_share, hn::LoadU(d, blend + i + 2), middle);
+      hn::StoreInterleaved2(even, odd, d, wide);
+      for (int k = 0; k < 2; ++k) {
+        float* const to = sums[channel] + 2 * i + k * lanes;
+        hn::Store(hn::Add(hn::Load(d, to), hn::Load(d, wide + k * lanes)), d, to);
+      }
+    }
+  }
 }
 
 /// Three rows of bytes into pixels.
@@ -42,6 +139,23 @@ HWY_INLINE void interleave(const std::uint8_t* red, const std::uint8_t* green, c
     hn::StoreInterleaved3(hn::LoadU(d, red + x), hn::LoadU(d, green + x), hn::LoadU(d, blue + x), d,
                           reinterpret_cast<std::uint8_t*>(to + x));
   for (; x < count; ++x) to[x] = {red[x], green[x], blue[x]};
+}
+
+/// A block of one view's sums goes where it belongs.
+HWY_INLINE void finish_block(Sums& sums, const ToneMap& map, const ViewTarget& target, int row, int x) {
+  const Floats d;
+  const int channels = map.three_channels() ? 3 : 2;
+  if (target.smaller != nullptr) add_smaller(target, row, x, channels, sums);
+  if (target.light != nullptr) {
+    for (int channel = 0; channel < target.light->channels(); ++channel)
+      for (int i = 0; i < block_width; i += lanes)
+        hn::StoreU(hn::Load(d, sums[channel] + i), d, target.light->row(row, channel) + x + i);
+    return;
+  }
+  HWY_ALIGN Bytes bytes;
+  tone(sums, map, bytes);
+  interleave(bytes[0], bytes[1], bytes[2], std::min(block_width, target.picture.width() - x),
+             target.picture.row(row).data() + x);
 }
 
 /// One vector's worth of pixels, channel by channel.
@@ -57,19 +171,19 @@ HWY_INLINE Channels load_channels(const float* from) {
   return channels;
 }
 
-void tone_map_band(const LightBand& band, const ToneMap& map, int top, ImageView<Rgb8> picture) {
-  HWY_ALIGN std::uint8_t bytes[3][block_width];
-  const int rows = std::min(band.rows(), picture.height() - top);
+void finish_light_band(const LightBand& band, const ToneMap& map, int top, const ViewTarget& target) {
+  const Floats d;
+  HWY_ALIGN Sums sums;
+  const int rows = std::min(band.rows(), target.height() - top);
   for (int row = 0; row < rows; ++row) {
-    for (int x = 0; x < picture.width(); x += block_width) {
+    for (int x = 0; x < target.width(); x += block_width) {
       for (int i = 0; i < block_width; i += lanes) {
         const Channels light = load_channels(band.row(row) + (x + i - band.left()) * LightBand::channels);
-        tone(light.red, map, bytes[0] + i);
-        tone(light.green, map, bytes[1] + i);
-        tone(light.blue, map, bytes[2] + i);
+        hn::Store(light.red, d, sums[0] + i);
+        hn::Store(light.green, d, sums[1] + i);
+        hn::Store(light.blue, d, sums[2] + i);
       }
-      interleave(bytes[0], bytes[1], bytes[2], std::min(block_width, picture.width() - x),
-                 picture.row(top + row).data() + x);
+      finish_block(sums, map, target, top + row, x);
     }
   }
 }
@@ -141,7 +255,7 @@ struct UnpackedBlock {
 };
 
 /// Unpacks the planes that are lit where any view of the group looks, and lists them.
-void unpack(const SliceBand& slices, int row, int x, const std::vector<std::array<int, 2>>& reach,
+void unpack(const SliceBand& slices, int row, int x, const std::vector<std::array<int, 2>>& reach, int channels,
             UnpackedBlock& block) {
   const Floats d;
   const hn::Rebind<hwy::float16_t, Floats> halves;
@@ -154,7 +268,7 @@ void unpack(const SliceBand& slices, int row, int x, const std::vector<std::arra
     if (!slices.lit(plane, row).meets(first - slices.left(), end - slices.left())) continue;
     block.lit.push_back(plane);
     block.first[plane] = x + reach[plane][0];
-    for (int channel = 0; channel < 3; ++channel) {
+    for (int channel = 0; channel < channels; ++channel) {
       const std::uint16_t* from = slices.row(plane, row, channel) + (first - slices.left());
       float* to = block.values.data() + (static_cast<std::size_t>(plane) * 3 + channel) * UnpackedBlock::widest +
                   (first - block.first[plane]);
@@ -164,12 +278,11 @@ void unpack(const SliceBand& slices, int row, int x, const std::vector<std::arra
   }
 }
 
-/// Sums all planes of a block for one view, moved, and tone-maps them.
+/// Sums all planes of a block for one view, moved.
 template <int taps>
-void composite_block(const UnpackedBlock& block, int x, std::span<const Shift> shifts, const ToneMap& map,
-                     std::uint8_t (*bytes)[block_width]) {
+void composite_block(const UnpackedBlock& block, int x, std::span<const Shift> shifts, int channels, Sums& sums) {
   const Floats d;
-  for (int channel = 0; channel < 3; ++channel) {
+  for (int channel = 0; channel < channels; ++channel) {
     Vec sum[vectors];
     for (Vec& zero : sum) zero = hn::Zero(d);
     for (const int plane : block.lit) {
@@ -180,7 +293,7 @@ void composite_block(const UnpackedBlock& block, int x, std::span<const Shift> s
         for (int i = 0; i < vectors; ++i) sum[i] = hn::MulAdd(weight, hn::LoadU(d, from + tap + i * lanes), sum[i]);
       }
     }
-    for (int i = 0; i < vectors; ++i) tone(sum[i], map, bytes[channel] + i * lanes);
+    for (int i = 0; i < vectors; ++i) hn::Store(sum[i], d, sums[channel] + i * lanes);
   }
 }
 
@@ -214,38 +327,38 @@ ViewGroup group_from(std::size_t first, const Compositing& compositing) {
   return group;
 }
 
-/// Where a band of every view goes: into the rows of its picture from `top` on.
-struct BandOfPictures {
+/// Where a band of every view goes: into the rows of its target from `top` on.
+struct BandOfViews {
   const ToneMap& map;
   int top;
-  std::span<const ImageView<Rgb8>> pictures;
+  std::span<const ViewTarget> targets;
 };
 
 template <int taps>
-void composite_group(const SliceBand& slices, const ViewGroup& group, const BandOfPictures& to, UnpackedBlock& block) {
+void composite_group(const SliceBand& slices, const ViewGroup& group, const BandOfViews& to, UnpackedBlock& block) {
   const int planes = slices.planes();
-  const int width = to.pictures.front().width();
-  const int rows = std::min(slices.rows(), to.pictures.front().height() - to.top);
-  HWY_ALIGN std::uint8_t bytes[3][block_width];
+  const int width = to.targets.front().width();
+  const int rows = std::min(slices.rows(), to.targets.front().height() - to.top);
+  const int channels = to.map.three_channels() ? 3 : 2;
+  HWY_ALIGN Sums sums;
   for (int row = 0; row < rows; ++row) {
     for (int x = 0; x < width; x += block_width) {
-      unpack(slices, row, x, group.reach, block);
+      unpack(slices, row, x, group.reach, channels, block);
       for (std::size_t view = group.first; view < group.end; ++view) {
         const std::span shifts = std::span(group.shifts).subspan((view - group.first) * planes, planes);
-        composite_block<taps>(block, x, shifts, to.map, bytes);
-        interleave(bytes[0], bytes[1], bytes[2], std::min(block_width, width - x),
-                   to.pictures[view].row(to.top + row).data() + x);
+        composite_block<taps>(block, x, shifts, channels, sums);
+        finish_block(sums, to.map, to.targets[view], to.top + row, x);
       }
     }
   }
 }
 
 template <int taps>
-void composite_band(const SliceBand& slices, const Compositing& compositing, const BandOfPictures& to) {
+void composite_band(const SliceBand& slices, const Compositing& compositing, const BandOfViews& to) {
   UnpackedBlock block;
   block.values.resize(static_cast<std::size_t>(slices.planes()) * 3 * UnpackedBlock::widest);
   block.first.resize(slices.planes());
-  for (std::size_t view = 0; view < to.pictures.size();) {
+  for (std::size_t view = 0; view < to.targets.size();) {
     const ViewGroup group = group_from(view, compositing);
     composite_group<taps>(slices, group, to, block);
     view = group.end;
@@ -253,8 +366,8 @@ void composite_band(const SliceBand& slices, const Compositing& compositing, con
 }
 
 void composite_views(const SliceBand& slices, const Compositing& compositing, const ToneMap& map, int top,
-                     std::span<const ImageView<Rgb8>> pictures) {
-  const BandOfPictures to{map, top, pictures};
+                     std::span<const ViewTarget> targets) {
+  const BandOfViews to{map, top, targets};
   switch (taps_of(compositing.resampling)) {
     case 1:
       return composite_band<1>(slices, compositing, to);
@@ -272,7 +385,7 @@ HWY_AFTER_NAMESPACE();
 namespace wheatstone {
 
 HWY_EXPORT(take_plane);
-HWY_EXPORT(tone_map_band);
+HWY_EXPORT(finish_light_band);
 HWY_EXPORT(composite_views);
 
 void SliceBand::take(int plane, LightBand& band) {
@@ -285,13 +398,13 @@ void SliceBand::take(int plane, LightBand& band) {
   band.darken();
 }
 
-void tone_map(const LightBand& band, const ToneMap& tone, int top, ImageView<Rgb8> picture) {
-  HWY_DYNAMIC_DISPATCH(tone_map_band)(band, tone, top, picture);
+void finish_band(const LightBand& band, const ToneMap& tone, int top, const ViewTarget& target) {
+  HWY_DYNAMIC_DISPATCH(finish_light_band)(band, tone, top, target);
 }
 
 void composite(const SliceBand& slices, const Compositing& compositing, const ToneMap& tone, int top,
-               std::span<const ImageView<Rgb8>> pictures) {
-  HWY_DYNAMIC_DISPATCH(composite_views)(slices, compositing, tone, top, pictures);
+               std::span<const ViewTarget> targets) {
+  HWY_DYNAMIC_DISPATCH(composite_views)(slices, compositing, tone, top, targets);
 }
 
 }  // namespace wheatstone

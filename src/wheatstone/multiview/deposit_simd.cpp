@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
 
 #include "wheatstone/multiview/light_band_internal.h"
 
@@ -24,12 +26,15 @@ HWY_INLINE int rounded_up(float x) {
   return whole + (static_cast<float>(whole) < x);
 }
 
-/// A splat, unpacked. Its weight at a distance is 2^(−sharpness·distance²), and 0 beyond its reach.
+/// A splat, unpacked. Of light, its weight at a distance is 2^(−sharpness·distance²), and 0 beyond its reach. Of mass,
+/// it is the part of a Gaussian that lies over the pixel, and all of it lies within its reach: weights sum to 1,
+/// wherever the splat lies between the pixels.
 struct Spread {
   HWY_ALIGN float colour[4];
   float reach, sharpness;
 };
 
+template <Deposit deposit>
 HWY_INLINE void unpack(const Splat& splat, Spread& spread) {
   const hn::CappedTag<float, 4> d4;
   const hn::Rebind<hwy::float16_t, decltype(d4)> halves;
@@ -38,32 +43,67 @@ HWY_INLINE void unpack(const Splat& splat, Spread& spread) {
     hn::Store(hn::PromoteTo(d4, hn::BitCast(halves, hn::LoadU(bits, splat.colour + i))), d4, spread.colour + i);
   const float size = spread.colour[3];
   spread.colour[3] = 0;
+  if constexpr (deposit == Deposit::mass) {
+    const float second = spread.colour[2];
+    std::memcpy(spread.colour, splat.colour, sizeof(float));
+    spread.colour[1] = spread.colour[0] * second;
+    spread.colour[2] = 0;
+  }
+  if constexpr (deposit != Deposit::light) {
+    spread.reach = reach_of(size);
+    spread.sharpness = diameters_a_mass_deviation * 0.70710678f / size;  // 1 / (√2 deviations)
+    return;
+  }
   const float variance = size * size * (1 / (diameters_a_deviation * diameters_a_deviation)) + pixel_variance;
   spread.reach = reach_of(size);
   spread.sharpness = 0.72134752f / variance;  // 1 / (2 ln 2)
 }
 
+/// How much of a Gaussian lies between its middle and a distance, −½ to ½; all of a half beyond its rim. `scaled` is
+/// the distance over √2 deviations. Abramowitz & Stegun 1964, 7.1.26.
+HWY_INLINE Vec half_within(Vec scaled) {
+  const Floats d;
+  const Vec x = hn::Abs(scaled);
+  const Vec t = hn::Div(hn::Set(d, 1.f), hn::MulAdd(x, hn::Set(d, 0.3275911f), hn::Set(d, 1.f)));
+  Vec tail = hn::MulAdd(t, hn::Set(d, 1.061405429f), hn::Set(d, -1.453152027f));
+  tail = hn::MulAdd(tail, t, hn::Set(d, 1.421413741f));
+  tail = hn::MulAdd(tail, t, hn::Set(d, -0.284496736f));
+  tail = hn::Mul(hn::MulAdd(tail, t, hn::Set(d, 0.254829592f)), t);
+  const Vec fall = fast_exp2(d, hn::Mul(hn::Mul(x, x), hn::Set(d, -1.44269504f)));
+  // At the rim, 2.75 deviations from the middle, the error function is 0.99404.
+  const Vec within = hn::Mul(hn::NegMulAdd(tail, fall, hn::Set(d, 1.f)), hn::Set(d, 0.5f / 0.994040f));
+  return hn::CopySign(hn::Min(within, hn::Set(d, 0.5f)), scaled);
+}
+
 /// Weights of pixels whose centres lie at these distances from the splat's.
+template <Deposit deposit>
 HWY_INLINE Vec weights_at(Vec distance, const Spread& spread) {
   const Floats d;
+  if constexpr (deposit != Deposit::light) {
+    const Vec scale = hn::Set(d, spread.sharpness);
+    const Vec half = hn::Set(d, 0.5f);
+    return hn::Sub(half_within(hn::Mul(hn::Add(distance, half), scale)),
+                   half_within(hn::Mul(hn::Sub(distance, half), scale)));
+  }
   const Vec weight = fast_exp2(d, hn::Mul(hn::Mul(distance, distance), hn::Set(d, -spread.sharpness)));
   return hn::IfThenElseZero(hn::Le(hn::Abs(distance), hn::Set(d, spread.reach)), weight);
 }
 
 /// Weights of `count` pixels or more; the centre of the first is at `distance` from the splat's.
+template <Deposit deposit>
 HWY_INLINE void weigh(float distance, const Spread& spread, int count, float* weights) {
   const Floats d;
   for (int i = 0; i < count; i += lanes)
-    hn::Store(weights_at(hn::Iota(d, distance + static_cast<float>(i)), spread), d, weights + i);
+    hn::Store(weights_at<deposit>(hn::Iota(d, distance + static_cast<float>(i)), spread), d, weights + i);
 }
 
 /// The light of a row of pixels, all channels: their weights times the colour. The first pixel's centre is at
 /// `distance` from the splat's.
-template <int pixels>
+template <Deposit deposit, int pixels>
 HWY_INLINE void light_row(const Spread& spread, float distance, Vec (&light)[pixels * LightBand::channels / lanes]) {
   const Floats d;
   if constexpr (lanes == 16) {
-    const Vec weights = weights_at(hn::Iota(d, distance), spread);
+    const Vec weights = weights_at<deposit>(hn::Iota(d, distance), spread);
     const Vec colour = hn::LoadDup128(d, spread.colour);
     const auto pixel = hn::ShiftRight<2>(hn::Iota(hn::RebindToSigned<Floats>(), 0));
     for (int i = 0; i < pixels / 4; ++i) {
@@ -73,7 +113,7 @@ HWY_INLINE void light_row(const Spread& spread, float distance, Vec (&light)[pix
   } else {
     HWY_ALIGN float weights[(pixels + lanes - 1) / lanes * lanes];
     HWY_ALIGN float values[pixels * LightBand::channels];
-    weigh(distance, spread, pixels, weights);
+    weigh<deposit>(distance, spread, pixels, weights);
     for (int i = 0; i < pixels * LightBand::channels; ++i)
       values[i] = weights[i / LightBand::channels] * spread.colour[i % LightBand::channels];
     for (int i = 0; i < pixels * LightBand::channels / lanes; ++i) light[i] = hn::Load(d, values + i * lanes);
@@ -88,13 +128,13 @@ struct RowWindow {
 };
 
 /// Adds rows × pixels to a band, the upper left one at `to`. `fixed_rows` of 0 stands for `rows.count`.
-template <int fixed_rows, int pixels>
+template <Deposit deposit, int fixed_rows, int pixels>
 HWY_INLINE void add_window(const Spread& spread, float distance, const RowWindow& rows, std::ptrdiff_t stride,
                            float* to) {
   const Floats d;
   constexpr int vectors = pixels * LightBand::channels / lanes;
   Vec light[vectors];
-  light_row<pixels>(spread, distance, light);
+  light_row<deposit, pixels>(spread, distance, light);
   const int end = fixed_rows > 0 ? fixed_rows : rows.count;
   HWY_UNROLL(8)
   for (int row = 0; row < end; ++row, to += stride) {
@@ -104,6 +144,7 @@ HWY_INLINE void add_window(const Spread& spread, float distance, const RowWindow
   }
 }
 
+template <Deposit deposit>
 HWY_INLINE void find_rows(const Splat& splat, const Spread& spread, int top, int band_rows, RowWindow& rows) {
   const float y = splat.y - static_cast<float>(top) - 0.5f;
   const int first = rounded_up(y - spread.reach);
@@ -113,34 +154,38 @@ HWY_INLINE void find_rows(const Splat& splat, const Spread& spread, int top, int
                : spread.reach < 4 ? 8
                                   : std::min(end, band_rows) - std::max(first, 0);
   rows.first = std::min(std::max(first, 0), band_rows - rows.count);
-  weigh(static_cast<float>(rows.first) - y, spread, rows.count, rows.weights);
+  weigh<deposit>(static_cast<float>(rows.first) - y, spread, rows.count, rows.weights);
 }
 
 /// Adds a splat, its centre in column `x` of the band.
+template <Deposit deposit>
 HWY_INLINE void add(const Spread& spread, const RowWindow& rows, float x, LightBand& band) {
   const int first = rounded_up(x - spread.reach - 0.5f) & ~3;  // of a cache line
   float* const to = band.row(rows.first) + first * LightBand::channels;
   const float distance = static_cast<float>(first) + 0.5f - x;
   const std::ptrdiff_t stride = band.stride();
-  if (spread.reach < 2) return add_window<4, 8>(spread, distance, rows, stride, to);
-  if (spread.reach < 3) return add_window<6, 12>(spread, distance, rows, stride, to);
-  if (spread.reach < 4) return add_window<8, 12>(spread, distance, rows, stride, to);
+  if (spread.reach < 2) return add_window<deposit, 4, 8>(spread, distance, rows, stride, to);
+  if (spread.reach < 3) return add_window<deposit, 6, 12>(spread, distance, rows, stride, to);
+  if (spread.reach < 4) return add_window<deposit, 8, 12>(spread, distance, rows, stride, to);
   const int columns = static_cast<int>(x + spread.reach + 0.5f) - first;
   for (int column = 0; column < columns; column += 16)
-    add_window<0, 16>(spread, distance + static_cast<float>(column), rows, stride, to + column * LightBand::channels);
+    add_window<deposit, 0, 16>(spread, distance + static_cast<float>(column), rows, stride,
+                               to + column * LightBand::channels);
 }
 
+template <Deposit deposit>
 void deposit_splats(std::span<const Splat> splats, int top, LightBand& band) {
   RowWindow rows;
   Spread spread;
   const auto left = static_cast<float>(band.left());
   for (const Splat& splat : splats) {
-    unpack(splat, spread);
-    find_rows(splat, spread, top, band.rows(), rows);
-    add(spread, rows, splat.x - left, band);
+    unpack<deposit>(splat, spread);
+    find_rows<deposit>(splat, spread, top, band.rows(), rows);
+    add<deposit>(spread, rows, splat.x - left, band);
   }
 }
 
+template <Deposit deposit>
 void deposit_splats_between(std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
                             LightBand& farther) {
   constexpr float nearly = 0.25f;
@@ -148,22 +193,23 @@ void deposit_splats_between(std::span<const Splat> splats, int top, const PlaneP
   Spread spread;
   const auto left = static_cast<float>(nearer.left());
   for (const Splat& splat : splats) {
-    unpack(splat, spread);
-    find_rows(splat, spread, top, nearer.rows(), rows);
+    unpack<deposit>(splat, spread);
+    find_rows<deposit>(splat, spread, top, nearer.rows(), rows);
     const float x = splat.x - left;
     const float share = (splat.parallax - planes.parallax_px) / planes.spacing_px;
     if (share <= nearly || share >= 1 - nearly) {
-      add(spread, rows, x, share < 0.5f ? nearer : farther);
+      add<deposit>(spread, rows, x, share < 0.5f ? nearer : farther);
       continue;
     }
     Spread part = spread;
     for (int i = 0; i < 3; ++i) part.colour[i] = spread.colour[i] * (1 - share);
-    add(part, rows, x, nearer);
+    add<deposit>(part, rows, x, nearer);
     for (int i = 0; i < 3; ++i) part.colour[i] = spread.colour[i] * share;
-    add(part, rows, x, farther);
+    add<deposit>(part, rows, x, farther);
   }
 }
 
+template <Deposit deposit>
 void deposit_splats_in_views(std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
                              std::span<LightBand> bands) {
   RowWindow rows;
@@ -172,16 +218,43 @@ void deposit_splats_in_views(std::span<const Splat> splats, int top, std::span<c
   const float width = static_cast<float>(bands.front().right()) - left;
   const hn::CappedTag<float, 1> d1;
   for (const Splat& splat : splats) {
-    unpack(splat, spread);
-    find_rows(splat, spread, top, bands.front().rows(), rows);
+    unpack<deposit>(splat, spread);
+    find_rows<deposit>(splat, spread, top, bands.front().rows(), rows);
     for (std::size_t v = 0; v < views.size(); ++v) {
       // Rounded once, as the projection of that view rounds it: the views of both renderers are equal to the bit.
       const auto moved =
           hn::MulAdd(hn::Set(d1, splat.parallax), hn::Set(d1, views[v] - central_view), hn::Set(d1, splat.x));
       const float x = hn::GetLane(moved) - left;
-      if (x + spread.reach > 0 && x - spread.reach < width) add(spread, rows, x, bands[v]);
+      if (x + spread.reach > 0 && x - spread.reach < width) add<deposit>(spread, rows, x, bands[v]);
     }
   }
+}
+
+/// Calls `call` with what splats add as a constant.
+template <class Call>
+void for_deposit(Deposit deposit, Call call) {
+  switch (deposit) {
+    case Deposit::light:
+      return call(std::integral_constant<Deposit, Deposit::light>());
+    case Deposit::mass:
+      return call(std::integral_constant<Deposit, Deposit::mass>());
+    case Deposit::colours:
+      return call(std::integral_constant<Deposit, Deposit::colours>());
+  }
+}
+
+void deposit_any(Deposit deposit, std::span<const Splat> splats, int top, LightBand& band) {
+  for_deposit(deposit, [&](auto kind) { deposit_splats<kind()>(splats, top, band); });
+}
+
+void deposit_any_between(Deposit deposit, std::span<const Splat> splats, int top, const PlanePair& planes,
+                         LightBand& nearer, LightBand& farther) {
+  for_deposit(deposit, [&](auto kind) { deposit_splats_between<kind()>(splats, top, planes, nearer, farther); });
+}
+
+void deposit_any_in_views(Deposit deposit, std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
+                          std::span<LightBand> bands) {
+  for_deposit(deposit, [&](auto kind) { deposit_splats_in_views<kind()>(splats, top, views, bands); });
 }
 
 }  // namespace wheatstone::HWY_NAMESPACE
@@ -190,29 +263,29 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace wheatstone {
 
-HWY_EXPORT(deposit_splats);
-HWY_EXPORT(deposit_splats_between);
-HWY_EXPORT(deposit_splats_in_views);
+HWY_EXPORT(deposit_any);
+HWY_EXPORT(deposit_any_between);
+HWY_EXPORT(deposit_any_in_views);
 
-void deposit(std::span<const Splat> splats, int top, LightBand& band) {
+void deposit(Deposit kind, std::span<const Splat> splats, int top, LightBand& band) {
   if (splats.empty()) return;
   band.note_light();
-  HWY_DYNAMIC_DISPATCH(deposit_splats)(splats, top, band);
+  HWY_DYNAMIC_DISPATCH(deposit_any)(kind, splats, top, band);
 }
 
-void deposit_between(std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
+void deposit_between(Deposit kind, std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
                      LightBand& farther) {
   if (splats.empty()) return;
   nearer.note_light();
   farther.note_light();
-  HWY_DYNAMIC_DISPATCH(deposit_splats_between)(splats, top, planes, nearer, farther);
+  HWY_DYNAMIC_DISPATCH(deposit_any_between)(kind, splats, top, planes, nearer, farther);
 }
 
-void deposit_in_views(std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
+void deposit_in_views(Deposit kind, std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
                       std::span<LightBand> bands) {
   if (splats.empty()) return;
   for (LightBand& band : bands) band.note_light();
-  HWY_DYNAMIC_DISPATCH(deposit_splats_in_views)(splats, top, views, bands);
+  HWY_DYNAMIC_DISPATCH(deposit_any_in_views)(kind, splats, top, views, bands);
 }
 
 }  // namespace wheatstone

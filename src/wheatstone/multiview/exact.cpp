@@ -1,46 +1,57 @@
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-
+#include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
 
 namespace wheatstone {
 namespace {
 
-void deposit_band(const std::vector<SplatBlock>& blocks, const SplatOrder& order, int b, LightBand& band) {
-  for (int part = 0; part < order.parts; ++part)
-    for (const SplatBlock& block : blocks) deposit(block.bin(order.bin(b, part)), b * order.band_rows, band);
+void deposit_all(const std::vector<SplatBlock>& blocks, const SplatOrders& orders, Deposit kind, GatheredLight& light) {
+  for_each_band(orders, [&](std::size_t picture, int b) {
+    const SplatOrder& order = orders[picture];
+    for (int part = 0; part < order.parts; ++part)
+      for (const SplatBlock& block : blocks)
+        deposit(kind, block.bin(order.bin(b, part)), b * order.band_rows, light.band(picture, b, 0));
+  });
 }
 
-std::vector<SplatBlock> splats_of_view(const Cloud& cloud, const Projection& projection, const Rig& rig,
-                                       const SplatOrder& order) {
-  const Window window{.left = 0, .right = static_cast<float>(rig.width), .height = rig.height};
-  return order_splats(cloud, projection, window, order);
+/// Gathers the light of one view, and finishes it from the smallest picture to the view's own.
+void make_view(const RenderJob& job, ViewPosition view, std::span<const ImageView<Rgb8>> picture, ViewPyramid& pyramid,
+               GatheredLight& light) {
+  const SplatOrders orders = orders_for(job.rig, job.scene.splat_style);
+  const Window window{.left = 0, .right = static_cast<float>(job.rig.width), .height = job.rig.height};
+  const Deposit kind = deposit_of(job.scene.splat_style);
+  light.darken();
+  for_each_ordered(job.chunks, projection_for(job, orders, view), window, orders,
+                   [&](const std::vector<SplatBlock>& blocks) { deposit_all(blocks, orders, kind, light); });
+  for (std::size_t p = orders.size(); p-- > 0;) {
+    const ViewTarget target = pyramid.targets(p, picture).front();
+    tbb::parallel_for(0, orders[p].bands,
+                      [&](int b) { finish_band(light.band(p, b, 0), job.tone, b * orders[p].band_rows, target); });
+  }
+}
+
+GatheredLight light_for_view(const RenderJob& job) {
+  const Window window{.left = 0, .right = static_cast<float>(job.rig.width), .height = job.rig.height};
+  return {orders_for(job.rig, job.scene.splat_style), window, 1};
 }
 
 }  // namespace
 
-void render_exact(const RenderJob& job, ViewPosition view, ImageView<Rgb8> picture) {
-  const SplatOrder order = bands_of(job.rig, job.scene.splat_style);
-  const std::vector<SplatBlock> blocks =
-      splats_of_view(job.cloud, make_projection(job.scene, job.statistics, view), job.rig, order);
-  tbb::enumerable_thread_specific<LightBand> bands([&] { return LightBand(0, job.rig.width, order.band_rows); });
-  tbb::parallel_for(0, order.bands, [&](int b) {
-    LightBand& band = bands.local();
-    band.darken();
-    deposit_band(blocks, order, b, band);
-    tone_map(band, job.tone, b * order.band_rows, picture);
-  });
+void render_exact(const RenderJob& job, std::span<const ViewPosition> views,
+                  std::span<const ImageView<Rgb8>> pictures) {
+  GatheredLight light = light_for_view(job);
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    ViewPyramid pyramid(orders_for(job.rig, job.scene.splat_style), job.rig, 1, job.tone.three_channels());
+    make_view(job, views[v], pictures.subspan(v, 1), pyramid, light);
+  }
 }
 
-std::vector<LightBand> light_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig,
-                                     const CloudStatistics& statistics, ViewPosition view) {
-  const SplatOrder order = bands_of(rig, scene.splat_style);
-  const std::vector<SplatBlock> blocks = splats_of_view(cloud, make_projection(scene, statistics, view), rig, order);
-  std::vector<LightBand> light(order.bands, LightBand(0, rig.width, order.band_rows));
-  tbb::parallel_for(0, order.bands, [&](int b) { deposit_band(blocks, order, b, light[b]); });
-  return light;
+ViewLight light_of_view(const RenderJob& job, ViewPosition view) {
+  GatheredLight light = light_for_view(job);
+  ViewPyramid pyramid(orders_for(job.rig, job.scene.splat_style), job.rig, 1, job.tone.three_channels());
+  make_view(job, view, {}, pyramid, light);
+  return pyramid.light(0);
 }
 
 }  // namespace wheatstone

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
+#include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
 
 namespace wheatstone {
@@ -19,16 +22,6 @@ DepthPlanes planes_of(const DepthMapping& mapping, int count, float span) {
     planes.parallaxes.push_back(count > 1 ? nearest + static_cast<float>(i) * planes.spacing_px
                                           : (nearest + farthest) / 2);
   return planes;
-}
-
-SplatOrder order_by_plane(const Rig& rig, const SplatStyle& splat_style, const DepthPlanes& planes,
-                          SliceFilter filter) {
-  SplatOrder order = bands_of(rig, splat_style);
-  order.within = filter == SliceFilter::centroid ? SplatOrder::Within::nearer_plane : SplatOrder::Within::nearest_plane;
-  order.parts = static_cast<int>(planes.parallaxes.size());
-  order.first = planes.parallaxes.front();
-  order.spacing = planes.spacing_px;
-  return order;
 }
 
 Resampling resampling_of(SliceFilter filter) {
@@ -47,25 +40,17 @@ Window window_around(const Scene& scene, const Rig& rig) {
   return {.left = -around, .right = static_cast<float>(rig.width) + around, .height = rig.height};
 }
 
-PlaneFiller::PlaneFiller(const Window& window, const SplatOrder& order)
+PlaneFiller::PlaneFiller(const Window& window, const SplatOrder& order, Deposit kind)
     : order_(order),
+      kind_(kind),
       plane_(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows),
       next_(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows, 3) {}
 
 LightBand& PlaneFiller::fill(const std::vector<SplatBlock>& blocks, int b, int plane) {
-  const bool between = order_.within == SplatOrder::Within::nearer_plane && plane + 1 < order_.parts;
-  const PlanePair pair{order_.first + static_cast<float>(plane) * order_.spacing, order_.spacing};
-  const int top = b * order_.band_rows;
+  const bool shared = order_.within == SplatOrder::Within::nearer_plane;
   // What the plane before gave to this one is there already; the other band was taken, and is dark.
-  if (order_.within == SplatOrder::Within::nearer_plane && plane > 0) std::swap(plane_, next_);
-  for (const SplatBlock& block : blocks) {
-    const std::span<const Splat> splats = block.bin(order_.bin(b, plane));
-    if (between) {
-      deposit_between(splats, top, pair, plane_, next_);
-    } else {
-      deposit(splats, top, plane_);
-    }
-  }
+  if (shared && plane > 0) std::swap(plane_, next_);
+  for (const SplatBlock& block : blocks) deposit_plane(block, order_, kind_, {b, plane}, plane_, next_);
   return plane_;
 }
 
@@ -74,7 +59,65 @@ void PlaneFiller::begin_band() {
   next_.darken();
 }
 
+void deposit_plane(const SplatBlock& block, const SplatOrder& order, Deposit kind, BandPlane at, LightBand& here,
+                   LightBand& next) {
+  const std::span<const Splat> splats = block.bin(order.bin(at.band, at.plane));
+  const int top = at.band * order.band_rows;
+  if (order.within == SplatOrder::Within::nearer_plane && at.plane + 1 < order.parts) {
+    const float parallax = order.first * order.scale + static_cast<float>(at.plane) * order.spacing;
+    deposit_between(kind, splats, top, {parallax, order.spacing}, here, next);
+  } else {
+    deposit(kind, splats, top, here);
+  }
+}
+
+void deposit_in_planes(const std::vector<SplatBlock>& blocks, const SplatOrders& orders, Deposit kind,
+                       GatheredLight& light) {
+  for_each_band(orders, [&](std::size_t picture, int b) {
+    const SplatOrder& order = orders[picture];
+    for (int plane = 0; plane < order.parts; ++plane)
+      for (const SplatBlock& block : blocks)
+        deposit_plane(block, order, kind, {b, plane}, light.band(picture, b, plane),
+                      light.band(picture, b, std::min(plane + 1, order.parts - 1)));
+  });
+}
+
 namespace {
+
+/// What is kept between reading particles and compositing: the light of all planes, or all splats, whichever is less.
+struct KeptForPlanes {
+  std::vector<SplatBlock> splats;
+  std::optional<GatheredLight> light;
+};
+
+bool light_is_less(const SplatOrders& orders, const Window& window, std::uint64_t particles) {
+  const double width = static_cast<double>(window.right) - window.left + 2 * LightBand::margin;
+  double pixels = 0;
+  for (const SplatOrder& order : orders) pixels += width * order.scale * order.rows * order.parts;
+  // A splat may stand in two bands, and a few bytes more say where.
+  return pixels * LightBand::channels * sizeof(float) < 1.3 * sizeof(Splat) * static_cast<double>(particles);
+}
+
+KeptForPlanes keep(const RenderJob& job, const SplatOrders& orders, const Window& window) {
+  KeptForPlanes kept;
+  const Deposit kind = deposit_of(job.scene.splat_style);
+  if (light_is_less(orders, window, job.statistics.count)) kept.light.emplace(orders, window, 0);
+  const Projection projection = projection_for(job, orders);
+  for_each_ordered(job.chunks, projection, window, orders, [&](std::vector<SplatBlock> blocks) {
+    if (kept.light) {
+      deposit_in_planes(blocks, orders, kind, *kept.light);
+    } else {
+      std::ranges::move(blocks, std::back_inserter(kept.splats));
+    }
+  });
+  return kept;
+}
+
+/// Where a picture of all views goes, and how its planes are read.
+struct PictureOfViews {
+  Resampling resampling;
+  std::span<const ViewTarget> targets;
+};
 
 /// What one thread works in.
 struct Workplace {
@@ -82,27 +125,41 @@ struct Workplace {
   SliceBand slices;
 };
 
-}  // namespace
-
-void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
-                    std::span<const ImageView<Rgb8>> pictures) {
-  const SplatOrder order = order_by_plane(job.rig, job.scene.splat_style, planes, filter);
-  const Window window = window_around(job.scene, job.rig);
-  const std::vector<SplatBlock> blocks =
-      order_splats(job.cloud, make_projection(job.scene, job.statistics), window, order);
-
-  const Compositing compositing{planes.parallaxes, job.rig.positions, resampling_of(filter)};
+/// Composites one of the pictures of all views.
+void composite_picture(const RenderJob& job, const SplatOrders& orders, std::size_t picture, KeptForPlanes& kept,
+                       const PictureOfViews& to) {
+  const SplatOrder& order = orders[picture];
+  const Window window = window_in(window_around(job.scene, job.rig), order);
+  std::vector<float> parallaxes;
+  for (int plane = 0; plane < order.parts; ++plane)
+    parallaxes.push_back(order.first * order.scale + static_cast<float>(plane) * order.spacing);
+  const Compositing compositing{parallaxes, job.rig.positions, to.resampling};
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {
     return Workplace{
-        PlaneFiller(window, order),
+        PlaneFiller(window, order, deposit_of(job.scene.splat_style)),
         SliceBand(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows, order.parts)};
   });
   tbb::parallel_for(0, order.bands, [&](int b) {
     Workplace& work = workplaces.local();
     work.filler.begin_band();
-    for (int plane = 0; plane < order.parts; ++plane) work.slices.take(plane, work.filler.fill(blocks, b, plane));
-    if (!pictures.empty()) composite(work.slices, compositing, job.tone, b * order.band_rows, pictures);
+    for (int plane = 0; plane < order.parts; ++plane)
+      work.slices.take(plane,
+                       kept.light ? kept.light->band(picture, b, plane) : work.filler.fill(kept.splats, b, plane));
+    if (!to.targets.empty()) composite(work.slices, compositing, job.tone, b * order.band_rows, to.targets);
   });
+}
+
+}  // namespace
+
+void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
+                    std::span<const ImageView<Rgb8>> pictures) {
+  const SplatOrders orders = orders_by_plane(job.rig, job.scene.splat_style, planes, filter);
+  KeptForPlanes kept = keep(job, orders, window_around(job.scene, job.rig));
+  ViewPyramid pyramid(orders, job.rig, pictures.size(), job.tone.three_channels());
+  for (std::size_t p = orders.size(); p-- > 0;) {
+    const std::vector<ViewTarget> targets = pyramid.targets(p, pictures);
+    composite_picture(job, orders, p, kept, {resampling_of(filter), targets});
+  }
 }
 
 }  // namespace wheatstone

@@ -60,7 +60,7 @@ class LightBand {
 };
 
 /// Adds splats to a band whose first row is `top` in the picture.
-void deposit(std::span<const Splat> splats, int top, LightBand& band);
+void deposit(Deposit kind, std::span<const Splat> splats, int top, LightBand& band);
 
 /// Two depth planes, and what lies between them.
 struct PlanePair {
@@ -71,13 +71,13 @@ struct PlanePair {
 /// Adds splats that lie between two planes to both, by their distances, so that the middle of each is right in every
 /// view. One that is nearly in a plane goes there alone: within a quarter of the way, which moves it by at most an
 /// eighth of a pixel in an eye's view where planes are a pixel apart.
-void deposit_between(std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
+void deposit_between(Deposit kind, std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
                      LightBand& farther);
 
 /// Adds splats to one band a view: each splat's fragments, moved by its parallax times the view's distance from the
 /// central view. The bands
 /// are of one shape.
-void deposit_in_views(std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
+void deposit_in_views(Deposit kind, std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
                       std::span<LightBand> bands);
 
 }  // namespace wheatstone

@@ -4,9 +4,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/opaque_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
 
@@ -19,51 +23,45 @@ struct SliceMaker::State {
   RenderOptions options;
   DepthPlanes planes;
   Window window;
-  SplatOrder order;
-  std::vector<LightBand> light;    // [band][plane], glowing particles
-  std::vector<OpaqueBand> opaque;  // [band][plane], opaque ones
+  SplatOrders orders;
+  std::optional<GatheredLight> light;  // glowing particles
+  std::vector<OpaqueBand> opaque;      // [band][plane], opaque ones
 
+  const SplatOrder& order() const { return orders.front(); }
   int left() const { return static_cast<int>(window.left); }
   int right() const { return static_cast<int>(window.right); }
-  void add_glowing(const std::vector<SplatBlock>& blocks, int b);
-  void add_opaque(const std::vector<SplatBlock>& blocks, int b);
-  LinearRgba at(int plane, int x, int y) const;
-  Slice crop(int plane) const;
-  float find_exposure() const;
+  void add(const Cloud& cloud);
+  LinearRgba at(int plane, int x, int y);
+  Slice crop(int plane);
 };
 
-void SliceMaker::State::add_glowing(const std::vector<SplatBlock>& blocks, int b) {
-  const int top = b * order.band_rows;
-  for (int plane = 0; plane < order.parts; ++plane) {
-    LightBand& here = light[order.bin(b, plane)];
-    const bool between = order.within == SplatOrder::Within::nearer_plane && plane + 1 < order.parts;
-    for (const SplatBlock& block : blocks) {
-      const std::span<const Splat> splats = block.bin(order.bin(b, plane));
-      if (between) {
-        deposit_between(splats, top, {planes.parallaxes[plane], planes.spacing_px}, here,
-                        light[order.bin(b, plane + 1)]);
-      } else {
-        deposit(splats, top, here);
-      }
+void SliceMaker::State::add(const Cloud& cloud) {
+  const ToneMap none(ToneSettings{.exposure = 1});
+  const Chunks chunks = chunks_of(cloud);
+  const RenderJob job{chunks, scene, rig, statistics, none};
+  for_each_ordered(chunks, projection_for(job, orders), window, orders, [&](const std::vector<SplatBlock>& blocks) {
+    if (light) {
+      deposit_in_planes(blocks, orders, deposit_of(scene.splat_style), *light);
+      return;
     }
-  }
+    tbb::parallel_for(0, order().bands, [&](int b) {
+      for (int plane = 0; plane < order().parts; ++plane)
+        for (const SplatBlock& block : blocks)
+          draw_discs(block.bin(order().bin(b, plane)), b * order().band_rows, central_view,
+                     opaque[order().bin(b, plane)]);
+    });
+  });
 }
 
-void SliceMaker::State::add_opaque(const std::vector<SplatBlock>& blocks, int b) {
-  for (int plane = 0; plane < order.parts; ++plane)
-    for (const SplatBlock& block : blocks)
-      draw_discs(block.bin(order.bin(b, plane)), b * order.band_rows, central_view, opaque[order.bin(b, plane)]);
-}
-
-LinearRgba SliceMaker::State::at(int plane, int x, int y) const {
-  const std::size_t bin = order.bin(y / order.band_rows, plane);
-  const int row = y % order.band_rows;
-  if (options.opaque) return opaque[bin].light(x, row);
-  const float* const pixel = light[bin].row(row) + x * LightBand::channels;
+LinearRgba SliceMaker::State::at(int plane, int x, int y) {
+  const int band = y / order().band_rows;
+  const int row = y % order().band_rows;
+  if (options.opaque) return opaque[order().bin(band, plane)].light(x, row);
+  const float* const pixel = light->band(0, band, plane).row(row) + x * LightBand::channels;
   return {pixel[0], pixel[1], pixel[2], 0};
 }
 
-Slice SliceMaker::State::crop(int plane) const {
+Slice SliceMaker::State::crop(int plane) {
   const int width = right() - left();
   int first_x = width;
   int end_x = 0;
@@ -85,20 +83,63 @@ Slice SliceMaker::State::crop(int plane) const {
   return slice;
 }
 
-float SliceMaker::State::find_exposure() const {
-  if (!std::isnan(options.exposure)) return options.exposure;
-  std::vector<float> brightest;
-  for (int y = 0; y < rig.height; ++y)
-    for (int x = 0; x < rig.width; ++x) {
-      LinearRgba sum;
-      for (int plane = 0; plane < order.parts && sum.a < 1; ++plane) {
-        const LinearRgba light_here = at(plane, x - left(), y);
-        sum = {sum.r + light_here.r, sum.g + light_here.g, sum.b + light_here.b, light_here.a};
-      }
-      brightest.push_back(std::max({sum.r, sum.g, sum.b}));
+namespace {
+
+/// Light of one plane of a picture, and how much of it goes to a plane of the picture of twice the size.
+struct PlaneShare {
+  int small, large;
+  float share;
+};
+
+/// Adds a plane's light to one of the picture of twice the size, interpolated between its pixels (composite_simd.cpp).
+void enlarge(GatheredLight& light, const SplatOrders& orders, std::size_t small, const PlaneShare& planes) {
+  const SplatOrder& from = orders[small];
+  const SplatOrder& to = orders[small - 1];
+  const auto pixel = [&](int x, int y) -> const float* {
+    const LightBand& band = light.band(small, y / from.band_rows, planes.small);
+    return band.row(y % from.band_rows) + (x - band.left()) * LightBand::channels;
+  };
+  tbb::parallel_for(0, to.rows, [&](int row) {
+    LightBand& band = light.band(small - 1, row / to.band_rows, planes.large);
+    const int y = row - to.pad;
+    const int half_row = (y - (y & 1)) / 2;
+    const std::array<int, 2> rows{half_row + 2, (y & 1) != 0 ? half_row + 3 : half_row + 1};
+    for (int column = band.left(); column < band.right(); ++column) {
+      const int x = column - to.pad;
+      const int half_column = (x - (x & 1)) / 2;
+      const std::array<int, 2> columns{half_column + 2, (x & 1) != 0 ? half_column + 3 : half_column + 1};
+      float* const sum = band.row(row % to.band_rows) + (column - band.left()) * LightBand::channels;
+      for (const int i : {0, 1})
+        for (const int k : {0, 1}) {
+          const float weight = planes.share * (i == 0 ? 0.75f : 0.25f) * (k == 0 ? 0.75f : 0.25f);
+          const float* const part = pixel(columns[k], rows[i]);
+          for (int channel = 0; channel < 3; ++channel) sum[channel] += weight * part[channel];
+        }
     }
-  return exposure_for(std::move(brightest));
+  });
 }
+
+/// Brings the light of all smaller pictures into the view's own.
+void join_pictures(GatheredLight& light, const SplatOrders& orders) {
+  for (std::size_t small = orders.size(); small-- > 1;) {
+    const SplatOrder& from = orders[small];
+    const SplatOrder& to = orders[small - 1];
+    for (int plane = 0; plane < from.parts; ++plane) {
+      const bool lit = [&] {
+        for (int b = 0; b < from.bands; ++b)
+          if (light.band(small, b, plane).lit()) return true;
+        return false;
+      }();
+      if (!lit) continue;
+      // Planes of the smaller picture are twice as far apart.
+      const int nearer = std::min(2 * plane, to.parts - 1);
+      enlarge(light, orders, small, {plane, nearer, 1});
+      for (int b = 0; b < to.bands; ++b) light.band(small - 1, b, nearer).note_light();
+    }
+  }
+}
+
+}  // namespace
 
 SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, const Rig& rig,
                        const RenderOptions& options, std::size_t memory_limit_bytes)
@@ -110,22 +151,22 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
   state.options = options;
   state.planes = planes_of(scene.mapping, options.planes, span_of(rig));
   state.window = window_around(scene, rig);
-  state.order =
-      order_by_plane(rig, scene.splat_style, state.planes, options.opaque ? SliceFilter::nearest : options.filter);
+  state.orders =
+      orders_by_plane(rig, scene.splat_style, state.planes, options.opaque ? SliceFilter::nearest : options.filter);
 
   // Sixteen bytes a pixel while they are filled, and again when they are cropped; opaque ones have a depth too.
   const double pixels = static_cast<double>(state.right() - state.left() + 2 * LightBand::margin) *
-                        state.order.band_rows * static_cast<double>(state.order.bins());
+                        state.order().band_rows * static_cast<double>(state.order().bins());
   const double bytes = pixels * (options.opaque ? 36 : 32);
   if (bytes > static_cast<double>(memory_limit_bytes))
     throw Error(ErrorKind::bad_input, fmt::format("{} slices of {}x{} pixels need {:.1f} GB, expected at most "
                                                   "{:.1f} GB; give fewer planes or smaller views",
-                                                  state.order.parts, state.right() - state.left(), rig.height,
+                                                  state.order().parts, state.right() - state.left(), rig.height,
                                                   bytes / 1e9, static_cast<double>(memory_limit_bytes) / 1e9));
   if (options.opaque) {
-    state.opaque.assign(state.order.bins(), OpaqueBand(state.left(), state.right(), state.order.band_rows));
+    state.opaque.assign(state.order().bins(), OpaqueBand(state.left(), state.right(), state.order().band_rows));
   } else {
-    state.light.assign(state.order.bins(), LightBand(state.left(), state.right(), state.order.band_rows));
+    state.light.emplace(state.orders, state.window, 0);
   }
 }
 
@@ -133,28 +174,19 @@ SliceMaker::~SliceMaker() = default;
 SliceMaker::SliceMaker(SliceMaker&&) noexcept = default;
 SliceMaker& SliceMaker::operator=(SliceMaker&&) noexcept = default;
 
-void SliceMaker::add(const Cloud& cloud) {
-  State& state = *state_;
-  const std::vector<SplatBlock> blocks =
-      order_splats(cloud, make_projection(state.scene, state.statistics), state.window, state.order);
-  tbb::parallel_for(0, state.order.bands, [&](int b) {
-    if (state.options.opaque) {
-      state.add_opaque(blocks, b);
-    } else {
-      state.add_glowing(blocks, b);
-    }
-  });
-}
+void SliceMaker::add(const Cloud& cloud) { state_->add(cloud); }
 
 SliceStack SliceMaker::finish(const ViewingGeometry& viewing) {
   State& state = *state_;
+  if (state.light) join_pictures(*state.light, state.orders);
+  ToneSettings tone = settled(tone_for(state.scene, state.options), state.scene, state.statistics, state.rig);
   SliceStack stack{.width = state.rig.width,
                    .height = state.rig.height,
                    .span = span_of(state.rig),
-                   .exposure = state.find_exposure(),
+                   .tone = std::move(tone),
                    .viewing = viewing,
-                   .slices = std::vector<Slice>(state.order.parts)};
-  tbb::parallel_for(0, state.order.parts, [&](int plane) { stack.slices[plane] = state.crop(plane); });
+                   .slices = std::vector<Slice>(state.order().parts)};
+  tbb::parallel_for(0, state.order().parts, [&](int plane) { stack.slices[plane] = state.crop(plane); });
   std::erase_if(stack.slices, [](const Slice& slice) { return slice.pixels.empty(); });
   state_.reset();
   return stack;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/half_float_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
 
@@ -16,16 +17,11 @@ LinearRgba light_of(const Splat& splat) {
 }
 
 void tone_map_rows(const OpaqueBand& band, const ToneMap& tone, int top, ImageView<Rgb8> picture) {
-  const auto byte_of = [&](float light) {
-    const float exposed = light * tone.exposure;
-    const float mapped = exposed / (exposed + 1);
-    return static_cast<std::uint8_t>(tone.table[std::lround(mapped * (ToneMap::table_size - 1))]);
-  };
   const int rows = std::min(band.light.height(), picture.height() - top);
   for (int row = 0; row < rows; ++row)
     for (int x = 0; x < picture.width(); ++x) {
       const LinearRgba& light = band.light(x, row);
-      picture(x, top + row) = {byte_of(light.r), byte_of(light.g), byte_of(light.b)};
+      picture(x, top + row) = tone(light.r, light.g, light.b);
     }
 }
 
@@ -57,17 +53,22 @@ void draw_discs(std::span<const Splat> splats, int top, ViewPosition view, Opaqu
 
 void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
                    std::span<const ImageView<Rgb8>> pictures) {
-  const SplatOrder order = bands_of(job.rig, job.scene.splat_style);
-  const std::vector<SplatBlock> blocks =
-      order_splats(job.cloud, make_projection(job.scene, job.statistics), window_around(job.scene, job.rig), order);
+  const SplatOrders orders = orders_for(job.rig, job.scene.splat_style);
+  const SplatOrder& order = orders.front();
+  std::vector<std::vector<OpaqueBand>> bands(
+      order.bands, std::vector<OpaqueBand>(views.size(), OpaqueBand(0, job.rig.width, order.band_rows)));
+  for_each_ordered(job.chunks, projection_for(job, orders), window_around(job.scene, job.rig), orders,
+                   [&](const std::vector<SplatBlock>& blocks) {
+                     tbb::parallel_for(0, order.bands, [&](int b) {
+                       for (std::size_t v = 0; v < views.size(); ++v)
+                         for (int part = 0; part < order.parts; ++part)
+                           for (const SplatBlock& block : blocks)
+                             draw_discs(block.bin(order.bin(b, part)), b * order.band_rows, views[v], bands[b][v]);
+                     });
+                   });
   tbb::parallel_for(0, order.bands, [&](int b) {
-    for (std::size_t v = 0; v < views.size(); ++v) {
-      OpaqueBand band(0, job.rig.width, order.band_rows);
-      for (int part = 0; part < order.parts; ++part)
-        for (const SplatBlock& block : blocks)
-          draw_discs(block.bin(order.bin(b, part)), b * order.band_rows, views[v], band);
-      tone_map_rows(band, job.tone, b * order.band_rows, pictures[v]);
-    }
+    for (std::size_t v = 0; v < views.size(); ++v)
+      tone_map_rows(bands[b][v], job.tone, b * order.band_rows, pictures[v]);
   });
 }
 

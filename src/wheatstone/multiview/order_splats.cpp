@@ -69,13 +69,42 @@ Cloud filled_up(const Cloud& cloud) {
   Cloud full = cloud;
   const std::size_t length = most_lanes;
   for (std::vector<float>* column : {&full.x, &full.y, &full.z}) column->resize(length, std::nanf(""));
-  for (std::vector<float>* column : {&full.density, &full.temperature, &full.smoothing_length})
+  for (std::vector<float>* column :
+       {&full.density, &full.temperature, &full.smoothing_length, &full.mass, &full.quantity, &full.presence})
     if (!column->empty()) column->resize(length, 1.f);
   if (!full.colour.empty()) full.colour.resize(length);
   return full;
 }
 
+/// The particles from number `first` on.
+Cloud last_of(const Cloud& cloud, std::size_t first) {
+  Cloud last;
+  for_each_column(last, cloud, [first](auto& to, const auto& from) {
+    if (!from.empty()) to.assign(from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
+  });
+  return last;
+}
+
 }  // namespace
+
+Deposit deposit_of(const SplatStyle& splat_style) {
+  if (splat_style.look == Look::thesis) return Deposit::light;
+  return splat_style.colour_source == ColourSource::own ? Deposit::colours : Deposit::mass;
+}
+
+PictureTable::PictureTable(const SplatOrders& orders) : pictures(static_cast<int>(orders.size())), first(orders[0]) {
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const SplatOrder& order = orders[i];
+    bins += order.bins();
+    widest[i] = widest_mass_px / order.scale;
+    scale[i] = order.scale;
+    pad[i] = static_cast<float>(order.pad);
+    last_row[i] = static_cast<float>(order.rows - 1);
+    parts[i] = static_cast<float>(order.parts);
+    first_bin[i] = static_cast<float>(order.first_bin);
+    parts_a_pixel[i] = 1 / order.spacing;
+  }
+}
 
 Projection make_projection(const Scene& scene, const CloudStatistics& statistics, ViewPosition view) {
   Projection projection{.camera = scene.camera, .splat_style = scene.splat_style, .table = {}, .view = view};
@@ -103,22 +132,27 @@ Projection make_projection(const Scene& scene, const CloudStatistics& statistics
   return projection;
 }
 
-std::vector<SplatBlock> order_splats(const Cloud& cloud, const Projection& projection, const Window& window,
-                                     const SplatOrder& order) {
-  if (cloud.size() == 0) return {};
-  if (cloud.size() < most_lanes) return order_splats(filled_up(cloud), projection, window, order);
-  const std::size_t blocks = std::max<std::size_t>(cloud.size() / block_particles, 1);
+std::vector<SplatBlock> order_splats(const Cloud& cloud, ParticleRange range, const Projection& projection,
+                                     const Window& window, const SplatOrders& orders) {
+  if (range.count == 0) return {};
+  if (cloud.size() < most_lanes) return order_splats(filled_up(cloud), {0, most_lanes}, projection, window, orders);
+  if (range.count < most_lanes) {
+    return order_splats(filled_up(last_of(cloud, range.first)), {0, most_lanes}, projection, window, orders);
+  }
+  const PictureTable table(orders);
+  const std::size_t blocks = std::max<std::size_t>(range.count / block_particles, 1);
   const bool own_colours = projection.splat_style.colour_source == ColourSource::own;
   std::vector<SplatBlock> ordered(blocks);
   tbb::enumerable_thread_specific<ProjectedBlock> scratch;
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    const std::size_t first = cloud.size() * b / blocks;
-    const std::size_t count = cloud.size() * (b + 1) / blocks - first;
+    const std::size_t begin = range.count * b / blocks;
+    const std::size_t count = range.count * (b + 1) / blocks - begin;
+    const std::size_t first = range.first + begin;
     ProjectedBlock& projected = scratch.local();
     begin_block(first, count, own_colours, projected);
     if (own_colours) take_own_colours(cloud, projected);
-    project_particles(cloud, projection, window, order, projected);
-    sort_into_bins(projected, order.bins(), ordered[b]);
+    project_particles(cloud, projection, window, table, projected);
+    sort_into_bins(projected, table.bins, ordered[b]);
   });
   return ordered;
 }

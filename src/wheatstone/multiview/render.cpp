@@ -11,20 +11,8 @@
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/renderers_internal.h"
-#include "wheatstone/percentile.h"
 
 namespace wheatstone {
-
-SplatOrder bands_of(const Rig& rig, const SplatStyle& splat_style) {
-  SplatOrder order;
-  // A splat must not reach into more than two bands.
-  static_assert(SplatStyle::widest_px + 2 <= 32);
-  order.band_rows = 32;
-  order.bands = (rig.height + order.band_rows - 1) / order.band_rows;
-  order.spacing = std::max(64.f, splat_style.largest_px);
-  order.parts = static_cast<int>(static_cast<float>(rig.width) / order.spacing) + 1;
-  return order;
-}
 
 float look_around_px(const Scene& scene, const Rig& rig) {
   float parallax = 0;
@@ -41,25 +29,24 @@ float span_of(const Rig& rig) {
   return last - first;
 }
 
-float exposure_for(std::vector<float> brightest) {
-  // Where the tone map puts the brighter parts of what is lit: their 99th percentile.
-  constexpr float target = 0.75f;
-  std::erase_if(brightest, [](float light) { return light <= 0; });
-  if (brightest.empty()) return 1;
-  return target / (1 - target) / percentile(std::move(brightest), 0.99);
-}
-
 float automatic_exposure(const Cloud& cloud, const Scene& scene, const Rig& rig) {
   CloudStatistics statistics;
   statistics.add(cloud);
-  std::vector<float> brightest;
-  for (const LightBand& band : light_of_view(cloud, scene, rig, statistics, central_view))
-    for (int row = 0; row < band.rows(); ++row)
-      for (int x = 0; x < rig.width; ++x) {
-        const float* const pixel = band.row(row) + x * LightBand::channels;
-        brightest.push_back(std::max({pixel[0], pixel[1], pixel[2]}));
-      }
-  return exposure_for(std::move(brightest));
+  return settled({}, scene, statistics, rig).exposure;
+}
+
+ToneSettings tone_for(const Scene& scene, const RenderOptions& options) {
+  ToneSettings tone = options.tone;
+  tone.look = scene.splat_style.look;
+  tone.exposure = options.exposure;
+  if (scene.splat_style.colour_source == ColourSource::own) tone.shown = Shown::colours;
+  if (scene.splat_style.colour_source == ColourSource::quantity) tone.shown = Shown::mean;
+  return tone;
+}
+
+float column_of_light(const Scene& scene) {
+  const float px_a_unit = scene.camera.focal_px / scene.splat_style.size_depth;
+  return scene.splat_style.mean_mass * px_a_unit * px_a_unit;
 }
 
 namespace {
@@ -74,10 +61,10 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
     throw Error(ErrorKind::wrong_usage, fmt::format("there are {} depth planes, expected at least 1", options.planes));
 }
 
-Choice choose(const Cloud& cloud, const Scene& scene, const Rig& rig, const RenderOptions& options) {
+Choice choose(std::uint64_t particles, const Scene& scene, const Rig& rig, const RenderOptions& options) {
   if (options.method != Method::automatic) return {options.method, "as asked for"};
   const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
-  return choose_method({.particles = cloud.size(),
+  return choose_method({.particles = particles,
                         .splat_px = (scene.splat_style.smallest_px + scene.splat_style.largest_px) / 2,
                         .views = static_cast<int>(rig.positions.size()),
                         .planes = static_cast<int>(planes.parallaxes.size()),
@@ -87,26 +74,35 @@ Choice choose(const Cloud& cloud, const Scene& scene, const Rig& rig, const Rend
 void render_opaque_slices(const RenderJob& job, const RenderOptions& options, RenderedViews& result) {
   RenderOptions with_exposure = options;
   with_exposure.exposure = result.exposure;
-  result.views = render_slices(make_slices(job.cloud, job.scene, job.rig, with_exposure, {}), job.rig);
+  SliceMaker maker(job.scene, job.statistics, job.rig, with_exposure);
+  job.chunks([&](const Cloud& chunk) { maker.add(chunk); });
+  result.views = render_slices(maker.finish({}), job.rig);
 }
 
 }  // namespace
 
 RenderedViews render(const Cloud& cloud, const Scene& scene, const Rig& rig, const RenderOptions& options,
                      const Progress& progress) {
-  check(scene, rig, options);
   CloudStatistics statistics;
   statistics.add(cloud);
+  return render(chunks_of(cloud), statistics, scene, rig, options, progress);
+}
+
+RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene, const Rig& rig,
+                     const RenderOptions& options, const Progress& progress) {
+  check(scene, rig, options);
   RenderedViews result;
-  result.exposure = std::isnan(options.exposure) ? automatic_exposure(cloud, scene, rig) : options.exposure;
-  const Choice choice = choose(cloud, scene, rig, options);
+  result.tone = settled(tone_for(scene, options), scene, statistics, rig);
+  result.exposure = result.tone.exposure;
+  const Choice choice = choose(statistics.count, scene, rig, options);
   result.method = choice.method;
   result.reason = choice.reason;
   result.views.assign(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
   const std::vector<ImageView<Rgb8>> pictures(result.views.begin(), result.views.end());
-  const ToneMap tone(result.exposure);
-  const RenderJob job{cloud, scene, rig, statistics, tone};
+  const ToneMap tone(result.tone);
+  const RenderJob job{chunks, scene, rig, statistics, tone};
 
+  report(progress, "views", 0);
   if (result.method == Method::layered) {
     const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
     result.planes = static_cast<int>(planes.parallaxes.size());
@@ -115,22 +111,49 @@ RenderedViews render(const Cloud& cloud, const Scene& scene, const Rig& rig, con
     } else {
       render_layered(job, planes, options.filter, pictures);
     }
-  } else if (options.opaque && result.method == Method::incremental) {
-    render_opaque(job, rig.positions, pictures);
   } else if (result.method == Method::incremental) {
-    render_incremental(job, pictures);
+    if (options.opaque) {
+      render_opaque(job, rig.positions, pictures);
+    } else {
+      render_incremental(job, pictures);
+    }
   } else {
     for (std::size_t v = 0; v < pictures.size(); ++v) {
-      report(progress, "views", static_cast<double>(v) / static_cast<double>(pictures.size()));
+      const std::span<const ViewPosition> position = std::span(rig.positions).subspan(v, 1);
       if (options.opaque) {
-        render_opaque(job, std::span(rig.positions).subspan(v, 1), std::span(pictures).subspan(v, 1));
+        render_opaque(job, position, std::span(pictures).subspan(v, 1));
       } else {
-        render_exact(job, rig.positions[v], pictures[v]);
+        render_exact(job, position, std::span(pictures).subspan(v, 1));
       }
+      report(progress, "views", static_cast<double>(v + 1) / static_cast<double>(pictures.size()));
     }
   }
   report(progress, "views", 1);
   return result;
+}
+
+std::vector<ViewValues> view_values(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene,
+                                    const Rig& rig) {
+  ToneSettings as_mass{.look = Look::mass, .least = 0, .most = 1};
+  const ToneMap tone(as_mass);
+  const float unit = column_of_light(scene);
+  const bool with_quantity = scene.splat_style.colour_source == ColourSource::quantity;
+  std::vector<ViewValues> values;
+  for (const ViewPosition view : rig.positions) {
+    const ViewLight light = light_of_view({chunks, scene, rig, statistics, tone}, view);
+    ViewValues& of_view = values.emplace_back();
+    of_view.column = Image<float>(rig.width, rig.height);
+    if (with_quantity) of_view.mean = Image<float>(rig.width, rig.height);
+    for (int y = 0; y < rig.height; ++y)
+      for (int x = 0; x < rig.width; ++x) {
+        const float column = light.row(y, 0)[x];
+        of_view.column(x, y) = column * unit;
+        if (with_quantity)
+          of_view.mean(x, y) = column > 0 ? light.row(y, 1)[x] / column / scene.splat_style.quantity_scale
+                                          : std::numeric_limits<float>::quiet_NaN();
+      }
+  }
+  return values;
 }
 
 }  // namespace wheatstone

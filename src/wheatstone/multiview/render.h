@@ -6,7 +6,9 @@
 
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/image/image.h"
+#include "wheatstone/multiview/chunks.h"
 #include "wheatstone/multiview/scene.h"
+#include "wheatstone/multiview/tone.h"
 #include "wheatstone/particles/cloud.h"
 #include "wheatstone/progress.h"
 
@@ -33,7 +35,9 @@ struct RenderOptions {
   SliceFilter filter = SliceFilter::linear;
   int planes = 0;       ///< depth planes; 0: one for each pixel of parallax
   bool opaque = false;  ///< the nearest particle hides the others, instead of adding its light to theirs
-  float exposure = std::numeric_limits<float>::quiet_NaN();  ///< NaN: from the central view
+  /// Of the thesis's look; NaN: found from some of the particles, as are limits that `tone` leaves open.
+  float exposure = std::numeric_limits<float>::quiet_NaN();
+  ToneSettings tone;  ///< of mass; the look is the scene's
 };
 
 /// The views, left to right, and how they were made.
@@ -42,7 +46,8 @@ struct RenderedViews {
   Method method = Method::exact;
   std::string reason;  ///< why this method, for people
   int planes = 0;      ///< of the layered method
-  float exposure = 1;
+  float exposure = 1;  ///< of the thesis's look
+  ToneSettings tone;   ///< with all that was found
 };
 
 /// Renders every view of a rig. The cloud's positions are finite, its densities and temperatures above 0 (select.h).
@@ -50,7 +55,27 @@ struct RenderedViews {
 RenderedViews render(const Cloud& cloud, const Scene& scene, const Rig& rig, const RenderOptions& options = {},
                      const Progress& progress = {});
 
-/// The factor that brings the brighter parts of the central view to where the tone map still tells them apart.
+/// The same of particles that come in chunks, of which this is known: all that is kept of them is the light of the
+/// views or of the depth planes, or their splats where these take less.
+RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene, const Rig& rig,
+                     const RenderOptions& options = {}, const Progress& progress = {});
+
+/// A view as numbers.
+struct ViewValues {
+  /// Mass per area of the scene, where the camera is orthographic; in perspective, per area as it is at the depth that
+  /// the camera looks at.
+  Image<float> column;
+  Image<float> mean;  ///< of the quantity, weighted by mass; NaN where there is no mass; empty without a quantity
+};
+
+/// The views of a rig as numbers, of particles that are shown as mass, each on its own, in full precision.
+std::vector<ViewValues> view_values(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene,
+                                    const Rig& rig);
+
+/// Mass per area of the scene that a unit of light stands for.
+float column_of_light(const Scene& scene);
+
+/// The factor that brings the brighter parts of the central view to where the thesis's tone map still tells them apart.
 float automatic_exposure(const Cloud& cloud, const Scene& scene, const Rig& rig);
 
 }  // namespace wheatstone

@@ -54,7 +54,7 @@ void add_glowing(const SliceStack& stack, const Rig& rig, SliceFilter filter,
                  std::span<const ImageView<Rgb8>> pictures) {
   const std::vector<float> parallaxes = parallaxes_of(stack);
   const Compositing compositing{parallaxes, rig.positions, resampling_of(filter)};
-  const ToneMap tone(stack.exposure);
+  const ToneMap tone(stack.tone);
   float reach = 0;
   for (const ViewPosition view : rig.positions)
     for (const float parallax : parallaxes) reach = std::max(reach, std::abs((view - central_view) * parallax));
@@ -64,13 +64,15 @@ void add_glowing(const SliceStack& stack, const Rig& rig, SliceFilter filter,
     return Workplace{LightBand(-around, rig.width + around, band_rows),
                      SliceBand(-around, rig.width + around, band_rows, planes)};
   });
+  std::vector<ViewTarget> targets;
+  for (const ImageView<Rgb8> picture : pictures) targets.push_back({.picture = picture});
   tbb::parallel_for(0, (rig.height + band_rows - 1) / band_rows, [&](int b) {
     Workplace& work = workplaces.local();
     for (int plane = 0; plane < planes; ++plane) {
       take_rows(stack.slices[plane], b * band_rows, work.plane);
       work.slices.take(plane, work.plane);
     }
-    composite(work.slices, compositing, tone, b * band_rows, pictures);
+    composite(work.slices, compositing, tone, b * band_rows, targets);
   });
 }
 
@@ -91,14 +93,15 @@ LinearRgba look_through(const SliceStack& stack, ViewPosition view, int x, int y
   return seen;
 }
 
-std::uint8_t byte_of(float light, const ToneMap& tone) {
-  const float exposed = std::max(light * tone.exposure, 0.f);
-  return static_cast<std::uint8_t>(tone.table[std::lround(exposed / (exposed + 1) * (ToneMap::table_size - 1))]);
+LinearRgba mixed(const LinearRgba& a, const LinearRgba& b, float share) {
+  return {std::lerp(a.r, b.r, share), std::lerp(a.g, b.g, share), std::lerp(a.b, b.b, share),
+          std::lerp(a.a, b.a, share)};
 }
 
-/// One channel of one sub-pixel of a view: the sum of all slices there, or what of them is not hidden.
-float channel_through(const SliceStack& stack, ViewPosition view, int x, int y, float LinearRgba::*channel) {
-  float seen = 0;
+/// What a view sees at a pixel: the sum of all slices there, or what of them is not hidden. Slices are read between
+/// their pixels.
+LinearRgba look_between(const SliceStack& stack, ViewPosition view, int x, int y) {
+  LinearRgba seen;
   float through = 1;
   for (const Slice& slice : stack.slices) {
     const int row = y - slice.top;
@@ -106,12 +109,14 @@ float channel_through(const SliceStack& stack, ViewPosition view, int x, int y, 
     const float at = static_cast<float>(x - slice.left) - (view - central_view) * slice.parallax_px;
     const int column = static_cast<int>(std::floor(at));
     if (column < -1 || column >= slice.pixels.width()) continue;
-    const float share = at - static_cast<float>(column);
     const std::span<const LinearRgba> pixels = slice.pixels.row(row);
-    const LinearRgba before = column >= 0 ? pixels[column] : LinearRgba{};
-    const LinearRgba after = column + 1 < slice.pixels.width() ? pixels[column + 1] : LinearRgba{};
-    seen += through * (before.*channel * (1 - share) + after.*channel * share);
-    through *= 1 - (before.a * (1 - share) + after.a * share);
+    const LinearRgba here =
+        mixed(column >= 0 ? pixels[column] : LinearRgba{},
+              column + 1 < slice.pixels.width() ? pixels[column + 1] : LinearRgba{}, at - static_cast<float>(column));
+    seen.r += through * here.r;
+    seen.g += through * here.g;
+    seen.b += through * here.b;
+    through *= 1 - here.a;
     if (through < full) break;
   }
   return seen;
@@ -127,12 +132,12 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
   if (!hides(stack)) {
     add_glowing(stack, rig, filter, pictures);
   } else {
-    const ToneMap tone(stack.exposure);
+    const ToneMap tone(stack.tone);
     tbb::parallel_for(0, rig.height, [&](int y) {
       for (std::size_t v = 0; v < views.size(); ++v)
         for (int x = 0; x < rig.width; ++x) {
           const LinearRgba seen = look_through(stack, rig.positions[v], x, y);
-          views[v](x, y) = {byte_of(seen.r, tone), byte_of(seen.g, tone), byte_of(seen.b, tone)};
+          views[v](x, y) = tone(seen.r, seen.g, seen.b);
         }
     });
   }
@@ -143,16 +148,21 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
 InterleavedView render_interleaved(const SliceStack& stack, std::span<const ViewPosition> views,
                                    const ViewsOfRow& views_of_row, const Progress& progress) {
   InterleavedView result{.picture = Image<Rgb8>(stack.width, stack.height), .composited = 0};
-  const ToneMap tone(stack.exposure);
+  const ToneMap tone(stack.tone);
   std::atomic<std::uint64_t> composited = 0;
   tbb::parallel_for(0, stack.height, [&](int y) {
     std::vector<std::uint16_t> shown(3 * static_cast<std::size_t>(stack.width));
     views_of_row(y, shown);
     for (int x = 0; x < stack.width; ++x) {
       const std::uint16_t* const view = shown.data() + 3 * static_cast<std::size_t>(x);
-      result.picture(x, y) = {byte_of(channel_through(stack, views[view[0]], x, y, &LinearRgba::r), tone),
-                              byte_of(channel_through(stack, views[view[1]], x, y, &LinearRgba::g), tone),
-                              byte_of(channel_through(stack, views[view[2]], x, y, &LinearRgba::b), tone)};
+      const auto colour_of = [&](std::uint16_t of_view) {
+        const LinearRgba seen = look_between(stack, views[of_view], x, y);
+        return tone(seen.r, seen.g, seen.b);
+      };
+      const Rgb8 red = colour_of(view[0]);
+      const Rgb8 green = view[1] == view[0] ? red : colour_of(view[1]);
+      const Rgb8 blue = view[2] == view[1] ? green : colour_of(view[2]);
+      result.picture(x, y) = {red.r, green.g, blue.b};
     }
     composited += 3 * static_cast<std::uint64_t>(stack.width);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheatstone/multiview/chunks.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/slice_band_internal.h"
 
@@ -7,7 +8,7 @@ namespace wheatstone {
 
 /// The cloud, scene and rig of one rendering, and what all renderers derive from them alike.
 struct RenderJob {
-  const Cloud& cloud;
+  const Chunks& chunks;
   const Scene& scene;
   const Rig& rig;
   const CloudStatistics& statistics;
@@ -24,46 +25,65 @@ struct DepthPlanes {
 /// where those are farther apart.
 DepthPlanes planes_of(const DepthMapping& mapping, int count, float span = 1);
 
-SplatOrder order_by_plane(const Rig& rig, const SplatStyle& splat_style, const DepthPlanes& planes, SliceFilter filter);
 Resampling resampling_of(SliceFilter filter);
 
 /// The enlarged frustum: whatever any view of the rig sees (Hassaine 2010, sec. 4.3.1), in whole pixels.
 Window window_around(const Scene& scene, const Rig& rig);
 
+class GatheredLight;
+
+/// A plane of a band.
+struct BandPlane {
+  int band, plane;
+};
+
+/// Adds a plane's splats of one block to its light; of those that lie between planes, a part to the next.
+void deposit_plane(const SplatBlock& block, const SplatOrder& order, Deposit kind, BandPlane at, LightBand& here,
+                   LightBand& next);
+
+/// Adds splats to the light of all planes of all pictures.
+void deposit_in_planes(const std::vector<SplatBlock>& blocks, const SplatOrders& orders, Deposit kind,
+                       GatheredLight& light);
+
 /// Fills the depth planes of a band one after the other, nearest first.
 class PlaneFiller {
  public:
-  PlaneFiller(const Window& window, const SplatOrder& order);
+  PlaneFiller(const Window& window, const SplatOrder& order, Deposit kind);
   void begin_band();
   /// The light of one plane, which the caller darkens when it has taken it. Planes are asked for in order, every one.
   LightBand& fill(const std::vector<SplatBlock>& blocks, int b, int plane);
 
  private:
   SplatOrder order_;
+  Deposit kind_;
   LightBand plane_, next_;
 };
-
-SplatOrder bands_of(const Rig& rig, const SplatStyle& splat_style);
 
 /// Eye separations between the outermost views.
 float span_of(const Rig& rig);
 
-/// The factor for pixels whose brightest channels are these.
-float exposure_for(std::vector<float> brightest);
-
 /// How far beyond the sides of the central view the outermost views look, in pixels.
 float look_around_px(const Scene& scene, const Rig& rig);
 
-void render_exact(const RenderJob& job, ViewPosition view, ImageView<Rgb8> picture);
+/// Each of the views on its own.
+void render_exact(const RenderJob& job, std::span<const ViewPosition> views, std::span<const ImageView<Rgb8>> pictures);
 void render_incremental(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures);
 /// The nearest particle of each pixel, in each of the views.
 void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
                    std::span<const ImageView<Rgb8>> pictures);
+/// Without pictures, the planes are filled and nothing is made of them.
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures);
 
-/// The light of a view, band by band.
-std::vector<LightBand> light_of_view(const Cloud& cloud, const Scene& scene, const Rig& rig,
-                                     const CloudStatistics& statistics, ViewPosition view);
+/// The light of a view, of the size of the rig's.
+ViewLight light_of_view(const RenderJob& job, ViewPosition view);
+
+/// The settings that the options ask for, with what the scene's particles decide.
+ToneSettings tone_for(const Scene& scene, const RenderOptions& options);
+
+/// The settings with what they leave open found from a small picture of some of the particles: the exposure of the
+/// thesis's look, or the limits between which mass is shown.
+ToneSettings settled(const ToneSettings& settings, const Scene& scene, const CloudStatistics& statistics,
+                     const Rig& rig);
 
 }  // namespace wheatstone

@@ -1,6 +1,3 @@
-#include <cmath>
-
-#include "wheatstone/image/srgb.h"
 #include "wheatstone/multiview/slice_band_internal.h"
 
 namespace wheatstone {
@@ -14,10 +11,5 @@ SliceBand::SliceBand(int left, int right, int rows, int planes)
       // A vector may be read from the last pixel on.
       values_(static_cast<std::size_t>(stride_) * 3 * rows * planes + 16),
       lit_(static_cast<std::size_t>(planes) * rows) {}
-
-ToneMap::ToneMap(float given_exposure) : exposure(given_exposure) {
-  for (int i = 0; i < table_size; ++i)
-    table.push_back(srgb_from_linear((static_cast<float>(i) + 0.0f) / static_cast<float>(table_size - 1)));
-}
 
 }  // namespace wheatstone

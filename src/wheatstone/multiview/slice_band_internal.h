@@ -6,6 +6,8 @@
 
 #include "wheatstone/image/image.h"
 #include "wheatstone/multiview/light_band_internal.h"
+#include "wheatstone/multiview/tone_map_internal.h"
+#include "wheatstone/multiview/view_light_internal.h"
 
 namespace wheatstone {
 
@@ -45,14 +47,6 @@ class SliceBand {
   std::vector<Extent> lit_;
 };
 
-/// From linear light to a picture's bytes: L/(1+L) (Hassaine 2010, eq. 5.8.1) of the exposed light, as sRGB, by table.
-struct ToneMap {
-  static constexpr int table_size = 4096;
-  explicit ToneMap(float exposure);
-  float exposure;
-  std::vector<std::int32_t> table;  ///< by L/(1+L) times table_size − 1
-};
-
 /// How a slice is read between its pixels.
 enum class Resampling { nearest, linear, cubic };
 
@@ -63,11 +57,11 @@ struct Compositing {
   Resampling resampling = Resampling::cubic;
 };
 
-/// Composites every view's part of a band whose first row is `top` in the pictures, and tone-maps it into them.
+/// Composites every view's part of a band whose first row is `top` in the pictures. All targets are of one size.
 void composite(const SliceBand& slices, const Compositing& compositing, const ToneMap& tone, int top,
-               std::span<const ImageView<Rgb8>> pictures);
+               std::span<const ViewTarget> targets);
 
-/// Tone-maps a band of light into a picture: columns 0 … width − 1 of the view.
-void tone_map(const LightBand& band, const ToneMap& tone, int top, ImageView<Rgb8> picture);
+/// The light of a band of one view, whose first row is `top` in the picture: columns from 0 on.
+void finish_band(const LightBand& band, const ToneMap& tone, int top, const ViewTarget& target);
 
 }  // namespace wheatstone

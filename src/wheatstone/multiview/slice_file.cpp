@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/error.h"
@@ -41,6 +42,7 @@ constexpr double most_pixels_a_byte = 256;
 constexpr float most_view_widths = 4;  ///< of parallax
 constexpr float largest_span = 1000;
 constexpr float largest_exposure = 1e20f;
+constexpr float above_zero = 1e-20f;
 constexpr float largest_length_mm = 1e9f;
 
 std::string one_line(std::string text) {
@@ -55,6 +57,39 @@ std::string one_line(std::string text) {
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), what));
+}
+
+constexpr const char* look_name = "wheatstone:look";
+constexpr std::array<std::pair<const char*, Shown>, 4> shown_names{
+    {{"ramp", Shown::ramp}, {"colours", Shown::colours}, {"column", Shown::column}, {"mean", Shown::mean}}};
+constexpr std::array<std::pair<const char*, Stretch>, 3> stretch_names{
+    {{"asinh", Stretch::asinh}, {"log", Stretch::log}, {"linear", Stretch::linear}}};
+
+template <class Value, std::size_t count>
+const char* name_of(const std::array<std::pair<const char*, Value>, count>& names, Value value) {
+  return std::ranges::find(names, value, &std::pair<const char*, Value>::second)->first;
+}
+
+int packed(Rgb8 colour) { return colour.r << 16 | colour.g << 8 | colour.b; }
+Rgb8 unpacked(int colour) {
+  return {static_cast<std::uint8_t>(colour >> 16), static_cast<std::uint8_t>(colour >> 8),
+          static_cast<std::uint8_t>(colour)};
+}
+
+/// How sums of slices become colours.
+void put_tone(const ToneSettings& tone, OIIO::ImageSpec& spec) {
+  if (tone.look == Look::thesis) {
+    spec.attribute("wheatstone:exposure", tone.exposure);
+    return;
+  }
+  spec.attribute(look_name, "mass");
+  spec.attribute("wheatstone:shown", name_of(shown_names, tone.shown));
+  spec.attribute("wheatstone:stretch", name_of(stretch_names, tone.stretch));
+  spec.attribute("wheatstone:least", tone.least);
+  spec.attribute("wheatstone:most", tone.most);
+  spec.attribute("wheatstone:cold", packed(tone.cold));
+  spec.attribute("wheatstone:hot", packed(tone.hot));
+  if (!tone.colour_map.empty()) spec.attribute("wheatstone:colours", tone.colour_map);
 }
 
 OIIO::ImageSpec spec_of(const Slice& slice, std::size_t index, std::size_t count, const SliceStack& stack) {
@@ -76,7 +111,7 @@ OIIO::ImageSpec spec_of(const Slice& slice, std::size_t index, std::size_t count
   spec.attribute("wheatstone:slices", static_cast<int>(count));
   spec.attribute("wheatstone:parallax_px", slice.parallax_px);
   spec.attribute("wheatstone:span", stack.span);
-  spec.attribute("wheatstone:exposure", stack.exposure);
+  put_tone(stack.tone, spec);
   spec.attribute("wheatstone:eye_separation_mm", stack.viewing.eye_separation_mm);
   spec.attribute("wheatstone:viewing_distance_mm", stack.viewing.viewing_distance_mm);
   spec.attribute("wheatstone:screen_width_mm", stack.viewing.screen_width_mm);
@@ -158,6 +193,43 @@ float number_in(const fs::path& path, const OIIO::ImageSpec& spec, const char* n
   return number;
 }
 
+/// A word that the first part has, as what it stands for.
+template <class Value, std::size_t count>
+Value word_in(const fs::path& path, const OIIO::ImageSpec& spec, const char* name,
+              const std::array<std::pair<const char*, Value>, count>& words) {
+  const std::string word = spec.get_string_attribute(name);
+  const auto found = std::ranges::find(words, word, &std::pair<const char*, Value>::first);
+  if (found == words.end()) refuse(path, fmt::format("{} is '{}', which is not known", name, word));
+  return found->second;
+}
+
+ToneSettings tone_of(const fs::path& path, const OIIO::ImageSpec& spec) {
+  ToneSettings tone;
+  if (spec.find_attribute(look_name) == nullptr) {
+    tone.exposure = number_in(path, spec, "wheatstone:exposure", above_zero, largest_exposure);
+    return tone;
+  }
+  if (const std::string look = spec.get_string_attribute(look_name); look != "mass")
+    refuse(path, fmt::format("{} is '{}', expected 'mass'", look_name, look));
+  tone.look = Look::mass;
+  tone.shown = word_in(path, spec, "wheatstone:shown", shown_names);
+  tone.stretch = word_in(path, spec, "wheatstone:stretch", stretch_names);
+  tone.least = number_in(path, spec, "wheatstone:least", -largest_exposure, largest_exposure);
+  tone.most = number_in(path, spec, "wheatstone:most", -largest_exposure, largest_exposure);
+  if (!(tone.most > tone.least) || (tone.stretch == Stretch::log && !(tone.least > 0)))
+    refuse(path, fmt::format("shows what lies between {} and {}, expected ascending limits", tone.least, tone.most));
+  tone.cold = unpacked(spec.get_int_attribute("wheatstone:cold", packed(tone.cold)));
+  tone.hot = unpacked(spec.get_int_attribute("wheatstone:hot", packed(tone.hot)));
+  tone.colour_map = spec.get_string_attribute("wheatstone:colours");
+  if (tone.colour_map.empty()) return tone;
+  try {
+    colour_map(tone.colour_map);
+  } catch (const Error& error) {
+    refuse(path, error.what());
+  }
+  return tone;
+}
+
 /// What is the same for all slices, from the first part.
 SliceStack stack_of(const fs::path& path, const OIIO::ImageSpec& spec) {
   for (const char* name : {"wheatstone:version", "wheatstone:slices"})
@@ -168,12 +240,11 @@ SliceStack stack_of(const fs::path& path, const OIIO::ImageSpec& spec) {
       spec.full_height > widest_view_px)
     refuse(path, fmt::format("has slices of views of {}x{} pixels, expected at most {}x{}", spec.full_width,
                              spec.full_height, widest_view_px, widest_view_px));
-  constexpr float above_zero = 1e-20f;
   SliceStack stack;
   stack.width = spec.full_width;
   stack.height = spec.full_height;
   stack.span = number_in(path, spec, "wheatstone:span", 0, largest_span);
-  stack.exposure = number_in(path, spec, "wheatstone:exposure", above_zero, largest_exposure);
+  stack.tone = tone_of(path, spec);
   const auto length_mm = [&](const char* name) { return number_in(path, spec, name, above_zero, largest_length_mm); };
   stack.viewing.eye_separation_mm = length_mm("wheatstone:eye_separation_mm");
   stack.viewing.viewing_distance_mm = length_mm("wheatstone:viewing_distance_mm");

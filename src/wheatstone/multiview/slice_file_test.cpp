@@ -26,7 +26,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Slices of light that half floats hold exactly, beyond the view's sides and within.
 SliceStack some_slices(int count = 5) {
-  SliceStack stack{.width = 40, .height = 30, .span = 1.5f, .exposure = 0.25f, .viewing = {}, .slices = {}};
+  SliceStack stack{.width = 40, .height = 30, .span = 1.5f, .tone = {.exposure = 0.25f}, .viewing = {}, .slices = {}};
   stack.viewing = {.eye_separation_mm = 60, .viewing_distance_mm = 800, .screen_width_mm = 500, .width_px = 40};
   for (int i = 0; i < count; ++i) {
     Slice slice{.parallax_px = -3.5f + static_cast<float>(i), .left = -4 + i, .top = i, .pixels = {}};
@@ -67,7 +67,7 @@ TEST(SliceFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(again.width, 40);
   EXPECT_EQ(again.height, 30);
   EXPECT_EQ(again.span, 1.5f);
-  EXPECT_EQ(again.exposure, 0.25f);
+  EXPECT_EQ(again.tone.exposure, 0.25f);
   EXPECT_EQ(again.viewing.eye_separation_mm, 60);
   EXPECT_EQ(again.viewing.viewing_distance_mm, 800);
   EXPECT_EQ(again.viewing.screen_width_mm, 500);

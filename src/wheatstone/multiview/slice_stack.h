@@ -4,10 +4,12 @@
 
 #include "wheatstone/depth/viewing_geometry.h"
 #include "wheatstone/image/image.h"
+#include "wheatstone/multiview/tone.h"
 
 namespace wheatstone {
 
-/// Linear light, premultiplied by alpha. Glowing particles have alpha 0: laid over another they add to it.
+/// Linear light, premultiplied by alpha; or of mass (tone.h), red is light, and green light times what it shows.
+/// Glowing particles have alpha 0: laid over another they add to it.
 struct LinearRgba {
   float r = 0, g = 0, b = 0, a = 0;
   friend bool operator==(const LinearRgba&, const LinearRgba&) = default;
@@ -23,11 +25,11 @@ struct Slice {
 
 /// A scene cut into depth planes: enough to make every view of every rig (Hassaine 2010, sec. 6.2).
 struct SliceStack {
-  int width = 0, height = 0;  ///< of a view, in pixels
-  float span = 1;             ///< eye separations between the outermost views for which nothing is missing
-  float exposure = 1;         ///< what the light is multiplied by before the tone map
-  ViewingGeometry viewing;    ///< for which the parallaxes were chosen
-  std::vector<Slice> slices;  ///< nearest first: parallax ascends
+  int width = 0, height = 0;         ///< of a view, in pixels
+  float span = 1;                    ///< eye separations between the outermost views for which nothing is missing
+  ToneSettings tone{.exposure = 1};  ///< how sums of the slices become colours
+  ViewingGeometry viewing;           ///< for which the parallaxes were chosen
+  std::vector<Slice> slices;         ///< nearest first: parallax ascends
 };
 
 }  // namespace wheatstone

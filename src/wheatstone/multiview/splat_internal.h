@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,18 +11,31 @@
 
 namespace wheatstone {
 
-/// A particle as the reference view has it. Twenty bytes, since reading and writing them is half the work: the colour,
-/// linear light times opacity, and the size are half floats.
+/// A particle as the reference view has it. Twenty bytes, since reading and writing them is half the work. What it adds
+/// to a pixel is either three channels of light, or mass: the splat's light in full precision, so that no mass is lost,
+/// and how much of a second channel goes with each unit of it.
 struct Splat {
-  float x, y;      ///< centre, in pixels
-  float parallax;  ///< in pixels, at full eye separation
-  std::uint16_t colour[3];
-  std::uint16_t size;  ///< diameter in pixels
+  float x, y;               ///< centre, in pixels
+  float parallax;           ///< in pixels, at full eye separation
+  std::uint16_t colour[3];  ///< half floats; of mass, a float's lower and upper half, and a half float
+  std::uint16_t size;       ///< diameter in pixels, a half float
 };
 static_assert(sizeof(Splat) == 20);
 
+/// What splats add to the channels of a pixel.
+enum class Deposit {
+  light,    ///< of the thesis's look: a Gaussian with the colour at its middle
+  mass,     ///< light, and light times the second number, whose sums over all pixels are those of the splats
+  colours,  ///< three channels of light, whose sums are those of the splats
+};
+Deposit deposit_of(const SplatStyle& splat_style);
+
 /// A Gaussian's standard deviation is its splat's diameter over this: at the rim 4 % of the peak are left.
 constexpr float diameters_a_deviation = 5;
+/// The same of a splat of mass: 2 % of the peak are left at the rim, and what would lie beyond is within.
+constexpr float diameters_a_mass_deviation = 5.5f;
+/// The standard deviation of the cubic spline kernel along an axis, of the radius where it ends: √0.3 / 2.
+constexpr float deviations_a_radius = 0.27386f;
 /// Variance that the area of a pixel adds to a splat's (a box one pixel wide).
 constexpr float pixel_variance = 1.f / 12;
 /// Half the width of what a splat touches: its radius, and half of a pixel's width around it.
@@ -43,9 +57,17 @@ struct SplatOrder {
   int parts = 1;       ///< of a band: columns or planes
   float first = 0;     ///< x of column 0's left side; parallax of plane 0
   float spacing = 64;  ///< from one to the next, in pixels
+  // Splats that are too wide are drawn in smaller pictures, each half as large as the one before. Columns and rows of a
+  // smaller picture begin `pad` before the view's.
+  float scale = 1;  ///< pixels of this picture a pixel of the view
+  int pad = 0;
+  int rows = 0;               ///< of this picture
+  std::size_t first_bin = 0;  ///< of all pictures' bins
   std::size_t bins() const { return static_cast<std::size_t>(bands) * parts; }
-  std::size_t bin(int band, int part) const { return static_cast<std::size_t>(band) * parts + part; }
+  std::size_t bin(int band, int part) const { return first_bin + static_cast<std::size_t>(band) * parts + part; }
 };
+/// The view's picture, and smaller ones for wider splats.
+using SplatOrders = std::vector<SplatOrder>;
 
 /// Some thousand splats, ordered: those of bin b are splats[begin[b]] … splats[begin[b + 1] − 1]. A splat that reaches
 /// into two bands stands in both.
@@ -70,13 +92,33 @@ struct Projection {
   SplatStyle splat_style;
   ParallaxTable table;
   ViewPosition view = central_view;  ///< that is projected
+  float largest_mass_px = 30;        ///< diameter of a splat of mass, which the smallest picture can hold
 };
 
 Projection make_projection(const Scene& scene, const CloudStatistics& statistics, ViewPosition view = central_view);
 
-/// Projects, lights and orders the particles of a cloud, in blocks that depend on nothing but the cloud.
-std::vector<SplatBlock> order_splats(const Cloud& cloud, const Projection& projection, const Window& window,
-                                     const SplatOrder& order);
+/// Some of a cloud's particles, one after the other.
+struct ParticleRange {
+  std::size_t first, count;
+};
+
+/// Projects, lights and orders particles of a cloud, in blocks that depend on nothing but the cloud. Fewer than a
+/// vector holds must be the cloud's last.
+std::vector<SplatBlock> order_splats(const Cloud& cloud, ParticleRange range, const Projection& projection,
+                                     const Window& window, const SplatOrders& orders);
+
+/// The pictures' numbers as the projection looks them up.
+struct PictureTable {
+  static constexpr int most = 9;
+  explicit PictureTable(const SplatOrders& orders);
+  int pictures = 0;
+  std::size_t bins = 0;
+  SplatOrder first;
+  std::array<float, most> widest{};  ///< diameter, in the view's pixels, of a splat in each picture
+  std::array<float, most> scale{}, pad{}, last_row{}, parts{}, first_bin{}, parts_a_pixel{};
+};
+/// The diameter of a splat of mass in any picture but the smallest.
+constexpr float widest_mass_px = 16;
 
 /// Arrays that the projection fills for one block of particles, from number `first` of the cloud on; all `count` long.
 struct ProjectedBlock {
@@ -87,7 +129,7 @@ struct ProjectedBlock {
 };
 
 /// Projects and lights the block's particles, of which there are at least as many as a vector holds.
-void project_particles(const Cloud& cloud, const Projection& projection, const Window& window, const SplatOrder& order,
-                       ProjectedBlock& block);
+void project_particles(const Cloud& cloud, const Projection& projection, const Window& window,
+                       const PictureTable& table, ProjectedBlock& block);
 
 }  // namespace wheatstone

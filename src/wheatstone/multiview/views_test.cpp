@@ -51,7 +51,7 @@ Scene scene_of(const Cloud& cloud, const Rig& rig, float smallest = 2, float lar
   for (std::size_t axis = 0; axis < 3; ++axis)
     depth += (statistics.centre()[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
   scene.mapping.points = {{depth - statistics.radius(), -19}, {depth + statistics.radius(), 16}};
-  Appearance appearance;
+  Appearance appearance{.look = Look::thesis};
   appearance.smallest_px = smallest;
   appearance.largest_px = largest;
   scene.splat_style = make_splat_style(appearance, statistics);
@@ -196,7 +196,7 @@ TEST(Opaque, NearestParticleHidesTheOthers) {
   Scene scene;
   scene.camera = {.focal_px = 30, .centre_x_px = 32, .centre_y_px = 16, .nearest_depth = 0.1f};
   scene.mapping.points = {{1, 0}, {3, 0}};
-  Appearance appearance;
+  Appearance appearance{.look = Look::thesis};
   appearance.smallest_px = appearance.largest_px = 9;
   appearance.logarithmic = false;
   appearance.cold = {0, 255, 0};  // the nearest

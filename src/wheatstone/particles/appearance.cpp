@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -38,20 +39,8 @@ void fill_between(SplatStyle& splat_style, Rgb8 cold, Rgb8 hot) {
 }
 
 void fill_by_name(SplatStyle& splat_style, const std::string& name) {
-  const auto* const found = std::ranges::find(colour_maps, name, [](const auto& entry) { return entry.first; });
-  if (found == std::end(colour_maps)) {
-    std::string names;
-    for (const auto& [known, code] : colour_maps) names += fmt::format(" {}", known);
-    throw Error(ErrorKind::wrong_usage, fmt::format("there is no colour map '{}', expected one of:{}", name, names));
-  }
-  cv::Mat values(1, SplatStyle::palette_size, CV_8UC1);
-  for (int i = 0; i < SplatStyle::palette_size; ++i) values.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(i);
-  cv::Mat colours;
-  cv::applyColorMap(values, colours, found->second);
-  for (int i = 0; i < SplatStyle::palette_size; ++i) {
-    const cv::Vec3b bgr = colours.at<cv::Vec3b>(0, i);
-    set_entry(splat_style, i, {bgr[2], bgr[1], bgr[0]});
-  }
+  const std::array<Rgb8, 256> colours = colour_map(name);
+  for (int i = 0; i < SplatStyle::palette_size; ++i) set_entry(splat_style, i, colours[static_cast<std::size_t>(i)]);
 }
 
 /// Spreads the palette over the values of the column that the colours follow.
@@ -73,7 +62,58 @@ void spread_palette(SplatStyle& splat_style, const Appearance& appearance, const
   splat_style.palette_scale = last > first ? (SplatStyle::palette_size - 1) / (last - first) : 0.f;
 }
 
+/// What decides the sizes of mass: the radius of a kernel that holds as many particles as is usual, from the density
+/// or, where none is known, from how much room there is.
+void set_radii(SplatStyle& splat_style, const CloudStatistics& statistics) {
+  constexpr double particles_a_kernel = 32;
+  constexpr double ball = 4 * std::numbers::pi / 3;
+  const auto count = static_cast<double>(std::max<std::uint64_t>(statistics.count, 1));
+  const FramedRegion room =
+      statistics.framed.value_or(FramedRegion{.lower = statistics.lower, .upper = statistics.upper});
+  double volume = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    volume *= std::max(static_cast<double>(room.upper[axis]) - room.lower[axis],
+                       1e-3 * static_cast<double>(statistics.radius()));
+  splat_style.fixed_radius = static_cast<float>(std::cbrt(particles_a_kernel * volume / (ball * count)));
+  // Points with colours of their own lie on surfaces, closer together than their number in the room tells.
+  if (statistics.has_colour) splat_style.fixed_radius = std::min(splat_style.fixed_radius, statistics.radius() / 100);
+  if (statistics.density.total() == 0) return;
+  // Without masses, the particle's is the one with which their volumes fill the room.
+  const double mass = statistics.has_mass ? statistics.mass / count : volume / statistics.density.sum_of_inverses();
+  splat_style.radius_factor = static_cast<float>(std::cbrt(particles_a_kernel * mass / ball));
+}
+
+SizeRule size_rule_of(const Appearance& appearance, const CloudStatistics& statistics) {
+  if (appearance.size_rule != SizeRule::automatic) return appearance.size_rule;
+  if (appearance.look == Look::thesis) return SizeRule::denser_smaller;
+  return statistics.has_smoothing_length ? SizeRule::smoothing_length : SizeRule::density;
+}
+
 }  // namespace
+
+UsualColours usual_colours(Look look) {
+  if (look == Look::thesis) return {{40, 90, 255}, {255, 120, 30}};
+  return {{38, 98, 255}, {255, 186, 84}};
+}
+
+std::array<Rgb8, 256> colour_map(const std::string& name) {
+  const auto* const found = std::ranges::find(colour_maps, name, [](const auto& entry) { return entry.first; });
+  if (found == std::end(colour_maps)) {
+    std::string names;
+    for (const auto& [known, code] : colour_maps) names += fmt::format(" {}", known);
+    throw Error(ErrorKind::wrong_usage, fmt::format("there is no colour map '{}', expected one of:{}", name, names));
+  }
+  std::array<Rgb8, 256> map{};
+  cv::Mat values(1, 256, CV_8UC1);
+  for (int i = 0; i < 256; ++i) values.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(i);
+  cv::Mat colours;
+  cv::applyColorMap(values, colours, found->second);
+  for (int i = 0; i < 256; ++i) {
+    const cv::Vec3b bgr = colours.at<cv::Vec3b>(0, i);
+    map[static_cast<std::size_t>(i)] = {bgr[2], bgr[1], bgr[0]};
+  }
+  return map;
+}
 
 SplatStyle make_splat_style(const Appearance& appearance, const CloudStatistics& statistics) {
   const bool sizes_are_right = appearance.smallest_px > 0 && appearance.largest_px >= appearance.smallest_px &&
@@ -91,7 +131,11 @@ SplatStyle make_splat_style(const Appearance& appearance, const CloudStatistics&
   splat_style.slope = statistics.density.total() > 0 ? appearance.density_slope * std::log10(std::exp(1.f)) : 0.f;
   splat_style.opacity = appearance.opacity;
   splat_style.least_opacity = appearance.least_opacity * appearance.opacity;
-  splat_style.size_rule = appearance.size_rule;
+  splat_style.look = appearance.look;
+  splat_style.size_rule = size_rule_of(appearance, statistics);
+  set_radii(splat_style, statistics);
+  if (statistics.count > 0 && statistics.mass > 0)
+    splat_style.mean_mass = static_cast<float>(statistics.mass / static_cast<double>(statistics.count));
   splat_style.smallest_px = appearance.smallest_px;
   splat_style.largest_px = appearance.largest_px;
   splat_style.colour_source = statistics.has_colour        ? ColourSource::own
@@ -99,7 +143,8 @@ SplatStyle make_splat_style(const Appearance& appearance, const CloudStatistics&
                                                            : ColourSource::density;
   splat_style.logarithmic = appearance.logarithmic || splat_style.colour_source == ColourSource::density;
   if (appearance.colour_map.empty()) {
-    fill_between(splat_style, appearance.cold, appearance.hot);
+    const UsualColours usual = usual_colours(appearance.look);
+    fill_between(splat_style, appearance.cold.value_or(usual.cold), appearance.hot.value_or(usual.hot));
   } else {
     fill_by_name(splat_style, appearance.colour_map);
   }

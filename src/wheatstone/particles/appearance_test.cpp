@@ -60,7 +60,7 @@ TEST(CloudStatistics, OfChunksIsThatOfTheWhole) {
 
 TEST(SplatStyle, SpreadsColoursFromColdToHot) {
   const CloudStatistics statistics = statistics_of(line(200));
-  const SplatStyle splat_style = make_splat_style({.cold = {0, 0, 255}, .hot = {255, 0, 0}}, statistics);
+  const SplatStyle splat_style = make_splat_style({.cold = Rgb8{0, 0, 255}, .hot = Rgb8{255, 0, 0}}, statistics);
   EXPECT_EQ(splat_style.colour_source, ColourSource::temperature);
   EXPECT_FLOAT_EQ(splat_style.blue.front(), 1);
   EXPECT_FLOAT_EQ(splat_style.red.back(), 1);

@@ -18,6 +18,8 @@ struct Cloud {
   std::vector<float> density;
   std::vector<float> temperature;  ///< kelvin in snapshots; any other scalar where the user names one
   std::vector<float> smoothing_length;
+  std::vector<float> mass;      ///< where there is none, each particle counts 1
+  std::vector<float> quantity;  ///< what the user named to be shown (CloudChoice::quantity)
   std::vector<Rgb8> colour;
   std::vector<float> presence;    ///< share of its light that a particle gives, 0..1; empty: all of it
   std::vector<std::uint64_t> id;  ///< in a simulation; only where motion was asked for
@@ -40,7 +42,7 @@ struct Cloud {
 template <class AnyCloud>
 auto columns_of(AnyCloud& cloud) {
   return std::tie(cloud.x, cloud.y, cloud.z, cloud.density, cloud.temperature, cloud.smoothing_length, cloud.colour,
-                  cloud.presence, cloud.id, cloud.rate_x, cloud.rate_y, cloud.rate_z);
+                  cloud.mass, cloud.quantity, cloud.presence, cloud.id, cloud.rate_x, cloud.rate_y, cloud.rate_z);
 }
 
 /// Calls `visit` with each column of one cloud and the same one of another.

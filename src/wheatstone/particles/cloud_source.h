@@ -21,6 +21,10 @@ struct CloudChoice {
   std::string density;      ///< name of the dataset or column
   std::string temperature;  ///< name of the dataset or column; any scalar
   std::string smoothing_length;  ///< name of the dataset or column
+  std::string mass;              ///< name of the dataset or column
+  /// Name of a dataset or column that becomes Cloud::quantity. Of a vector, its length; with "-x", "-y" or "-z" behind
+  /// the name, one component; "velocity" is a snapshot's velocity, whatever it calls it. Empty: none.
+  std::string quantity;
   /// What the positions are to be relative to (Cloud::origin), where it is known which part of the file is looked at;
   /// else it is chosen from the first particles.
   std::optional<std::array<double, 3>> origin;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace wheatstone {
 
@@ -26,24 +27,42 @@ float LogHistogram::percentile(double share) const {
   return 0;
 }
 
-void PositionSample::add(const Cloud& cloud) {
+double LogHistogram::sum_of_inverses() const {
+  double sum = 0;
+  for (std::size_t step = 0; step < counts_.size(); ++step)
+    if (counts_[step] > 0)
+      sum +=
+          static_cast<double>(counts_[step]) / std::bit_cast<float>(static_cast<std::uint32_t>(step) << 19 | 1u << 18);
+  return sum;
+}
+
+void ParticleSample::add(const Cloud& cloud) {
   constexpr std::size_t most = 1 << 17;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     // Multiples of the golden ratio spread evenly: a key's limit keeps a share of any stretch of the file.
     const auto key = static_cast<std::uint32_t>(seen_++ * 0x9E3779B97F4A7C15u >> 32);
     if (key > highest_key_) continue;
-    kept_.push_back({key, {cloud.x[i], cloud.y[i], cloud.z[i]}});
-    if (kept_.size() <= most) continue;
+    keys_.push_back(key);
+    for_each_column(kept_, cloud, [i](auto& to, const auto& from) {
+      if (!from.empty()) to.push_back(from[i]);
+    });
+    if (keys_.size() <= most) continue;
     highest_key_ /= 2;
-    std::erase_if(kept_, [this](const Kept& kept) { return kept.key > highest_key_; });
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      if (keys_[k] > highest_key_) continue;
+      for_each_column(kept_, kept_, [&](auto& to, const auto& /*same*/) {
+        if (!to.empty()) to[kept] = to[k];
+      });
+      keys_[kept++] = keys_[k];
+    }
+    keys_.resize(kept);
+    for_each_column(kept_, kept_, [&](auto& to, const auto& /*same*/) {
+      if (!to.empty()) to.resize(kept);
+    });
   }
-}
-
-std::array<std::vector<float>, 3> PositionSample::axes() const {
-  std::array<std::vector<float>, 3> axes;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (const Kept& kept : kept_) axes[axis].push_back(kept.at[axis]);
-  return axes;
+  kept_.origin = cloud.origin;
+  kept_.box_size = cloud.box_size;
 }
 
 void CloudStatistics::add(const Cloud& cloud) {
@@ -55,12 +74,16 @@ void CloudStatistics::add(const Cloud& cloud) {
     upper[axis] = count == 0 ? most : std::max(upper[axis], most);
   }
   if (cloud.size() > 0) origin = cloud.origin;
-  positions.add(cloud);
+  sample.add(cloud);
   count += cloud.size();
   density.add(cloud.density);
   temperature.add(cloud.temperature);
+  for (const float one : cloud.quantity) largest_quantity = std::max(largest_quantity, std::abs(one));
+  for (const float one : cloud.mass) mass += one;
+  if (cloud.mass.empty()) mass += static_cast<double>(cloud.size());
   has_density = has_density || !cloud.density.empty();
   has_temperature = has_temperature || !cloud.temperature.empty();
+  has_mass = has_mass || !cloud.mass.empty();
   has_colour = has_colour || !cloud.colour.empty();
   has_smoothing_length = has_smoothing_length || !cloud.smoothing_length.empty();
 }

@@ -17,6 +17,8 @@ class LogHistogram {
   std::uint64_t total() const { return total_; }
   /// The value below which the share, 0..1, of all lies, to within a step; 0 where there is none.
   float percentile(double share) const;
+  /// The sum of 1 over each value, to within a step.
+  double sum_of_inverses() const;
 
  private:
   static constexpr int steps_a_factor_of_two = 16;
@@ -24,19 +26,15 @@ class LogHistogram {
   std::uint64_t total_ = 0;
 };
 
-/// Positions of some particles, the same however they come in chunks: all, as long as they are few.
-class PositionSample {
+/// Some of the particles, the same however they come in chunks: all, as long as they are few.
+class ParticleSample {
  public:
   void add(const Cloud& cloud);
-  /// Their x, y and z.
-  std::array<std::vector<float>, 3> axes() const;
+  const Cloud& cloud() const { return kept_; }
 
  private:
-  struct Kept {
-    std::uint32_t key;
-    std::array<float, 3> at;
-  };
-  std::vector<Kept> kept_;
+  std::vector<std::uint32_t> keys_;
+  Cloud kept_;
   std::uint64_t seen_ = 0;
   std::uint32_t highest_key_ = 0xFFFFFFFF;
 };
@@ -46,10 +44,12 @@ struct CloudStatistics {
   std::uint64_t count = 0;
   std::array<double, 3> origin{};         ///< the cloud's
   std::array<float, 3> lower{}, upper{};  ///< bounds of the positions
-  PositionSample positions;
+  ParticleSample sample;
   std::optional<FramedRegion> framed;  ///< what the views are framed by; nothing: by the bounds
   LogHistogram density, temperature;
-  bool has_density = false, has_temperature = false, has_colour = false, has_smoothing_length = false;
+  double mass = 0;             ///< of all
+  float largest_quantity = 0;  ///< magnitude of what the user names
+  bool has_density = false, has_temperature = false, has_colour = false, has_smoothing_length = false, has_mass = false;
 
   void add(const Cloud& cloud);
   /// Of what the views are framed by; the radius is not 0.

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
+#include <span>
 
 #include "wheatstone/error.h"
 #include "wheatstone/particles/columns_internal.h"
@@ -95,6 +96,30 @@ bool has_decimal_commas(std::string_view line) {
   return found && fields >= 3;
 }
 
+QuantityName quantity_name(const std::string& text) {
+  const std::size_t length = text.size();
+  if (length < 3 || text[length - 2] != '-' || text[length - 1] < 'x' || text[length - 1] > 'z') return {text, -1};
+  return {text.substr(0, length - 2), text[length - 1] - 'x'};
+}
+
+void check_component(std::size_t width, const QuantityName& name, const std::string& file) {
+  if (name.component < 0 || static_cast<std::size_t>(name.component) < width) return;
+  throw Error(ErrorKind::bad_input, fmt::format("{}: {} has {} numbers per row, but component {} was requested", file,
+                                                name.base, width, "xyz"[name.component]));
+}
+
+void take_component(std::size_t width, int component, std::vector<float>& values) {
+  if (width == 1) return;
+  const std::size_t rows = values.size() / width;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const std::span<const float> row(values.data() + i * width, width);
+    float square = 0;
+    for (const float value : row) square += value * value;
+    values[i] = component >= 0 ? row[static_cast<std::size_t>(component)] : std::sqrt(square);
+  }
+  values.resize(rows);
+}
+
 ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names,
                              const CloudChoice& choice) {
   const std::vector<std::string_view> axes =
@@ -109,6 +134,8 @@ ChosenColumns choose_columns(const std::string& path, const std::vector<std::str
   chosen.density = columns.chosen(choice.density, {"density", "rho"});
   chosen.temperature = columns.chosen(choice.temperature, {"temperature", "temp", "t", "scalar", "intensity"});
   chosen.smoothing_length = columns.chosen(choice.smoothing_length, {"smoothing_length", "hsml", "h"});
+  chosen.mass = columns.chosen(choice.mass, {"mass", "masses"});
+  if (!choice.quantity.empty()) chosen.quantity = columns.required(choice.quantity);
   chosen.colour = {columns.chosen({}, {"red", "r"}), columns.chosen({}, {"green", "g"}),
                    columns.chosen({}, {"blue", "b"})};
   return chosen;

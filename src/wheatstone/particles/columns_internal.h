@@ -13,13 +13,27 @@ namespace wheatstone {
 /// Numbers of a table's columns, from 0; −1 for what the table does not have.
 struct ChosenColumns {
   std::array<int, 3> position{0, 1, 2};
-  int density = -1, temperature = -1, smoothing_length = -1;
+  int density = -1, temperature = -1, smoothing_length = -1, mass = -1, quantity = -1;
   std::array<int, 3> colour{-1, -1, -1};
 };
 
 /// The columns that the user named, and else those of the usual names: x, y, z; density or rho; and so on, in small
 /// letters or capitals. Throws Error{bad_input} with the file's name where a named one or the position is missing.
 ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names, const CloudChoice& choice);
+
+/// The name of a vector's dataset and the number of the component that a quantity asks for, "velocity-x": 0, 1 or 2; −1
+/// where it asks for none.
+struct QuantityName {
+  std::string base;
+  int component = -1;
+};
+QuantityName quantity_name(const std::string& text);
+
+/// Throws Error{bad_input} where rows of `width` numbers do not have the component that is asked for.
+void check_component(std::size_t width, const QuantityName& name, const std::string& file);
+
+/// Rows of `width` numbers become one number each: a component, or with −1 their length; a single number stays itself.
+void take_component(std::size_t width, int component, std::vector<float>& values);
 
 /// A name in small letters.
 std::string lower_case(std::string name);

@@ -79,6 +79,8 @@ struct Reading {
     put(chosen.density, rows.others.density);
     put(chosen.temperature, rows.others.temperature);
     put(chosen.smoothing_length, rows.others.smoothing_length);
+    put(chosen.mass, rows.others.mass);
+    put(chosen.quantity, rows.others.quantity);
     at += some;
     return rows;
   }
@@ -186,7 +188,8 @@ CloudSource open_table(const std::shared_ptr<Reading>& reading, const CloudChoic
   };
   if (vector < 0)
     for (const int column : table.chosen.position) check(column);
-  for (const int column : {table.chosen.density, table.chosen.temperature, table.chosen.smoothing_length})
+  for (const int column : {table.chosen.density, table.chosen.temperature, table.chosen.smoothing_length,
+                           table.chosen.mass, table.chosen.quantity})
     check(column);
   LONGLONG rows = 0;
   LONGLONG bytes = 0;
@@ -209,7 +212,8 @@ CloudSource open_table(const std::shared_ptr<Reading>& reading, const CloudChoic
 }
 
 CloudSource open_image(const std::shared_ptr<Reading>& reading, const CloudChoice& choice) {
-  for (const std::string& wanted : {choice.position, choice.density, choice.temperature, choice.smoothing_length})
+  for (const std::string& wanted :
+       {choice.position, choice.density, choice.temperature, choice.smoothing_length, choice.mass, choice.quantity})
     if (!wanted.empty())
       refuse(reading->path, fmt::format("is an image, which has no columns, but '{}' was requested", wanted));
   reading->count = 1;

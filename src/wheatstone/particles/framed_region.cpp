@@ -10,6 +10,11 @@
 namespace wheatstone {
 namespace {
 
+std::array<std::vector<float>, 3> sampled_axes(const CloudStatistics& statistics) {
+  const Cloud& sample = statistics.sample.cloud();
+  return {sample.x, sample.y, sample.z};
+}
+
 /// The bounds along each axis without so many values at either end.
 FramedRegion trimmed(const std::array<std::vector<float>, 3>& axes, std::size_t ends) {
   FramedRegion region;
@@ -52,7 +57,7 @@ FramedRegion usual_region(const CloudStatistics& statistics) {
   constexpr std::size_t too_few = 10;
   constexpr double share = 0.998;
   constexpr float far_out = 2;
-  const std::array<std::vector<float>, 3> axes = statistics.positions.axes();
+  const std::array<std::vector<float>, 3> axes = sampled_axes(statistics);
   if (axes[0].size() < too_few) return all;
   const FramedRegion most = trimmed(axes, std::max<std::size_t>(ends_of(share, axes[0].size()), 1));
   if (most.lower == most.upper || all.radius() <= far_out * most.radius()) return all;
@@ -79,7 +84,7 @@ FramedRegion framed_region(const CloudStatistics& statistics, const Fit& fit) {
   };
   if (fit.index() == 0) return usual_region(statistics);
   if (const FitShare* share = std::get_if<FitShare>(&fit)) {
-    const std::array<std::vector<float>, 3> axes = statistics.positions.axes();
+    const std::array<std::vector<float>, 3> axes = sampled_axes(statistics);
     const std::size_t ends = ends_of(share->share, axes[0].size());
     if (ends > 0) return trimmed(axes, ends);
   } else if (const Sphere* sphere = std::get_if<Sphere>(&fit)) {

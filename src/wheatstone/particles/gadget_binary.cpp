@@ -1,6 +1,7 @@
 // GADGET's own binary snapshots, formats 1 and 2: Fortran records, each between two markers that say its length.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,8 +11,10 @@
 #include <fstream>
 #include <memory>
 #include <numeric>
+#include <ranges>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/gas_temperature.h"
 #include "wheatstone/particles/particle_rows_internal.h"
@@ -184,6 +187,7 @@ std::vector<double> read_numbers(const BinaryPart& part, std::ifstream& file, co
 struct BinaryReading {
   std::vector<BinaryPart> parts;
   std::size_t type = 0;
+  QuantityName quantity;
   std::size_t part = 0;
   std::uint64_t at = 0;
   std::ifstream file;
@@ -210,6 +214,8 @@ struct BinaryReading {
     std::uint64_t before = at;
     for (std::size_t lower = 0; lower < type; ++lower) before += here.count[lower];
     put_positions(read_numbers(here, file, {*here.find("POS"), here.all(), 3}, before, count), 3, rows);
+    put_mass(here, count, cloud);
+    put_quantity(here, count, before, cloud);
     if (type != 0) return rows;
     const auto gas = [&](const char* name) {
       const Block* block = here.find(name);
@@ -221,6 +227,39 @@ struct BinaryReading {
     cloud.density = gas("RHO");
     cloud.smoothing_length = gas("HSML");
     return rows;
+  }
+
+  /// Masses stand in their record only for the types to which the header gives none.
+  void put_mass(const BinaryPart& here, std::size_t count, Cloud& cloud) {
+    if (here.mass[type] > 0) {
+      cloud.mass.assign(count, in_single_precision(here.mass[type]));
+      return;
+    }
+    std::uint64_t particles = 0;
+    std::uint64_t before = at;
+    for (std::size_t other = 0; other < types; ++other) {
+      if (here.mass[other] > 0) continue;
+      if (other < type) before += here.count[other];
+      particles += here.count[other];
+    }
+    if (const Block* block = here.find("MASS"))
+      cloud.mass = in_single_precision(read_numbers(here, file, {*block, particles, 1}, before, count));
+  }
+
+  /// A record of all particles, or of the gas. `before` is the number of the first particle among all.
+  void put_quantity(const BinaryPart& here, std::size_t count, std::uint64_t before, Cloud& cloud) {
+    if (quantity.base.empty()) return;
+    const Block* block = here.find(quantity.base);
+    if (block == nullptr)
+      refuse(here, fmt::format("has no record '{}', but {}", quantity.base,
+                               fmt::join(here.blocks | std::views::transform(&Block::name), ", ")));
+    const bool velocity = quantity.base == "VEL";
+    const bool of_all = velocity || quantity.base == "ID" || quantity.base == "POT" || quantity.base == "POS";
+    const std::size_t width = velocity || quantity.base == "POS" ? 3 : 1;
+    if (!of_all && type != 0) refuse(here, fmt::format("its record {} is of the gas only", quantity.base));
+    const Column column{*block, of_all ? here.all() : here.count[0], width};
+    cloud.quantity = in_single_precision(read_numbers(here, file, column, of_all ? before : at, count));
+    take_component(width, quantity.component, cloud.quantity);
   }
 };
 
@@ -237,12 +276,15 @@ bool looks_like_gadget_binary(std::string_view first_bytes) {
 }
 
 CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudChoice& choice) {
-  for (const std::string& wanted : {choice.position, choice.density, choice.temperature, choice.smoothing_length})
+  for (const std::string& wanted :
+       {choice.position, choice.density, choice.temperature, choice.smoothing_length, choice.mass})
     if (!wanted.empty())
       throw Error(ErrorKind::wrong_usage,
                   fmt::format("{}: the fields of a GADGET binary file have no names, but '{}' was requested",
                               path.string(), wanted));
   auto reading = std::make_shared<BinaryReading>();
+  reading->quantity = quantity_name(choice.quantity);
+  if (reading->quantity.base == "velocity") reading->quantity.base = "VEL";
   reading->type = static_cast<std::size_t>(snapshot_type(choice.type));
   const BinaryPart first = open_part(path);
   CloudSource source{.format = first.labelled ? "GADGET binary 2" : "GADGET binary 1",

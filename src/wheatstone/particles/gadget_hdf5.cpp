@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/gas_temperature.h"
 #include "wheatstone/particles/hdf5_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
@@ -29,9 +30,11 @@ struct Part {
   std::string path;
   Hdf5Handle file, group;
   hsize_t count = 0;
-  Hdf5Column position, density, temperature, energy, electrons, smoothing_length, volume, mass;
+  Hdf5Column position, density, temperature, energy, electrons, smoothing_length, volume, mass, quantity;
   Hdf5Column id, velocity;
   double rate_of_velocity = 1;
+  int component = -1;       // of the quantity, where it is a vector
+  double mass_of_each = 0;  // where the header says it
 };
 
 double box_size_of(hid_t file) {
@@ -39,6 +42,15 @@ double box_size_of(hid_t file) {
   const Hdf5Handle header(H5Gopen2(file, "Header", H5P_DEFAULT), H5Gclose);
   const double size = hdf5_number(header, "BoxSize").value_or(0);
   return std::isfinite(size) && size > 0 ? size : 0;
+}
+
+/// The mass that the header gives to every particle of a type; 0 where they have their own.
+double header_mass(hid_t file, int type) {
+  if (!hdf5_has(file, "Header")) return 0;
+  const Hdf5Handle header(H5Gopen2(file, "Header", H5P_DEFAULT), H5Gclose);
+  const std::vector<double> masses = hdf5_numbers(header, "MassTable");
+  const auto entry = static_cast<std::size_t>(type);
+  return entry < masses.size() && std::isfinite(masses[entry]) && masses[entry] > 0 ? masses[entry] : 0;
 }
 
 std::string refuse_missing(const Part& part, const std::string& name) {
@@ -71,6 +83,18 @@ void find_motion(Part& part) {
   part.rate_of_velocity = snapshot_time(part.file, part.group).rate_of_velocity;
 }
 
+/// The dataset that the user wants to be shown.
+void open_quantity(Part& part, const std::string& wanted) {
+  if (wanted.empty()) return;
+  QuantityName name{wanted, -1};
+  if (!hdf5_has(part.group, wanted)) name = quantity_name(wanted);
+  if (name.base == "velocity" && !hdf5_has(part.group, name.base))
+    name.base = first_of(part.group, {"Velocities", "Velocity"});
+  part.quantity = find_column(part, name.base.empty() ? wanted : name.base, {});
+  part.component = name.component;
+  check_component(part.quantity.width, name, part.path);
+}
+
 Part open_part(const std::filesystem::path& path, int type, const CloudChoice& choice) {
   Part part;
   part.path = path.string();
@@ -90,10 +114,10 @@ Part open_part(const std::filesystem::path& path, int type, const CloudChoice& c
   if (!part.temperature.dataset) part.energy = find_column(part, {}, {"InternalEnergy", "InternalEnergies"});
   part.electrons = find_column(part, {}, {"ElectronAbundance"});
   part.smoothing_length = find_column(part, choice.smoothing_length, {"SmoothingLength", "SmoothingLengths"});
-  if (!part.smoothing_length.dataset) {
-    part.volume = find_column(part, {}, {"Volume"});  // AREPO's cells
-    part.mass = find_column(part, {}, {"Masses"});
-  }
+  if (!part.smoothing_length.dataset) part.volume = find_column(part, {}, {"Volume"});  // AREPO's cells
+  part.mass = find_column(part, choice.mass, {"Masses", "Mass"});
+  if (!part.mass.dataset) part.mass_of_each = header_mass(part.file, type);
+  open_quantity(part, choice.quantity);
   if (choice.motion) find_motion(part);
   return part;
 }
@@ -102,13 +126,7 @@ Part open_part(const std::filesystem::path& path, int type, const CloudChoice& c
 void put_scalars(const Part& part, const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<float>& to) {
   if (!column.dataset) return;
   read_rows(column, first, count, to, part.path);
-  if (column.width == 1) return;
-  for (hsize_t i = 0; i < count; ++i) {
-    float square = 0;
-    for (hsize_t k = 0; k < column.width; ++k) square += to[i * column.width + k] * to[i * column.width + k];
-    to[i] = std::sqrt(square);
-  }
-  to.resize(count);
+  take_component(column.width, -1, to);
 }
 
 void put_temperature(const Part& part, hsize_t first, hsize_t count, Cloud& cloud) {
@@ -128,11 +146,9 @@ void put_smoothing_length(const Part& part, hsize_t first, hsize_t count, Cloud&
   put_scalars(part, part.volume, first, count, volume);
   if (!part.smoothing_length.dataset && !volume.empty()) {
     for (const float cell : volume) cloud.smoothing_length.push_back(std::cbrt(cell));
-  } else if (!part.smoothing_length.dataset && part.mass.dataset && !cloud.density.empty()) {
-    std::vector<float> mass;
-    put_scalars(part, part.mass, first, count, mass);
-    for (std::size_t i = 0; i < mass.size(); ++i)
-      cloud.smoothing_length.push_back(std::cbrt(mass[i] / cloud.density[i]));
+  } else if (!part.smoothing_length.dataset && !cloud.mass.empty() && !cloud.density.empty()) {
+    for (std::size_t i = 0; i < cloud.mass.size(); ++i)
+      cloud.smoothing_length.push_back(std::cbrt(cloud.mass[i] / cloud.density[i]));
   }
 }
 
@@ -149,6 +165,15 @@ void put_motion(const Part& part, hsize_t first, hsize_t count, Cloud& cloud) {
   }
 }
 
+/// Masses, and what the user wants to be shown.
+void put_mass_and_quantity(const Part& part, hsize_t first, hsize_t count, Cloud& cloud) {
+  put_scalars(part, part.mass, first, count, cloud.mass);
+  if (part.mass_of_each > 0) cloud.mass.assign(count, in_single_precision(part.mass_of_each));
+  if (!part.quantity.dataset) return;
+  read_rows(part.quantity, first, count, cloud.quantity, part.path);
+  take_component(part.quantity.width, part.component, cloud.quantity);
+}
+
 ParticleRows read_part(const Part& part, hsize_t first, hsize_t count) {
   ParticleRows rows;
   std::vector<double> positions;
@@ -157,6 +182,7 @@ ParticleRows read_part(const Part& part, hsize_t first, hsize_t count) {
   Cloud& cloud = rows.others;
   put_scalars(part, part.density, first, count, cloud.density);
   put_temperature(part, first, count, cloud);
+  put_mass_and_quantity(part, first, count, cloud);
   put_smoothing_length(part, first, count, cloud);
   put_motion(part, first, count, cloud);
   return rows;

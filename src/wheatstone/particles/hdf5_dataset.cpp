@@ -21,7 +21,8 @@ struct Datasets {
   std::string path;
   Hdf5Handle file;
   std::vector<Hdf5Column> position;  // one of three numbers a row, or three of one
-  Hdf5Column density, temperature, smoothing_length;
+  Hdf5Column density, temperature, smoothing_length, mass, quantity;
+  int component = -1;  // of the quantity, where it is a vector
   hsize_t count = 0;
 };
 
@@ -96,12 +97,20 @@ Hdf5Column open_named(const Datasets& datasets, const std::string& name) {
   return column;
 }
 
+/// The first number of each row.
 std::vector<float> read_scalars(const Datasets& datasets, const Hdf5Column& column, hsize_t first, hsize_t count) {
   std::vector<float> values;
   if (!column.dataset) return values;
   read_rows(column, first, count, values, datasets.path);
-  for (hsize_t i = 1; column.width > 1 && i < count; ++i) values[i] = values[i * column.width];
-  values.resize(count);
+  take_component(column.width, 0, values);
+  return values;
+}
+
+std::vector<float> read_quantity(const Datasets& datasets, hsize_t first, hsize_t count) {
+  std::vector<float> values;
+  if (!datasets.quantity.dataset) return values;
+  read_rows(datasets.quantity, first, count, values, datasets.path);
+  take_component(datasets.quantity.width, datasets.component, values);
   return values;
 }
 
@@ -149,6 +158,13 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
   datasets->density = open_named(*datasets, choice.density);
   datasets->temperature = open_named(*datasets, choice.temperature);
   datasets->smoothing_length = open_named(*datasets, choice.smoothing_length);
+  datasets->mass = open_named(*datasets, choice.mass);
+  // A dataset may have such a name itself.
+  const bool as_named = choice.quantity.empty() || hdf5_has(datasets->file, choice.quantity);
+  const QuantityName quantity = as_named ? QuantityName{choice.quantity, -1} : quantity_name(choice.quantity);
+  datasets->quantity = open_named(*datasets, quantity.base);
+  datasets->component = quantity.component;
+  check_component(datasets->quantity.width, quantity, datasets->path);
   if (datasets->count == 0)
     throw Error(ErrorKind::bad_input, fmt::format("{}: {} has no rows", path.string(), position));
 
@@ -163,6 +179,8 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
     cloud.density = read_scalars(*datasets, datasets->density, at, count);
     cloud.temperature = read_scalars(*datasets, datasets->temperature, at, count);
     cloud.smoothing_length = read_scalars(*datasets, datasets->smoothing_length, at, count);
+    cloud.mass = read_scalars(*datasets, datasets->mass, at, count);
+    cloud.quantity = read_quantity(*datasets, at, count);
     at += count;
     return rows;
   };

@@ -217,6 +217,38 @@ TEST(GadgetHdf5, RowsThatTheFileCannotHoldAreRefused) {
                [&] { read_cloud(folder / "claims.hdf5"); });
 }
 
+TEST(GadgetHdf5, ReadsMassesAndWhatIsToBeShown) {
+  const TemporaryFolder folder;
+  for (const bool in_header : {false, true}) {
+    Hdf5Writer file(folder / (in_header ? "table.hdf5" : "own.hdf5"));
+    file.group("Header");
+    if (in_header) file.attribute("Header", "MassTable", {2.5, 0});
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
+    file.dataset("PartType0/Velocities", {3, 0, 4, -1, 0, 0}, 3);
+    file.dataset("PartType0/Metallicity", {0.5f, 0.25f});
+    if (!in_header) file.dataset("PartType0/Masses", {1, 7});
+  }
+  EXPECT_THAT(read_cloud(folder / "table.hdf5").mass, ElementsAre(2.5f, 2.5f));
+  EXPECT_THAT(read_cloud(folder / "own.hdf5").mass, ElementsAre(1, 7));
+  const auto shown = [&](const std::string& name) {
+    return read_cloud(folder / "own.hdf5", {.quantity = name}).quantity;
+  };
+  EXPECT_THAT(shown("velocity-x"), ElementsAre(3, -1));
+  EXPECT_THAT(shown("Velocities-z"), ElementsAre(4, 0));
+  EXPECT_THAT(shown("velocity"), ElementsAre(5, 1));
+  EXPECT_THAT(shown("Metallicity"), ElementsAre(0.5f, 0.25f));
+  expect_error(ErrorKind::bad_input, "'Spin' for these particles, but Coordinates, Masses, Metallicity, Velocities",
+               [&] { shown("Spin"); });
+  expect_error(ErrorKind::bad_input, "Metallicity has 1 numbers per row, but component y",
+               [&] { shown("Metallicity-y"); });
+  const Cloud generic = read_cloud(
+      folder / "own.hdf5",
+      {.position = "/PartType0/Coordinates", .mass = "/PartType0/Masses", .quantity = "/PartType0/Velocities-x"});
+  EXPECT_THAT(generic.mass, ElementsAre(1, 7));
+  EXPECT_THAT(generic.quantity, ElementsAre(3, -1));
+}
+
 TEST(GadgetHdf5, NamesWhatIsMissingAndWhatThereIs) {
   const TemporaryFolder folder;
   write_snapshot(folder / "snap.hdf5", 2);

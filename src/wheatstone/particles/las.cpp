@@ -89,10 +89,13 @@ CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choic
   }
   const RecordField intensity{.at = 12, .type = NumberType::u16};
   std::vector<std::string> fields{"x", "y", "z", "intensity"};
-  for (const std::string& wanted : {choice.density, choice.temperature, choice.smoothing_length})
+  for (const std::string& wanted :
+       {choice.density, choice.temperature, choice.smoothing_length, choice.mass, choice.quantity})
     if (!wanted.empty() && wanted != "intensity")
       throw Error(ErrorKind::bad_input, fmt::format("{}: has no field '{}', but x, y, z, intensity", name, wanted));
   if (!choice.density.empty()) layout.density = intensity;
+  if (!choice.mass.empty()) layout.mass = intensity;
+  if (!choice.quantity.empty()) layout.quantity = intensity;
   layout.temperature = intensity;
   if (colour_at[format] >= 0 && choice.temperature.empty()) {
     const auto at = static_cast<std::size_t>(colour_at[format]);

@@ -45,6 +45,8 @@ CloudSource open_rows(RecordLayout layout, const NpyElement& element, std::uint6
   if (const auto column = column_given(choice.temperature, columns, name)) layout.temperature = field(*column);
   if (const auto column = column_given(choice.smoothing_length, columns, name))
     layout.smoothing_length = field(*column);
+  if (const auto column = column_given(choice.mass, columns, name)) layout.mass = field(*column);
+  if (const auto column = column_given(choice.quantity, columns, name)) layout.quantity = field(*column);
   std::vector<std::string> fields;
   for (std::uint64_t column = 0; column < columns; ++column) fields.push_back(std::to_string(column));
   return open_records(layout, "NumPy", std::move(fields), choice);
@@ -58,6 +60,8 @@ CloudSource open_structures(RecordLayout layout, const NpyElement& element, cons
   if (chosen.density >= 0) layout.density = element.fields[chosen.density];
   if (chosen.temperature >= 0) layout.temperature = element.fields[chosen.temperature];
   if (chosen.smoothing_length >= 0) layout.smoothing_length = element.fields[chosen.smoothing_length];
+  if (chosen.mass >= 0) layout.mass = element.fields[chosen.mass];
+  if (chosen.quantity >= 0) layout.quantity = element.fields[chosen.quantity];
   if (std::ranges::min(chosen.colour) >= 0)
     layout.colour = {element.fields[chosen.colour[0]], element.fields[chosen.colour[1]],
                      element.fields[chosen.colour[2]]};

@@ -148,7 +148,7 @@ struct Reading {
   std::uint64_t count = 0;
   std::uint64_t at = 0;
   std::vector<Numbers> position;  // of rows, or three of columns
-  std::vector<Numbers> density, temperature, smoothing_length;
+  std::vector<Numbers> density, temperature, smoothing_length, mass, quantity;
 
   ParticleRows next(std::size_t most) {
     ParticleRows rows;
@@ -164,6 +164,8 @@ struct Reading {
     if (!density.empty()) rows.others.density = in_single_precision(density[0].next(some));
     if (!temperature.empty()) rows.others.temperature = in_single_precision(temperature[0].next(some));
     if (!smoothing_length.empty()) rows.others.smoothing_length = in_single_precision(smoothing_length[0].next(some));
+    if (!mass.empty()) rows.others.mass = in_single_precision(mass[0].next(some));
+    if (!quantity.empty()) rows.others.quantity = in_single_precision(quantity[0].next(some));
     at += some;
     return rows;
   }
@@ -244,6 +246,8 @@ CloudSource open_npz(const std::filesystem::path& path, const CloudChoice& choic
   open_scalars(*reading, choice.density, {"density", "rho"}, reading->density);
   open_scalars(*reading, choice.temperature, {"temperature", "temp"}, reading->temperature);
   open_scalars(*reading, choice.smoothing_length, {"smoothing_length", "hsml"}, reading->smoothing_length);
+  open_scalars(*reading, choice.mass, {"mass", "masses"}, reading->mass);
+  open_scalars(*reading, choice.quantity, {}, reading->quantity);
   CloudSource source{.format = "NumPy archive", .count = reading->count};
   for (const Array& array : reading->arrays.all) source.fields.push_back(array.name);
   source.bytes = std::filesystem::file_size(path);

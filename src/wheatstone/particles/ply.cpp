@@ -130,6 +130,8 @@ RecordLayout layout_of(const std::filesystem::path& path, const PlyHeader& heade
   layout.density = finder.find(choice.density, {"density"});
   layout.temperature = finder.find(choice.temperature, {"temperature", "scalar", "intensity", "scalar_Intensity"});
   layout.smoothing_length = finder.find(choice.smoothing_length, {"smoothing_length"});
+  layout.mass = finder.find(choice.mass, {"mass"});
+  if (!choice.quantity.empty()) layout.quantity = finder.find(choice.quantity, {});
   std::array<std::optional<RecordField>, 3> colour{finder.find({"red", "r", "diffuse_red"}),
                                                    finder.find({"green", "g", "diffuse_green"}),
                                                    finder.find({"blue", "b", "diffuse_blue"})};
@@ -164,6 +166,8 @@ struct AsciiVertices {
     if (layout.temperature) cloud.temperature.push_back(in_single_precision(value(row, *layout.temperature)));
     if (layout.smoothing_length)
       cloud.smoothing_length.push_back(in_single_precision(value(row, *layout.smoothing_length)));
+    if (layout.mass) cloud.mass.push_back(in_single_precision(value(row, *layout.mass)));
+    if (layout.quantity) cloud.quantity.push_back(in_single_precision(value(row, *layout.quantity)));
     if (layout.colour) {
       const auto byte = [&](std::size_t channel) {
         return static_cast<std::uint8_t>(std::clamp(value(row, (*layout.colour)[channel]), 0., 255.));
@@ -192,7 +196,7 @@ CloudSource open_ascii(const std::filesystem::path& path, const PlyHeader& heade
     field.at = static_cast<std::size_t>(found - finder.fields().begin());
   };
   for (RecordField& field : layout.position) number_of(field);
-  for (auto* field : {&layout.density, &layout.temperature, &layout.smoothing_length})
+  for (auto* field : {&layout.density, &layout.temperature, &layout.smoothing_length, &layout.mass, &layout.quantity})
     if (*field) number_of(**field);
   if (layout.colour)
     for (RecordField& field : *layout.colour) number_of(field);

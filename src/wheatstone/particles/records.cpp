@@ -94,6 +94,8 @@ ParticleRows rows_of(const Chunk& chunk) {
   chunk.put(layout.density, cloud.density);
   chunk.put(layout.temperature, cloud.temperature);
   chunk.put(layout.smoothing_length, cloud.smoothing_length);
+  chunk.put(layout.mass, cloud.mass);
+  chunk.put(layout.quantity, cloud.quantity);
   if (layout.colour) {
     const auto byte = [&](const RecordField& field, std::size_t i) {
       const double value = chunk.value(field, i);
@@ -123,7 +125,8 @@ std::size_t columns_of(const RecordLayout& layout) {
   std::size_t most = 0;
   const auto note = [&](const RecordField& field) { most = std::max(most, field.at + 1); };
   for (const RecordField& field : layout.position) note(field);
-  for (const auto* field : {&layout.density, &layout.temperature, &layout.smoothing_length})
+  for (const auto* field :
+       {&layout.density, &layout.temperature, &layout.smoothing_length, &layout.mass, &layout.quantity})
     if (*field) note(**field);
   return most;
 }

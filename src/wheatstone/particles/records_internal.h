@@ -35,7 +35,7 @@ struct RecordLayout {
   bool swapped = false;            ///< the other byte order than this machine's
   std::uint64_t column_bytes = 0;  ///< not 0: columns of so many bytes each; a field's `at` is its column's number
   std::array<RecordField, 3> position;
-  std::optional<RecordField> density, temperature, smoothing_length;
+  std::optional<RecordField> density, temperature, smoothing_length, mass, quantity;
   std::optional<std::array<RecordField, 3>> colour;  ///< 0..255 after scaling
 };
 

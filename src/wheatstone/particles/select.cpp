@@ -49,6 +49,12 @@ void mend(std::vector<float>& column, SelectionCounts& counts) {
   }
 }
 
+/// Whether a particle's mass is a number of at least 0, and what is to be shown of it a number.
+bool counts_for_something(const Cloud& cloud, std::size_t i) {
+  if (!cloud.mass.empty() && !(cloud.mass[i] >= 0 && std::isfinite(cloud.mass[i]))) return false;
+  return cloud.quantity.empty() || std::isfinite(cloud.quantity[i]);
+}
+
 template <class Value>
 void keep(std::vector<Value>& column, const std::vector<std::uint32_t>& kept) {
   if (column.empty()) return;
@@ -68,6 +74,10 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
       ++counts.dropped;
       continue;
     }
+    if (!counts_for_something(cloud, i)) {
+      ++counts.weightless;
+      continue;
+    }
     if (selection.every > 1 && (first + i) % selection.every != 0) continue;
     if (selection.cut.index() != 0 &&
         !inside(selection.cut,
@@ -80,6 +90,9 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
   }
   mend(cloud.density, counts);
   mend(cloud.temperature, counts);
+  // Without a length a particle is a point.
+  for (float& length : cloud.smoothing_length)
+    if (!(length >= 0 && std::isfinite(length))) length = 0;
   return counts;
 }
 

@@ -27,9 +27,10 @@ struct Selection {
 
 /// What was left out, or put right.
 struct SelectionCounts {
-  std::uint64_t dropped = 0;  ///< without a finite position
-  std::uint64_t mended = 0;   ///< with a density or temperature that is not above 0: it got the smallest number
-  std::uint64_t extreme = 0;  ///< densities and temperatures too large or too small for single precision
+  std::uint64_t dropped = 0;     ///< without a finite position
+  std::uint64_t weightless = 0;  ///< left out: their mass is no number or below 0, or what is to be shown is no number
+  std::uint64_t mended = 0;      ///< with a density or temperature that is not above 0: it got the smallest number
+  std::uint64_t extreme = 0;     ///< densities and temperatures too large or too small for single precision
 };
 
 /// Keeps what the selection asks for, in place and in order. `first` is the index of the cloud's first particle in its

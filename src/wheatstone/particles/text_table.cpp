@@ -133,6 +133,8 @@ void add_row(const Table& table, const std::vector<double>& row, ParticleRows& r
   put(chosen.density, rows.others.density);
   put(chosen.temperature, rows.others.temperature);
   put(chosen.smoothing_length, rows.others.smoothing_length);
+  put(chosen.mass, rows.others.mass);
+  put(chosen.quantity, rows.others.quantity);
   if (std::ranges::min(chosen.colour) >= 0) rows.others.colour.push_back(colour_of(row, chosen.colour));
 }
 

@@ -7,6 +7,7 @@
 #include "throws_error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/particles/select.h"
 
 namespace wheatstone {
 namespace {
@@ -122,6 +123,20 @@ TEST(TextTable, NumbersBeyondDoublePrecisionAreNamed) {
                [&] { read_cloud(folder / "a.csv"); });
   write_whole_file(folder / "a.csv", "1,2,3\n1e-400,2,inf\n");
   EXPECT_THAT(read_cloud(folder / "a.csv").x, ElementsAre(1, 0));
+}
+
+TEST(Text, ReadsMassesAndWhatIsToBeShown) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.csv", "x,y,z,mass,metals\n1,2,3,4,0.5\n4,5,6,nan,0.25\n7,8,9,2,nan\n");
+  Cloud cloud = read_cloud(folder / "a.csv", {.quantity = "metals"});
+  EXPECT_EQ(cloud.mass[0], 4);
+  EXPECT_EQ(cloud.quantity[1], 0.25f);
+  // What has no mass, or nothing to show, is left out and counted.
+  const SelectionCounts counts = select_particles(cloud, {});
+  EXPECT_EQ(counts.weightless, 2u);
+  EXPECT_EQ(cloud.size(), 1u);
+  expect_error(ErrorKind::bad_input, "no column 'age', but x, y, z, mass, metals",
+               [&] { read_cloud(folder / "a.csv", {.quantity = "age"}); });
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "multiview/baseline/splat.h"
+
+namespace wheatstone::baseline {
+
+/// Light on a band of scan lines, red, green, blue and nothing for each pixel, with a margin on either side into which
+/// splats may spill. Four pixels are a cache line.
+class LightBand {
+ public:
+  static constexpr int margin = 48;  ///< the widest splat, and a vector
+  static constexpr std::ptrdiff_t channels = 4;
+
+  LightBand() = default;
+  /// Bands that are written in turn lie at different places within a page (see `friendly`). `number` tells them apart.
+  LightBand(int left, int right, int rows, int number = 0)
+      : left_(left),
+        right_(right),
+        rows_(rows),
+        lines_a_row_(friendly((right - left + 2 * margin + 3) / 4)),
+        first_line_(number % 8 * 8 + number % 2 * 4),
+        lines_(static_cast<std::size_t>(lines_a_row_) * rows + first_line_) {}
+
+  int left() const { return left_; }
+  int right() const { return right_; }
+  int rows() const { return rows_; }
+  int width_with_margins() const { return lines_a_row_ * 4; }                               ///< a multiple of 16
+  std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(lines_a_row_) * 16; }  ///< floats a row
+  /// Column `left()` of a row; columns from −margin to width + margin may be written. Aligned as cache lines are.
+  float* row(int row) {
+    return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values + margin * channels;
+  }
+  const float* row(int row) const { return const_cast<LightBand*>(this)->row(row); }
+  void darken() {
+    if (lit_) std::ranges::fill(lines_, Line{});
+    lit_ = false;
+  }
+  /// Whether anything was drawn since it was dark; who draws says so.
+  bool lit() const { return lit_; }
+  void note_light() { lit_ = true; }
+
+ private:
+  /// A processor takes a load for one that depends on a store 4096 bytes away. Rows that are an odd multiple of 512
+  /// bytes long lie farthest apart in that sense: eight rows of a wide splat do not touch each other.
+  static constexpr int friendly(int lines) { return (lines + 7) / 16 * 16 + 8; }
+
+  struct alignas(64) Line {
+    float values[16] = {};
+  };
+  int left_ = 0, right_ = 0, rows_ = 0;
+  int lines_a_row_ = 0;
+  std::size_t first_line_ = 0;
+  std::vector<Line> lines_;
+  bool lit_ = false;
+};
+
+/// Adds splats to a band whose first row is `top` in the picture.
+void deposit(std::span<const Splat> splats, int top, LightBand& band);
+
+}  // namespace wheatstone::baseline

@@ -1,0 +1,126 @@
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "multiview/baseline/splat.h"
+#include "wheatstone/image/srgb.h"
+
+namespace wheatstone::baseline {
+namespace {
+
+// A block's splats, twice, and its bins' ends fit in a second-level cache.
+constexpr std::size_t block_particles = 32768;
+// The widest vector's worth: blocks are at least as long, so that none is read beyond.
+constexpr std::size_t most_lanes = 16;
+
+void take_own_colours(const Cloud& cloud, ProjectedBlock& block) {
+  for (std::size_t i = 0; i < block.count; ++i) {
+    const Rgb8 colour = cloud.colour[block.first + i];
+    block.red[i] = linear_from_srgb(colour.r);
+    block.green[i] = linear_from_srgb(colour.g);
+    block.blue[i] = linear_from_srgb(colour.b);
+  }
+}
+
+void begin_block(std::size_t first, std::size_t count, bool own_colours, ProjectedBlock& block) {
+  block.first = first;
+  block.count = count;
+  block.splats.resize(count);
+  block.bin.resize(count);
+  block.next_bin.resize(count);
+  if (!own_colours) return;
+  block.red.resize(count);
+  block.green.resize(count);
+  block.blue.resize(count);
+}
+
+/// Counts, then moves each splat to its bin; one that reaches into a second band goes there too.
+void sort_into_bins(const ProjectedBlock& projected, std::size_t bins, SplatBlock& block) {
+  const std::size_t count = projected.count;
+  block.begin.assign(bins + 2, 0);
+  std::uint32_t* const ends = block.begin.data() + 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    ++ends[projected.bin[i]];
+    ends[projected.next_bin[i]] += projected.next_bin[i] != projected.bin[i];
+  }
+  std::uint32_t total = 0;
+  for (std::size_t bin = 0; bin <= bins; ++bin) {
+    const std::uint32_t here = ends[bin];
+    ends[bin] = total;
+    total += here;
+  }
+  block.splats.resize(total);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t bin = projected.bin[i];
+    const std::uint32_t next = projected.next_bin[i];
+    const bool in_two = next != bin;
+    const std::uint32_t at = ends[bin]++;
+    block.splats[at] = projected.splats[i];
+    // Written in any case, over itself if need be: no branch to guess wrong.
+    block.splats[in_two ? ends[next] : at] = projected.splats[i];
+    ends[next] += in_two;
+  }
+}
+
+/// A small cloud, made as long as a vector with particles that nobody sees.
+Cloud filled_up(const Cloud& cloud) {
+  Cloud full = cloud;
+  const std::size_t length = most_lanes;
+  for (std::vector<float>* column : {&full.x, &full.y, &full.z}) column->resize(length, std::nanf(""));
+  for (std::vector<float>* column : {&full.density, &full.temperature, &full.smoothing_length})
+    if (!column->empty()) column->resize(length, 1.f);
+  if (!full.colour.empty()) full.colour.resize(length);
+  return full;
+}
+
+}  // namespace
+
+Projection make_projection(const Scene& scene, const CloudStatistics& statistics, ViewPosition view) {
+  Projection projection{.camera = scene.camera, .splat_style = scene.splat_style, .table = {}, .view = view};
+  // Depths of the sphere around all particles.
+  const std::array<float, 3> centre = statistics.centre();
+  float depth = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    depth += (centre[axis] - scene.camera.position[axis]) * scene.camera.forward[axis];
+  const float radius = statistics.radius();
+  // Beyond the mapping's ends parallax stays what it is there: the table needs no more, however far a particle lies.
+  const float last = std::min(depth + radius, scene.mapping.points.back().depth);
+  const float first = std::min(std::max(depth - radius, scene.mapping.points.front().depth), last);
+  const float nearest = std::max({first, scene.camera.nearest_depth, last * 1e-4f});
+  const float farthest = std::max(last, nearest * 1.001f);
+
+  ParallaxTable& table = projection.table;
+  table.first_w = 1 / farthest;
+  table.entries_per_w = (ParallaxTable::size - 1) / (1 / nearest - 1 / farthest);
+  for (int i = 0; i < ParallaxTable::size; ++i) {
+    const float w = table.first_w + static_cast<float>(i) / table.entries_per_w;
+    table.value.push_back(parallax_px(scene.mapping, 1 / w));
+  }
+  for (int i = 0; i + 1 < ParallaxTable::size; ++i) table.step.push_back(table.value[i + 1] - table.value[i]);
+  table.step.push_back(0);
+  return projection;
+}
+
+std::vector<SplatBlock> order_splats(const Cloud& cloud, const Projection& projection, const Window& window,
+                                     const SplatOrder& order) {
+  if (cloud.size() == 0) return {};
+  if (cloud.size() < most_lanes) return order_splats(filled_up(cloud), projection, window, order);
+  const std::size_t blocks = std::max<std::size_t>(cloud.size() / block_particles, 1);
+  const bool own_colours = projection.splat_style.colour_source == ColourSource::own;
+  std::vector<SplatBlock> ordered(blocks);
+  tbb::enumerable_thread_specific<ProjectedBlock> scratch;
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    const std::size_t first = cloud.size() * b / blocks;
+    const std::size_t count = cloud.size() * (b + 1) / blocks - first;
+    ProjectedBlock& projected = scratch.local();
+    begin_block(first, count, own_colours, projected);
+    if (own_colours) take_own_colours(cloud, projected);
+    project_particles(cloud, projection, window, order, projected);
+    sort_into_bins(projected, order.bins(), ordered[b]);
+  });
+  return ordered;
+}
+
+}  // namespace wheatstone::baseline

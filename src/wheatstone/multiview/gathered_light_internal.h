@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "wheatstone/multiview/light_band_internal.h"
+#include "wheatstone/multiview/renderers_internal.h"
+
+namespace wheatstone {
+
+/// The pictures that splats are drawn in (SplatOrder): the view's, and for mass as many smaller ones as its widest
+/// splats need. Without planes, splats are ordered by columns.
+SplatOrders orders_for(const Rig& rig, const SplatStyle& splat_style);
+SplatOrders orders_by_plane(const Rig& rig, const SplatStyle& splat_style, const DepthPlanes& planes,
+                            SliceFilter filter);
+
+/// The projection for these pictures.
+Projection projection_for(const RenderJob& job, const SplatOrders& orders, ViewPosition view = central_view);
+
+/// Light in all pictures: band by band, and in each as many targets as there are views or depth planes.
+class GatheredLight {
+ public:
+  GatheredLight(const SplatOrders& orders, const Window& window, int targets);
+  void darken();
+  LightBand& band(std::size_t picture, int band, int target) {
+    return light_[picture][static_cast<std::size_t>(band) * targets_of(picture) + target];
+  }
+  std::span<LightBand> band_in_targets(std::size_t picture, int band) {
+    return std::span(light_[picture])
+        .subspan(static_cast<std::size_t>(band) * targets_of(picture), targets_of(picture));
+  }
+  int targets_of(std::size_t picture) const { return targets_[picture]; }
+
+ private:
+  std::vector<int> targets_;
+  std::vector<std::vector<LightBand>> light_;
+};
+
+/// Columns of a picture that a window of the view covers.
+Window window_in(const Window& window, const SplatOrder& order);
+
+/// Orders the splats of every chunk, some ten thousand particles at a time, and calls `take` with them.
+void for_each_ordered(const Chunks& chunks, const Projection& projection, const Window& window,
+                      const SplatOrders& orders, const std::function<void(const std::vector<SplatBlock>&)>& take);
+
+/// Calls `work` with every band of every picture, in parallel.
+void for_each_band(const SplatOrders& orders, const std::function<void(std::size_t picture, int band)>& work);
+
+/// The light of each picture's views while they are put together, from the smallest picture to the views' own.
+class ViewPyramid {
+ public:
+  ViewPyramid(const SplatOrders& orders, const Rig& rig, std::size_t views, bool three_channels);
+  /// The targets of a picture's views. Those of the view's own picture are `pictures`, or light where there are none.
+  std::vector<ViewTarget> targets(std::size_t picture, std::span<const ImageView<Rgb8>> pictures);
+  /// Of the view's own picture, where it stayed light.
+  const ViewLight& light(std::size_t view) const { return light_[0][view]; }
+
+ private:
+  SplatOrders orders_;
+  Rig rig_;
+  bool three_channels_;
+  std::size_t views_;
+  std::vector<std::vector<ViewLight>> light_;  // [picture][view]
+};
+
+}  // namespace wheatstone
