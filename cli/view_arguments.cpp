@@ -24,6 +24,9 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
   command.add_option(
       "--control", arguments.control,
       "Make a Unix socket on which other programs send commands, one a line; each is answered by a line");
+  command.add_option("--bridge-calibration", arguments.bridge_calibration,
+                     "Write the calibration of the Looking Glass that is attached, as Looking Glass Bridge has it, to "
+                     "this .json file, and end");
   command.add_flag("--commands", arguments.commands, "List all commands with their keys, and end");
   command.footer(
       "\nClick: what lies there comes onto the screen plane. Drag: pan, or turn particles. Wheel: zoom.\n"
@@ -46,6 +49,7 @@ std::vector<std::string> view_words(const ViewArguments& arguments) {
   add("--size", arguments.size);
   add("--script", arguments.script);
   add("--control", arguments.control);
+  add("--bridge-calibration", arguments.bridge_calibration);
   add("--threads", std::to_string(arguments.threads));
   add("--seed", std::to_string(arguments.seed));
   if (arguments.full_screen) words.emplace_back("--full-screen");

@@ -10,7 +10,7 @@ namespace wheatstone::cli {
 /// What the window is to begin with, as it is typed.
 struct ViewArguments {
   std::vector<std::string> files;
-  std::string mode, style, display, script, control;
+  std::string mode, style, display, script, control, bridge_calibration;
   std::string size = "960x640";
   int threads = 0;         ///< as of every command; 0: as many as the machine has
   std::uint64_t seed = 1;  ///< likewise

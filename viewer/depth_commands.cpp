@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "bridge.h"
 #include "command_groups_internal.h"
 #include "pointing.h"
 #include "wheatstone/depth/display_presets.h"
@@ -64,8 +65,10 @@ constexpr Command table[] = {
      [](Viewer& v, const Words&) { move_head(v, 1); }},
     {"display", "NAME", "Depth", "Display", "",
      [](Viewer& v, const Words& w) { state_of(v).display = find_display(w[0]).name; }},
-    {"screen", "NAME|FILE", "Depth", "Lenticular screen, or its calibration", "",
+    {"screen", "NAME|FILE|bridge", "Depth", "Lenticular screen, or its calibration, or that of Looking Glass Bridge",
+     "",
      [](Viewer& v, const Words& w) {
+       if (w[0] == "bridge") return use_screen_of_bridge(v);
        find_lenticular(w[0]);
        state_of(v).screen = w[0];
      }},

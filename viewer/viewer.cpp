@@ -276,9 +276,9 @@ bool Viewer::is_busy() const {
          !mailbox_.is_empty();
 }
 
-void Viewer::save(const std::filesystem::path& path, std::function<void()> write) {
+void Viewer::save(const std::filesystem::path& path, std::function<void()> write, std::function<void()> then) {
   ++files_to_save_;
-  saving_.start([this, path, write = std::move(write)] {
+  saving_.start([this, path, write = std::move(write), then = std::move(then)] {
     std::optional<Error> failed;
     try {
       write();
@@ -287,9 +287,10 @@ void Viewer::save(const std::filesystem::path& path, std::function<void()> write
     } catch (const std::exception& error) {
       failed = Error(ErrorKind::cannot_read_write, fmt::format("{}: {}", path.string(), error.what()));
     }
-    mailbox_.post([this, path, failed] {
+    mailbox_.post([this, path, failed, then] {
       --files_to_save_;
       if (failed) failed_save_ = failed;
+      if (!failed && then) then();
       tell(failed ? failed->what() : "saved " + path.string(), failed.has_value());
     });
   });

@@ -73,8 +73,9 @@ class Viewer {
   bool is_busy() const;
   /// Collects until nothing is busy. For scripts without a window.
   void wait();
-  /// Has a file written beside all else, files one after the other. What then fails is told.
-  void save(const std::filesystem::path& path, std::function<void()> write);
+  /// Has a file written beside all else, files one after the other, and then does what is to follow. What fails is
+  /// told.
+  void save(const std::filesystem::path& path, std::function<void()> write, std::function<void()> then = {});
   bool is_saving() const { return files_to_save_ > 0; }
   /// What a file failed with that was to be saved, once.
   std::optional<Error> take_failed_save() { return std::exchange(failed_save_, std::nullopt); }

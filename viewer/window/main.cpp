@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <QApplication>
@@ -19,8 +20,10 @@
 #include "kept_settings.h"
 #include "viewer/command_table.h"
 #include "viewer/control.h"
+#include "wheatstone/display/looking_glass_bridge.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
+#include "wheatstone/files/whole_file.h"
 #include "window.h"
 
 namespace {
@@ -85,6 +88,12 @@ void choose_platform(const ViewArguments& arguments) {
   qputenv("QT_QPA_PLATFORM", "offscreen");
 }
 
+void write_bridge_calibration(const std::string& file) {
+  constexpr unsigned longest_s = 30;  // the library was seen to need seven seconds
+  alarm(longest_s);
+  write_whole_file(file, calibration_text(calibration_from_bridge(bridge_library())));
+}
+
 OpenglUse opengl_use(const ViewArguments& arguments) {
   const bool offscreen = QApplication::platformName() == "offscreen";  // which has no OpenGL for widgets
   if (arguments.no_opengl || offscreen) return OpenglUse::never;
@@ -140,6 +149,10 @@ int main(int argc, char** argv) {
     return 0;
   }
   try {
+    if (!arguments.bridge_calibration.empty()) {
+      write_bridge_calibration(arguments.bridge_calibration);
+      return 0;
+    }
     // What Qt's platforms lack is not told; what goes wrong here is one line of ours.
     qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
     choose_platform(arguments);

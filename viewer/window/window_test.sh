@@ -2,9 +2,9 @@
 # The window's program, without a screen and, where Xvfb is installed, with one: the same picture, one line of error,
 # the exit code of what went wrong.
 #
-#   window_test.sh WHEATSTONE_VIEW WHEATSTONE
+#   window_test.sh WHEATSTONE_VIEW WHEATSTONE FOLDER_OF_A_BRIDGE
 set -euo pipefail
-view=$1 wheatstone=$2
+view=$1 wheatstone=$2 bridge=$3
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -42,6 +42,26 @@ code=0
 code=0
 "$wheatstone" view painted/painting.wst 2>err.txt || code=$?
 [[ $code == 4 ]] && grep --quiet 'there is no screen' err.txt || fail "without a screen it ends with $code: $(cat err.txt)"
+
+# The calibration of a Looking Glass comes from Bridge where that is installed.
+export HOME=$folder XDG_CACHE_HOME=$folder/cache
+code=0
+"$view" --bridge-calibration screen.json 2>err.txt || code=$?
+[[ $code == 4 && ! -e screen.json && $(wc -l <err.txt) == 1 ]] && grep --quiet 'Looking Glass Bridge cannot be loaded' err.txt ||
+  fail "without Bridge it ends with $code: $(cat err.txt)"
+mkdir -p .lgf/Bridge
+cat >.lgf/Bridge/settings.json <<END
+{"install_locations": [{"version": "2.9.1", "path": "/nowhere"}, {"version": "2.10.0", "path": "$bridge"}]}
+END
+"$wheatstone" view --bridge-calibration screen.json
+"$wheatstone" pack still/left.png still/right.png --to lenticular --screen screen.json -o packed.png --quiet >made.txt
+"$wheatstone" info packed.png | grep --quiet "^width: 320$" || fail "the calibration is not Bridge's: $(cat screen.json)"
+for number in '"pitch": 50.5' '"slope": -6.5' '"center": 0.25' '"DPI": 128.0' '"flipSubp": true' '"invView": true'; do
+  grep --quiet --fixed-strings -- "$number" screen.json || fail "$number is not in $(cat screen.json)"
+done
+printf '%s\n' 'screen bridge' wait 'mode lenticular' wait >bridge.txt
+"$view" painted/painting.wst --script bridge.txt
+cmp screen.json cache/wheatstone/looking-glass.json || fail "the window takes another calibration"
 
 # The window ends at once, whatever is painted in it.
 "$wheatstone" synth still --size 1200x900 --samples 1 -o large --quiet >made.txt
