@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/random.h"
 #include "wheatstone/regions/colour_palette_internal.h"
 
@@ -78,6 +79,82 @@ void move_to_means(const std::vector<Colour>& samples, int rounds, std::vector<C
   }
 }
 
+/// Colours farther than this from all of a palette are missed: nobody takes the palette's nearest for them. A little
+/// below that, because regions have the mean of their pixels.
+constexpr double missed_from = 0.8 * unlike_colours;
+
+double squared_distance_to(const std::vector<Colour>& centres, const Colour& colour) {
+  return squared_distance(centres[nearest(centres, colour)], colour);
+}
+
+std::vector<Colour> missed_by(const std::vector<Colour>& centres, const std::vector<Colour>& samples) {
+  std::vector<Colour> missed;
+  for (const Colour& sample : samples)
+    if (squared_distance_to(centres, sample) > missed_from * missed_from) missed.push_back(sample);
+  return missed;
+}
+
+/// The mean of the colours about the one that has most others near it.
+Colour densest(const std::vector<Colour>& colours) {
+  constexpr std::size_t most_tried = 100;
+  const std::size_t step = (colours.size() + most_tried - 1) / most_tried;
+  Colour best;
+  double most = 0;
+  for (std::size_t i = 0; i < colours.size(); i += step) {
+    Colour sum;
+    double count = 0;
+    for (const Colour& colour : colours) {
+      if (squared_distance(colour, colours[i]) > missed_from * missed_from) continue;
+      sum = {sum.red + colour.red, sum.green + colour.green, sum.blue + colour.blue};
+      ++count;
+    }
+    if (count <= most) continue;
+    most = count;
+    best = {sum.red / count, sum.green / count, sum.blue / count};
+  }
+  return best;
+}
+
+/// The centre that is missed least where the others stand in for it: first by how many samples they would miss, then
+/// by the squared distances that they add.
+std::size_t least_needed(const std::vector<Colour>& centres, const std::vector<Colour>& samples) {
+  struct Loss {
+    double missed = 0, error = 0;
+    auto operator<=>(const Loss&) const = default;
+  };
+  std::vector<Loss> losses(centres.size());
+  for (const Colour& sample : samples) {
+    const std::size_t own = nearest(centres, sample);
+    double next = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < centres.size(); ++i)
+      if (i != own) next = std::min(next, squared_distance(centres[i], sample));
+    losses[own].missed += next > missed_from * missed_from ? 1 : 0;
+    losses[own].error += next - squared_distance(centres[own], sample);
+  }
+  return static_cast<std::size_t>(std::ranges::min_element(losses) - losses.begin());
+}
+
+/// The mean squared error spends its colours on large areas that change slowly. Where small things of colours of their
+/// own are missed, the colour that is least needed goes to them, as long as fewer are missed then.
+void give_to_missed(const std::vector<Colour>& samples, std::vector<Colour>& centres) {
+  constexpr int most_moves = 8, most_rounds = 4;
+  std::vector<Colour> missed = missed_by(centres, samples);
+  for (int move = 0; move < most_moves && !missed.empty() && centres.size() > 1; ++move) {
+    const std::size_t before = missed.size();
+    std::vector<Colour> changed = centres;
+    changed[least_needed(centres, samples)] = densest(missed);
+    // The rounds make the mean error small again, and in time bring back what was.
+    for (int round = 0; round <= most_rounds; ++round) {
+      if (round > 0) move_to_means(samples, 1, changed);
+      std::vector<Colour> still_missed = missed_by(changed, samples);
+      if (still_missed.size() >= missed.size()) continue;
+      centres = changed;
+      missed = std::move(still_missed);
+    }
+    if (missed.size() == before) return;
+  }
+}
+
 }  // namespace
 
 std::vector<PaletteColour> find_palette(ImageView<const Rgb8> picture, int count, std::uint64_t seed) {
@@ -85,6 +162,7 @@ std::vector<PaletteColour> find_palette(ImageView<const Rgb8> picture, int count
   std::vector<Colour> centres = first_centres(samples, count, seed);
   constexpr int rounds = 24;
   move_to_means(samples, rounds, centres);
+  give_to_missed(samples, centres);
   return centres;
 }
 

@@ -8,7 +8,8 @@
 namespace wheatstone {
 
 /// The colours that represent those of a picture best: k-means in RGB, begun as k-means++ (Arthur & Vassilvitskii
-/// 2007). At most `count`; fewer where the picture has fewer. The same for the same seed.
+/// 2007), then changed so that few pixels have a colour that is like none of them. At most `count`; fewer where the
+/// picture has fewer. The same for the same seed.
 std::vector<PaletteColour> find_palette(ImageView<const Rgb8> picture, int count, std::uint64_t seed);
 
 /// Moves a palette towards the colours of the film's next picture: a few rounds of k-means from where it is, of which

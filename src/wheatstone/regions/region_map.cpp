@@ -2,6 +2,7 @@
 #include <limits>
 #include <numeric>
 
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/regions/region_map_internal.h"
 
 namespace wheatstone {
@@ -137,6 +138,9 @@ RegionMap without_small_regions(RegionMap regions, ImageView<const Rgb8> photogr
     bool joined = false;
     for (std::size_t i = 0; i < nearest.size(); ++i) {
       if (nearest[i].region < 0) continue;
+      // Something small whose colour is like none about it stays, if it is more than a speck.
+      const bool stands_out = nearest[i].distance > double{unlike_colours} * unlike_colours;
+      if (stands_out && 4 * means[i].area >= least_area) continue;
       sets.join(static_cast<std::int32_t>(i), nearest[i].region);
       joined = true;
     }

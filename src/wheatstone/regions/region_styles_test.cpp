@@ -12,6 +12,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/regions/colour_palette_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -116,6 +117,32 @@ TEST_P(RegionStyle, RefusesWhatDoesNotFit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, RegionStyle, testing::Values("posterise", "mosaic"));
+
+/// A slope of grey, which mean squared errors spend every colour on, with a red dot and a blue one.
+Image<Rgb8> slope_with_two_dots() {
+  Image<Rgb8> picture(320, 160);
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const auto level = static_cast<std::uint8_t>(20 + x * 210 / 320);
+      picture(x, y) = {level, level, level};
+    }
+  for (int y = 60; y < 72; ++y) {
+    std::fill_n(&picture(90, y), 12, Rgb8{190, 90, 90});
+    std::fill_n(&picture(200, y), 12, Rgb8{110, 110, 220});
+  }
+  return picture;
+}
+
+TEST(Palette, HasAColourForSmallThingsOfTheirOwn) {
+  const Image<Rgb8> picture = slope_with_two_dots();
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const std::vector<Rgb8> palette = rounded(find_palette(picture, 8, seed));
+    for (const Rgb8 dot : {Rgb8{190, 90, 90}, Rgb8{110, 110, 220}}) {
+      const Rgb8 nearest = palette[nearest_colour(palette, dot)];
+      EXPECT_LT(std::hypot(nearest.r - dot.r, nearest.g - dot.g, nearest.b - dot.b), 60) << seed;
+    }
+  }
+}
 
 TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
   Style style = small_style("posterise");
