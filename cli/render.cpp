@@ -14,6 +14,7 @@
 #include "render_film.h"
 #include "render_options.h"
 #include "slices_argument.h"
+#include "wheatstone/app/annotate.h"
 #include "wheatstone/app/write_values.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
@@ -180,8 +181,9 @@ void run(const RenderArguments& given, const CLI::App& command, const Session& s
   refuse_film_options(command);
   const RenderParticlesOptions options = render_options_from(arguments);
   check_output(arguments, options, command, slices);
-  const RenderedParticles result = slices ? render_slice_file(arguments.file, command, options, session.progress)
-                                          : render_particles(arguments.file, options, session.progress);
+  RenderedParticles result = slices ? render_slice_file(arguments.file, command, options, session.progress)
+                                    : render_particles(arguments.file, options, session.progress);
+  if (arguments.annotate) annotate(result, result.rendered.views);
   tell(result, write_output(arguments, result, session), session);
 }
 

@@ -194,7 +194,7 @@ void run_render_film(const RenderArguments& given, const CLI::App& command, cons
   RenderParticlesOptions options = render_options_from(arguments);
   options.slices = !arguments.save_slices.empty();
   options.without_views = false;
-  refuse_options(command, {"--format"}, "on a film", "it works on pictures");
+  refuse_options(command, {"--format", "--values", "--annotate"}, "on a film", "it works on pictures");
   if (!arguments.save_slices.empty() && !frame_pattern(arguments.save_slices))
     throw Error(ErrorKind::wrong_usage, fmt::format("--save-slices: is '{}', expected a name with a number for the "
                                                     "frames of a film, as slices_%04d.exr",

@@ -143,6 +143,10 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
   number("--coldest", appearance.coldest, coordinates,
          "Temperature where the colours begin; 2nd percentile by default");
   number("--hottest", appearance.hottest, coordinates, "Temperature where they end; 98th percentile by default");
+  command
+      .add_flag("--annotate", arguments.annotate,
+                "Draw a scale bar, the colours with their limits and units, and the redshift into each view")
+      ->group(method_group);
   command.add_flag("!--linear-colours", appearance.logarithmic, "Map the temperature to colours linearly")
       ->group(appearance_group);
   number("--exposure", arguments.options.rendering.exposure, {1e-9, 1e9},
@@ -258,7 +262,7 @@ void refuse_for_slices(const CLI::App& command) {
   refuse_group(command, views_group,
                {"--display", "--views", "--span", "--near", "--far", "--eye", "--distance", "--screen-width"},
                situation, where);
-  refuse_options(command, {"--method", "--planes", "--values"}, situation, where);
+  refuse_options(command, {"--method", "--planes", "--values", "--annotate"}, situation, where);
   if (!was_given(command, "--near") && !was_given(command, "--far"))
     refuse_options(command, {"--eye", "--distance", "--screen-width"}, "on slices (.exr) whose depth stays as it is",
                    "it works with --near or --far");
@@ -311,6 +315,7 @@ void refuse_for_particles(const CLI::App& command, const RenderArguments& argume
     refuse_options(command, {"--filter"}, "with --opaque", "it works on particles that add their light");
   if (arguments.options.stream)
     refuse_options(command, {"--neighbours"}, "with --stream", "streamed particles have no density estimate");
+  if (!arguments.interleave.empty()) refuse_options(command, {"--annotate"}, "with --interleave", "it works on views");
   if (!arguments.centre.empty())
     refuse_options(command, {"--look-at"}, "with --centre", "the centre is what the views look at");
   if (!arguments.depth_mapping.empty())

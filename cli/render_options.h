@@ -30,6 +30,7 @@ struct RenderArguments {
   std::string splat;
   std::string display, centre, look_at, selection, depth_mapping;
   std::string fit = "auto";
+  bool annotate = false;
   std::string values;
   std::string cold, hot;
   std::string quilt, interleave, save_slices;

@@ -131,7 +131,7 @@ TEST(RenderCommand, WritesNumbersWithTheirUnits) {
   put_bytes(folder / "gas.csv", "x [kpc],y [kpc],z [kpc],mass,age,hsml\n0,0,0,3,10,1\n5,0,0,1,30,1\n0,0,5,1,50,1\n");
   const auto facts = nlohmann::json::parse(
       run_in(folder, {"render", "gas.csv", "--views", "1", "--size", "64x48", "--projection", "orthographic",
-                      "--quantity", "column-density", "--values", "n.fits", "-o", "a", "--json"})
+                      "--quantity", "column-density", "--values", "n.fits", "--annotate", "-o", "a", "--json"})
           .output);
   EXPECT_EQ(facts["unit"], "code mass / kpc^2");
   EXPECT_TRUE(facts["warnings"].empty());

@@ -10,6 +10,7 @@
 #include "psnr.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
+#include "wheatstone/app/annotate.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/random.h"
@@ -148,6 +149,37 @@ TEST(RenderParticles, AreFramedByABoxOrSphereOfTheFile) {
   EXPECT_EQ(rendered(folder / "a.txt", {.fit = around, .stream = true}).outside, sphere.outside);
   EXPECT_LT(psnr_db(all, sphere.rendered.views.front()), 30);
   EXPECT_EQ(sphere.particles, 1500u);
+}
+
+TEST(Annotate, StandsInTheSamePlaceOfEveryView) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.txt", as_text(cluster(1, 0)));
+  RenderedParticles result = render_particles(folder / "a.txt", {.width = 640, .height = 360, .views = 2});
+  result.redshift = 0.5;
+  std::vector<Image<Rgb8>> views = result.rendered.views;
+  annotate(result, views);
+  int drawn = 0;
+  for (int y = 0; y < 360; ++y)
+    for (int x = 0; x < 640; ++x) {
+      const bool in_left = views[0](x, y) != result.rendered.views[0](x, y);
+      const bool in_right = views[1](x, y) != result.rendered.views[1](x, y);
+      drawn += in_left;
+      if (y < 60) {
+        EXPECT_EQ(in_left, in_right) << x << ", " << y;
+      }
+    }
+  EXPECT_GT(drawn, 1000);
+  // The bar at the bottom is as long as it says.
+  int length = 0;
+  for (int x = 0; x < 320; ++x) length += views[0](x, 360 - 360 / 30 - 1) == Rgb8{230, 230, 230};
+  const double units = round_length(160 * result.scene.splat_style.size_depth / result.scene.camera.focal_px);
+  EXPECT_NEAR(length, units * result.scene.camera.focal_px / result.scene.splat_style.size_depth, 2);
+}
+
+TEST(Annotate, LengthsAreRound) {
+  EXPECT_DOUBLE_EQ(round_length(7.3), 5);
+  EXPECT_DOUBLE_EQ(round_length(0.0021), 0.002);
+  EXPECT_DOUBLE_EQ(round_length(1.9e6), 1e6);
 }
 
 }  // namespace

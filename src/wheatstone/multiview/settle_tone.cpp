@@ -57,10 +57,13 @@ float exposure_for(std::vector<float> brightest) {
 void set_limits(ToneSettings& settings, std::vector<float> values) {
   const auto at = [&](double share, float otherwise) { return values.empty() ? otherwise : percentile(values, share); };
   const bool number = settings.shown == Shown::mean || settings.shown == Shown::column;
+  const bool open_below = std::isnan(settings.least);
   // A picture is dark where there is nothing; numbers begin where most of them do.
   if (std::isnan(settings.least)) settings.least = number || settings.stretch == Stretch::log ? at(0.01, 0) : 0;
   if (std::isnan(settings.most)) settings.most = at(0.999, 1);
-  if (settings.stretch == Stretch::log && !(settings.least > 0)) settings.least = settings.most * 1e-4f;
+  // Rims of kernels are as faint as one likes: a found limit shows four decades at most.
+  if (settings.stretch == Stretch::log && (open_below || !(settings.least > 0)))
+    settings.least = std::max(settings.least, settings.most * 1e-4f);
   if (!(settings.most > settings.least)) settings.most = settings.least + std::max(std::abs(settings.least), 1e-20f);
 }
 

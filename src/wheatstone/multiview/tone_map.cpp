@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wheatstone/image/srgb.h"
+#include "wheatstone/multiview/colour_bar.h"
 #include "wheatstone/multiview/tone_map_internal.h"
 
 namespace wheatstone {
@@ -72,9 +73,10 @@ float settled_hue(float share) {
 
 std::int32_t packed(Rgb8 colour) { return colour.r + 256 * colour.g + 65536 * colour.b; }
 
+constexpr float softening = 30;  // what lies a thirtieth of the way is where asinh's logarithm begins
+
 /// Brightness 0..1 of a share 0..1 of the way between the limits. `least_over_most` is for the logarithm.
 float brightness_of(float share, Stretch stretch, float least_over_most) {
-  constexpr float softening = 30;  // what lies a thirtieth of the way is where the logarithm begins
   switch (stretch) {
     case Stretch::asinh:
       return std::asinh(softening * share) / std::asinh(softening);
@@ -168,6 +170,29 @@ Rgb8 ToneMap::operator()(float first, float second, float third) const {
   const std::int32_t colour = colours[entry];
   return {static_cast<std::uint8_t>(colour & 255), static_cast<std::uint8_t>(colour >> 8 & 255),
           static_cast<std::uint8_t>(colour >> 16)};
+}
+
+Image<Rgb8> colour_bar(const ToneSettings& settings, int width, int height) {
+  const ToneMap tone(settings);
+  Image<Rgb8> bar(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float value = value_at(settings, (static_cast<float>(x) + 0.5f) / static_cast<float>(width));
+      const float hue = 1 - (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
+      bar(x, y) = settings.shown == Shown::mean ? tone(1, value, 0) : tone(value, value * hue, 0);
+    }
+  return bar;
+}
+
+float value_at(const ToneSettings& settings, float brightness) {
+  switch (settings.stretch) {
+    case Stretch::asinh:
+      return std::lerp(settings.least, settings.most, std::sinh(brightness * std::asinh(softening)) / softening);
+    case Stretch::log:
+      return settings.least * std::pow(settings.most / settings.least, brightness);
+    default:
+      return std::lerp(settings.least, settings.most, brightness);
+  }
 }
 
 }  // namespace wheatstone
