@@ -89,10 +89,23 @@ HWY_INLINE Vec weights_at(Vec distance, const Spread& spread) {
   return hn::IfThenElseZero(hn::Le(hn::Abs(distance), hn::Set(d, spread.reach)), weight);
 }
 
+/// The same of a window's pixels, from left to right, of which the last lane's is not needed: what lies between their
+/// edges is computed once for each edge.
+template <Deposit deposit>
+HWY_INLINE Vec weights_in_window(float distance, const Spread& spread) {
+  const Floats d;
+  if constexpr (deposit == Deposit::light) return weights_at<deposit>(hn::Iota(d, distance), spread);
+  const hn::RebindToSigned<Floats> di;
+  const Vec at_edge = half_within(hn::Mul(hn::Iota(d, distance - 0.5f), hn::Set(d, spread.sharpness)));
+  const auto next = hn::IndicesFromVec(d, hn::Min(hn::Iota(di, 1), hn::Set(di, static_cast<int>(lanes) - 1)));
+  return hn::Sub(hn::TableLookupLanes(at_edge, next), at_edge);
+}
+
 /// Weights of `count` pixels or more; the centre of the first is at `distance` from the splat's.
 template <Deposit deposit>
 HWY_INLINE void weigh(float distance, const Spread& spread, int count, float* weights) {
   const Floats d;
+  if (count < lanes) return hn::Store(weights_in_window<deposit>(distance, spread), d, weights);
   for (int i = 0; i < count; i += lanes)
     hn::Store(weights_at<deposit>(hn::Iota(d, distance + static_cast<float>(i)), spread), d, weights + i);
 }
@@ -103,7 +116,8 @@ template <Deposit deposit, int pixels>
 HWY_INLINE void light_row(const Spread& spread, float distance, Vec (&light)[pixels * LightBand::channels / lanes]) {
   const Floats d;
   if constexpr (lanes == 16) {
-    const Vec weights = weights_at<deposit>(hn::Iota(d, distance), spread);
+    const Vec weights = pixels < lanes ? weights_in_window<deposit>(distance, spread)
+                                       : weights_at<deposit>(hn::Iota(d, distance), spread);
     const Vec colour = hn::LoadDup128(d, spread.colour);
     const auto pixel = hn::ShiftRight<2>(hn::Iota(hn::RebindToSigned<Floats>(), 0));
     for (int i = 0; i < pixels / 4; ++i) {

@@ -1,6 +1,7 @@
 // Pictures of mass: what they add up to, whatever the size of splats and pixels.
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
 #include <array>
@@ -81,6 +82,23 @@ TEST(Mass, OfAllParticlesIsThatOfThePictureAtAnySize) {
       EXPECT_NEAR(sum * area_of_pixel(stage.scene) / mass, 1, 1e-4) << width;
     }
   }
+}
+
+TEST(Mass, IsTheSameOnEveryInstructionSet) {
+  const Cloud cloud = kernels(500);
+  const Stage stage = stage_of(cloud, 131, 67);
+  const Image<float> usual = values_of(cloud, stage)[0].column;
+  const float most = std::ranges::max(usual.pixels());
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    const Image<float> column = values_of(cloud, stage)[0].column;
+    float difference = 0;
+    for (std::size_t i = 0; i < usual.pixels().size(); ++i)
+      difference = std::max(difference, std::abs(column.pixels()[i] - usual.pixels()[i]));
+    EXPECT_LT(difference, 1e-4f * most);
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 /// The mean of so many pixels a side.
