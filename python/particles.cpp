@@ -52,19 +52,37 @@ RenderParticlesOptions options_for(int views, std::pair<int, int> size, float sp
   return options;
 }
 
-py::array render_positions(const py::object& positions, const py::object& density, const py::object& temperature,
-                           const py::object& smoothing_length, const RenderParticlesOptions& options) {
+/// Positions and what else is known of the particles, ready to be rendered.
+ReadyParticles ready(const py::object& positions, const py::dict& columns, const RenderParticlesOptions& options) {
   Cloud cloud;
   put_positions(positions, cloud);
-  cloud.density = column_of(density, cloud.size(), "density");
-  cloud.temperature = column_of(temperature, cloud.size(), "temperature");
-  cloud.smoothing_length = column_of(smoothing_length, cloud.size(), "smoothing_length");
-  ReadyParticles ready;
+  const auto column = [&](const char* name) { return column_of(columns[name], cloud.size(), name); };
+  cloud.density = column("density");
+  cloud.temperature = column("temperature");
+  cloud.smoothing_length = column("smoothing_length");
+  cloud.mass = column("mass");
+  const py::gil_scoped_release unlocked;
+  return ready_particles(std::move(cloud), "positions", options, with_signals());
+}
+
+py::array render_positions(const py::object& positions, const py::dict& columns,
+                           const RenderParticlesOptions& options) {
+  return views_of(ready(positions, columns, options), options);
+}
+
+/// The central view's column densities, and how large a pixel is in the scene.
+py::tuple column_density(const py::object& positions, const py::dict& columns, RenderParticlesOptions options) {
+  options.framing.orthographic = true;
+  options.values = true;
+  const ReadyParticles particles = ready(positions, columns, options);
+  RenderedParticles rendered;
   {
     const py::gil_scoped_release unlocked;
-    ready = ready_particles(std::move(cloud), "positions", options, with_signals());
+    rendered = render_ready(particles, options, with_signals());
   }
-  return views_of(ready, options);
+  const Camera& camera = rendered.scene.camera;
+  return py::make_tuple(array_of(std::move(rendered.values.front().column)),
+                        camera.orthographic_depth / camera.focal_px);
 }
 
 py::array render_file(const std::filesystem::path& path, const RenderParticlesOptions& options) {
@@ -97,6 +115,7 @@ void add_particles(py::module_& module) {
             o.appearance.look = Look::thesis;  // the only one that has an exposure
           });
   module.def("render_positions", &render_positions);
+  module.def("column_density", &column_density);
   module.def("render_file", &render_file);
 }
 

@@ -78,6 +78,15 @@ class Package(unittest.TestCase):
         b = wheatstone.render(near + 1e8, views=1, size=(64, 36), exposure=0.1)
         self.assertLessEqual(np.abs(a.astype(int) - b).max(), 1)
 
+    def test_column_density_conserves_mass(self):
+        rng = np.random.default_rng(2)
+        positions, mass = rng.normal(size=(3000, 3)), rng.uniform(1, 2, 3000)
+        column = wheatstone.column_density(positions, mass=mass, smoothing_length=np.full(3000, 0.1), size=(200, 200),
+                                           zoom=0.8)
+        left, right, bottom, top = column.extent
+        area = (right - left) * (top - bottom) / column.values.size
+        self.assertAlmostEqual(column.values.sum(dtype=float) * area / mass.sum(), 1, delta=1e-3)
+
     def test_wrong_arguments_are_named(self):
         for call, message in [
             (lambda: wheatstone.paint(self.left[:, :, 0], self.right), r"left is an array of uint8 and shape \(180, 240\)"),

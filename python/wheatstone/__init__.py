@@ -12,7 +12,7 @@ import numpy as _np
 from . import _wheatstone
 from ._wheatstone import __version__
 
-__all__ = ["Geometry", "Painting", "Style", "load", "match", "paint", "render"]
+__all__ = ["Column", "Geometry", "Painting", "Style", "column_density", "load", "match", "paint", "render"]
 
 
 @_dataclasses.dataclass
@@ -105,24 +105,49 @@ def paint(left, right, style="impressionist", *, quality="good", disparity=None)
     return Painting(_wheatstone.paint(left, right, style._made(), quality, disparity))
 
 
-def render(particles, *, density=None, temperature=None, smoothing_length=None, views=2, size=(640, 360), span=1.0,
-           azimuth=None, elevation=None, zoom=None, exposure=None):
+@_dataclasses.dataclass
+class Column:
+    """Mass per area along the lines of sight."""
+
+    values: _np.ndarray
+    """Of shape (height, width), the top row first, in units of mass and length of what was given."""
+    extent: tuple
+    """Left, right, bottom and top edge in the scene's unit of length, from the middle: as Matplotlib's imshow takes it."""
+
+
+def _options(views, size, span, **camera):
+    options = _wheatstone.RenderOptions(views, tuple(size), span)
+    for name, value in camera.items():
+        if value is not None:
+            setattr(options, name, value)
+    return options
+
+
+def render(particles, *, density=None, temperature=None, smoothing_length=None, mass=None, views=2, size=(640, 360),
+           span=1.0, azimuth=None, elevation=None, zoom=None, exposure=None):
     """Views of particles, leftmost first, as an array of shape (views, height, width, 3).
 
     `particles` is a file (GADGET, HDF5, PLY, LAS, NumPy, FITS or text), or positions of shape (number, 3). The views
     show mass; with `exposure` they are those of `--look thesis`.
     """
-    options = _wheatstone.RenderOptions(views, tuple(size), span)
-    for name, value in [("azimuth", azimuth), ("elevation", elevation), ("zoom", zoom), ("exposure", exposure)]:
-        if value is not None:
-            setattr(options, name, value)
+    options = _options(views, size, span, azimuth=azimuth, elevation=elevation, zoom=zoom, exposure=exposure)
+    columns = {"density": density, "temperature": temperature, "smoothing_length": smoothing_length, "mass": mass}
     if isinstance(particles, (str, _os.PathLike)):
-        given = [n for n, v in [("density", density), ("temperature", temperature),
-                                ("smoothing_length", smoothing_length)] if v is not None]
-        if given:
-            raise ValueError(f"{given[0]} is given beside a file, expected it beside positions")
+        for name, column in columns.items():
+            if column is not None:
+                raise ValueError(f"{name} is given beside a file, expected it beside positions")
         return _wheatstone.render_file(_os.fspath(particles), options)
-    return _wheatstone.render_positions(particles, density, temperature, smoothing_length, options)
+    return _wheatstone.render_positions(particles, columns, options)
+
+
+def column_density(positions, *, mass=None, smoothing_length=None, size=(640, 360), azimuth=None, elevation=None,
+                   zoom=None):
+    """The column density of particles, seen orthographically; each counts 1 where no mass is given."""
+    options = _options(1, size, 1.0, azimuth=azimuth, elevation=elevation, zoom=zoom)
+    columns = {"density": None, "temperature": None, "smoothing_length": smoothing_length, "mass": mass}
+    values, pixel = _wheatstone.column_density(positions, columns, options)
+    height, width = values.shape
+    return Column(values, (-width * pixel / 2, width * pixel / 2, -height * pixel / 2, height * pixel / 2))
 
 
 def load(path):

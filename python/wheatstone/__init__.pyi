@@ -25,6 +25,11 @@ class Style:
     seed: int = ...
     def toml(self) -> str: ...
 
+@dataclasses.dataclass
+class Column:
+    values: npt.NDArray[np.float32]
+    extent: tuple[float, float, float, float]
+
 class Painting:
     @property
     def left(self) -> Picture: ...
@@ -52,6 +57,7 @@ def render(
     density: npt.ArrayLike | None = ...,
     temperature: npt.ArrayLike | None = ...,
     smoothing_length: npt.ArrayLike | None = ...,
+    mass: npt.ArrayLike | None = ...,
     views: int = ...,
     size: Sequence[int] = ...,
     span: float = ...,
@@ -60,4 +66,14 @@ def render(
     zoom: float | None = ...,
     exposure: float | None = ...,
 ) -> Picture: ...
+def column_density(
+    positions: npt.ArrayLike,
+    *,
+    mass: npt.ArrayLike | None = ...,
+    smoothing_length: npt.ArrayLike | None = ...,
+    size: Sequence[int] = ...,
+    azimuth: float | None = ...,
+    elevation: float | None = ...,
+    zoom: float | None = ...,
+) -> Column: ...
 def load(path: str | os.PathLike[str]) -> Any: ...

@@ -181,7 +181,8 @@ Cloud cloud_between(const TimedCloud& earlier, const TimedCloud& later, const Ma
   put_positions(axis(0, &Cloud::x, &Cloud::rate_x), matched, moment, cloud.x);
   put_positions(axis(1, &Cloud::y, &Cloud::rate_y), matched, moment, cloud.y);
   put_positions(axis(2, &Cloud::z, &Cloud::rate_z), matched, moment, cloud.z);
-  for (const auto column : {&Cloud::density, &Cloud::temperature, &Cloud::smoothing_length})
+  for (const auto column :
+       {&Cloud::density, &Cloud::temperature, &Cloud::smoothing_length, &Cloud::mass, &Cloud::quantity})
     put_column(before.*column, after.*column, matched, cloud.*column,
                [&](float a, float b) { return value_between(a, b, moment.share); });
   put_column(before.colour, after.colour, matched, cloud.colour,

@@ -66,6 +66,12 @@ TEST(CloudBetween, ChangesDensityByEqualFactorsInEqualTimes) {
   earlier.cloud.density = {1};
   later.cloud.density = {100};
   EXPECT_THAT(between(earlier, later, 1).density, ElementsAre(FloatNear(10, 1e-4f)));
+  earlier.cloud.mass = {3};
+  later.cloud.mass = {3};
+  earlier.cloud.quantity = {-1};
+  later.cloud.quantity = {2};
+  EXPECT_THAT(between(earlier, later, 1).mass, ElementsAre(3));
+  EXPECT_THAT(between(earlier, later, 1).quantity, ElementsAre(0.5f));
 }
 
 TEST(CloudBetween, IsTenTimesNearerToTheTruthThanStraightLines) {
