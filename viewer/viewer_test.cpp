@@ -247,7 +247,7 @@ double thread_time_ms() {
 
 TEST(Viewer, LeavesTheWorkOnALargePaintingToItsThreads) {
   const TemporaryFolder folder;
-  write_painting(folder / "large.wst", placed(painting(), {.scale = 10}));
+  write_painting(folder / "large.wst", placed(painting(), {.scale = 8}));
   Viewer viewer;
   viewer.set_viewport({120, 80});
   double worst_ms = 0;
