@@ -11,6 +11,7 @@
 #include "throws_error.h"
 #include "wheatstone/app/particle_frames.h"
 #include "wheatstone/app/render_film.h"
+#include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
@@ -97,6 +98,24 @@ TEST_F(RenderFilm, OrbitsASnapshotAndFollowsAPath) {
   arrived.least = along.frame(2).least;
   arrived.most = along.frame(2).most;
   EXPECT_GT(psnr_db(along.frame(2).rendered.views[0], render_particles(snapshot(2), arrived).rendered.views[0]), 60);
+}
+
+TEST_F(RenderFilm, SlicesServeADisplayWithAnotherDepthAndMoreViews) {
+  ParticleFramesOptions made = frames_options(2);
+  made.particles.slices = true;
+  RenderedParticles wide = ParticleFrames(series(), made).frame(1);
+  ParticleFramesOptions wanted = frames_options(2);
+  wanted.particles.views = 5;
+  wanted.particles.depth.near_mm = wanted.particles.depth.far_mm = 60;
+  wanted.particles.rendering.method = Method::exact;
+  const RenderedParticles truth = ParticleFrames(series(), wanted).frame(1);
+
+  const DepthMapping mapping = mapping_for(wanted.particles.depth, wide.stack.width, 1, 2);
+  map_depth(wide.stack, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
+  const std::vector<Image<Rgb8>> views = render_slices(wide.stack, truth.rig);
+  for (std::size_t view = 0; view < views.size(); ++view)
+    EXPECT_GE(psnr_db(views[view], truth.rendered.views[view]), 45) << "view " << view;
+  EXPECT_LT(psnr_db(views.front(), views.back()), 35) << "the views do not differ";
 }
 
 TEST_F(RenderFilm, GivesTheSameBytesWhenItIsStoppedAndResumed) {

@@ -31,8 +31,8 @@ MatchedParticles match_particles(const Cloud& earlier, const Cloud& later);
 
 /// The particles at a time between two snapshots. Those in both move along the cubic that has their positions and
 /// velocities at either end, or straight where a file has no velocities, the shorter way through a periodic box; their
-/// density, temperature, smoothing length and mass change by equal factors in equal times. Those in one snapshot only keep
-/// their velocity, and fade away or appear (Cloud::presence).
+/// density, temperature, smoothing length and mass change by equal factors in equal times. Those in one snapshot only
+/// keep their velocity, and fade away or appear (Cloud::presence).
 Cloud cloud_between(const TimedCloud& earlier, const TimedCloud& later, const MatchedParticles& matched, double time);
 
 }  // namespace wheatstone
