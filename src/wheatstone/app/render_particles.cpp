@@ -43,6 +43,12 @@ Staged stage(const RenderParticlesOptions& options, const CloudStatistics& stati
 
 void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
   constexpr float largest = Cloud::farthest_drawn;
+  const auto all_near = [](const std::vector<float>& axis) {
+    bool near = true;
+    for (const float value : axis) near &= std::abs(value) <= largest;
+    return near;
+  };
+  if (all_near(cloud.x) && all_near(cloud.y) && all_near(cloud.z)) return;
   for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z})
     for (const float value : *axis)
       if (!(std::abs(value) <= largest))

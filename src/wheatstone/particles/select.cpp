@@ -39,7 +39,15 @@ bool inside(const Cut& cut, const std::array<double, 3>& at) {
   return true;
 }
 
+/// Whether every number lies between two others. Nearly always all do, and then nothing is asked of each.
+bool all_between(const std::vector<float>& column, float lower, float upper) {
+  bool between = true;
+  for (const float value : column) between &= value > lower && value < upper;
+  return between;
+}
+
 void mend(std::vector<float>& column, SelectionCounts& counts) {
+  if (all_between(column, least, std::numeric_limits<float>::max())) return;
   for (float& value : column) {
     // Readers put what single precision cannot hold at its limits.
     if (value == least || value == std::numeric_limits<float>::max()) ++counts.extreme;
@@ -55,6 +63,13 @@ bool counts_for_something(const Cloud& cloud, std::size_t i) {
   return cloud.quantity.empty() || std::isfinite(cloud.quantity[i]);
 }
 
+bool keeps_all(const Cloud& cloud, const Selection& selection) {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  return selection.every <= 1 && selection.cut.index() == 0 && all_between(cloud.x, -infinite, infinite) &&
+         all_between(cloud.y, -infinite, infinite) && all_between(cloud.z, -infinite, infinite) &&
+         all_between(cloud.mass, -1e-45f, infinite) && all_between(cloud.quantity, -infinite, infinite);
+}
+
 template <class Value>
 void keep(std::vector<Value>& column, const std::vector<std::uint32_t>& kept) {
   if (column.empty()) return;
@@ -68,8 +83,8 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
   SelectionCounts counts;
   if (selection.centre && cloud.box_size > 0) wrap(cloud, *selection.centre);
   std::vector<std::uint32_t> kept;
-  kept.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  const bool all = keeps_all(cloud, selection);
+  for (std::size_t i = 0; !all && i < cloud.size(); ++i) {
     if (!std::isfinite(cloud.x[i]) || !std::isfinite(cloud.y[i]) || !std::isfinite(cloud.z[i])) {
       ++counts.dropped;
       continue;
@@ -85,7 +100,7 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
       continue;
     kept.push_back(static_cast<std::uint32_t>(i));
   }
-  if (kept.size() < cloud.size()) {
+  if (!all && kept.size() < cloud.size()) {
     std::apply([&](auto&... column) { (keep(column, kept), ...); }, columns_of(cloud));
   }
   mend(cloud.density, counts);
