@@ -233,6 +233,24 @@ TEST(Photograph, ThatIsNotRectifiedIsPaintedRectified) {
   expect_refused(folder, line, 2, "expected auto|never|always");
 }
 
+// The address sanitizer keeps what was freed.
+#ifndef __SANITIZE_ADDRESS__
+TEST(PhotographLong, OfTwelveMegapixelsFitsIntoAGigabyte) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"synth", "still", "--camera", "phone", "--size", "4000x3000", "--samples", "1", "-o", "phone",
+                         "--quiet"},
+                        {.folder = folder / ""})
+                .exit_code,
+            0);
+  const ProgramResult result = run_program({"paint", "phone/left.jpg", "phone/right.jpg", "-o", "painted", "--json"},
+                                           {.folder = folder / "", .own_process = true});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(nlohmann::json::parse(result.output)["pair"]["rectified"], true);
+  RecordProperty("megabytes", std::to_string(result.peak_bytes / 1'000'000));
+  EXPECT_LT(result.peak_bytes, 1'000'000'000u);
+}
+#endif
+
 TEST(Photograph, ThatIsUpsideDownMirroredOrBlackIsRefused) {
   const TemporaryFolder folder;
   Image<Rgb8> down(320, 240), mirrored(320, 240);
