@@ -1,13 +1,18 @@
 // A pair as hand-held cameras take it, from the photographs to the place of every pixel's partner.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "shared_data.h"
 #include "temporary_folder.h"
 #include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/matching/match.h"
+#include "wheatstone/matching/match_confidence.h"
+#include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/phone_camera.h"
@@ -41,6 +46,18 @@ double share_off(const PhonePair& truth, const PreparedPair& prepared, const Ima
   return static_cast<double>(off) / asked;
 }
 
+/// What a pair from a camera is expected to give without any options.
+void expect_found_without_streaks(const StereoPair& pictures, const MatchedPair& matched) {
+  const MatchConfidence confidence = measure_match(pictures, matched);
+  testing::Test::RecordProperty("confidence",
+                                fmt::format("found {:.3f} streaks {:.4f} colour {:.1f}", confidence.found_share,
+                                            confidence.streak_share, confidence.colour_difference));
+  EXPECT_GE(confidence.found_share, 0.85);
+  EXPECT_LE(confidence.streak_share, 0.015);
+  EXPECT_LE(confidence.colour_difference, 4);
+  EXPECT_EQ(match_warning(confidence), "");
+}
+
 TEST(HandHeldPair, HasItsPartnersFound) {
   const TemporaryFolder folder;
   const PhonePair truth = make_phone_pair({.width = 800, .height = 600, .seed = 2, .samples_a_side = 1});
@@ -50,9 +67,23 @@ TEST(HandHeldPair, HasItsPartnersFound) {
   ASSERT_TRUE(prepared.rectification);
   EXPECT_GT(prepared.photographed_rows.value().median_px, 20);
   EXPECT_LT(prepared.rows.value().median_px, 0.4);
-  const double rectified = share_off(truth, prepared, match(prepared.pictures).geometry.left_disparity);
+  const MatchedPair matched = match(prepared.pictures);
+  expect_found_without_streaks(prepared.pictures, matched);
+  const double rectified = share_off(truth, prepared, matched.geometry.left_disparity);
   RecordProperty("share_off", std::to_string(rectified));
   EXPECT_LE(rectified, 0.08);
+}
+
+TEST(HandHeldPairLong, OfOrdinaryStereoCamerasIsFoundWithoutStreaks) {
+  for (const char* name : {"lens_adapter.mpo", "stereo_camera_sbs.jpg"}) {
+    SCOPED_TRACE(name);
+    const std::filesystem::path file = shared_data() / "photographs" / name;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file.string();
+    ViewsFile read = read_views(file);
+    const PreparedPair prepared = prepare_pair({std::move(read.views[0]), std::move(read.views[1])});
+    EXPECT_TRUE(prepared.rectification);
+    expect_found_without_streaks(prepared.pictures, match(prepared.pictures));
+  }
 }
 
 }  // namespace

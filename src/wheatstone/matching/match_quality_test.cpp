@@ -10,6 +10,7 @@
 #include "shared_data.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match.h"
+#include "wheatstone/matching/match_confidence.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/match_reliability_internal.h"
 #include "wheatstone/measures/consistency.h"
@@ -96,6 +97,7 @@ TEST(MatchQuality, FindsTeddyAsWellAsItPromises) {
   EXPECT_LE(fast, 0.065);
   EXPECT_LE(good, 0.034);
   EXPECT_LE(best, 0.036);
+  EXPECT_LE(streak_share(match(teddy.pictures).geometry.left_disparity), 0.015);
 }
 
 TEST(MatchQuality, BestIsNoWorseThanGood) {
