@@ -1,7 +1,6 @@
 #include "recent_files.h"
 
 #include <algorithm>
-#include <ranges>
 
 namespace wheatstone::viewer {
 
@@ -12,7 +11,7 @@ std::vector<Item> recent_items(std::span<const Item> opened, std::span<const Ite
     for (std::filesystem::path& file : item) file = std::filesystem::absolute(file).lexically_normal();
     if (recent.size() < most && std::ranges::find(recent, item) == recent.end()) recent.push_back(std::move(item));
   };
-  for (const Item& item : opened | std::views::reverse) add(item);
+  for (auto item = opened.rbegin(); item != opened.rend(); ++item) add(*item);
   for (const Item& item : before) add(item);
   return recent;
 }

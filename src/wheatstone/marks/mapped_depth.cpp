@@ -152,11 +152,11 @@ float least_radius_px(const DepthAround& around, const DepthEnds& ends) {
   return steepest * std::abs(around.gain_there - around.gain_elsewhere) * deepest_px / most_squeezed;
 }
 
-Painting with_depth_around(Painting painting, const DepthAround& wanted) {
-  DepthAround around = wanted;
-  around.radius_px = std::max({around.radius_px, least_radius_px(around, ends_of(painting.surfaces)), 1.f});
+Painting with_depth_around(Painting painting, const DepthAround& around) {
+  DepthAround wide = around;
+  wide.radius_px = std::max({around.radius_px, least_radius_px(around, ends_of(painting.surfaces)), 1.f});
   map_depth(painting, std::max(around.gain_there, around.gain_elsewhere), [&](float x, float y, float disparity) {
-    return around.disparity_px + gain_at(around, x, y) * (disparity - around.disparity_px);
+    return around.disparity_px + gain_at(wide, x, y) * (disparity - around.disparity_px);
   });
   return painting;
 }
