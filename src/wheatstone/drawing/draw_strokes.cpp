@@ -7,22 +7,26 @@
 #include <span>
 #include <tuple>
 
+#include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/prepared_painting_internal.h"
 #include "wheatstone/drawing/rasterise_internal.h"
 
 namespace wheatstone {
 
-FrontToBackAccumulator::FrontToBackAccumulator(int row_count, int canvas_width)
+FrontToBackAccumulator::FrontToBackAccumulator(int row_count, int canvas_width, bool keeps_cover)
     : width_(canvas_width),
       rows_(row_count),
       blocks_(static_cast<std::size_t>(row_count) * static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)),
+      covers_(keeps_cover ? blocks_.size() : 0),
       open_columns_(blocks_.size()),
-      open_rows_(static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)) {
+      open_rows_(static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)),
+      touched_rows_(open_rows_.size()) {
   clear();
 }
 
 void FrontToBackAccumulator::clear() {
+  std::ranges::fill(covers_, Cover{});
   for (int number = 0; number < block_count(); ++number) {
     // Nothing is to be drawn in the columns after the last one.
     const int columns = std::min(width_ - number * block_px, block_px);
@@ -33,6 +37,7 @@ void FrontToBackAccumulator::clear() {
       set_open_columns(row, number, (std::uint32_t{1} << columns) - 1);
     }
     open_rows_[static_cast<std::size_t>(number)] = ~std::uint32_t{0} >> (32 - rows_);
+    touched_rows_[static_cast<std::size_t>(number)] = 0;
   }
 }
 
@@ -91,7 +96,7 @@ struct alignas(64) Piece {
   bool lies_between(float view) const {
     if (!is_thin) return false;
     const float moved = view * (paint.disparity + paint.depth_slope * middle);
-    const float fraction = moved - std::floor(moved);
+    const float fraction = moved - static_cast<float>(floor_of(moved));
     return fraction > 0.25f && fraction < 0.75f;
   }
 
@@ -212,17 +217,19 @@ class BandOfViews {
     }
     const bool between = piece.lies_between(shift);
     Stamp& stamp = (between ? of_layer.stamps_between : of_layer.stamps)[number];
-    if (!stamp.is_made) make(layer, layer.strokes[piece.stroke], between, stamp);
+    const std::uint32_t missing = rows & ~stamp.made;
+    if (missing != 0) make(layer, layer.strokes[piece.stroke], between, missing, stamp);
     lay_stamp_under({stamp, stamps_, piece.paint, below, band_, shift, rows, may_be_hidden}, accumulator_);
   }
 
-  void make(const FlatLayer& layer, const FlatStroke& stroke, bool between, Stamp& stamp) {
+  void make(const FlatLayer& layer, const FlatStroke& stroke, bool between, std::uint32_t rows, Stamp& stamp) {
     const float reach = BrushProfile(stroke.radius_px).reach_px + Stamps::margin;
     stamp.left = std::floor(stroke.left - reach) - (between ? 0.5f : 0);
     const int width = static_cast<int>(std::ceil(stroke.right + reach - stamp.left)) + 1;
     if (scratch_.stride < width + 2 * Canvas::widest_vector)
       scratch_ = DistanceBand(band_.top, width, painting_.height);
-    make_stamp({SeenLayer(layer, central_view, stamp.left), stroke, nothing_hides_}, width, scratch_, stamp, stamps_);
+    make_stamp({SeenLayer(layer, central_view, stamp.left), stroke, nothing_hides_}, width, rows, scratch_, stamp,
+               stamps_);
   }
 
   std::size_t finish(const ViewToDraw& view, ImageView<const float> surface) {

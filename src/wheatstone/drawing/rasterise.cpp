@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 
@@ -43,17 +44,42 @@ DistanceBand::DistanceBand(int top_, int canvas_width, int canvas_height)
       begin(row_count + Canvas::widest_vector),
       end(row_count + Canvas::widest_vector) {}
 
+namespace {
+
+/// Whether light comes through anywhere in the columns and rows of a band that a stroke may touch.
+bool may_be_seen(const SeenLayer& seen, const FlatStroke& stroke, const DistanceBand& band,
+                 const FrontToBackAccumulator& drawn) {
+  const float reach = BrushProfile(stroke.radius_px).reach_px + 1;
+  const auto [least, most] =
+      std::minmax({seen.shift * stroke.farthest_disparity, seen.shift * stroke.nearest_disparity});
+  const int begin = std::max(static_cast<int>(stroke.left - most - reach), 0);
+  const int end = std::min(static_cast<int>(stroke.right - least + reach) + 1, drawn.width());
+  if (begin >= end) return false;
+  const auto rows_below = [&](float y) {
+    const int row = std::clamp(static_cast<int>(y) - band.top, 0, band.row_count);
+    return (std::uint64_t{1} << row) - 1;
+  };
+  const std::uint64_t rows = rows_below(stroke.bottom + reach + 1) & ~rows_below(stroke.top - reach);
+  return (drawn.open_rows(begin, end) & rows) != 0;
+}
+
+}  // namespace
+
 void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas) {
   const FlatLayer flat = flatten(layer);
   const SeenLayer seen(flat, view);
   const auto bands = strokes_by_band(flat, canvas.height);
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {
+    if (bands[i].empty()) return;
     DistanceBand band(i * band_rows, canvas.width, canvas.height);
     const BandHiding hides(hiding, band, canvas.width);
-    for (const std::uint32_t place : bands[i]) {
+    FrontToBackAccumulator drawn(band.row_count, canvas.width, true);
+    for (const std::uint32_t place : bands[i] | std::views::reverse) {
       const FlatStroke& stroke = flat.strokes[place];
-      if (stroke.views.contains(view)) draw_stroke_over({seen, stroke, hides.own}, band, canvas);
+      if (stroke.views.contains(view) && may_be_seen(seen, stroke, band, drawn))
+        draw_stroke_under({seen, stroke, hides.own}, band, drawn);
     }
+    lay_over(drawn, band.top, canvas);
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -127,7 +128,10 @@ class FrontToBackAccumulator {
     float red[block_px], green[block_px], blue[block_px], light[block_px];
   };
 
-  FrontToBackAccumulator(int row_count, int canvas_width);
+  /// The columns of a block in one row: how much of each one stroke covers, whatever light it lets through.
+  using Cover = std::array<float, block_px>;
+
+  FrontToBackAccumulator(int row_count, int canvas_width, bool keeps_cover = false);
 
   /// Nothing is drawn.
   void clear();
@@ -137,6 +141,9 @@ class FrontToBackAccumulator {
   int block_count() const { return static_cast<int>(open_rows_.size()); }
   Block& block(int row, int number) { return blocks_[static_cast<std::size_t>(number * rows_ + row)]; }
   const Block& block(int row, int number) const { return blocks_[static_cast<std::size_t>(number * rows_ + row)]; }
+  Cover* cover(int row, int number) {
+    return covers_.empty() ? nullptr : &covers_[static_cast<std::size_t>(number * rows_ + row)];
+  }
   float light(int row, int x) const { return block(row, x / block_px).light[x % block_px]; }
 
   // Where light still comes through: bits, from the lowest.
@@ -147,7 +154,12 @@ class FrontToBackAccumulator {
   }
   void set_open_columns(int row, int number, std::uint32_t columns) {
     open_columns_[static_cast<std::size_t>(number * rows_ + row)] = static_cast<std::uint16_t>(columns);
+    touched_rows_[static_cast<std::size_t>(number)] |= std::uint32_t{1} << row;
     if (columns == 0) open_rows_[static_cast<std::size_t>(number)] &= ~(std::uint32_t{1} << row);
+  }
+
+  bool is_touched(int row, int number) const {
+    return (touched_rows_[static_cast<std::size_t>(number)] >> row & 1) != 0;
   }
 
   /// The rows in which light may come through any of the columns [begin, end).
@@ -164,8 +176,9 @@ class FrontToBackAccumulator {
  private:
   int width_, rows_;
   std::vector<Block> blocks_;
+  std::vector<Cover> covers_;
   std::vector<std::uint16_t> open_columns_;
-  std::vector<std::uint32_t> open_rows_;  ///< of each block
+  std::vector<std::uint32_t> open_rows_, touched_rows_;  ///< of each block
 };
 static_assert(band_rows <= 32 && FrontToBackAccumulator::block_px <= 16);
 
@@ -193,11 +206,12 @@ struct StrokeInBand {
   const HiddenBelow& hidden_below;
 };
 
-/// Draws what is seen of a stroke over a canvas, with vectors of whatever width the processor has.
-void draw_stroke_over(const StrokeInBand& stroke, DistanceBand& band, Canvas& canvas);
-
-/// Draws what is seen of a stroke under everything that was drawn before.
+/// Draws what is seen of a stroke under everything that was drawn before, with vectors of whatever width the processor
+/// has.
 void draw_stroke_under(const StrokeInBand& stroke, DistanceBand& band, FrontToBackAccumulator& accumulator);
+
+/// Lays all that was drawn, whose cover was kept, over the rows of a canvas from `top` on.
+void lay_over(FrontToBackAccumulator& accumulator, int top, Canvas& canvas);
 
 /// The part of a stroke in one band, drawn once for all views: how far inside its rim each pixel lies. Views see its
 /// rows shifted, by whole pixels and a fraction, between which the rim is interpolated.
@@ -208,9 +222,8 @@ struct Stamp {
   std::uint32_t first_line = 0;    ///< of the stroke's rows
   int first_row = 0, end_row = 0;  ///< of the band
   float left = 0;                  ///< place in the central view from which the columns of the lines are counted
-  bool is_made = false;
+  std::uint32_t made = 0;          ///< rows whose lines are there: bits, from the lowest
 
-  /// A bit each, from the lowest.
   std::uint32_t rows() const {
     const auto below = [](int row) { return static_cast<std::uint32_t>((std::uint64_t{1} << row) - 1); };
     return below(end_row) & ~below(first_row);
@@ -219,7 +232,8 @@ struct Stamp {
 
 /// The stamps of a band.
 struct Stamps {
-  static constexpr int margin = 2;  ///< columns beside a line that tell how its rim goes on
+  static constexpr int margin = 2;      ///< columns beside a line that tell how its rim goes on
+  static constexpr float aside_px = 1;  ///< beyond a rim cover is below nothing so far
   static constexpr std::size_t slack = 2 * Canvas::widest_vector;  ///< values before the first and after the last one
 
   /// One row of a stamp.
@@ -232,8 +246,10 @@ struct Stamps {
   std::vector<std::uint16_t> values = std::vector<std::uint16_t>(2 * slack);
 };
 
-/// Makes the stamp of a stroke, whose layer is seen in columns from stamp.left on; `band` is `width` columns wide.
-void make_stamp(const StrokeInBand& stroke, int width, DistanceBand& band, Stamp& stamp, Stamps& stamps);
+/// Adds rows of a band to the stamp of a stroke, whose layer is seen in columns from stamp.left on; `band` is `width`
+/// columns wide.
+void make_stamp(const StrokeInBand& stroke, int width, std::uint32_t rows, DistanceBand& band, Stamp& stamp,
+                Stamps& stamps);
 
 /// What of a stroke its stamps do not hold.
 struct StampPaint {

@@ -32,34 +32,17 @@ struct Cover {
   hn::Vec<Floats> squared_reach, slope, offset;
 };
 
-/// Lays the stroke's colour over one row of the canvas, as far as its distances say.
-void lay_over_row(const FlatStroke& stroke, const Cover& cover, const DistanceBand& band, int row, Canvas& canvas) {
-  const Floats f;
-  const int lanes = static_cast<int>(hn::Lanes(f));
-  const int y = band.top + row;
-  const float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
-  float* red = canvas.red.row(y).data();
-  float* green = canvas.green.row(y).data();
-  float* blue = canvas.blue.row(y).data();
-  float* coverage = canvas.coverage.row(y).data();
-  const auto opacity = hn::Set(f, stroke.opacity);
-  const auto stroke_red = hn::Set(f, stroke.red);
-  const auto stroke_green = hn::Set(f, stroke.green);
-  const auto stroke_blue = hn::Set(f, stroke.blue);
-  for (int x = band.begin[row]; x < band.end[row]; x += lanes) {
-    const auto distance = hn::LoadU(f, squared + x);
-    if (cover.is_zero(distance)) continue;
-    const auto covered = cover.of(distance);
-    const auto alpha = hn::Mul(covered, opacity);
-    const auto lay = [&](float* plane, auto colour) {
-      const auto old = hn::LoadU(f, plane + x);
-      hn::StoreU(hn::MulAdd(hn::Sub(colour, old), alpha, old), f, plane + x);
-    };
-    lay(red, stroke_red);
-    lay(green, stroke_green);
-    lay(blue, stroke_blue);
-    hn::StoreU(hn::Max(hn::LoadU(f, coverage + x), covered), f, coverage + x);
-  }
+/// A bit for each lane, from the lowest.
+HWY_INLINE std::uint32_t bits_of(hn::Mask<Floats> lanes) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Floats(), lanes, bytes);
+  return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+}
+
+/// The lanes whose bits are set.
+HWY_INLINE hn::Mask<Floats> lanes_of(std::uint32_t bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  return hn::LoadMaskBits(Floats(), bytes);
 }
 
 /// A stroke's colour, which is slid under what is drawn already.
@@ -81,9 +64,7 @@ struct Paint {
     hn::Store(hn::MulAdd(blue, share, hn::Load(f, block.blue + i)), f, block.blue + i);
     const auto left = hn::Sub(through, share);
     hn::Store(left, f, block.light + i);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(f, hn::Gt(left, hn::Set(f, FrontToBackAccumulator::dark)), bits);
-    return static_cast<std::uint32_t>(bits[0] | bits[1] << 8) << i;
+    return bits_of(hn::Gt(left, hn::Set(f, FrontToBackAccumulator::dark))) << i;
   }
 
   hn::Vec<Floats> red, green, blue, opacity;
@@ -106,37 +87,27 @@ HWY_INLINE std::uint32_t open_within(const FrontToBackAccumulator& accumulator, 
   return open & part.hidden_below->shown_columns[static_cast<std::size_t>(number * accumulator.rows() + part.row)];
 }
 
-/// The lanes whose bits are set.
-HWY_INLINE hn::Mask<Floats> lanes_of(std::uint32_t bits) {
-  std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
-  return hn::LoadMaskBits(Floats(), bytes);
-}
-
 /// Calls `cover_at(x)` for the vectors of the blocks that are open in the part of a row, and slides the paint under
 /// their open columns.
 template <class CoverAt>
 HWY_INLINE void slide_under_row(const Paint& paint, const RowPart& part, FrontToBackAccumulator& accumulator,
                                 CoverAt cover_at) {
   constexpr int block_px = FrontToBackAccumulator::block_px;
-  const int lanes = static_cast<int>(hn::Lanes(Floats()));
+  const Floats f;
+  const int lanes = static_cast<int>(hn::Lanes(f));
   for (int number = part.begin / block_px; number * block_px < part.end; ++number) {
     const std::uint32_t within = open_within(accumulator, part, number);
     if (within == 0) continue;
     FrontToBackAccumulator::Block& block = accumulator.block(part.row, number);
+    FrontToBackAccumulator::Cover* const most = accumulator.cover(part.row, number);
     std::uint32_t open = 0;
-    for (int i = 0; i < block_px; i += lanes)
-      open |= paint.slide_under(hn::IfThenElseZero(lanes_of(within >> i), cover_at(number * block_px + i)), block, i);
+    for (int i = 0; i < block_px; i += lanes) {
+      const auto cover = hn::IfThenElseZero(lanes_of(within >> i), cover_at(number * block_px + i));
+      if (most != nullptr) hn::StoreU(hn::Max(cover, hn::LoadU(f, most->data() + i)), f, most->data() + i);
+      open |= paint.slide_under(cover, block, i);
+    }
     accumulator.set_open_columns(part.row, number, open);
   }
-}
-
-void draw_over(const StrokeInBand& of, DistanceBand& band, Canvas& canvas) {
-  const auto& [layer, stroke, below] = of;
-  const BrushProfile brush(stroke.radius_px);
-  const Cover cover(brush);
-  find_extents(layer, stroke, canvas.width, 0, band);
-  measure_distances(stroke, below, band);
-  for (int row = band.first_row; row < band.end_row; ++row) lay_over_row(stroke, cover, band, row, canvas);
 }
 
 void draw_under(const StrokeInBand& of, DistanceBand& band, FrontToBackAccumulator& accumulator) {
@@ -165,50 +136,90 @@ void draw_under(const StrokeInBand& of, DistanceBand& band, FrontToBackAccumulat
   }
 }
 
+/// Lays the rows of a block over a canvas. Where no light comes through, some stroke covers it.
+void lay_block_over(const FrontToBackAccumulator::Block& block, const FrontToBackAccumulator::Cover& cover, int x,
+                    int y, Canvas& canvas) {
+  const Floats f;
+  const auto dark = hn::Set(f, FrontToBackAccumulator::dark), whole = hn::Set(f, 1.f);
+  for (int i = 0; i < FrontToBackAccumulator::block_px; i += static_cast<int>(hn::Lanes(f))) {
+    const auto light = hn::Load(f, block.light + i);
+    const auto lay = [&](const float* drawn, Image<float>& plane) {
+      float* const to = plane.row(y).data() + x + i;
+      hn::StoreU(hn::MulAdd(light, hn::LoadU(f, to), hn::Load(f, drawn + i)), f, to);
+    };
+    lay(block.red, canvas.red);
+    lay(block.green, canvas.green);
+    lay(block.blue, canvas.blue);
+    float* const coverage = canvas.coverage.row(y).data() + x + i;
+    const auto covered = hn::IfThenElse(hn::Le(light, dark), whole, hn::LoadU(f, cover.data() + i));
+    hn::StoreU(hn::Max(hn::LoadU(f, coverage), covered), f, coverage);
+  }
+}
+
+void lay_band_over(FrontToBackAccumulator& accumulator, int top, Canvas& canvas) {
+  for (int row = 0; row < accumulator.rows(); ++row)
+    for (int number = 0; number < accumulator.block_count(); ++number)
+      if (accumulator.is_touched(row, number))
+        lay_block_over(accumulator.block(row, number), *accumulator.cover(row, number),
+                       number * FrontToBackAccumulator::block_px, top + row, canvas);
+}
+
 /// Writes the levels of a row from the value `first` on. Returns where they end; a vector of values after that may be
 /// written, too.
 std::size_t write_line(const float* squared, const BrushProfile& brush, const ColumnRun& columns, std::size_t first,
-                       Stamps& stamps) {
+                       Stamps& stamps, Stamps::Line& line) {
   const Floats f;
   const hn::Rebind<std::uint16_t, Floats> halves;
   const hn::RebindToSigned<Floats> integers;
   const int lanes = static_cast<int>(hn::Lanes(f));
   const auto slope = hn::Set(f, -Stamp::steps / brush.rim_px);
   const auto offset = hn::Set(f, Stamp::steps * (brush.middle_px / brush.rim_px + 0.5f) + Stamp::zero + 0.5f);
-  const auto least = hn::Zero(f), most = hn::Set(f, Stamp::most);
+  const auto least = hn::Zero(f), most = hn::Set(f, Stamp::most), no_cover = hn::Set(f, Stamp::zero + 1);
   std::uint16_t* levels = stamps.values.data() + first;
   std::fill_n(levels, Stamps::margin, std::uint16_t{0});
   levels += Stamps::margin;
+  int from = columns.end, to = columns.begin;
   for (int x = columns.begin; x < columns.end; x += lanes) {
     const auto cover = hn::MulAdd(hn::Sqrt(hn::LoadU(f, squared + x)), slope, offset);
-    const auto rounded = hn::ConvertTo(integers, hn::Min(hn::Max(cover, least), most));
-    hn::StoreU(hn::DemoteTo(halves, rounded), halves, levels + (x - columns.begin));
+    hn::StoreU(hn::DemoteTo(halves, hn::ConvertTo(integers, hn::Min(hn::Max(cover, least), most))), halves,
+               levels + (x - columns.begin));
+    const std::uint32_t covered = bits_of(hn::Ge(cover, no_cover));
+    if (covered == 0) continue;
+    from = std::min(from, x + std::countr_zero(covered));
+    to = x + 32 - std::countl_zero(covered);
   }
-  int from = 0, to = std::max(columns.end - columns.begin, 0);
-  std::fill_n(levels + to, Stamps::margin, std::uint16_t{0});
-  while (from < to && levels[from] <= Stamp::zero) ++from;
-  while (to > from && levels[to - 1] <= Stamp::zero) --to;
-  stamps.lines.push_back(
-      {static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(from), columns.begin + from, columns.begin + to});
-  return first + 2 * Stamps::margin + static_cast<std::size_t>(to);
+  to = std::min(to, columns.end);
+  from = std::min(from, to);
+  std::fill_n(levels + (columns.end - columns.begin), Stamps::margin, std::uint16_t{0});
+  line = {static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(from - columns.begin), from, to};
+  return first + 2 * Stamps::margin + static_cast<std::size_t>(to - columns.begin);
 }
 
-void make_stamp(const StrokeInBand& of, int width, DistanceBand& band, Stamp& stamp, Stamps& stamps) {
+void make_stamp(const StrokeInBand& of, int width, std::uint32_t rows, DistanceBand& band, Stamp& stamp,
+                Stamps& stamps) {
   const auto& [layer, stroke, below] = of;
   const BrushProfile brush(stroke.radius_px);
-  find_extents(layer, stroke, width, Stamps::margin, band);
+  find_extents(layer, stroke, width, Stamps::aside_px, band);
+  for (int row = band.first_row; row < band.end_row; ++row)
+    if ((rows >> row & 1) == 0) band.begin[row] = band.end[row] = 0;
   measure_distances(stroke, below, band);
-  stamp.first_row = band.first_row;
-  stamp.end_row = std::max(band.end_row, band.first_row);
-  stamp.first_line = static_cast<std::uint32_t>(stamps.lines.size());
-  stamp.is_made = true;
+  if (stamp.made == 0) {
+    stamp.first_row = band.first_row;
+    stamp.end_row = std::max(band.end_row, band.first_row);
+    stamp.first_line = static_cast<std::uint32_t>(stamps.lines.size());
+    stamps.lines.resize(stamps.lines.size() + static_cast<std::size_t>(stamp.end_row - stamp.first_row));
+  }
+  stamp.made |= rows;
   std::size_t next = stamps.values.size() - Stamps::slack, most = next + 2 * Stamps::slack;
-  for (int row = stamp.first_row; row < stamp.end_row; ++row)
+  for (int row = band.first_row; row < band.end_row; ++row)
     most += 2 * Stamps::margin + static_cast<std::size_t>(std::max(band.end[row] - band.begin[row], 0));
   stamps.values.resize(most);
-  for (int row = stamp.first_row; row < stamp.end_row; ++row)
+  for (int row = band.first_row; row < band.end_row; ++row) {
+    if (band.begin[row] >= band.end[row]) continue;
     next = write_line(band.squared.data() + static_cast<std::size_t>(row) * band.stride, brush,
-                      {band.begin[row], band.end[row]}, next, stamps);
+                      {band.begin[row], band.end[row]}, next, stamps,
+                      stamps.lines[stamp.first_line + static_cast<std::size_t>(row - stamp.first_row)]);
+  }
   stamps.values.resize(next + Stamps::slack);
   std::fill(stamps.values.begin() + static_cast<std::ptrdiff_t>(next), stamps.values.end(), std::uint16_t{0});
 }
@@ -272,8 +283,7 @@ void lay_lines_under(const StampInBand& of, FrontToBackAccumulator& accumulator)
   const Paint paint(of.paint);
   const Stamps::Line* lines = of.stamps.lines.data() + of.stamp.first_line;
   RowPlaces places(of);
-  std::uint32_t rows = of.rows & of.stamp.rows();
-  for (; rows != 0; rows &= rows - 1) {
+  for (std::uint32_t rows = of.rows & of.stamp.rows(); rows != 0; rows &= rows - 1) {
     const int row = std::countr_zero(rows);
     const Stamps::Line& line = lines[row - of.stamp.first_row];
     places.find(row);
@@ -307,21 +317,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace wheatstone {
 
-HWY_EXPORT(draw_over);
 HWY_EXPORT(draw_under);
+HWY_EXPORT(lay_band_over);
 HWY_EXPORT(make_stamp);
 HWY_EXPORT(lay_stamp_under);
-
-void draw_stroke_over(const StrokeInBand& stroke, DistanceBand& band, Canvas& canvas) {
-  HWY_DYNAMIC_DISPATCH(draw_over)(stroke, band, canvas);
-}
 
 void draw_stroke_under(const StrokeInBand& stroke, DistanceBand& band, FrontToBackAccumulator& accumulator) {
   HWY_DYNAMIC_DISPATCH(draw_under)(stroke, band, accumulator);
 }
 
-void make_stamp(const StrokeInBand& stroke, int width, DistanceBand& band, Stamp& stamp, Stamps& stamps) {
-  HWY_DYNAMIC_DISPATCH(make_stamp)(stroke, width, band, stamp, stamps);
+void lay_over(FrontToBackAccumulator& accumulator, int top, Canvas& canvas) {
+  HWY_DYNAMIC_DISPATCH(lay_band_over)(accumulator, top, canvas);
+}
+
+void make_stamp(const StrokeInBand& stroke, int width, std::uint32_t rows, DistanceBand& band, Stamp& stamp,
+                Stamps& stamps) {
+  HWY_DYNAMIC_DISPATCH(make_stamp)(stroke, width, rows, band, stamp, stamps);
 }
 
 void lay_stamp_under(const StampInBand& stamp, FrontToBackAccumulator& accumulator) {

@@ -35,8 +35,8 @@ PreparedSurfaces::KnownPart known_part(const Surface& surface) {
 }  // namespace
 
 PreparedSurfaces::PreparedSurfaces(const Surfaces& surfaces)
-    : tolerance_px(surfaces.tolerance_px), photographed(photographed_views(surfaces)) {
-  for (const Surface& surface : surfaces.seen) seen.push_back(known_part(surface));
+    : seen(surfaces.seen.size()), tolerance_px(surfaces.tolerance_px), photographed(photographed_views(surfaces)) {
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) { seen[i] = known_part(surfaces.seen[i]); });
 }
 
 SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, const RowsOfView& rows) {

@@ -2,10 +2,10 @@
 
 #include <tbb/parallel_for.h>
 
-#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/strokes/layer_planner.h"
@@ -22,7 +22,7 @@ Surface surface_of(const SceneView& view) {
     const auto to = surface.disparity.row(y);
     for (int x = 0; x < width; ++x) {
       const bool is_its_own = view.only_here.empty() || view.only_here(x, y) != 0;
-      to[x] = is_its_own ? std::round(from[x] * disparity_steps) / disparity_steps
+      to[x] = is_its_own ? static_cast<float>(floor_of(from[x] * disparity_steps + 0.5f)) / disparity_steps
                          : std::numeric_limits<float>::quiet_NaN();
     }
   });
