@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "wheatstone/curves/edge_chains_internal.h"
-#include "wheatstone/curves/stray_colours_internal.h"
 #include "wheatstone/motion/steady_picture.h"
 
 namespace wheatstone {
@@ -259,7 +258,6 @@ LinesAndEdges lines_beside_edges(const SceneOfEdges& scene, const CarriedEdges* 
   LinesAndEdges whole{{parts[0].painting.width, parts[0].painting.height, {}, {}}, {}};
   for (const LinesAndEdges& part : parts) append(part, whole);
   if (whole.painting.lines.empty()) add_middle(scene.views[0], whole.painting);
-  add_dots_where_colours_stray(scene.views[0], whole.painting);
   return whole;
 }
 

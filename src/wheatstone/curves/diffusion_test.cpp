@@ -4,13 +4,10 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "scenes/two_surfaces.h"
-#include "wheatstone/curves/plan_diffusion.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/measures/consistency.h"
-#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
 
 namespace wheatstone {
@@ -32,24 +29,6 @@ TEST(Diffusion, FusesWhereIndependentEyesDoNot) {
   RecordProperty("both", std::to_string(both));
   RecordProperty("independent", std::to_string(independent));
   EXPECT_LT(both, 0.35 * independent);
-}
-
-TEST(Diffusion, ASoftShadowWithoutAnEdgeIsShown) {
-  // A dark disc with a rim of 60 pixels, too soft for an edge, and a square that has edges.
-  Image<Rgb8> picture(400, 200);
-  for (int y = 0; y < 200; ++y) {
-    for (int x = 0; x < 400; ++x) {
-      const float from_middle = std::hypot(static_cast<float>(x - 280), static_cast<float>(y - 100));
-      const float light = 70 + 130 * std::clamp((from_middle - 20) / 60, 0.f, 1.f);
-      const auto level = static_cast<std::uint8_t>(x > 40 && x < 80 && y > 80 && y < 120 ? 20 : light);
-      picture(x, y) = {level, level, level};
-    }
-  }
-  const Image<float> flat(400, 200);
-  const std::vector<SceneView> scene{{picture, flat, {}, left_eye}};
-  const DiffusionPainting painting = plan_diffusion(scene, style_by_name("diffusion"));
-  const Image<Rgb8> drawn = draw(Painting{.marks = painting}, left_eye).picture;
-  EXPECT_LT(measure_wrong_spots(drawn, picture).share, 0.002);
 }
 
 TEST(Diffusion, KeepsTheColoursOfTwoSurfacesApart) {
