@@ -13,7 +13,6 @@
 
 #include "display_argument.h"
 #include "film_argument.h"
-#include "interrupt.h"
 #include "number_arguments.h"
 #include "option_use.h"
 #include "print_facts.h"
@@ -21,12 +20,10 @@
 #include "typed_options.h"
 #include "wheatstone/app/particle_frames.h"
 #include "wheatstone/app/render_film.h"
-#include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
 #include "wheatstone/video/frame_sequence.h"
-#include "wheatstone/video/segmented_film.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -34,7 +31,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto film_group = "Film";
-constexpr const char* how_to_continue = "use --resume to continue that run";
 
 bool reads_slices(const RenderArguments& arguments) { return fs::path(arguments.file).extension() == ".exr"; }
 
@@ -132,23 +128,9 @@ void tell(const RenderArguments& arguments, const RenderedFilm& film, const Sess
   fmt::print(session.output, "written to       {}\n", arguments.output);
 }
 
-RenderedFilm begin_or_resume(const FrameSource& source, const fs::path& output, const RenderFilmOptions& options,
-                             const Progress& progress) {
-  tell_what_is_kept([output] {
-    const std::optional<std::string> kept = unfinished_film(output, {});
-    return kept ? fmt::format("{}; {}", *kept, how_to_continue) : std::string();
-  });
-  try {
-    return render_film(source, output, options, progress);
-  } catch (const UnfinishedFilm& error) {
-    throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_to_continue));
-  }
-}
-
 }  // namespace
 
 void add_render_film_options(CLI::App& command, RenderFilmArguments& arguments) {
-  FilmWriterOptions& writing = arguments.writing;
   const auto text = [&](const char* name, std::string& value, const char* help) {
     return command.add_option(name, value, help)->group(film_group);
   };
@@ -164,16 +146,8 @@ void add_render_film_options(CLI::App& command, RenderFilmArguments& arguments) 
   text("--camera", arguments.camera, "Keyframes of the camera and of time: FILE.toml");
   text("--rate", arguments.rate, "Frames per second, for example 25 or 24000/1001")->capture_default_str();
   text("--output-layout", arguments.output_layout, "Stereo layout of a film of two views; side by side by default");
-  text("--codec", writing.codec, "h264, hevc, or ffv1 (lossless, .mkv)")->capture_default_str();
-  add_number(command, "--crf", writing.crf, {0, 51},
-             "Constant rate factor of h264 and hevc: from 0, the best quality, to 51")
-      ->group(film_group);
-  text("--preset", writing.preset, "Encoder preset of h264 and hevc, from ultrafast to placebo")->capture_default_str();
-  text("--pixel-format", writing.pixel_format, "yuv420p, yuv422p, yuv444p; bgr0 for ffv1");
-  command.add_flag("--resume", arguments.resume, "Continue a run that was stopped")->group(film_group);
-  add_number(command, "--checkpoint", arguments.checkpoint, {1, 100'000},
-             "Number of frames between checkpoints: a stopped run loses at most this many")
-      ->group(film_group);
+  add_film_coding_options(command, arguments.writing, film_group);
+  add_film_resume_options(command, arguments.resume, arguments.checkpoint, film_group);
   text("--frame-range", arguments.frame_range,
        "Make these of the frames only, as numbered pictures (frame_%04d.png): 1-240x2,300");
   command.add_flag("--skip-existing", arguments.skip_existing, "Leave numbered pictures alone that are there already")
@@ -215,7 +189,9 @@ void run_render_film(const RenderArguments& given, const CLI::App& command, cons
                                  : frames_of_particles(arguments, options, film.frames, session.progress);
   if (!arguments.film.frame_range.empty())
     film.only = parse_frame_range(arguments.film.frame_range, film.frames, "--frame-range");
-  const RenderedFilm result = begin_or_resume(source, arguments.output, film, session.progress);
+  tell_what_film_keeps(arguments.output);
+  const RenderedFilm result =
+      make_or_say_how_to_continue([&] { return render_film(source, arguments.output, film, session.progress); });
   tell(arguments, result, session);
 }
 

@@ -18,7 +18,6 @@
 #include "depth_argument.h"
 #include "display_argument.h"
 #include "film_argument.h"
-#include "interrupt.h"
 #include "match_options.h"
 #include "number_arguments.h"
 #include "option_use.h"
@@ -36,7 +35,6 @@
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/video/film_files.h"
 #include "wheatstone/video/frame_sequence.h"
-#include "wheatstone/video/segmented_film.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -198,17 +196,6 @@ void take_depth(const Arguments& arguments, const FilmFiles& film, const StereoF
   options.made_from.emplace_back(depth.model.empty() ? depth.file : depth.model);
 }
 
-constexpr std::string_view how_to_continue = "use --resume to continue that run";
-
-RotoscopedFilm begin_or_resume(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
-                               const Progress& progress) {
-  try {
-    return rotoscope_film(source, output, options, progress);
-  } catch (const UnfinishedFilm& error) {
-    throw Error(error.kind(), fmt::format("{}; {}", error.what(), how_to_continue));
-  }
-}
-
 /// The depth of what two eyes look at. Of marks, and of a display with more views, it is that of the film.
 void take_depth_budget(const CLI::App& command, Arguments& arguments) {
   const std::vector<std::string> option{"--depth-budget"};
@@ -303,10 +290,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   take_depth_budget(command, arguments);
   arguments.options.frames.depth = {.kind = arguments.depth.kind, .strength = parse_strength(arguments.depth.strength)};
   refuse_options_without_effect(command, arguments);
-  tell_what_is_kept([output = fs::path(arguments.output), marks = arguments.options.marks] {
-    const std::optional<std::string> kept = unfinished_film(output, marks);
-    return kept ? fmt::format("{}; {}", *kept, how_to_continue) : std::string();
-  });
+  tell_what_film_keeps(arguments.output, arguments.options.marks);
   RotoscopeFilmOptions options = arguments.options;
   take_truth(arguments, options);
   const FilmFiles film = films_from(arguments);
@@ -327,7 +311,8 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   if (!film.right.empty()) options.made_from.push_back(film.right);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
   if (!left_out.empty() && !session.quiet) fmt::print(session.errors, "wheatstone: {}\n", fmt::join(left_out, "; "));
-  const RotoscopedFilm result = begin_or_resume(source, arguments.output, options, session.progress);
+  const RotoscopedFilm result =
+      make_or_say_how_to_continue([&] { return rotoscope_film(source, arguments.output, options, session.progress); });
   if (session.json) {
     print_facts(to_json(arguments, result), session);
   } else {
@@ -337,7 +322,6 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
 
 void add_film_options(CLI::App& command, Arguments& arguments) {
   constexpr auto group = "Film";
-  FilmWriterOptions& writing = arguments.options.writing;
   command
       .add_option("--layout", arguments.layout,
                   "Stereo layout of the film: sbs, sbs-half, tb, tb-half, mono, …; by default from its metadata, or "
@@ -354,24 +338,12 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
                   "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default")
       ->group(group);
   add_number(command, "--frame-step", arguments.frame_step, {1, 1'000'000}, "Paint every Nth frame only")->group(group);
-  command.add_option("--codec", writing.codec, "h264, hevc, or ffv1 (lossless, .mkv)")
-      ->capture_default_str()
-      ->group(group);
-  add_number(command, "--crf", writing.crf, {0, 51},
-             "Constant rate factor of h264 and hevc: from 0, the best quality, to 51")
-      ->group(group);
-  command.add_option("--preset", writing.preset, "Encoder preset of h264 and hevc, from ultrafast to placebo")
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--pixel-format", writing.pixel_format, "yuv420p, yuv422p, yuv444p; bgr0 for ffv1")->group(group);
+  add_film_coding_options(command, arguments.options.writing, group);
   command.add_flag("--no-audio", arguments.no_audio, "Do not copy the film's sound")->group(group);
   command.add_flag("--no-subtitles", arguments.no_subtitles, "Do not copy the film's subtitles")->group(group);
   command.add_option("--save-marks", arguments.options.marks, "Also write the marks of each frame: marks_%04d.wst")
       ->group(group);
-  command.add_flag("--resume", arguments.options.resume, "Continue a run that was stopped")->group(group);
-  add_number(command, "--checkpoint", arguments.options.frames_between_checkpoints, {1, 100'000},
-             "Number of frames between checkpoints: a stopped run loses at most this many")
-      ->group(group);
+  add_film_resume_options(command, arguments.options.resume, arguments.options.frames_between_checkpoints, group);
   command
       .add_flag("--keep-going", arguments.options.keep_going,
                 "Paint the frames of a damaged film that can be decoded, without an error at the end")

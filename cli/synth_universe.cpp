@@ -17,7 +17,6 @@
 #include "synth_kinds.h"
 #include "typed_options.h"
 #include "wheatstone/error.h"
-#include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 #include "wheatstone/video/frame_sequence.h"
 
@@ -29,25 +28,6 @@ struct Arguments {
   std::string times;
   SyntheticUniverseOptions universe;
 };
-
-void write_universe(const SyntheticUniverseOptions& options, const std::filesystem::path& file,
-                    const Progress& progress) {
-  SyntheticUniverse universe(options, progress);
-  GadgetWriter writer(file, {.particles = options.particles,
-                             .box_size = universe.box_size(),
-                             .redshift = options.redshift,
-                             .mass_of_a_particle = universe.mass_of_a_particle(),
-                             .motion = options.motion});
-  constexpr std::size_t chunk = 1'000'000;
-  std::uint64_t written = 0;
-  while (written < options.particles) {
-    report(progress, "particles", static_cast<double>(written) / static_cast<double>(options.particles));
-    const Cloud cloud = universe.next(chunk);
-    writer.add(cloud);
-    written += cloud.size();
-  }
-  writer.commit();
-}
 
 std::vector<double> parse_times(const std::string& text) {
   if (text.empty()) return {};
@@ -70,7 +50,7 @@ void write_series(const Arguments& arguments, const std::vector<double>& times, 
   options.motion = true;
   for (std::size_t i = 0; i < times.size(); ++i) {
     options.redshift = 1 / times[i] - 1;
-    write_universe(options, pattern->file(static_cast<std::int64_t>(i)), session.progress);
+    write_synthetic_universe(pattern->file(static_cast<std::int64_t>(i)), options, session.progress);
   }
 }
 
@@ -79,7 +59,7 @@ void run(Arguments arguments, const Session& session) {
   options.seed = session.seed;
   const std::vector<double> times = parse_times(arguments.times);
   if (times.empty()) {
-    write_universe(options, arguments.file, session.progress);
+    write_synthetic_universe(arguments.file, options, session.progress);
   } else {
     write_series(arguments, times, session);
   }

@@ -10,21 +10,10 @@
 #include <filesystem>
 
 #include "wheatstone/app/render_particles.h"
-#include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 
 namespace wheatstone::bench {
 namespace {
-
-void write_universe(const std::filesystem::path& path, std::uint64_t particles) {
-  SyntheticUniverse universe({.particles = particles});
-  GadgetWriter writer(path, {.particles = particles,
-                             .box_size = universe.box_size(),
-                             .redshift = 0,
-                             .mass_of_a_particle = universe.mass_of_a_particle()});
-  for (Cloud chunk = universe.next(1'000'000); chunk.size() > 0; chunk = universe.next(1'000'000)) writer.add(chunk);
-  writer.commit();
-}
 
 template <class Call>
 double seconds_of(Call call) {
@@ -75,7 +64,7 @@ void run(std::uint64_t particles, const std::filesystem::path& path) {
 
 int main(int argc, char** argv) {
   if (argc == 4 && std::string(argv[1]) == "--make") {
-    wheatstone::bench::write_universe(argv[3], std::strtoull(argv[2], nullptr, 10));
+    wheatstone::write_synthetic_universe(argv[3], {.particles = std::strtoull(argv[2], nullptr, 10)});
     return 0;
   }
   const std::uint64_t particles = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 100'000'000;

@@ -7,19 +7,12 @@
 #include <optional>
 #include <string>
 
+#include "painting/subject.h"
 #include "wheatstone/app/paint_photograph.h"
-#include "wheatstone/pictures/disparity_file.h"
-#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::bench {
 namespace {
-
-struct Subject {
-  std::string name;
-  StereoPair photographs;
-  Image<float> left_disparity;
-};
 
 void print_row(const std::string& name, const PairMeasures& m, const std::string& rest) {
   fmt::print("  {:34} {:6.2f}  {:.4f}  {:.3f}  {:.3f}  {:.3f}   {:5.2f}  {}\n", name, m.difference.mean_absolute,
@@ -55,16 +48,6 @@ void print_subject(const Subject& subject) {
       "most +0.03), each eye alone {:+.3f} (over +0.10)\n",
       strokes.difference.mean_absolute / alone.difference.mean_absolute,
       strokes.survival.bad_2 - photographs.survival.bad_2, alone.survival.bad_2 - photographs.survival.bad_2);
-}
-
-std::optional<Subject> read_subject(const std::filesystem::path& folder, std::optional<float> scale) {
-  if (!std::filesystem::exists(folder)) {
-    fmt::print("\n{}: not here, left out\n", folder.filename().string());
-    return {};
-  }
-  return Subject{folder.filename().string(),
-                 {read_image(folder / "left.png"), read_image(folder / "right.png")},
-                 read_disparity(folder / "disp_left.png", scale)};
 }
 
 }  // namespace

@@ -14,21 +14,14 @@
 #include <utility>
 #include <vector>
 
+#include "painting/subject.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/measures/wrong_spots.h"
-#include "wheatstone/pictures/disparity_file.h"
-#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::bench {
 namespace {
-
-struct Subject {
-  std::string name;
-  StereoPair photographs;
-  Image<float> left_disparity;
-};
 
 /// A style, and what it is to keep below.
 struct Limit {
@@ -60,16 +53,6 @@ void measure(const Subject& subject, const Limit& limit, bool matched, const std
   mark_wrong(painted.left, subject.photographs.left, 0, drawing);
   mark_wrong(painted.right, subject.photographs.right, height, drawing);
   write_image(folder / fmt::format("{}_{}_{}.png", subject.name, limit.style, matched ? "own" : "true"), drawing);
-}
-
-std::optional<Subject> read_subject(const std::filesystem::path& folder, std::optional<float> scale) {
-  if (!std::filesystem::exists(folder)) {
-    fmt::print("\n{}: not here, left out\n", folder.filename().string());
-    return {};
-  }
-  return Subject{folder.filename().string(),
-                 {read_image(folder / "left.png"), read_image(folder / "right.png")},
-                 read_disparity(folder / "disp_left.png", scale)};
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "wheatstone/app/particle_frames.h"
 #include "wheatstone/app/render_film.h"
 #include "wheatstone/multiview/render_slices.h"
-#include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 #include "wheatstone/video/segmented_film.h"
@@ -25,16 +24,8 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 
 void write_universe(const fs::path& file, double scale, double box_mpc_h = 100) {
-  SyntheticUniverseOptions options{
-      .particles = 3000, .redshift = 1 / scale - 1, .box_mpc_h = box_mpc_h, .motion = true};
-  SyntheticUniverse universe(options);
-  GadgetWriter writer(file, {.particles = options.particles,
-                             .box_size = universe.box_size(),
-                             .redshift = options.redshift,
-                             .mass_of_a_particle = universe.mass_of_a_particle(),
-                             .motion = true});
-  writer.add(universe.next(options.particles));
-  writer.commit();
+  write_synthetic_universe(file,
+                           {.particles = 3000, .redshift = 1 / scale - 1, .box_mpc_h = box_mpc_h, .motion = true});
 }
 
 /// Three snapshots of a universe, written once.

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -130,17 +129,17 @@ void put_presence(const MatchedParticles& matched, const Moment& moment, Cloud& 
 TimedCloud read_timed_cloud(const std::filesystem::path& file, const CloudChoice& choice, const Progress& progress) {
   CloudChoice with_motion = choice;
   with_motion.motion = true;
+  const CloudSource source = open_cloud(file, with_motion);
   TimedCloud timed;
-  timed.cloud = read_cloud(file, with_motion, progress);
+  timed.cloud = read_cloud(source, file, progress);
   if (timed.cloud.id.empty())
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: has no IDs that particles can be followed by, expected a GADGET HDF5 snapshot with "
                             "ParticleIDs",
                             file.string()));
-  const std::optional<double> time = open_cloud(file, choice).time;
-  if (!time)
+  if (!source.time)
     throw Error(ErrorKind::bad_input, fmt::format("{}: its header tells no time, expected 'Time'", file.string()));
-  timed.time = *time;
+  timed.time = *source.time;
   order_by_id(timed.cloud, file);
   return timed;
 }

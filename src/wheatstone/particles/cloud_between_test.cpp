@@ -77,16 +77,8 @@ TEST(CloudBetween, ChangesDensityByEqualFactorsInEqualTimes) {
 TEST(CloudBetween, IsTenTimesNearerToTheTruthThanStraightLines) {
   const TemporaryFolder folder;
   const auto snapshot = [&](double scale) {
-    SyntheticUniverseOptions options{.particles = 8000, .redshift = 1 / scale - 1, .motion = true};
-    SyntheticUniverse universe(options);
     const std::filesystem::path path = folder / "snap.hdf5";
-    GadgetWriter writer(path, {.particles = options.particles,
-                               .box_size = universe.box_size(),
-                               .redshift = options.redshift,
-                               .mass_of_a_particle = universe.mass_of_a_particle(),
-                               .motion = true});
-    writer.add(universe.next(options.particles));
-    writer.commit();
+    write_synthetic_universe(path, {.particles = 8000, .redshift = 1 / scale - 1, .motion = true});
     return read_timed_cloud(path, {});
   };
   TimedCloud earlier = snapshot(0.5), later = snapshot(0.6);

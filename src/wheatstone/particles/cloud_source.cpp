@@ -130,7 +130,10 @@ CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& cho
 }
 
 Cloud read_cloud(const std::filesystem::path& path, const CloudChoice& choice, const Progress& progress) {
-  const CloudSource source = open_cloud(path, choice);
+  return read_cloud(open_cloud(path, choice), path, progress);
+}
+
+Cloud read_cloud(const CloudSource& source, const std::filesystem::path& path, const Progress& progress) {
   constexpr std::size_t chunk = 1 << 20;
   Cloud all;
   while (true) {

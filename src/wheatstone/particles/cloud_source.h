@@ -59,4 +59,7 @@ CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& cho
 /// All particles of a file at once. Throws as open_cloud does, and Error{bad_input} where there is none.
 Cloud read_cloud(const std::filesystem::path& path, const CloudChoice& choice = {}, const Progress& progress = {});
 
+/// The same of a file that was opened, which `path` names for messages.
+Cloud read_cloud(const CloudSource& source, const std::filesystem::path& path, const Progress& progress = {});
+
 }  // namespace wheatstone

@@ -30,6 +30,11 @@ std::vector<std::pair<std::string, std::string>> snapshot_units(std::int64_t fil
 /// The first attribute above 0 of these names, in any of the groups of an open HDF5 snapshot that tell of the whole.
 std::optional<double> snapshot_number(std::int64_t file, std::initializer_list<const char*> names);
 
+/// The unit of length of an open HDF5 snapshot in cm, and that of velocity in cm/s, which may be that of length over
+/// that of time; nothing where it does not tell them.
+std::optional<double> snapshot_length_cm(std::int64_t file);
+std::optional<double> snapshot_velocity_cm_s(std::int64_t file, std::optional<double> length_cm);
+
 /// When a snapshot was taken.
 struct SnapshotTime {
   /// The scale factor of a universe that expands, else in the simulation's own unit; nothing where the header is

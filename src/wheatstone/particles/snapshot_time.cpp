@@ -32,15 +32,14 @@ double exponent_of(hid_t group, const char* dataset, std::array<const char*, 2> 
 /// d(position)/d(scale factor) for a velocity of 1, both as the file has them. Comoving positions move by
 /// dx/dt = v/a, where v is the peculiar velocity, and da/dt = a·H(a).
 double comoving_rate(hid_t file, hid_t group, double scale, const Cosmology& cosmology) {
-  const double length = snapshot_number(file, {"UnitLength_in_cm", "Unit length in cgs (U_L)"}).value_or(cm_a_kpc);
-  std::optional<double> velocity = snapshot_number(file, {"UnitVelocity_in_cm_per_s"});
-  if (const auto time = snapshot_number(file, {"Unit time in cgs (U_t)"}); !velocity && time) velocity = length / *time;
+  const double length = snapshot_length_cm(file).value_or(cm_a_kpc);
+  const double velocity = snapshot_velocity_cm_s(file, length).value_or(cm_a_km);
   // GADGET divides peculiar velocities by √a, and positions by 1/h; others say so.
   const double with_scale = exponent_of(group, "Velocities", {"a_scaling", "a-scale exponent"}, 0.5);
   const double with_hubble = exponent_of(group, "Coordinates", {"h_scaling", "h-scale exponent"}, -1);
   const double hubble = snapshot_number(file, {"HubbleParam", "h"}).value_or(1);
   const double hubble_today = 100 * cm_a_km / cm_a_mpc * hubble;  // a second
-  const double peculiar = velocity.value_or(cm_a_km) * std::pow(scale, with_scale);
+  const double peculiar = velocity * std::pow(scale, with_scale);
   const double a_length = length * std::pow(hubble, with_hubble);
   return peculiar / (scale * scale * hubble_today * cosmology.expansion(scale) * a_length);
 }

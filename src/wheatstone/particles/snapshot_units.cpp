@@ -77,13 +77,22 @@ std::optional<double> snapshot_number(std::int64_t file, std::initializer_list<c
   return std::nullopt;
 }
 
+std::optional<double> snapshot_length_cm(std::int64_t file) {
+  return snapshot_number(file, {"UnitLength_in_cm", "Unit length in cgs (U_L)"});
+}
+
+std::optional<double> snapshot_velocity_cm_s(std::int64_t file, std::optional<double> length_cm) {
+  if (const auto velocity = snapshot_number(file, {"UnitVelocity_in_cm_per_s"})) return velocity;
+  const auto time = snapshot_number(file, {"Unit time in cgs (U_t)"});
+  if (!length_cm || !time) return std::nullopt;
+  return *length_cm / *time;
+}
+
 Units snapshot_units(std::int64_t file, std::int64_t group) {
   Units units;
-  const auto length = snapshot_number(file, {"UnitLength_in_cm", "Unit length in cgs (U_L)"});
+  const auto length = snapshot_length_cm(file);
   const auto mass = snapshot_number(file, {"UnitMass_in_g", "Unit mass in cgs (U_M)"});
-  auto velocity = snapshot_number(file, {"UnitVelocity_in_cm_per_s"});
-  const auto time = snapshot_number(file, {"Unit time in cgs (U_t)"});
-  if (!velocity && length && time) velocity = *length / *time;
+  const auto velocity = snapshot_velocity_cm_s(file, length);
   if (length) units.emplace_back("length", with_name(*length, "cm", lengths));
   if (mass) units.emplace_back("mass", with_name(*mass, "g", masses));
   if (velocity) units.emplace_back("velocity", with_name(*velocity, "cm/s", velocities));

@@ -16,6 +16,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/particles/cosmology.h"
+#include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/random.h"
 
 namespace wheatstone {
@@ -54,8 +55,8 @@ std::function<double(double k)> growing_waves(double redshift) {
   };
 }
 
-/// White noise, coloured by the spectrum: density as waves, each as high as `height` has it.
-Waves density_waves(const Lattice& lattice, const std::function<double(double k)>& height, std::uint64_t seed) {
+/// White noise as waves.
+Waves noise_waves(const Lattice& lattice, std::uint64_t seed) {
   const int side = lattice.side;
   Grid field(lattice.cells());
   tbb::parallel_for(std::size_t{0}, field.size(), [&](std::size_t i) {
@@ -66,7 +67,12 @@ Waves density_waves(const Lattice& lattice, const std::function<double(double k)
                                                 reinterpret_cast<fftwf_complex*>(waves.data()), FFTW_ESTIMATE);
   fftwf_execute(plan);
   fftwf_destroy_plan(plan);
+  return waves;
+}
 
+/// White noise, coloured by the spectrum: density as waves, each as high as `height` has it.
+Waves density_waves(const Lattice& lattice, Waves waves, const std::function<double(double k)>& height) {
+  const int side = lattice.side;
   const double cells = static_cast<double>(lattice.cells());
   const double volume = std::pow(lattice.box, 3);
   tbb::parallel_for(0, side, [&](int x) {
@@ -225,8 +231,9 @@ SyntheticUniverse::SyntheticUniverse(const SyntheticUniverseOptions& options, co
   state.field = {static_cast<int>(side), options.box_mpc_h};
 
   report(progress, "field", 0);
+  const Waves white = noise_waves(state.field, options.seed);
   const auto moved_by = [&](const std::function<double(double k)>& height) {
-    return displacements(state.field, density_waves(state.field, height, options.seed), progress);
+    return displacements(state.field, density_waves(state.field, white, height), progress);
   };
   state.displaced = moved_by(grown_waves(options.redshift));
   if (options.motion) state.rate = moved_by(growing_waves(options.redshift));
@@ -286,6 +293,25 @@ Cloud SyntheticUniverse::next(std::size_t most) {
   });
   state.made += count;
   return cloud;
+}
+
+void write_synthetic_universe(const std::filesystem::path& file, const SyntheticUniverseOptions& options,
+                              const Progress& progress) {
+  SyntheticUniverse universe(options, progress);
+  GadgetWriter writer(file, {.particles = options.particles,
+                             .box_size = universe.box_size(),
+                             .redshift = options.redshift,
+                             .mass_of_a_particle = universe.mass_of_a_particle(),
+                             .motion = options.motion});
+  constexpr std::size_t chunk = 1'000'000;
+  std::uint64_t written = 0;
+  while (written < options.particles) {
+    report(progress, "particles", static_cast<double>(written) / static_cast<double>(options.particles));
+    const Cloud cloud = universe.next(chunk);
+    writer.add(cloud);
+    written += cloud.size();
+  }
+  writer.commit();
 }
 
 Cloud make_synthetic_universe(const SyntheticUniverseOptions& options, const Progress& progress) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 
 #include "wheatstone/particles/cloud.h"
@@ -38,6 +39,10 @@ class SyntheticUniverse {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Writes a universe as a GADGET-4 snapshot, chunk by chunk. Throws as SyntheticUniverse and GadgetWriter do.
+void write_synthetic_universe(const std::filesystem::path& file, const SyntheticUniverseOptions& options,
+                              const Progress& progress = {});
 
 /// All of it at once.
 Cloud make_synthetic_universe(const SyntheticUniverseOptions& options, const Progress& progress = {});
