@@ -11,16 +11,7 @@ if ! command -v oiiotool >/dev/null; then
   echo "golden_test: oiiotool is not installed, so that pictures are not compared"
   exit 0
 fi
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-unset DISPLAY WAYLAND_DISPLAY QT_QPA_PLATFORM
-export XDG_RUNTIME_DIR=$folder
-
-fail() {
-  echo "golden_test: $1" >&2
-  exit 1
-}
+source "$(dirname "$0")/scratch_folder.sh"
 
 "$wheatstone" synth still --size 64x48 --samples 1 -o still --quiet >made.txt
 "$wheatstone" pack still/left.png still/right.png --to quilt --quilt 2x1 -o pair --quiet >made.txt

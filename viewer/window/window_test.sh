@@ -5,16 +5,7 @@
 #   window_test.sh WHEATSTONE_VIEW WHEATSTONE FOLDER_OF_A_BRIDGE
 set -euo pipefail
 view=$1 wheatstone=$2 bridge=$3
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-unset DISPLAY WAYLAND_DISPLAY QT_QPA_PLATFORM
-export XDG_RUNTIME_DIR=$folder
-
-fail() {
-  echo "window_test: $1" >&2
-  exit 1
-}
+source "$(dirname "$0")/scratch_folder.sh"
 
 "$wheatstone" synth still --size 160x120 --samples 1 -o still --quiet >made.txt
 "$wheatstone" paint still/left.png still/right.png -o painted --quiet >made.txt
