@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "number_arguments.h"
+#include "option_use.h"
 #include "typed_options.h"
 #include "wheatstone/error.h"
 
@@ -92,6 +93,13 @@ std::string codec_for(const FilmDisplay& display) {
   const int width = display.quilt ? display.quilt->columns * display.views.width : display.screen->width;
   const int height = display.quilt ? display.quilt->rows * display.views.height : display.screen->height;
   return blocks(width) * blocks(height) <= most_macroblocks ? "h264" : "hevc";
+}
+
+void choose_coding(const CLI::App& command, const FilmDisplay& display, FilmWriterOptions& writing) {
+  if (!was_given(command, "--codec")) writing.codec = codec_for(display);
+  // Neighbouring sub-pixels belong to different views.
+  if (!display.quilt && !was_given(command, "--pixel-format") && writing.codec != "ffv1")
+    writing.pixel_format = "yuv444p";
 }
 
 }  // namespace wheatstone::cli

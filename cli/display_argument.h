@@ -6,6 +6,7 @@
 
 #include "wheatstone/app/film_display.h"
 #include "wheatstone/depth/display_presets.h"
+#include "wheatstone/video/film_writer.h"
 
 namespace wheatstone::cli {
 
@@ -37,5 +38,9 @@ std::string name_of_film(const std::string& output, const std::optional<QuiltLay
 /// The codec that holds frames of a display's film: H.264, or HEVC for larger ones than level 5.2 of H.264 allows,
 /// which is the highest that players' hardware knows.
 std::string codec_for(const FilmDisplay& display);
+
+/// How a display's film is coded, where the user does not say otherwise: by that codec, and with colours at full size
+/// under lenses.
+void choose_coding(const CLI::App& command, const FilmDisplay& display, FilmWriterOptions& writing);
 
 }  // namespace wheatstone::cli

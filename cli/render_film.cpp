@@ -59,8 +59,7 @@ void choose_output(RenderArguments& arguments, const RenderParticlesOptions& opt
   if (two_eyes) return;
   const FilmDisplay display{
       .views = {.width = options.width, .height = options.height}, .quilt = film.quilt, .screen = film.screen};
-  if (!was_given(command, "--codec")) film.writing.codec = codec_for(display);
-  if (film.screen && !was_given(command, "--pixel-format")) film.writing.pixel_format = "yuv444p";
+  choose_coding(command, display, film.writing);
 }
 
 /// All that was typed or is a default and decides what is in the frames.

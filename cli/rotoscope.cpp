@@ -227,12 +227,7 @@ void take_display(const CLI::App& command, Arguments& arguments) {
   arguments.output = name_of_display_film(arguments.output, arguments.display);
   if (fs::path(arguments.output).extension() == ".wst")
     refuse_options(command, {"--display"}, "on marks (.wst)", "'paint --display' draws them for a display");
-  const FilmDisplay& display = *arguments.options.frames.display;
-  FilmWriterOptions& writing = arguments.options.writing;
-  if (!was_given(command, "--codec")) writing.codec = codec_for(display);
-  // Neighbouring sub-pixels belong to different views.
-  if (!display.quilt && !was_given(command, "--pixel-format") && writing.codec != "ffv1")
-    writing.pixel_format = "yuv444p";
+  choose_coding(command, *arguments.options.frames.display, arguments.options.writing);
 }
 
 /// The exact geometry and flow of a film of 'synth film'.
