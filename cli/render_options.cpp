@@ -26,6 +26,7 @@ constexpr std::array<std::pair<std::string_view, Method>, 4> methods{{{"auto", M
 constexpr std::array<std::pair<std::string_view, SliceFilter>, 3> filters{
     {{"nearest", SliceFilter::nearest}, {"linear", SliceFilter::linear}, {"centroid", SliceFilter::centroid}}};
 constexpr std::array<std::pair<std::string_view, Look>, 2> looks{{{"mass", Look::mass}, {"thesis", Look::thesis}}};
+constexpr std::array<std::pair<std::string_view, Blend>, 2> blends{{{"add", Blend::add}, {"over", Blend::over}}};
 constexpr std::array<std::pair<std::string_view, Stretch>, 3> stretches{
     {{"asinh", Stretch::asinh}, {"log", Stretch::log}, {"linear", Stretch::linear}}};
 constexpr std::array<std::pair<std::string_view, bool>, 2> projections{
@@ -151,6 +152,10 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
       ->group(appearance_group);
   number("--exposure", arguments.options.rendering.exposure, {1e-9, 1e9},
          "Factor on the light before tone mapping; from the central view by default");
+  add_choice<Blend>(command, "--blend", appearance.blend, blends,
+                    "How particles that lie behind each other come together: their light is added, or the nearer ones "
+                    "also absorb light, so that they are in front")
+      ->group(appearance_group);
   command
       .add_flag("--opaque", arguments.options.rendering.opaque,
                 "Draw opaque particles: the nearest hides the others, instead of adding their light")
@@ -268,18 +273,26 @@ void refuse_for_slices(const CLI::App& command) {
                    "it works with --near or --far");
 }
 
+/// The option with which particles are drawn in the thesis's look without --look; empty: none.
+std::string option_of_thesis(const RenderArguments& arguments) {
+  if (arguments.options.rendering.opaque) return "--opaque";
+  return arguments.options.appearance.blend == Blend::over ? "--blend over" : "";
+}
+
 /// What belongs to the other look has no effect.
 void refuse_for_look(const CLI::App& command, const RenderArguments& arguments) {
   const Appearance& appearance = arguments.options.appearance;
-  const bool opaque = arguments.options.rendering.opaque;
-  if (opaque && appearance.look == Look::mass)
-    refuse_options(command, {"--look"}, "with --opaque", "opaque particles are drawn in --look thesis");
-  if (appearance.look == Look::thesis || opaque) {
+  const std::string option = option_of_thesis(arguments);
+  if (!option.empty() && appearance.look == Look::mass)
+    refuse_options(command, {"--look"}, "with " + option, "such particles are drawn in --look thesis");
+  if (arguments.options.rendering.opaque)
+    refuse_options(command, {"--blend"}, "with --opaque", "it works on particles that are seen through");
+  if (appearance.look == Look::thesis || !option.empty()) {
     refuse_options(command, {"--quantity", "--stretch", "--least", "--most", "--values"},
-                   opaque ? "with --opaque" : "with --look thesis", "it works with --look mass");
+                   "with " + (option.empty() ? "--look thesis" : option), "it works with --look mass");
     return;
   }
-  refuse_options(command, {"--opacity", "--least-opacity", "--exposure"}, "with --look mass",
+  refuse_options(command, {"--opacity", "--least-opacity", "--exposure", "--blend"}, "with --look mass",
                  "it works with --look thesis");
   const bool by_rank =
       appearance.size_rule == SizeRule::denser_smaller || appearance.size_rule == SizeRule::denser_larger;
@@ -410,7 +423,7 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);
   if (!arguments.hot.empty()) options.appearance.hot = parse_colour("--hot", arguments.hot);
   check_limits(options);
-  if (options.rendering.opaque) options.appearance.look = Look::thesis;
+  if (!option_of_thesis(arguments).empty()) options.appearance.look = Look::thesis;
   options.values = !arguments.values.empty();
   if (options.values) check_values_ending("--values", arguments.values);
   options.slices = !arguments.save_slices.empty() || !arguments.interleave.empty();

@@ -44,7 +44,9 @@ HWY_INLINE void tone_light(const Sums& sums, const ToneMap& map, Bytes& bytes) {
     for (int i = 0; i < block_width; i += lanes) {
       const Vec light = hn::Load(d, sums[channel] + i);
       const Vec exposed = hn::Max(hn::Mul(light, hn::Set(d, map.exposure)), hn::Zero(d));
-      store_srgb(hn::Div(exposed, hn::Add(exposed, hn::Set(d, 1.f))), map, bytes[channel] + i);
+      const Vec one = hn::Set(d, 1.f);
+      const Vec shown = map.bounded ? hn::Min(exposed, one) : hn::Div(exposed, hn::Add(exposed, one));
+      store_srgb(shown, map, bytes[channel] + i);
     }
 }
 

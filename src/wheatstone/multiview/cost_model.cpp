@@ -13,13 +13,16 @@ Costs estimate_costs(const Workload& workload) {
 
   // A particle is projected, lit and put in order once; a splat is unpacked, and its fragments are added.
   const double project = 15 * ns;
-  const double fragments = (8 + 0.5 * (workload.splat_px + 1) * (workload.splat_px + 1)) * ns;
+  const double area = (workload.splat_px + 1) * (workload.splat_px + 1);
+  const double fragments = (8 + 0.5 * area) * ns;
+  // Sorted, each one on its own, and each fragment looks at what is in front of it.
+  const double blended = workload.absorbs ? (150 + 4.4 * area) * ns : fragments;
   const double tone_map = 4 * ns;
-  const double take_plane = 0.9 * ns;
-  const double composite = 0.22 * ns;
+  const double take_plane = (workload.absorbs ? 13 : 0.9) * ns;
+  const double composite = (workload.absorbs ? 7 : 0.22) * ns;
   Costs costs;
-  costs.exact = views * (particles * (project + fragments) + pixels * tone_map);
-  costs.incremental = particles * (project + views * fragments) + views * pixels * tone_map;
+  costs.exact = views * (particles * (project + blended) + pixels * tone_map);
+  costs.incremental = particles * (project + views * blended) + views * pixels * tone_map;
   costs.layered = particles * (project + 1.1 * fragments) +
                   pixels * (planes * take_plane + views * (planes * composite + tone_map));
   return costs;

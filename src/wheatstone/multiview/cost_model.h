@@ -14,6 +14,7 @@ struct Workload {
   int views = 2;
   int planes = 36;
   std::uint64_t pixels = std::uint64_t{640} * 360;  ///< of a view
+  bool absorbs = false;                             ///< splats are sorted and blended front to back (Blend::over)
 };
 
 /// Estimated times of one thread in seconds. Their ratios are what matters: they were fitted to bench/multiview, whose

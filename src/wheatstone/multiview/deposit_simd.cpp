@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <type_traits>
 
@@ -49,7 +50,15 @@ HWY_INLINE void unpack(const Splat& splat, Spread& spread) {
     spread.colour[1] = spread.colour[0] * second;
     spread.colour[2] = 0;
   }
-  if constexpr (deposit != Deposit::light) {
+  if constexpr (deposit == Deposit::absorbing) {
+    const float depth = spread.colour[2];
+    std::uint32_t packed = 0;
+    std::memcpy(&packed, splat.colour, sizeof packed);
+    const std::array<float, 3> light = unpacked_light(packed);
+    for (std::size_t i = 0; i < 3; ++i) spread.colour[i] = depth * light[i];
+    spread.colour[3] = depth;
+  }
+  if constexpr (keeps_sums(deposit)) {
     spread.reach = reach_of(size);
     spread.sharpness = diameters_a_mass_deviation * 0.70710678f / size;  // 1 / (√2 deviations)
     return;
@@ -79,7 +88,7 @@ HWY_INLINE Vec half_within(Vec scaled) {
 template <Deposit deposit>
 HWY_INLINE Vec weights_at(Vec distance, const Spread& spread) {
   const Floats d;
-  if constexpr (deposit != Deposit::light) {
+  if constexpr (keeps_sums(deposit)) {
     const Vec scale = hn::Set(d, spread.sharpness);
     const Vec half = hn::Set(d, 0.5f);
     return hn::Sub(half_within(hn::Mul(hn::Add(distance, half), scale)),
@@ -94,7 +103,7 @@ HWY_INLINE Vec weights_at(Vec distance, const Spread& spread) {
 template <Deposit deposit>
 HWY_INLINE Vec weights_in_window(float distance, const Spread& spread) {
   const Floats d;
-  if constexpr (deposit == Deposit::light) return weights_at<deposit>(hn::Iota(d, distance), spread);
+  if constexpr (!keeps_sums(deposit)) return weights_at<deposit>(hn::Iota(d, distance), spread);
   const hn::RebindToSigned<Floats> di;
   const Vec at_edge = half_within(hn::Mul(hn::Iota(d, distance - 0.5f), hn::Set(d, spread.sharpness)));
   const auto next = hn::IndicesFromVec(d, hn::Min(hn::Iota(di, 1), hn::Set(di, static_cast<int>(lanes) - 1)));
@@ -216,9 +225,9 @@ void deposit_splats_between(std::span<const Splat> splats, int top, const PlaneP
       continue;
     }
     Spread part = spread;
-    for (int i = 0; i < 3; ++i) part.colour[i] = spread.colour[i] * (1 - share);
+    for (int i = 0; i < 4; ++i) part.colour[i] = spread.colour[i] * (1 - share);
     add<deposit>(part, rows, x, nearer);
-    for (int i = 0; i < 3; ++i) part.colour[i] = spread.colour[i] * share;
+    for (int i = 0; i < 4; ++i) part.colour[i] = spread.colour[i] * share;
     add<deposit>(part, rows, x, farther);
   }
 }
@@ -254,6 +263,8 @@ void for_deposit(Deposit deposit, Call call) {
       return call(std::integral_constant<Deposit, Deposit::mass>());
     case Deposit::colours:
       return call(std::integral_constant<Deposit, Deposit::colours>());
+    case Deposit::absorbing:
+      return call(std::integral_constant<Deposit, Deposit::absorbing>());
   }
 }
 

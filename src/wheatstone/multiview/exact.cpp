@@ -48,6 +48,12 @@ void render_exact(const RenderJob& job, std::span<const ViewPosition> views,
 }
 
 ViewLight light_of_view(const RenderJob& job, ViewPosition view) {
+  if (job.scene.splat_style.blend == Blend::over) {
+    ViewLight seen(job.rig.width, job.rig.height, 3);
+    const ViewTarget target{.light = &seen};
+    render_front_to_back(job, {&view, 1}, {&target, 1});
+    return seen;
+  }
   GatheredLight light = light_for_view(job);
   ViewPyramid pyramid(orders_for(job.rig, job.scene.splat_style), job.rig, 1, job.tone.three_channels());
   make_view(job, view, {}, pyramid, light);

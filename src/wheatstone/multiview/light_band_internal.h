@@ -9,8 +9,8 @@
 
 namespace wheatstone {
 
-/// Light on a band of scan lines, red, green, blue and nothing for each pixel, with a margin on either side into which
-/// splats may spill. Four pixels are a cache line.
+/// Light on a band of scan lines, red, green, blue and, where splats absorb, how much, for each pixel, with a margin on
+/// either side into which splats may spill. Four pixels are a cache line.
 class LightBand {
  public:
   static constexpr int margin = 48;  ///< the widest splat, and a vector

@@ -58,7 +58,12 @@ LinearRgba SliceMaker::State::at(int plane, int x, int y) {
   const int row = y % order().band_rows;
   if (options.opaque) return opaque[order().bin(band, plane)].light(x, row);
   const float* const pixel = light->band(0, band, plane).row(row) + x * LightBand::channels;
-  return {pixel[0], pixel[1], pixel[2], 0};
+  const float depth = pixel[3];
+  if (!(depth > 0)) return {pixel[0], pixel[1], pixel[2], 0};
+  // Within a plane all particles shine through each other alike.
+  const float absorbed = -std::expm1(-depth);
+  const float share = absorbed / depth;
+  return {pixel[0] * share, pixel[1] * share, pixel[2] * share, absorbed};
 }
 
 Slice SliceMaker::State::crop(int plane) {

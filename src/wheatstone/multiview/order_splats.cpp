@@ -88,7 +88,7 @@ Cloud last_of(const Cloud& cloud, std::size_t first) {
 }  // namespace
 
 Deposit deposit_of(const SplatStyle& splat_style) {
-  if (splat_style.look == Look::thesis) return Deposit::light;
+  if (splat_style.look == Look::thesis) return splat_style.blend == Blend::over ? Deposit::absorbing : Deposit::light;
   return splat_style.colour_source == ColourSource::own ? Deposit::colours : Deposit::mass;
 }
 

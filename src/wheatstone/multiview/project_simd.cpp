@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 
 #include "wheatstone/multiview/splat_internal.h"
 
@@ -71,6 +70,7 @@ HWY_INLINE Vec sigmoid(Vec log2_density, const SplatStyle& splat_style) {
 
 struct Lit {
   Vec size, red, green, blue;
+  Vec opacity;  // of the thesis's look
 };
 
 /// The radius of a particle's kernel, in the scene's units.
@@ -170,17 +170,32 @@ HWY_INLINE Lit light(const Cloud& cloud, const Placed& placed, const Projection&
                                    hn::Set(d, splat_style.least_opacity)),
                         flattened);
   if (!cloud.presence.empty()) opacity = hn::Mul(opacity, hn::LoadU(d, cloud.presence.data() + i));
+  lit.opacity = opacity;
+  // The colour of what absorbs is kept apart from how much of it there is.
+  const Vec share = splat_style.blend == Blend::over ? hn::Set(d, 1.f) : opacity;
   if (splat_style.colour_source == ColourSource::own) {
-    lit.red = hn::Mul(opacity, hn::LoadU(d, block.red.data() + in_block));
-    lit.green = hn::Mul(opacity, hn::LoadU(d, block.green.data() + in_block));
-    lit.blue = hn::Mul(opacity, hn::LoadU(d, block.blue.data() + in_block));
+    lit.red = hn::Mul(share, hn::LoadU(d, block.red.data() + in_block));
+    lit.green = hn::Mul(share, hn::LoadU(d, block.green.data() + in_block));
+    lit.blue = hn::Mul(share, hn::LoadU(d, block.blue.data() + in_block));
     return lit;
   }
   const auto entry = hn::NearestInt(palette_entry(cloud, i, log2_density, splat_style));
-  lit.red = hn::Mul(opacity, hn::GatherIndex(d, splat_style.red.data(), entry));
-  lit.green = hn::Mul(opacity, hn::GatherIndex(d, splat_style.green.data(), entry));
-  lit.blue = hn::Mul(opacity, hn::GatherIndex(d, splat_style.blue.data(), entry));
+  lit.red = hn::Mul(share, hn::GatherIndex(d, splat_style.red.data(), entry));
+  lit.green = hn::Mul(share, hn::GatherIndex(d, splat_style.green.data(), entry));
+  lit.blue = hn::Mul(share, hn::GatherIndex(d, splat_style.blue.data(), entry));
   return lit;
+}
+
+/// The inverse of unpacked_light.
+HWY_INLINE hn::Vec<hn::RebindToUnsigned<Floats>> packed_light(const Lit& lit) {
+  const Floats d;
+  const hn::RebindToUnsigned<Floats> du;
+  const auto root = [&](Vec light, float most) {
+    const Vec within = hn::Min(hn::Max(light, hn::Zero(d)), hn::Set(d, 1.f));
+    return hn::BitCast(du, hn::NearestInt(hn::Mul(hn::Sqrt(within), hn::Set(d, most))));
+  };
+  const auto green = hn::ShiftLeft<11>(root(lit.green, 2047));
+  return hn::Or(root(lit.red, 2047), hn::Or(green, hn::ShiftLeft<22>(root(lit.blue, 1023))));
 }
 
 HWY_INLINE void store_halves(Vec values, std::uint16_t* to) {
@@ -267,7 +282,8 @@ void project(const Cloud& cloud, const Projection& projection, const Window& win
   const hn::RebindToUnsigned<Floats> du;
   const std::size_t lanes = hn::Lanes(d);
   const Deposit deposit = deposit_of(projection.splat_style);
-  HWY_ALIGN float x[most_lanes], y[most_lanes], parallax[most_lanes], mass[most_lanes];
+  HWY_ALIGN float x[most_lanes], y[most_lanes], parallax[most_lanes];
+  HWY_ALIGN std::uint32_t bits[most_lanes];
   HWY_ALIGN std::uint16_t size[most_lanes], red[most_lanes], green[most_lanes], blue[most_lanes];
   for (std::size_t i = 0; i < block.count; i += lanes) {
     // The last vector starts earlier where the block does not fill it: the same particles again, the same splats.
@@ -282,21 +298,20 @@ void project(const Cloud& cloud, const Projection& projection, const Window& win
     hn::StoreU(placed.y, d, y);
     hn::StoreU(placed.parallax, d, parallax);
     store_halves(lit.size, size);
-    store_halves(lit.green, green);
-    if (deposit == Deposit::mass) {
-      hn::StoreU(lit.red, d, mass);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const auto bits = std::bit_cast<std::uint32_t>(mass[lane]);
+    if (deposit == Deposit::mass || deposit == Deposit::absorbing) {
+      hn::StoreU(deposit == Deposit::mass ? hn::BitCast(du, lit.red) : packed_light(lit), du, bits);
+      store_halves(deposit == Deposit::mass ? lit.green : lit.opacity, blue);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
         block.splats[at + lane] = {
             x[lane],
             y[lane],
             parallax[lane],
-            {static_cast<std::uint16_t>(bits), static_cast<std::uint16_t>(bits >> 16), green[lane]},
+            {static_cast<std::uint16_t>(bits[lane]), static_cast<std::uint16_t>(bits[lane] >> 16), blue[lane]},
             size[lane]};
-      }
       continue;
     }
     store_halves(lit.red, red);
+    store_halves(lit.green, green);
     store_halves(lit.blue, blue);
     for (std::size_t lane = 0; lane < lanes; ++lane)
       block.splats[at + lane] = {x[lane], y[lane], parallax[lane], {red[lane], green[lane], blue[lane]}, size[lane]};

@@ -39,6 +39,9 @@ ToneSettings tone_for(const Scene& scene, const RenderOptions& options) {
   ToneSettings tone = options.tone;
   tone.look = scene.splat_style.look;
   tone.exposure = options.exposure;
+  // What absorbs is never brighter than its own colour, which is shown as it is.
+  if (tone.look == Look::thesis)
+    tone.stretch = scene.splat_style.blend == Blend::over ? Stretch::linear : Stretch::asinh;
   if (scene.splat_style.colour_source == ColourSource::own) tone.shown = Shown::colours;
   if (scene.splat_style.colour_source == ColourSource::quantity) tone.shown = Shown::mean;
   return tone;
@@ -68,15 +71,30 @@ Choice choose(std::uint64_t particles, const Scene& scene, const Rig& rig, const
                         .splat_px = (scene.splat_style.smallest_px + scene.splat_style.largest_px) / 2,
                         .views = static_cast<int>(rig.positions.size()),
                         .planes = static_cast<int>(planes.parallaxes.size()),
-                        .pixels = static_cast<std::uint64_t>(rig.width) * rig.height});
+                        .pixels = static_cast<std::uint64_t>(rig.width) * rig.height,
+                        .absorbs = scene.splat_style.blend == Blend::over});
 }
 
-void render_opaque_slices(const RenderJob& job, const RenderOptions& options, RenderedViews& result) {
+/// By slices that hide what is behind them.
+void render_hiding_slices(const RenderJob& job, const RenderOptions& options, RenderedViews& result) {
   RenderOptions with_exposure = options;
   with_exposure.exposure = result.exposure;
   SliceMaker maker(job.scene, job.statistics, job.rig, with_exposure);
   job.chunks([&](const Cloud& chunk) { maker.add(chunk); });
-  result.views = render_slices(maker.finish({}), job.rig);
+  result.views = render_slices(maker.finish({}), job.rig, options.filter);
+}
+
+/// Some of the views by the method that was chosen; the exact one gets them one by one.
+void render_views(const RenderJob& job, Method method, bool opaque, std::span<const ViewPosition> views,
+                  std::span<const ImageView<Rgb8>> pictures) {
+  if (opaque) return render_opaque(job, views, pictures);
+  if (job.scene.splat_style.blend == Blend::over) {
+    std::vector<ViewTarget> targets;
+    for (const ImageView<Rgb8> picture : pictures) targets.push_back({.picture = picture});
+    return render_front_to_back(job, views, targets);
+  }
+  if (method == Method::incremental) return render_incremental(job, pictures);
+  render_exact(job, views, pictures);
 }
 
 }  // namespace
@@ -106,25 +124,17 @@ RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, co
   if (result.method == Method::layered) {
     const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
     result.planes = static_cast<int>(planes.parallaxes.size());
-    if (options.opaque) {
-      render_opaque_slices(job, options, result);
+    if (options.opaque || scene.splat_style.blend == Blend::over) {
+      render_hiding_slices(job, options, result);
     } else {
       render_layered(job, planes, options.filter, pictures);
     }
   } else if (result.method == Method::incremental) {
-    if (options.opaque) {
-      render_opaque(job, rig.positions, pictures);
-    } else {
-      render_incremental(job, pictures);
-    }
+    render_views(job, result.method, options.opaque, rig.positions, pictures);
   } else {
     for (std::size_t v = 0; v < pictures.size(); ++v) {
-      const std::span<const ViewPosition> position = std::span(rig.positions).subspan(v, 1);
-      if (options.opaque) {
-        render_opaque(job, position, std::span(pictures).subspan(v, 1));
-      } else {
-        render_exact(job, position, std::span(pictures).subspan(v, 1));
-      }
+      render_views(job, result.method, options.opaque, std::span(rig.positions).subspan(v, 1),
+                   std::span(pictures).subspan(v, 1));
       report(progress, "views", static_cast<double>(v + 1) / static_cast<double>(pictures.size()));
     }
   }

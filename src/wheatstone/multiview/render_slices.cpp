@@ -17,10 +17,20 @@ constexpr int band_rows = 16;
 // A pixel through which less comes than the tone map can show is full.
 constexpr float full = 1.f / 1024;
 
-bool hides(const SliceStack& stack) {
-  return std::ranges::any_of(stack.slices, [](const Slice& slice) {
-    return std::ranges::any_of(slice.pixels.pixels(), [](const LinearRgba& pixel) { return pixel.a > 0; });
-  });
+/// What slices do to those behind them.
+struct Hiding {
+  bool any = false;
+  bool sharp = true;  ///< a pixel hides all or nothing
+};
+
+Hiding hiding_of(const SliceStack& stack) {
+  Hiding hiding;
+  for (const Slice& slice : stack.slices)
+    for (const LinearRgba& pixel : slice.pixels.pixels()) {
+      hiding.any = hiding.any || pixel.a > 0;
+      hiding.sharp = hiding.sharp && (pixel.a == 0 || pixel.a == 1);
+    }
+  return hiding;
 }
 
 /// Copies a slice's rows of one band to where the compositor reads them.
@@ -129,14 +139,16 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
   std::vector<Image<Rgb8>> views(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
   const std::vector<ImageView<Rgb8>> pictures(views.begin(), views.end());
   if (stack.slices.empty() || views.empty()) return views;
-  if (!hides(stack)) {
+  const Hiding hiding = hiding_of(stack);
+  if (!hiding.any) {
     add_glowing(stack, rig, filter, pictures);
   } else {
     const ToneMap tone(stack.tone);
+    const auto look = hiding.sharp || filter == SliceFilter::nearest ? look_through : look_between;
     tbb::parallel_for(0, rig.height, [&](int y) {
       for (std::size_t v = 0; v < views.size(); ++v)
         for (int x = 0; x < rig.width; ++x) {
-          const LinearRgba seen = look_through(stack, rig.positions[v], x, y);
+          const LinearRgba seen = look(stack, rig.positions[v], x, y);
           views[v](x, y) = tone(seen.r, seen.g, seen.b);
         }
     });

@@ -71,6 +71,9 @@ void render_incremental(const RenderJob& job, std::span<const ImageView<Rgb8>> p
 /// The nearest particle of each pixel, in each of the views.
 void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
                    std::span<const ImageView<Rgb8>> pictures);
+/// Particles that absorb as they shine (Blend::over), in each of the views, one target each.
+void render_front_to_back(const RenderJob& job, std::span<const ViewPosition> views,
+                          std::span<const ViewTarget> targets);
 /// Without pictures, the planes are filled and nothing is made of them.
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures);

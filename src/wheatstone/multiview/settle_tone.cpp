@@ -35,6 +35,12 @@ Reduced reduced(const Scene& scene, const CloudStatistics& statistics, const Rig
   SplatStyle& style = small.scene.splat_style;
   style.radius_factor *= std::cbrt(every);
   style.fixed_radius *= std::cbrt(every);
+  if (style.blend == Blend::over) {
+    // What is in front hides what is behind: each of the few absorbs as much as those in whose place it is.
+    style.opacity *= small.light;
+    style.least_opacity *= small.light;
+    small.light = 1;
+  }
   return small;
 }
 
@@ -46,11 +52,11 @@ Cloud spread(Cloud sample, std::uint64_t count) {
   return sample;
 }
 
-float exposure_for(std::vector<float> brightest) {
+float exposure_for(std::vector<float> brightest, Stretch stretch) {
   // Where the tone map puts the brighter parts of what is lit: their 99th percentile.
   constexpr float target = 0.75f;
   if (brightest.empty()) return 1;
-  return target / (1 - target) / percentile(std::move(brightest), 0.99);
+  return (stretch == Stretch::linear ? target : target / (1 - target)) / percentile(std::move(brightest), 0.99);
 }
 
 /// Limits that the settings leave open: percentiles of what is shown.
@@ -93,7 +99,7 @@ ToneSettings settled(const ToneSettings& settings, const Scene& scene, const Clo
       if (value > 0) values.push_back(found.shown == Shown::mean && !thesis ? second / first : value);
     }
   if (thesis) {
-    found.exposure = exposure_for(std::move(values));
+    found.exposure = exposure_for(std::move(values), found.stretch);
   } else {
     set_limits(found, std::move(values));
   }

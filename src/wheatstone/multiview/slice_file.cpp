@@ -80,6 +80,7 @@ Rgb8 unpacked(int colour) {
 void put_tone(const ToneSettings& tone, OIIO::ImageSpec& spec) {
   if (tone.look == Look::thesis) {
     spec.attribute("wheatstone:exposure", tone.exposure);
+    if (tone.stretch == Stretch::linear) spec.attribute("wheatstone:stretch", name_of(stretch_names, tone.stretch));
     return;
   }
   spec.attribute(look_name, "mass");
@@ -207,6 +208,8 @@ ToneSettings tone_of(const fs::path& path, const OIIO::ImageSpec& spec) {
   ToneSettings tone;
   if (spec.find_attribute(look_name) == nullptr) {
     tone.exposure = number_in(path, spec, "wheatstone:exposure", above_zero, largest_exposure);
+    if (spec.find_attribute("wheatstone:stretch") != nullptr)
+      tone.stretch = word_in(path, spec, "wheatstone:stretch", stretch_names);
     return tone;
   }
   if (const std::string look = spec.get_string_attribute(look_name); look != "mass")

@@ -13,7 +13,8 @@ namespace wheatstone {
 
 /// A particle as the reference view has it. Twenty bytes, since reading and writing them is half the work. What it adds
 /// to a pixel is either three channels of light, or mass: the splat's light in full precision, so that no mass is lost,
-/// and how much of a second channel goes with each unit of it.
+/// and how much of a second channel goes with each unit of it. Or it absorbs as
+/// it shines: its colour is packed (packed_light), and the third number is its optical depth.
 struct Splat {
   float x, y;               ///< centre, in pixels
   float parallax;           ///< in pixels, at full eye separation
@@ -24,11 +25,24 @@ static_assert(sizeof(Splat) == 20);
 
 /// What splats add to the channels of a pixel.
 enum class Deposit {
-  light,    ///< of the thesis's look: a Gaussian with the colour at its middle
-  mass,     ///< light, and light times the second number, whose sums over all pixels are those of the splats
-  colours,  ///< three channels of light, whose sums are those of the splats
+  light,      ///< of the thesis's look: a Gaussian with the colour at its middle
+  mass,       ///< light, and light times the second number, whose sums over all pixels are those of the splats
+  colours,    ///< three channels of light, whose sums are those of the splats
+  absorbing,  ///< as light, and in the fourth channel the optical depth, by which the three are multiplied
 };
+/// Whether splats are spread over areas of pixels, so that their sums are kept; others have a Gaussian's value at the
+/// middle of a pixel.
+constexpr bool keeps_sums(Deposit deposit) { return deposit == Deposit::mass || deposit == Deposit::colours; }
 Deposit deposit_of(const SplatStyle& splat_style);
+
+/// Linear light 0..1 that is packed in 32 bits: the square roots of red and green in eleven bits each, and of blue in
+/// ten.
+inline std::array<float, 3> unpacked_light(std::uint32_t bits) {
+  const auto square = [](std::uint32_t root, float most) {
+    return static_cast<float>(root * root) * (1 / (most * most));
+  };
+  return {square(bits & 2047, 2047), square(bits >> 11 & 2047, 2047), square(bits >> 22, 1023)};
+}
 
 /// A Gaussian's standard deviation is its splat's diameter over this: at the rim 4 % of the peak are left.
 constexpr float diameters_a_deviation = 5;

@@ -27,8 +27,9 @@ enum class Shown {
 struct ToneSettings {
   static constexpr float automatic = std::numeric_limits<float>::quiet_NaN();
   Look look = Look::thesis;
-  float exposure = automatic;  ///< of the thesis's look: what light is multiplied by before L/(1+L)
+  float exposure = automatic;  ///< of the thesis's look: what light is multiplied by
   Shown shown = Shown::ramp;
+  /// Of the thesis's look: linear shows light up to 1 as it is, anything else as L/(1+L).
   Stretch stretch = Stretch::asinh;
   /// Where brightness begins and ends: of `mean` in the scaled quantity (SplatStyle), else in light.
   float least = automatic, most = automatic;

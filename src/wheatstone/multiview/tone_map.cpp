@@ -132,7 +132,10 @@ void fill_stretch(const ToneSettings& settings, ToneMap& map) {
 }  // namespace
 
 ToneMap::ToneMap(const ToneSettings& settings)
-    : look(settings.look), shown(settings.shown), exposure(settings.exposure) {
+    : look(settings.look),
+      shown(settings.shown),
+      exposure(settings.exposure),
+      bounded(settings.stretch == Stretch::linear) {
   for (int i = 0; i < table_size; ++i)
     table.push_back(srgb_from_linear(static_cast<float>(i) / static_cast<float>(table_size - 1)));
   if (look == Look::thesis) return;
@@ -148,7 +151,7 @@ Rgb8 ToneMap::operator()(float first, float second, float third) const {
   if (look == Look::thesis) {
     const auto toned = [&](float light) {
       const float exposed = std::max(light * exposure, 0.f);
-      return byte_of(exposed / (exposed + 1));
+      return byte_of(bounded ? std::min(exposed, 1.f) : exposed / (exposed + 1));
     };
     return {toned(first), toned(second), toned(third)};
   }

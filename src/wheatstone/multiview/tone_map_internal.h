@@ -8,7 +8,7 @@
 namespace wheatstone {
 
 /// From sums of light to a picture's bytes, by table. Of the thesis's look each channel becomes L/(1+L) (Hassaine 2010,
-/// eq. 5.8.1). Of mass the brightness comes from one number, and the hue stays what it is.
+/// eq. 5.8.1), or stays what it is up to 1. Of mass the brightness comes from one number, and the hue stays what it is.
 struct ToneMap {
   static constexpr int table_size = 4096;
   static constexpr int brightnesses = 256;
@@ -25,6 +25,7 @@ struct ToneMap {
   Look look;
   Shown shown;
   float exposure;
+  bool bounded;                       ///< of the thesis's look: what is shown stays what it is, up to 1
   std::vector<std::int32_t> table;    ///< sRGB of linear light times table_size − 1
   float scale = 1, offset = 0;        ///< from what is shown to 0..1 between the limits
   int hues = 1;                       ///< of the ramp

@@ -16,6 +16,12 @@ enum class Look {
   thesis,  ///< light whose opacity and splat size follow from the density (Hassaine 2010, sec. 4.2)
 };
 
+/// How the light of particles that lie behind each other comes together (Hassaine 2010, sec. 4.2.1).
+enum class Blend {
+  add,   ///< all of it adds up, in any order
+  over,  ///< particles absorb what comes from behind them as they shine: the nearer ones are in front
+};
+
 /// What decides how large a particle's splat is.
 enum class SizeRule {
   automatic,         ///< of mass: smoothing length, else density; of the thesis: denser_smaller
@@ -28,9 +34,12 @@ enum class SizeRule {
 /// How a particle looks, as the user says it (Hassaine 2010, sec. 4.2). Colours are sRGB.
 struct Appearance {
   Look look = Look::mass;
-  float density_slope = 2;  ///< of the sigmoid, for a factor of ten in density
-  float density_shift = 0;  ///< of its middle, in factors of ten above the median density
-  float opacity = 0.5f;     ///< of the densest, at the middle of a splat
+  Blend blend = Blend::add;  ///< of the thesis's look
+  float density_slope = 2;   ///< of the sigmoid, for a factor of ten in density
+  float density_shift = 0;   ///< of its middle, in factors of ten above the median density
+  /// Of the densest, at the middle of a splat. Of particles that absorb, it is an optical depth: a share of
+  /// exp(−opacity) comes through.
+  float opacity = 0.5f;
   float least_opacity = 0;  ///< of the thinnest, as a share of `opacity`
   SizeRule size_rule = SizeRule::automatic;
   /// Diameter of a splat; sizes shrink with distance and are clamped to this range. Of mass, the largest counts only
@@ -50,6 +59,7 @@ enum class ColourSource { temperature, density, own, quantity };
 /// An appearance with everything that it leaves to the cloud filled in: what the renderers read.
 struct SplatStyle {
   Look look = Look::mass;
+  Blend blend = Blend::add;
   float mean_mass = 1;       ///< of a particle: light is counted in it
   float radius_factor = 0;   ///< of mass: a kernel's radius is it times the cube root of 1 over the density
   float fixed_radius = 0;    ///< of mass: every kernel's radius, where neither density nor smoothing length is known
