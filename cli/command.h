@@ -39,6 +39,7 @@ void add_render_command(CLI::App& program, const Session& session);
 void add_depth_command(CLI::App& program, const Session& session);
 void add_measure_command(CLI::App& program, const Session& session);
 void add_synth_command(CLI::App& program, const Session& session);
+void add_study_command(CLI::App& program, const Session& session);
 void add_view_command(CLI::App& program, const Session& session);
 void add_info_command(CLI::App& program, const Session& session);
 

@@ -77,6 +77,7 @@ std::unique_ptr<CLI::App> make_program(Session& session) {
   add_depth_command(*program, session);
   add_measure_command(*program, session);
   add_synth_command(*program, session);
+  add_study_command(*program, session);
   add_view_command(*program, session);
   add_info_command(*program, session);
   lay_out_help(*program, "COMMAND");

@@ -121,7 +121,7 @@ _wheatstone() {{
     compopt -o default 2>/dev/null
   elif [[ -n $values ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$values" -- "$current")
-  elif [[ $current == -* || -z $path || $path == synth || $path == measure ]]; then
+  elif [[ $current == -* || -z $path || $path == synth || $path == measure || $path == study ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$offered" -- "$current")
   else
     compopt -o default 2>/dev/null

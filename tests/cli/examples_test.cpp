@@ -45,17 +45,12 @@ struct Reduction {
   std::string option, value;
 };
 const std::vector<Reduction> reductions{
-    {{"synth", "still"}, "", "--size", "240x180"},
-    {{"synth", "still"}, "", "--samples", "1"},
-    {{"synth", "film"}, "", "--size", "96x64"},
-    {{"synth", "film"}, "", "--frames", "3"},
-    {{"synth", "film"}, "", "--samples", "1"},
-    {{"synth", "film"}, "--cut", "--cut", "2"},
-    {{"synth", "universe"}, "", "--particles", "2000"},
-    {{"paint"}, "--display", "--size", "36x48"},
-    {{"rotoscope"}, "--display", "--size", "36x48"},
-    {{"render"}, ".hdf5", "--size", "48x36"},
-    {{"view"}, "", "--script", "tour.txt"},
+    {{"synth", "still"}, "", "--size", "240x180"},      {{"synth", "still"}, "", "--samples", "1"},
+    {{"synth", "film"}, "", "--size", "96x64"},         {{"synth", "film"}, "", "--frames", "3"},
+    {{"synth", "film"}, "", "--samples", "1"},          {{"synth", "film"}, "--cut", "--cut", "2"},
+    {{"synth", "universe"}, "", "--particles", "2000"}, {{"study", "stimuli"}, "", "--size", "160x120"},
+    {{"paint"}, "--display", "--size", "36x48"},        {{"rotoscope"}, "--display", "--size", "36x48"},
+    {{"render"}, ".hdf5", "--size", "48x36"},           {{"view"}, "", "--script", "tour.txt"},
 };
 
 bool begins_with(const Words& words, const Words& beginning) {
@@ -79,7 +74,7 @@ Words reduced(Words words) {
 
 /// Copies into `folder` the inputs that a command names and that no line before it wrote.
 void bring_inputs(const Words& words, const TemporaryFolder& folder) {
-  const bool has_kind = words.front() == "synth" || words.front() == "measure";
+  const bool has_kind = words.front() == "synth" || words.front() == "measure" || words.front() == "study";
   for (std::size_t i = has_kind ? 2 : 1; i < words.size(); ++i) {
     if (words[i - 1] == "-o" || words[i - 1] == "--output") continue;
     const std::string name = fs::path(words[i]).begin()->string();

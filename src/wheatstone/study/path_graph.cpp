@@ -1,0 +1,163 @@
+#include "wheatstone/study/path_graph.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "wheatstone/error.h"
+#include "wheatstone/study/draw_lots_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// A node as the central view shows it on the screen: a disc.
+struct Disc {
+  float x, y, radius;
+};
+
+bool touch(const Disc& a, const Disc& b, float gap) {
+  return std::hypot(a.x - b.x, a.y - b.y) < a.radius + b.radius + gap;
+}
+
+void check(const PathGraphOptions& options) {
+  if (options.nodes < 9 || options.nodes % 3 != 0)
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("nodes: is {}, expected a multiple of three, at least 9: a graph has three groups of equal size",
+                    options.nodes));
+  if (!(options.depth_mm >= 0 && options.depth_mm / 2 + options.node_radius_mm < options.viewing_distance_mm / 2))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("depth: is {} mm, expected at most half of the viewing distance of {} mm", options.depth_mm,
+                            options.viewing_distance_mm));
+}
+
+float depth_of(const PathGraphOptions& options, int group, Lots& lots) {
+  if (options.placement == GraphPlacement::volume) return options.depth_mm * (lots.unit() - 0.5f);
+  return options.depth_mm / 2 * static_cast<float>(group - 1);
+}
+
+/// A free place for a node at this depth, or none after many trials.
+std::optional<Disc> free_disc(const PathGraphOptions& options, float depth_mm, const std::vector<Disc>& taken,
+                              Lots& lots) {
+  const float scale = options.viewing_distance_mm / (options.viewing_distance_mm + depth_mm);
+  // The outline of a sphere is a little larger than its radius at its depth.
+  const float radius = options.node_radius_mm * scale * 1.02f;
+  const bool may_hide = options.placement == GraphPlacement::volume;
+  constexpr int most_trials = 2000;
+  for (int trial = 0; trial < most_trials; ++trial) {
+    const Disc disc{(lots.unit() - 0.5f) * (options.width_mm - 2 * radius),
+                    (lots.unit() - 0.5f) * (options.height_mm - 2 * radius), radius};
+    const auto is_near = [&](const Disc& other) { return touch(disc, other, options.node_radius_mm / 4); };
+    if (may_hide || std::ranges::none_of(taken, is_near)) return disc;
+  }
+  return {};
+}
+
+std::vector<PlaceMm> place_nodes(const PathGraphOptions& options, Lots& lots) {
+  std::vector<PlaceMm> nodes;
+  std::vector<Disc> discs;
+  for (int node = 0; node < options.nodes; ++node) {
+    const float depth = depth_of(options, node / (options.nodes / 3), lots);
+    const std::optional<Disc> disc = free_disc(options, depth, discs, lots);
+    if (!disc)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("nodes: {} of radius {} mm do not fit into {}x{} mm without hiding each other",
+                              options.nodes, options.node_radius_mm, options.width_mm, options.height_mm));
+    const float on_screen = (options.viewing_distance_mm + depth) / options.viewing_distance_mm;
+    nodes.push_back({disc->x * on_screen, disc->y * on_screen, depth});
+    discs.push_back(*disc);
+  }
+  return nodes;
+}
+
+using TwoLinks = std::array<int, 2>;
+
+bool has(const TwoLinks& links, int node) { return links[0] == node || links[1] == node; }
+
+/// An intermediate node that is not among those given.
+int other_node(int per_group, const TwoLinks& but, Lots& lots, int also_but = -1) {
+  for (;;) {
+    const int node = per_group + lots.below(per_group);
+    if (!has(but, node) && node != also_but) return node;
+  }
+}
+
+/// The two intermediate nodes of the highlighted leaf behind, given those of the one in front.
+TwoLinks links_of_second(const TwoLinks& first, int per_group, bool connected, Lots& lots) {
+  if (connected) return {first[static_cast<std::size_t>(lots.below(2))], other_node(per_group, first, lots)};
+  const int one = other_node(per_group, first, lots);
+  return {one, other_node(per_group, first, lots, one)};
+}
+
+}  // namespace
+
+PathGraph make_path_graph(const PathGraphOptions& options, std::uint64_t seed, bool connected) {
+  check(options);
+  Lots lots({seed, 0x6772617068});
+  PathGraph graph{.seed = seed,
+                  .nodes = place_nodes(options, lots),
+                  .connected = connected,
+                  .node_radius_mm = options.node_radius_mm,
+                  .link_radius_mm = options.link_radius_mm};
+  const int per_group = options.nodes / 3;
+  graph.highlighted = {lots.below(per_group), 2 * per_group + lots.below(per_group)};
+  TwoLinks of_first{};
+  for (int leaf = 0; leaf < options.nodes; ++leaf) {
+    if (leaf >= per_group && leaf < 2 * per_group) continue;
+    TwoLinks links{per_group + lots.below(per_group), -1};
+    links[1] = other_node(per_group, links, lots);
+    if (leaf == graph.highlighted[1]) links = links_of_second(of_first, per_group, connected, lots);
+    if (leaf == graph.highlighted[0]) of_first = links;
+    for (const int intermediate : links) graph.links.push_back({leaf, intermediate});
+  }
+  return graph;
+}
+
+bool has_path_of_two(const PathGraph& graph) {
+  const auto linked = [&graph](int a, int b) {
+    return std::ranges::any_of(graph.links, [a, b](const auto& link) { return has(link, a) && has(link, b); });
+  };
+  for (int node = 0; node < std::ssize(graph.nodes); ++node)
+    if (node != graph.highlighted[0] && node != graph.highlighted[1] && linked(graph.highlighted[0], node) &&
+        linked(node, graph.highlighted[1]))
+      return true;
+  return false;
+}
+
+std::string graph_json(const PathGraph& graph) {
+  const nlohmann::ordered_json json{{"kind", "path graph"},
+                                    {"seed", graph.seed},
+                                    {"connected", graph.connected},
+                                    {"highlighted", graph.highlighted},
+                                    {"node_radius_mm", graph.node_radius_mm},
+                                    {"link_radius_mm", graph.link_radius_mm},
+                                    {"nodes_mm", graph.nodes},
+                                    {"links", graph.links}};
+  return json.dump() + "\n";
+}
+
+PathGraph graph_from_json(std::string_view text, std::string_view name) {
+  try {
+    const auto json = nlohmann::json::parse(text);
+    PathGraph graph{.seed = json.at("seed").get<std::uint64_t>(),
+                    .nodes = json.at("nodes_mm").get<std::vector<PlaceMm>>(),
+                    .links = json.at("links").get<std::vector<std::array<int, 2>>>(),
+                    .highlighted = json.at("highlighted").get<std::array<int, 2>>(),
+                    .connected = json.at("connected").get<bool>(),
+                    .node_radius_mm = json.at("node_radius_mm").get<float>(),
+                    .link_radius_mm = json.at("link_radius_mm").get<float>()};
+    const auto is_node = [&graph](int node) { return node >= 0 && node < std::ssize(graph.nodes); };
+    const auto are_nodes = [&](const auto& pair) { return is_node(pair[0]) && is_node(pair[1]); };
+    if (!are_nodes(graph.highlighted) || !std::ranges::all_of(graph.links, are_nodes))
+      throw Error(ErrorKind::bad_input, fmt::format("{}: a link names a node that the graph does not have", name));
+    return graph;
+  } catch (const nlohmann::json::exception&) {
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: is no path graph, expected the JSON of wheatstone study stimuli", name));
+  }
+}
+
+}  // namespace wheatstone

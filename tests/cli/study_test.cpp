@@ -1,0 +1,63 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "temporary_folder.h"
+#include "wheatstone/study/path_graph.h"
+
+namespace wheatstone {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(StudyCommand, DrawsGraphsOfWhichHalfAreYes) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"study", "stimuli", "--count", "2", "--size", "120x90", "--nodes", "30", "-o", "out", "--quiet"},
+                  {.folder = folder / ""});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto graph = [&](const char* name) { return graph_from_json(bytes_of(folder / name), name); };
+  EXPECT_TRUE(has_path_of_two(graph("out/graph_000.json")));
+  EXPECT_FALSE(has_path_of_two(graph("out/graph_001.json")));
+  EXPECT_THAT(files_in(folder / "out"), testing::Contains("graph_001_right.png"));
+}
+
+TEST(StudyCommand, ManyViewsAreNumbered) {
+  const TemporaryFolder folder;
+  run_program({"study", "stimuli", "--count", "1", "--views", "3", "--size", "120x90", "--quiet"},
+              {.folder = folder / ""});
+  EXPECT_THAT(files_in(folder / "stimuli"),
+              testing::UnorderedElementsAre("graph_000.json", "graph_000_view_000.png", "graph_000_view_001.png",
+                                            "graph_000_view_002.png"));
+}
+
+TEST(StudyCommand, AStimulusThatCannotBeDrawnIsRefused) {
+  expect_refused(TemporaryFolder(), {"study", "stimuli", "--nodes", "91"}, 3,
+                 "nodes: is 91, expected a multiple of three");
+}
+
+TEST(StudyCommand, TellsTheThesisDegreesOfFreedom) {
+  const ProgramResult first = run_program({"study", "design", "path-searching-1"});
+  EXPECT_THAT(first.output, HasSubstr("depth_cm: F1(1, 38), F2(1, 77)\n"));
+  EXPECT_THAT(first.output, HasSubstr("trials of a subject: 78, after 6 for practice"));
+  const auto second = nlohmann::json::parse(run_program({"study", "design", "path-searching-2", "--json"}).output);
+  EXPECT_EQ(second["effects"][0]["df_error_subjects"], 56);
+  EXPECT_EQ(second["effects"][0]["df_error_items"], 396);
+}
+
+TEST(StudyCommand, ADesignIsCopiedToBeChanged) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program({"study", "design", "painting-comfort", "-o", "mine.toml"}, {.folder = folder / ""}).exit_code,
+            0);
+  const std::string toml = bytes_of(folder / "mine.toml");
+  EXPECT_EQ(run_program({"study", "design", "mine.toml"}, {.folder = folder / ""}).exit_code, 0);
+  put_bytes(folder / "mine.toml", std::string(toml).replace(toml.find("subjects = 30"), 13, "subjects = 31"));
+  expect_refused(folder, {"study", "design", "mine.toml"}, 3,
+                 "31 subjects cannot be balanced over 3 conditions; 30 or 33 can");
+  expect_refused(folder, {"study", "design", "mine.toml", "-o", "mine.toml"}, 3, "31 subjects");
+}
+
+}  // namespace
+}  // namespace wheatstone
