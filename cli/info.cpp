@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
 #include "command.h"
 #include "film_facts.h"
@@ -20,6 +21,7 @@
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/error.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/matching/eye_order.h"
 #include "wheatstone/matching/match.h"
@@ -188,8 +190,26 @@ bool is_particles(const fs::path& path) {
   return std::ranges::find(endings, path.extension().string()) != std::end(endings) || holds_particles(path);
 }
 
+/// What --device can be, with the name of the graphics processor, or why there is none.
+ordered_json facts_of_devices() {
+  ordered_json facts{{"kind", "devices"}, {"cpu", fmt::format("{} threads", std::thread::hardware_concurrency())}};
+  try {
+    const GpuFacts gpu = gpu_facts();
+    facts["gpu"] = gpu.name;
+    facts["opengl"] = gpu.version;
+    facts["imitated_by_the_cpu"] = gpu.imitated;
+    facts["largest_buffer_bytes"] = gpu.largest_buffer;
+    facts["auto"] = gpu.imitated ? "cpu" : "gpu where the work is worth it, else cpu";
+  } catch (const Error& error) {
+    facts["gpu"] = error.what();
+    facts["auto"] = "cpu";
+  }
+  return facts;
+}
+
 struct Arguments {
   std::string file;
+  bool devices = false;
   std::optional<float> scale;
   std::string type;
   std::string layout;
@@ -197,6 +217,11 @@ struct Arguments {
 };
 
 ordered_json facts_of(const Arguments& arguments, const CLI::App& command) {
+  if (arguments.devices) {
+    refuse_options(command, {"FILE", "--scale", "--type", "--layout", "--display"}, "with --devices", {});
+    return facts_of_devices();
+  }
+  if (arguments.file.empty()) throw Error(ErrorKind::wrong_usage, "FILE is missing, expected a file or --devices");
   const fs::path path = arguments.file;
   const auto refuse = [&](const std::vector<std::string>& options, const char* situation) {
     refuse_options(command, options, situation, {});
@@ -269,11 +294,10 @@ void add_info_command(CLI::App& program, const Session& session) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       program.add_subcommand("info", "Describe a picture, disparity file, film, painting, particle file or slices");
-  command
-      ->add_option("FILE", arguments->file,
-                   "Picture, disparity (.pfm, .exr, or any with --scale), film, numbered pictures (frame_%04d.png), "
-                   "painting (.wst), particles or slices")
-      ->required();
+  command->add_option("FILE", arguments->file,
+                      "Picture, disparity (.pfm, .exr, or any with --scale), film, numbered pictures (frame_%04d.png), "
+                      "painting (.wst), particles or slices");
+  command->add_flag("--devices", arguments->devices, "List what can compute: the values of --device");
   add_number(*command, "--scale", arguments->scale, {1e-9, 1e9},
              "Read the picture as disparities: value / SCALE pixels");
   command->add_option("--type", arguments->type,
@@ -281,7 +305,9 @@ void add_info_command(CLI::App& program, const Session& session) {
   command->add_option("--layout", arguments->layout, "Layout of a picture that holds both views, as for 'paint'");
   command->add_option("--display", arguments->display,
                       "Also match the views and report their depth and comfort on this display");
-  command->footer("Examples:\n  wheatstone info left.png\n  wheatstone info photograph.mpo --display desk-stereo");
+  command->footer(
+      "Examples:\n  wheatstone info left.png\n  wheatstone info photograph.mpo --display desk-stereo\n"
+      "  wheatstone info --devices");
   command->callback([arguments, command, &session] {
     if (!arguments->display.empty()) find_display(arguments->display);
     const ordered_json facts = facts_of(*arguments, *command);

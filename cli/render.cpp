@@ -98,7 +98,8 @@ std::string write_output(const RenderArguments& arguments, const RenderedParticl
 
 /// What --verbose adds.
 void tell_how(const RenderedParticles& result, const Session& session) {
-  fmt::print(session.output, "method: {}\nplanes: {}\n", result.rendered.reason, result.rendered.planes);
+  fmt::print(session.output, "method: {}\nplanes: {}\ndevice: {}\n", result.rendered.reason, result.rendered.planes,
+             result.rendered.device);
   if (result.rendered.tone.look == Look::thesis) {
     fmt::print(session.output, "exposure: {:.4g}\n", result.rendered.exposure);
   } else {
@@ -121,6 +122,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"views", result.rig.positions.size()},
                                  {"method", name_of(result.rendered.method)},
                                  {"reason", result.rendered.reason},
+                                 {"device", result.rendered.device},
                                  {"planes", result.rendered.planes},
                                  {"warnings", result.warnings}};
     if (result.rendered.tone.look == Look::thesis) {

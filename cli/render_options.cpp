@@ -19,6 +19,8 @@
 namespace wheatstone::cli {
 namespace {
 
+constexpr std::array<std::pair<std::string_view, Device>, 3> devices{
+    {{"cpu", Device::processor}, {"gpu", Device::graphics}, {"auto", Device::automatic}}};
 constexpr std::array<std::pair<std::string_view, Method>, 4> methods{{{"auto", Method::automatic},
                                                                       {"exact", Method::exact},
                                                                       {"incremental", Method::incremental},
@@ -232,6 +234,10 @@ void add_method_options(CLI::App& command, RenderArguments& arguments) {
   RenderOptions& rendering = arguments.options.rendering;
   add_choice<Method>(command, "--method", rendering.method, methods, "Rendering method; --verbose tells which was used")
       ->group(method_group);
+  add_choice<Device>(command, "--device", rendering.device, devices,
+                     "What renders: the processor, the graphics processor (OpenGL 4.5), or a graphics processor where "
+                     "the work is worth it; 'wheatstone info --devices' lists what is there")
+      ->group(method_group);
   add_choice<SliceFilter>(command, "--filter", rendering.filter, filters, "Depth-plane filter of the layered method")
       ->group(method_group);
   add_number(command, "--planes", rendering.planes, {1, 100'000},
@@ -267,7 +273,7 @@ void refuse_for_slices(const CLI::App& command) {
   refuse_group(command, views_group,
                {"--display", "--views", "--span", "--near", "--far", "--eye", "--distance", "--screen-width"},
                situation, where);
-  refuse_options(command, {"--method", "--planes", "--values", "--annotate"}, situation, where);
+  refuse_options(command, {"--method", "--device", "--planes", "--values", "--annotate"}, situation, where);
   if (!was_given(command, "--near") && !was_given(command, "--far"))
     refuse_options(command, {"--eye", "--distance", "--screen-width"}, "on slices (.exr) whose depth stays as it is",
                    "it works with --near or --far");
@@ -321,6 +327,8 @@ void refuse_for_particles(const CLI::App& command, const RenderArguments& argume
   const bool other_method = rendering.method == Method::exact || rendering.method == Method::incremental;
   if (makes_slices && other_method)
     refuse_options(command, {"--method"}, "with --save-slices or --interleave", "these render depth planes");
+  if (makes_slices)
+    refuse_options(command, {"--device"}, "with --save-slices or --interleave", "depth planes are rendered by the cpu");
   if (other_method)
     refuse_options(command, {"--filter", "--planes"}, fmt::format("with --method {}", name_of(rendering.method)),
                    "it works with --method layered");

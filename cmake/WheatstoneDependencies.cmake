@@ -8,7 +8,7 @@ wheatstone_find_libraries(
   opencv_core opencv_imgproc opencv_calib3d opencv_dnn opencv_features2d opencv_video opencv_ximgproc
   OpenImageIO::OpenImageIO TBB::tbb fmt::fmt nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus
   nanoflann::nanoflann ZLIB::ZLIB PkgConfig::HWY PkgConfig::HDF5 PkgConfig::CFITSIO PkgConfig::ZIP PkgConfig::FFTW
-  PkgConfig::LIBAV PkgConfig::LCMS PkgConfig::HEIF PkgConfig::WEBP)
+  PkgConfig::LIBAV PkgConfig::LCMS PkgConfig::HEIF PkgConfig::WEBP PkgConfig::EPOXY)
 unset(CMAKE_FIND_PACKAGE_NAME)
 
 # Only while building: the command line's parser and the compiler of the painting file's schema.

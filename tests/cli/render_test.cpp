@@ -60,6 +60,7 @@ TEST(RenderCommand, WritesTheViewsAndSaysWhy) {
   EXPECT_EQ(files_in(folder / "views"), (std::set<std::string>{"view_000.png", "view_001.png", "view_002.png"}));
   EXPECT_GT(brightest(folder / "views/view_001.png"), 100);
   EXPECT_EQ(facts["particles"], 20000);
+  EXPECT_EQ(facts["device"], "cpu");
   EXPECT_FALSE(facts["reason"].get<std::string>().empty());
 }
 
@@ -241,6 +242,10 @@ TEST(RenderCommand, RefusesWhatMakesNoSense) {
   refused({"--fit", "200%"}, "--fit");
   refused({"--fit", "sphere:0,0,0,-1"}, "--fit: is 'sphere:0,0,0,-1', expected auto");
   refused({"--views", "0"}, "--views");
+  refused({"--device", "tpu"}, "--device");
+  refused({"--device", "gpu", "--opaque"}, "--device gpu does not render --opaque");
+  refused({"--device", "gpu", "--method", "layered"}, "--method auto or incremental");
+  refused({"--device", "gpu", "--save-slices", "s.exr"}, "--device");
   refused({"--size", "0x5"}, "--size");
   refused({"--size", "wide"}, "--size");
   refused({"--splat", "5,2"}, "--s");

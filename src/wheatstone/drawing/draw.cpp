@@ -8,6 +8,7 @@
 #include "wheatstone/drawing/prepared_painting_internal.h"
 #include "wheatstone/drawing/relief_internal.h"
 #include "wheatstone/drawing/seen_surface_internal.h"
+#include "wheatstone/error.h"
 
 namespace wheatstone {
 namespace {
@@ -42,7 +43,9 @@ PreparedPainting::~PreparedPainting() = default;
 int PreparedPainting::width() const { return contents_->width; }
 int PreparedPainting::height() const { return contents_->height; }
 
-PreparedPainting prepare(const Painting& painting, const DrawOptions& options, Device /*device*/) {
+PreparedPainting prepare(const Painting& painting, const DrawOptions& options, Device device) {
+  if (device == Device::graphics)
+    throw Error(ErrorKind::wrong_usage, "paintings are drawn by the processor, expected --device cpu");
   const DrawOptions everything;
   if (is_as_planned(options.placement) && options.finest_layer == everything.finest_layer && options.relief)
     return prepared(painting);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "wheatstone/drawing/device.h"
+#include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 
 namespace wheatstone {
@@ -43,7 +43,8 @@ class PreparedPainting {
   std::unique_ptr<const Contents> contents_;
 };
 
-/// Does once what all views of a painting share.
+/// Does once what all views of a painting share. Throws Error{wrong_usage} for the graphics processor, which draws no
+/// paintings.
 PreparedPainting prepare(const Painting& painting, const DrawOptions& options = {}, Device device = Device::processor);
 
 /// Draws a painting for one view, at any place on the line through the eyes: every point of a mark is moved by its own

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/multiview/cost_model.h"
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/render_slices.h"
@@ -64,6 +65,26 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
     throw Error(ErrorKind::wrong_usage, fmt::format("there are {} depth planes, expected at least 1", options.planes));
 }
 
+/// Refuses what the graphics processor does not do here.
+void check_gpu_can(const Scene& scene, const RenderOptions& options) {
+  if (scene.splat_style.blend == Blend::over)
+    throw Error(ErrorKind::wrong_usage, "--device gpu does not render --blend over, expected --device cpu");
+  if (options.opaque)
+    throw Error(ErrorKind::wrong_usage, "--device gpu does not render --opaque, expected --device cpu");
+  if (options.method != Method::automatic && options.method != Method::incremental)
+    throw Error(
+        ErrorKind::wrong_usage,
+        "--device gpu renders by the incremental method, expected --method auto or incremental, or --device cpu");
+}
+
+/// Whether the graphics processor is to render. On its own it is chosen where it is a real one, and where the work is
+/// more than handing it over.
+bool chooses_gpu(std::uint64_t particles, const Rig& rig, const RenderOptions& options) {
+  constexpr std::uint64_t worthwhile = 10'000'000;  // particles × views
+  if (options.device != Device::automatic) return options.device == Device::graphics;
+  return particles * rig.positions.size() >= worthwhile && has_real_gpu();
+}
+
 Choice choose(std::uint64_t particles, const Scene& scene, const Rig& rig, const RenderOptions& options) {
   if (options.method != Method::automatic) return {options.method, "as asked for"};
   const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
@@ -73,6 +94,22 @@ Choice choose(std::uint64_t particles, const Scene& scene, const Rig& rig, const
                         .planes = static_cast<int>(planes.parallaxes.size()),
                         .pixels = static_cast<std::uint64_t>(rig.width) * rig.height,
                         .absorbs = scene.splat_style.blend == Blend::over});
+}
+
+/// False where the device was chosen here and fails: the processor does the work then.
+bool rendered_on_gpu(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures, const RenderOptions& options,
+                     RenderedViews& result) {
+  try {
+    check_gpu_can(job.scene, options);
+    render_gpu(job, pictures);
+  } catch (const Error& error) {
+    if (options.device == Device::graphics || error.kind() != ErrorKind::wrong_usage) throw;
+    return false;
+  }
+  result.device = gpu_facts().name;
+  result.method = Method::incremental;
+  result.reason = "the graphics processor adds each particle to all views";
+  return true;
 }
 
 /// By slices that hide what is behind them.
@@ -121,6 +158,11 @@ RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, co
   const RenderJob job{chunks, scene, rig, statistics, tone};
 
   report(progress, "views", 0);
+  result.device = "cpu";
+  if (chooses_gpu(statistics.count, rig, options) && rendered_on_gpu(job, pictures, options, result)) {
+    report(progress, "views", 1);
+    return result;
+  }
   if (result.method == Method::layered) {
     const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
     result.planes = static_cast<int>(planes.parallaxes.size());

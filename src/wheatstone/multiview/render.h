@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wheatstone/depth/rig.h"
+#include "wheatstone/gpu/device.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/multiview/chunks.h"
 #include "wheatstone/multiview/scene.h"
@@ -33,7 +34,9 @@ enum class SliceFilter {
 struct RenderOptions {
   Method method = Method::automatic;
   SliceFilter filter = SliceFilter::linear;
-  int planes = 0;       ///< depth planes; 0: one for each pixel of parallax
+  int planes = 0;  ///< depth planes; 0: one for each pixel of parallax
+  /// Of the graphics processor, which adds every particle to all views at once (the incremental method).
+  Device device = Device::processor;
   bool opaque = false;  ///< the nearest particle hides the others, instead of adding its light to theirs
   /// Of the thesis's look; NaN: found from some of the particles, as are limits that `tone` leaves open.
   float exposure = std::numeric_limits<float>::quiet_NaN();
@@ -45,6 +48,7 @@ struct RenderedViews {
   std::vector<Image<Rgb8>> views;
   Method method = Method::exact;
   std::string reason;  ///< why this method, for people
+  std::string device;  ///< "cpu", or the name of the graphics processor
   int planes = 0;      ///< of the layered method
   float exposure = 1;  ///< of the thesis's look
   ToneSettings tone;   ///< with all that was found

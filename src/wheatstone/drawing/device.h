@@ -1,8 +1,0 @@
-#pragma once
-
-namespace wheatstone {
-
-/// What draws.
-enum class Device { processor };
-
-}  // namespace wheatstone

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+namespace wheatstone {
+
+/// Memory of the graphics processor. Made and used within on_gpu().
+class GpuBuffer {
+ public:
+  /// Its bytes are 0. Throws Error{wrong_usage} where the memory does not suffice.
+  explicit GpuBuffer(std::size_t bytes);
+  template <class Value>
+  explicit GpuBuffer(std::span<const Value> values) : GpuBuffer(values.size_bytes()) {
+    write(values);
+  }
+  ~GpuBuffer();
+  GpuBuffer(GpuBuffer&& other) noexcept : name_(other.name_), bytes_(other.bytes_) { other.name_ = 0; }
+  GpuBuffer(const GpuBuffer&) = delete;
+  GpuBuffer& operator=(const GpuBuffer&) = delete;
+  GpuBuffer& operator=(GpuBuffer&&) = delete;
+
+  std::size_t bytes() const { return bytes_; }
+  /// Sets all bytes to 0.
+  void clear();
+  /// Values are copied to the place that many bytes from the beginning, and must fit there.
+  template <class Value>
+  void write(std::span<const Value> values, std::size_t at = 0) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    write_bytes(std::as_bytes(values), at);
+  }
+  template <class Value>
+  void read(std::span<Value> values) const {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    read_bytes(std::as_writable_bytes(values));
+  }
+  /// For GpuProgram.
+  void bind(std::uint32_t binding) const;
+
+ private:
+  void write_bytes(std::span<const std::byte> bytes, std::size_t at);
+  void read_bytes(std::span<std::byte> bytes) const;
+
+  std::uint32_t name_ = 0;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace wheatstone

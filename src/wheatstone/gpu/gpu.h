@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "wheatstone/gpu/device.h"
+
+namespace wheatstone {
+
+/// What the driver says of a graphics processor.
+struct GpuFacts {
+  std::string name;                ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string version;             ///< of OpenGL and of the driver
+  bool imitated = false;           ///< by the processor: right, but not fast
+  std::size_t largest_buffer = 0;  ///< bytes that a program may use as one buffer
+};
+
+/// The graphics processor that computes here: the first real one, else one that the processor imitates. Throws
+/// Error{wrong_usage} that says why there is none.
+GpuFacts gpu_facts();
+
+/// Whether a real graphics processor computes here.
+bool has_real_gpu();
+
+/// Runs work on the graphics processor: within it, buffers and programs can be made and used on the calling thread. The
+/// context is made on first use, without a window, and kept; callers take turns. Throws what the work throws, and
+/// Error{wrong_usage} where there is no graphics processor or it fails: "graphics processor: ...".
+void on_gpu(const std::function<void(const GpuFacts& facts)>& work);
+
+}  // namespace wheatstone

@@ -1,0 +1,106 @@
+#include "wheatstone/gpu/gpu.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <initializer_list>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "throws_error.h"
+#include "wheatstone/gpu/program.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr GpuSource doubling{"doubling.comp", R"(#version 450
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) buffer Numbers { uint numbers[]; };
+void main() {
+  if (gl_GlobalInvocationID.x < numbers.length()) numbers[gl_GlobalInvocationID.x] *= 2;
+})"};
+
+class Gpu : public testing::Test {
+  void SetUp() override {
+    try {
+      gpu_facts();
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+};
+
+/// Ends the process with the exit code and the message of the error that says why there is no graphics processor.
+[[noreturn]] void end_with_reason(std::initializer_list<std::pair<const char*, const char*>> variables) {
+  for (const auto& [name, value] : variables) setenv(name, value, 1);
+  try {
+    gpu_facts();
+  } catch (const Error& error) {
+    std::fputs(error.what(), stderr);
+    std::exit(has_real_gpu() ? 0 : static_cast<int>(error.kind()));
+  }
+  std::exit(0);
+}
+
+TEST(GpuDeathTest, SaysThatNoDriverIsThere) {
+  EXPECT_EXIT(end_with_reason({{"__EGL_VENDOR_LIBRARY_DIRS", "/nowhere"}}), testing::ExitedWithCode(2),
+              "none was found");
+}
+
+TEST(GpuDeathTest, SaysThatADriverIsTooOld) {
+  const char* const mesa = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
+  if (!std::filesystem::exists(mesa)) GTEST_SKIP() << "Mesa is not there, which can be told to be an older driver";
+  EXPECT_EXIT(end_with_reason({{"__EGL_VENDOR_LIBRARY_FILENAMES", mesa}, {"MESA_GL_VERSION_OVERRIDE", "4.3"}}),
+              testing::ExitedWithCode(2), "no OpenGL 4.5");
+}
+
+TEST_F(Gpu, TellsWhatItIs) {
+  const GpuFacts facts = gpu_facts();
+  EXPECT_FALSE(facts.name.empty());
+  EXPECT_NE(facts.version.find('.'), std::string::npos);
+  EXPECT_GE(facts.largest_buffer, std::size_t{1} << 24);
+  EXPECT_EQ(has_real_gpu(), !facts.imitated);
+}
+
+TEST_F(Gpu, RunsAProgramOnABuffer) {
+  std::vector<std::uint32_t> numbers(1000);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  on_gpu([&](const GpuFacts&) {
+    const GpuBuffer buffer{std::span<const std::uint32_t>(numbers)};
+    const GpuProgram program(doubling);
+    program.run({groups_of(numbers.size(), 64)}, {&buffer});
+    buffer.read(std::span(numbers));
+  });
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) ASSERT_EQ(numbers[i], 2 * i);
+}
+
+TEST_F(Gpu, BeginsWithBuffersOfZeros) {
+  std::vector<std::uint32_t> numbers(77, 1);
+  on_gpu([&](const GpuFacts&) { GpuBuffer(numbers.size() * sizeof(std::uint32_t)).read(std::span(numbers)); });
+  EXPECT_EQ(numbers, std::vector<std::uint32_t>(77, 0));
+}
+
+TEST_F(Gpu, NamesTheProgramThatItsDriverRefuses) {
+  expect_error(ErrorKind::wrong_usage, "broken.comp", [] {
+    on_gpu([](const GpuFacts&) { GpuProgram({"broken.comp", "#version 450\nvoid main() { nonsense; }"}); });
+  });
+}
+
+TEST_F(Gpu, SaysThatItsMemoryDoesNotSuffice) {
+  expect_error(ErrorKind::wrong_usage, "memory does not hold",
+               [] { on_gpu([](const GpuFacts&) { GpuBuffer(std::size_t{1} << 46); }); });
+}
+
+TEST_F(Gpu, IsOfUseAgainAfterAFault) {
+  EXPECT_ANY_THROW(on_gpu([](const GpuFacts&) { throw 1; }));
+  std::uint32_t number = 7;
+  on_gpu([&](const GpuFacts&) { GpuBuffer(4).read(std::span(&number, 1)); });
+  EXPECT_EQ(number, 0u);
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,50 @@
+#include "wheatstone/gpu/program.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "wheatstone/error.h"
+
+namespace wheatstone {
+namespace {
+
+/// The driver's first line about what it refused.
+[[noreturn]] void refuse(const GpuSource& source, std::string log) {
+  log.resize(std::min(log.find_first_of("\n\0", 0, 2), log.size()));
+  throw Error(ErrorKind::wrong_usage, fmt::format("graphics processor: its driver refuses {}: {}", source.name, log));
+}
+
+}  // namespace
+
+GpuProgram::GpuProgram(const GpuSource& source) {
+  // The program is separable: it has one stage, which is compiled and linked at once.
+  const std::string text(source.text);
+  const char* const texts = text.c_str();
+  name_ = glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &texts);
+  GLint linked = GL_FALSE;
+  if (name_ != 0) glGetProgramiv(name_, GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return;
+  std::string log(2048, '\0');
+  if (name_ != 0) glGetProgramInfoLog(name_, static_cast<GLsizei>(log.size()), nullptr, log.data());
+  glDeleteProgram(name_);
+  refuse(source, log);
+}
+
+GpuProgram::~GpuProgram() { glDeleteProgram(name_); }
+
+void GpuProgram::run(std::initializer_list<std::uint32_t> groups,
+                     std::initializer_list<const GpuBuffer*> buffers) const {
+  std::array<std::uint32_t, 3> count{1, 1, 1};
+  std::ranges::copy(groups, count.begin());
+  std::uint32_t binding = 0;
+  for (const GpuBuffer* const buffer : buffers) buffer->bind(binding++);
+  glUseProgram(name_);
+  glDispatchCompute(count[0], count[1], count[2]);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+
+#include "wheatstone/gpu/buffer.h"
+
+namespace wheatstone {
+
+/// The source of a compute program, as the build embeds it.
+struct GpuSource {
+  std::string_view name;  ///< of its file
+  std::string_view text;
+};
+
+/// A compute program on the graphics processor. Made and used within on_gpu().
+class GpuProgram {
+ public:
+  /// Throws Error{wrong_usage} with the driver's first line where it refuses the source.
+  explicit GpuProgram(const GpuSource& source);
+  ~GpuProgram();
+  GpuProgram(const GpuProgram&) = delete;
+  GpuProgram& operator=(const GpuProgram&) = delete;
+
+  /// Runs groups × as many invocations as a group of the source has, in x, y and z. Buffer i is bound to binding i.
+  /// What runs next sees what this wrote.
+  void run(std::initializer_list<std::uint32_t> groups, std::initializer_list<const GpuBuffer*> buffers) const;
+
+ private:
+  std::uint32_t name_ = 0;
+};
+
+/// Groups of `size` that cover `count`.
+constexpr std::uint32_t groups_of(std::size_t count, std::size_t size) {
+  return static_cast<std::uint32_t>((count + size - 1) / size);
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,99 @@
+// Pictures by the graphics processor against those by the processor.
+
+#include <gtest/gtest.h>
+
+#include "psnr.h"
+#include "stage_of_kernels.h"
+#include "throws_error.h"
+#include "wheatstone/gpu/gpu.h"
+#include "wheatstone/multiview/render.h"
+
+namespace wheatstone {
+namespace {
+
+/// With particles from a pixel wide to wider than the view's picture holds.
+struct Case {
+  Cloud cloud;
+  Stage stage;
+  RenderOptions options{.method = Method::incremental};
+
+  explicit Case(Cloud particles, const Appearance& appearance = {})
+      : cloud(std::move(particles)), stage(stage_of(cloud, 160, 120, 5, appearance)) {}
+  std::vector<Image<Rgb8>> views(Device device) {
+    options.device = device;
+    return render(chunks_of(cloud), stage.statistics, stage.scene, stage.rig, options).views;
+  }
+};
+
+double worst_psnr(const std::vector<Image<Rgb8>>& views, const std::vector<Image<Rgb8>>& reference) {
+  double worst = 1000;
+  for (std::size_t v = 0; v < views.size(); ++v) worst = std::min(worst, psnr_db(views[v], reference[v]));
+  return worst;
+}
+
+class RenderGpu : public testing::Test {
+  void SetUp() override {
+    try {
+      gpu_facts();
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+};
+
+TEST_F(RenderGpu, ShowsMassAsTheProcessorDoes) {
+  Case mass(kernels(3000));
+  EXPECT_GT(worst_psnr(mass.views(Device::graphics), mass.views(Device::processor)), 55);
+}
+
+TEST_F(RenderGpu, ShowsTheThesissLookAsTheProcessorDoes) {
+  Case look(kernels(3000), {.look = Look::thesis});
+  look.options.exposure = 0.5f;
+  EXPECT_GT(worst_psnr(look.views(Device::graphics), look.views(Device::processor)), 55);
+}
+
+TEST_F(RenderGpu, ShowsParticlesInTheirOwnColours) {
+  Cloud cloud = kernels(3000);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    cloud.colour.push_back({static_cast<std::uint8_t>(i % 256), 120, static_cast<std::uint8_t>(i / 16 % 256)});
+  Case coloured(cloud);
+  EXPECT_GT(worst_psnr(coloured.views(Device::graphics), coloured.views(Device::processor)), 55);
+}
+
+TEST_F(RenderGpu, ShowsAQuantityWithBothSigns) {
+  Cloud cloud = kernels(3000);
+  for (const float x : cloud.x) cloud.quantity.push_back(x * 300);
+  Case velocity(cloud);
+  velocity.stage.scene.splat_style.colour_source = ColourSource::quantity;
+  velocity.stage.scene.splat_style.quantity_scale = 1.f / 300;
+  velocity.options.tone = {.shown = Shown::mean, .stretch = Stretch::linear, .least = -1, .most = 1};
+  EXPECT_GT(worst_psnr(velocity.views(Device::graphics), velocity.views(Device::processor)), 55);
+}
+
+TEST_F(RenderGpu, GivesTheSameBytesEveryTime) {
+  Case mass(kernels(3000));
+  const std::vector<Image<Rgb8>> once = mass.views(Device::graphics);
+  const std::vector<Image<Rgb8>> again = mass.views(Device::graphics);
+  for (std::size_t v = 0; v < once.size(); ++v) EXPECT_TRUE(std::ranges::equal(once[v].pixels(), again[v].pixels()));
+}
+
+TEST_F(RenderGpu, DoesNotDependOnTheOrderOfTheParticles) {
+  const Cloud cloud = kernels(3000);
+  Cloud reversed;
+  for_each_column(reversed, cloud, [](auto& to, const auto& from) { to.assign(from.rbegin(), from.rend()); });
+  Case forwards(cloud);
+  Case backwards(reversed);
+  forwards.options.tone = backwards.options.tone = {.least = 0, .most = 5};
+  const std::vector<Image<Rgb8>> one = forwards.views(Device::graphics);
+  const std::vector<Image<Rgb8>> other = backwards.views(Device::graphics);
+  for (std::size_t v = 0; v < one.size(); ++v) EXPECT_TRUE(std::ranges::equal(one[v].pixels(), other[v].pixels()));
+}
+
+TEST_F(RenderGpu, RefusesWhatItDoesNotDo) {
+  Case mass(kernels(3000));
+  mass.options.method = Method::layered;
+  expect_error(ErrorKind::wrong_usage, "--device cpu", [&] { mass.views(Device::graphics); });
+}
+
+}  // namespace
+}  // namespace wheatstone
