@@ -244,7 +244,7 @@ TEST(RenderCommand, RefusesWhatMakesNoSense) {
   refused({"--views", "0"}, "--views");
   refused({"--device", "tpu"}, "--device");
   refused({"--device", "gpu", "--opaque"}, "--device gpu does not render --opaque");
-  refused({"--device", "gpu", "--method", "layered"}, "--method auto or incremental");
+  refused({"--device", "gpu", "--method", "exact"}, "expected auto, incremental or layered");
   refused({"--device", "gpu", "--save-slices", "s.exr"}, "--device");
   refused({"--size", "0x5"}, "--size");
   refused({"--size", "wide"}, "--size");

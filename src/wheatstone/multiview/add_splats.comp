@@ -1,7 +1,7 @@
 #version 450
 
-// One particle: it is projected and lit once, then added to every view, in fixed point, so that sums do not depend on
-// the order. The twin of project_simd.cpp and deposit_simd.cpp.
+// One particle: it is projected and lit once, then added to every view, or to the depth planes around it, in fixed
+// point, so that sums do not depend on the order. The twin of project_simd.cpp and deposit_simd.cpp.
 
 layout(local_size_x = 64) in;
 
@@ -11,9 +11,12 @@ const int parallax_entries = 1024;
 const int palette_entries = 256;
 const int most_rows = 33;  // of the widest splat
 
-// As struct SplatWork in gpu_views.cpp has them.
+const int into_views = 0, into_nearest_plane = 1, between_planes = 2;
+
+// As struct SplatWork in gpu_splats_internal.h has them.
 layout(std430, binding = 0) readonly buffer Work {
-  int particles, views, channels, pictures;
+  int particles, channels, pictures;
+  int targets;  // one of the three ways above
   int column[9];  // where x, y, z, density, second, smoothing length, mass, presence, colour begin; -1: absent
   int by_mass, second_is_quantity, own_colours, logarithmic, from_density;
   int by_length, by_rank, larger_if_denser;
@@ -23,8 +26,12 @@ layout(std430, binding = 0) readonly buffer Work {
   float mean_mass, radius_factor, fixed_radius, quantity_scale, log2_density_middle, slope, opacity, least_opacity;
   float smallest_px, largest_px, largest_mass_px, size_depth, palette_first, palette_scale;
   float widest[most_pictures], scale[most_pictures], pad[most_pictures];
-  int width[most_pictures], rows[most_pictures], first_sum[most_pictures];
+  // Of each picture: its first column, its size, which views or planes are in the buffer, and where number 0 would be.
+  int left[most_pictures], width[most_pictures], rows[most_pictures];
+  int first_target[most_pictures], end_target[most_pictures], base[most_pictures];
   float view[most_views];
+  float first_parallax, plane_spacing;
+  int planes[most_pictures];
   float parallax[parallax_entries], parallax_step[parallax_entries];
   float red[palette_entries], green[palette_entries], blue[palette_entries];
 };
@@ -162,16 +169,23 @@ void add(int at, float value) {
   if (high != 0) atomicAdd(sums[2 * at + 1], high);
 }
 
-void add_to_view(Splat splat, int v, int top, int bottom, float row_weight[most_rows], float reach, float sharpness) {
+struct Window {
+  int top, bottom;
+  float row_weight[most_rows];
+  float reach, sharpness;
+};
+
+void add_to_target(Splat splat, int target, float x, float share, Window window) {
   int p = splat.picture;
-  float x = splat.x + splat.parallax * view[v];
-  int first = max(int(ceil(x - reach - 0.5)), 0);
-  int last = min(int(floor(x + reach - 0.5)), width[p] - 1);
+  if (target < first_target[p] || target >= end_target[p]) return;
+  x -= float(left[p]);
+  int first = max(int(ceil(x - window.reach - 0.5)), 0);
+  int last = min(int(floor(x + window.reach - 0.5)), width[p] - 1);
   for (int column_x = first; column_x <= last; ++column_x) {
-    vec3 light = splat.light * weight_at(float(column_x) + 0.5 - x, reach, sharpness);
-    for (int y = top; y <= bottom; ++y) {
-      int at = first_sum[p] + ((v * rows[p] + y) * width[p] + column_x) * channels;
-      float weight = row_weight[y - top];
+    vec3 light = splat.light * (share * weight_at(float(column_x) + 0.5 - x, window.reach, window.sharpness));
+    for (int y = window.top; y <= window.bottom; ++y) {
+      int at = base[p] + ((target * rows[p] + y) * width[p] + column_x) * channels;
+      float weight = window.row_weight[y - window.top];
       add(at, light.r * weight);
       add(at + 1, light.g * weight);
       if (channels == 3) add(at + 2, light.b * weight);
@@ -179,18 +193,39 @@ void add_to_view(Splat splat, int v, int top, int bottom, float row_weight[most_
   }
 }
 
+// A splat that is nearly in a plane goes there alone; another goes to both, by its distances.
+void add_to_planes(Splat splat, Window window) {
+  int p = splat.picture;
+  float at = (splat.parallax - first_parallax * scale[p]) / plane_spacing;
+  at = clamp(at, 0.0, float(planes[p] - 1));
+  float rest = fract(at);
+  if (targets == into_nearest_plane || rest <= 0.25 || rest >= 0.75) {
+    add_to_target(splat, int(roundEven(at)), splat.x, 1, window);
+  } else {
+    add_to_target(splat, int(at), splat.x, 1 - rest, window);
+    add_to_target(splat, int(at) + 1, splat.x, rest, window);
+  }
+}
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   Splat splat;
   if (i >= uint(particles) || !project(i, splat)) return;
-  float reach = splat.size / 2 + 0.5;
-  float sharpness = by_mass != 0 ? 5.5 * 0.70710678 / splat.size
-                                 : 0.72134752 / (splat.size * splat.size / 25 + 1.0 / 12);
-  int top = max(int(ceil(clamp(splat.y, -1e8, 1e8) - reach - 0.5)), 0);
-  int bottom = min(int(floor(clamp(splat.y, -1e8, 1e8) + reach - 0.5)), rows[splat.picture] - 1);
-  if (top > bottom) return;
-  float row_weight[most_rows];
-  for (int y = top; y <= bottom; ++y) row_weight[y - top] = weight_at(float(y) + 0.5 - splat.y, reach, sharpness);
   splat.x = clamp(splat.x, -1e8, 1e8);
-  for (int v = 0; v < views; ++v) add_to_view(splat, v, top, bottom, row_weight, reach, sharpness);
+  splat.y = clamp(splat.y, -1e8, 1e8);
+  Window window;
+  window.reach = splat.size / 2 + 0.5;
+  window.sharpness = by_mass != 0 ? 5.5 * 0.70710678 / splat.size
+                                  : 0.72134752 / (splat.size * splat.size / 25 + 1.0 / 12);
+  window.top = max(int(ceil(splat.y - window.reach - 0.5)), 0);
+  window.bottom = min(int(floor(splat.y + window.reach - 0.5)), rows[splat.picture] - 1);
+  if (window.top > window.bottom) return;
+  for (int y = window.top; y <= window.bottom; ++y)
+    window.row_weight[y - window.top] = weight_at(float(y) + 0.5 - splat.y, window.reach, window.sharpness);
+  if (targets != into_views) {
+    add_to_planes(splat, window);
+    return;
+  }
+  for (int v = first_target[splat.picture]; v < end_target[splat.picture]; ++v)
+    add_to_target(splat, v, splat.x + splat.parallax * view[v], 1, window);
 }

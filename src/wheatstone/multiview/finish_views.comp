@@ -1,37 +1,26 @@
 #version 450
 
-// One pixel of one view of a picture: its sum, what the picture of half the size has there, and, of the view's own
+// One pixel of one view of a picture: its light, what the picture of half the size has there, and, of the view's own
 // picture, the colour that it is shown in. The twin of composite_simd.cpp.
 
 layout(local_size_x = 64) in;
 
 const int stretch_shift = 16;
 
-// As struct FinishWork in gpu_views.cpp has them.
+// As struct FinishWork in gpu_finish_internal.h has them.
 layout(std430, binding = 0) readonly buffer Work {
-  int views, channels, width, rows, pad, first_sum;
+  int channels, width, rows, pad;
+  int base;  // of the picture's light
   int smaller_width, smaller_rows;  // 0: there is no smaller picture
   int shown;                        // 0: stays light; 1: the thesis's look; 2: ramp or column; 3: mean; 4: colours
   int hues, table_size, stretch_size, first_index;
   float exposure, scale, offset;
 };
-layout(std430, binding = 1) readonly buffer Sums { uint sums[]; };
+layout(std430, binding = 1) readonly buffer Own { float own[]; };
 layout(std430, binding = 2) readonly buffer Smaller { float smaller[]; };
 layout(std430, binding = 3) buffer Light { float light[]; };
 layout(std430, binding = 4) buffer Colours { uint colours[]; };
 layout(std430, binding = 5) readonly buffer Tables { int tables[]; };  // sRGB, stretch, linear stretch, colours
-
-float sum_at(int at) {
-  uint low = sums[2 * at];
-  uint high = sums[2 * at + 1];
-  bool negative = (high & 0x80000000u) != 0;
-  if (negative) {
-    low = ~low + 1;
-    high = ~high + uint(low == 0);
-  }
-  float value = (float(high) * 4294967296.0 + float(low)) / 268435456.0;
-  return negative ? -value : value;
-}
 
 // The nearer and the farther pixel of the smaller picture, whose pad is 2, along one axis.
 ivec2 neighbours(int at) {
@@ -84,7 +73,7 @@ void main() {
   int pixel = (v * rows + y) * width + x;
   vec3 sum = vec3(0);
   for (int channel = 0; channel < channels; ++channel) {
-    sum[channel] = sum_at(first_sum + pixel * channels + channel);
+    sum[channel] = own[base + pixel * channels + channel];
     if (smaller_width > 0) sum[channel] += enlarged(v, channel, neighbours(x), neighbours(y));
     if (shown == 0) light[pixel * channels + channel] = sum[channel];
   }

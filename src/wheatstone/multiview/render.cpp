@@ -71,10 +71,10 @@ void check_gpu_can(const Scene& scene, const RenderOptions& options) {
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --blend over, expected --device cpu");
   if (options.opaque)
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --opaque, expected --device cpu");
-  if (options.method != Method::automatic && options.method != Method::incremental)
+  if (options.method == Method::exact)
     throw Error(
         ErrorKind::wrong_usage,
-        "--device gpu renders by the incremental method, expected --method auto or incremental, or --device cpu");
+        "--device gpu does not render by --method exact, expected auto, incremental or layered, or --device cpu");
 }
 
 /// Whether the graphics processor is to render. On its own it is chosen where it is a real one, and where the work is
@@ -96,20 +96,34 @@ Choice choose(std::uint64_t particles, const Scene& scene, const Rig& rig, const
                         .absorbs = scene.splat_style.blend == Blend::over});
 }
 
+/// A particle costs the graphics processor as much as it touches: each view, or two planes whatever the views.
+Choice choose_on_gpu(const Rig& rig, const RenderOptions& options) {
+  if (options.method != Method::automatic) return {options.method, "as asked for"};
+  if (rig.positions.size() > 2) return {Method::layered, "on a graphics processor, more than two views: layered"};
+  return {Method::incremental, "on a graphics processor, at most two views: incremental"};
+}
+
 /// False where the device was chosen here and fails: the processor does the work then.
 bool rendered_on_gpu(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures, const RenderOptions& options,
                      RenderedViews& result) {
   try {
     check_gpu_can(job.scene, options);
-    render_gpu(job, pictures);
+    const Choice choice = choose_on_gpu(job.rig, options);
+    if (choice.method == Method::layered) {
+      const DepthPlanes planes = planes_of(job.scene.mapping, options.planes, span_of(job.rig));
+      render_layered_on_gpu(job, planes, options.filter, pictures);
+      result.planes = static_cast<int>(planes.parallaxes.size());
+    } else {
+      render_incremental_on_gpu(job, pictures);
+    }
+    result.device = gpu_facts().name;
+    result.method = choice.method;
+    result.reason = choice.reason;
+    return true;
   } catch (const Error& error) {
     if (options.device == Device::graphics || error.kind() != ErrorKind::wrong_usage) throw;
     return false;
   }
-  result.device = gpu_facts().name;
-  result.method = Method::incremental;
-  result.reason = "the graphics processor adds each particle to all views";
-  return true;
 }
 
 /// By slices that hide what is behind them.

@@ -35,7 +35,7 @@ struct RenderOptions {
   Method method = Method::automatic;
   SliceFilter filter = SliceFilter::linear;
   int planes = 0;  ///< depth planes; 0: one for each pixel of parallax
-  /// Of the graphics processor, which adds every particle to all views at once (the incremental method).
+  /// A graphics processor renders by the incremental or the layered method, what is neither opaque nor absorbs.
   Device device = Device::processor;
   bool opaque = false;  ///< the nearest particle hides the others, instead of adding its light to theirs
   /// Of the thesis's look; NaN: found from some of the particles, as are limits that `tone` leaves open.

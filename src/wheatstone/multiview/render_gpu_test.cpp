@@ -18,7 +18,7 @@ struct Case {
   RenderOptions options{.method = Method::incremental};
 
   explicit Case(Cloud particles, const Appearance& appearance = {})
-      : cloud(std::move(particles)), stage(stage_of(cloud, 160, 120, 5, appearance)) {}
+      : cloud(std::move(particles)), stage(stage_of(cloud, 96, 72, 3, appearance)) {}
   std::vector<Image<Rgb8>> views(Device device) {
     options.device = device;
     return render(chunks_of(cloud), stage.statistics, stage.scene, stage.rig, options).views;
@@ -42,18 +42,18 @@ class RenderGpu : public testing::Test {
 };
 
 TEST_F(RenderGpu, ShowsMassAsTheProcessorDoes) {
-  Case mass(kernels(3000));
+  Case mass(kernels(1000));
   EXPECT_GT(worst_psnr(mass.views(Device::graphics), mass.views(Device::processor)), 55);
 }
 
 TEST_F(RenderGpu, ShowsTheThesissLookAsTheProcessorDoes) {
-  Case look(kernels(3000), {.look = Look::thesis});
+  Case look(kernels(1000), {.look = Look::thesis});
   look.options.exposure = 0.5f;
   EXPECT_GT(worst_psnr(look.views(Device::graphics), look.views(Device::processor)), 55);
 }
 
 TEST_F(RenderGpu, ShowsParticlesInTheirOwnColours) {
-  Cloud cloud = kernels(3000);
+  Cloud cloud = kernels(1000);
   for (std::size_t i = 0; i < cloud.size(); ++i)
     cloud.colour.push_back({static_cast<std::uint8_t>(i % 256), 120, static_cast<std::uint8_t>(i / 16 % 256)});
   Case coloured(cloud);
@@ -61,7 +61,7 @@ TEST_F(RenderGpu, ShowsParticlesInTheirOwnColours) {
 }
 
 TEST_F(RenderGpu, ShowsAQuantityWithBothSigns) {
-  Cloud cloud = kernels(3000);
+  Cloud cloud = kernels(1000);
   for (const float x : cloud.x) cloud.quantity.push_back(x * 300);
   Case velocity(cloud);
   velocity.stage.scene.splat_style.colour_source = ColourSource::quantity;
@@ -71,14 +71,14 @@ TEST_F(RenderGpu, ShowsAQuantityWithBothSigns) {
 }
 
 TEST_F(RenderGpu, GivesTheSameBytesEveryTime) {
-  Case mass(kernels(3000));
+  Case mass(kernels(1000));
   const std::vector<Image<Rgb8>> once = mass.views(Device::graphics);
   const std::vector<Image<Rgb8>> again = mass.views(Device::graphics);
   for (std::size_t v = 0; v < once.size(); ++v) EXPECT_TRUE(std::ranges::equal(once[v].pixels(), again[v].pixels()));
 }
 
 TEST_F(RenderGpu, DoesNotDependOnTheOrderOfTheParticles) {
-  const Cloud cloud = kernels(3000);
+  const Cloud cloud = kernels(1000);
   Cloud reversed;
   for_each_column(reversed, cloud, [](auto& to, const auto& from) { to.assign(from.rbegin(), from.rend()); });
   Case forwards(cloud);
@@ -89,10 +89,21 @@ TEST_F(RenderGpu, DoesNotDependOnTheOrderOfTheParticles) {
   for (std::size_t v = 0; v < one.size(); ++v) EXPECT_TRUE(std::ranges::equal(one[v].pixels(), other[v].pixels()));
 }
 
+TEST_F(RenderGpu, CompositesDepthPlanesAsTheProcessorDoes) {
+  for (const SliceFilter filter : {SliceFilter::nearest, SliceFilter::linear, SliceFilter::centroid}) {
+    Case mass(kernels(1000));
+    mass.options.method = Method::layered;
+    mass.options.filter = filter;
+    EXPECT_GT(worst_psnr(mass.views(Device::graphics), mass.views(Device::processor)), 55);
+  }
+}
+
 TEST_F(RenderGpu, RefusesWhatItDoesNotDo) {
-  Case mass(kernels(3000));
-  mass.options.method = Method::layered;
+  Case mass(kernels(100));
+  mass.options.method = Method::exact;
   expect_error(ErrorKind::wrong_usage, "--device cpu", [&] { mass.views(Device::graphics); });
+  mass.options = {.opaque = true};
+  expect_error(ErrorKind::wrong_usage, "--opaque", [&] { mass.views(Device::graphics); });
 }
 
 }  // namespace

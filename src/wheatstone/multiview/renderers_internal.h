@@ -68,9 +68,6 @@ float look_around_px(const Scene& scene, const Rig& rig);
 /// Each of the views on its own.
 void render_exact(const RenderJob& job, std::span<const ViewPosition> views, std::span<const ImageView<Rgb8>> pictures);
 void render_incremental(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures);
-/// The same on a graphics processor, in fixed point: steps of 2^−28 of a mean particle's light, sums up to 2^35 of
-/// them. Throws Error{wrong_usage} where there is none.
-void render_gpu(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures);
 /// The nearest particle of each pixel, in each of the views.
 void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
                    std::span<const ImageView<Rgb8>> pictures);
@@ -80,6 +77,12 @@ void render_front_to_back(const RenderJob& job, std::span<const ViewPosition> vi
 /// Without pictures, the planes are filled and nothing is made of them.
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures);
+
+/// On a graphics processor, in fixed point: steps of 2^−28 of a mean particle's light, sums up to 2^35 of them. Throw
+/// Error{wrong_usage} where there is none.
+void render_incremental_on_gpu(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures);
+void render_layered_on_gpu(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
+                           std::span<const ImageView<Rgb8>> pictures);
 
 /// The light of a view, of the size of the rig's.
 ViewLight light_of_view(const RenderJob& job, ViewPosition view);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <span>
+
+#include "wheatstone/gpu/buffer.h"
+#include "wheatstone/image/image.h"
+#include "wheatstone/multiview/gpu_splats_internal.h"
+#include "wheatstone/multiview/tone_map_internal.h"
+
+namespace wheatstone {
+
+/// Views that the programs treat at a time.
+constexpr int most_gpu_views = 64;
+
+/// Their distances from the central view.
+inline std::array<float, most_gpu_views> gpu_views(std::span<const ViewPosition> views) {
+  std::array<float, most_gpu_views> distances{};
+  std::ranges::transform(views, distances.begin(), [](ViewPosition view) { return view - central_view; });
+  return distances;
+}
+
+/// The light of a picture's views on the graphics processor, from a place in a buffer on.
+struct GpuLight {
+  const GpuBuffer* light;
+  int base;
+};
+
+/// Puts the pictures of all sizes together, from the smallest on, and shows the views' own. `light_of` is asked once
+/// for each, in that order; what it gives must stay until it is asked again. Within on_gpu().
+void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
+                   const std::function<GpuLight(std::size_t picture)>& light_of,
+                   std::span<const ImageView<Rgb8>> views);
+
+/// The light of a picture's views, composited from the light of its depth planes. Within on_gpu().
+GpuBuffer composite_on_gpu(const GpuPictures& planes, std::span<const TargetGroup> groups,
+                           std::span<const GpuBuffer> light, std::size_t picture, const GpuPictures& of_views,
+                           std::span<const ViewPosition> views, Resampling resampling);
+
+}  // namespace wheatstone

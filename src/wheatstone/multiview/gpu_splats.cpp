@@ -1,0 +1,237 @@
+#include "wheatstone/multiview/gpu_splats_internal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "add_splats_source.h"
+#include "light_of_sums_source.h"
+#include "wheatstone/error.h"
+#include "wheatstone/gpu/program.h"
+#include "wheatstone/multiview/gathered_light_internal.h"
+#include "wheatstone/multiview/gpu_finish_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// As many particles as are copied at a time.
+constexpr std::size_t particles_at_a_time = 1 << 20;
+
+/// What add_splats.comp reads of its work: numbers of four bytes, without gaps.
+struct SplatWork {
+  std::int32_t particles = 0, channels = 0, pictures = 0;
+  GpuTargets targets = GpuTargets::views;
+  std::array<std::int32_t, 9> column{};
+  std::int32_t by_mass = 0, second_is_quantity = 0, own_colours = 0, logarithmic = 0, from_density = 0;
+  std::int32_t by_length = 0, by_rank = 0, larger_if_denser = 0;
+  std::array<float, 3> camera{}, right{}, down{}, forward{};
+  float focal_px = 0, centre_x_px = 0, centre_y_px = 0, nearest_depth = 0, orthographic_nearness = 0;
+  float first_w = 0, entries_per_w = 0;
+  float mean_mass = 1, radius_factor = 0, fixed_radius = 0, quantity_scale = 1, log2_density_middle = 0, slope = 0,
+        opacity = 0, least_opacity = 0;
+  float smallest_px = 0, largest_px = 0, largest_mass_px = 0, size_depth = 0, palette_first = 0, palette_scale = 0;
+  std::array<float, PictureTable::most> widest{}, scale{}, pad{};
+  std::array<std::int32_t, PictureTable::most> left{}, width{}, rows{}, first_target{}, end_target{}, base{};
+  std::array<float, most_gpu_views> view{};
+  float first_parallax = 0, plane_spacing = 1;
+  std::array<std::int32_t, PictureTable::most> planes{};
+  std::array<float, ParallaxTable::size> parallax{}, parallax_step{};
+  std::array<float, SplatStyle::palette_size> red{}, green{}, blue{};
+};
+static_assert(sizeof(SplatWork) % 4 == 0);
+
+void set_camera(const Projection& projection, SplatWork& work) {
+  const Camera& camera = projection.camera;
+  work.camera = camera.position;
+  work.right = camera.right;
+  work.down = camera.down;
+  work.forward = camera.forward;
+  work.focal_px = camera.focal_px;
+  work.centre_x_px = camera.centre_x_px;
+  work.centre_y_px = camera.centre_y_px;
+  work.nearest_depth = camera.nearest_depth;
+  work.orthographic_nearness = camera.orthographic_depth > 0 ? 1 / camera.orthographic_depth : 0;
+  work.first_w = projection.table.first_w;
+  work.entries_per_w = projection.table.entries_per_w;
+  std::ranges::copy(projection.table.value, work.parallax.begin());
+  std::ranges::copy(projection.table.step, work.parallax_step.begin());
+}
+
+void set_style(const Projection& projection, SplatWork& work) {
+  const SplatStyle& style = projection.splat_style;
+  work.by_mass = style.look == Look::mass;
+  work.second_is_quantity = style.colour_source == ColourSource::quantity;
+  work.own_colours = style.colour_source == ColourSource::own;
+  work.logarithmic = style.logarithmic;
+  work.larger_if_denser = style.size_rule == SizeRule::denser_larger;
+  work.mean_mass = style.mean_mass;
+  work.radius_factor = style.radius_factor;
+  work.fixed_radius = style.fixed_radius;
+  work.quantity_scale = style.quantity_scale;
+  work.log2_density_middle = style.log2_density_middle;
+  work.slope = style.slope;
+  work.opacity = style.opacity;
+  work.least_opacity = style.least_opacity;
+  work.smallest_px = style.smallest_px;
+  work.largest_px = style.largest_px;
+  work.largest_mass_px = projection.largest_mass_px;
+  work.size_depth = style.size_depth;
+  work.palette_first = style.palette_first;
+  work.palette_scale = style.palette_scale;
+  work.red = style.red;
+  work.green = style.green;
+  work.blue = style.blue;
+}
+
+/// The rules of sizes that depend on which columns a cloud has.
+void set_size_rule(const Cloud& cloud, const SplatStyle& style, SplatWork& work) {
+  const bool thesis = style.look == Look::thesis;
+  const bool lengths = !cloud.smoothing_length.empty();
+  work.by_rank =
+      style.size_rule == SizeRule::denser_smaller || style.size_rule == SizeRule::denser_larger || (thesis && !lengths);
+  work.by_length = style.size_rule == SizeRule::smoothing_length && lengths;
+  work.from_density = !cloud.density.empty() && !thesis;
+}
+
+/// Colours as the shader unpacks them.
+std::vector<std::uint32_t> packed_colours(const Cloud& cloud, ParticleRange range) {
+  std::vector<std::uint32_t> packed;
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+    const Rgb8 colour = cloud.colour[i];
+    packed.push_back(colour.r | std::uint32_t{colour.g} << 8 | std::uint32_t{colour.b} << 16);
+  }
+  return packed;
+}
+
+/// Copies particles of a cloud to the buffer, column after column, and notes in the work where each begins.
+void copy_columns(const Cloud& cloud, ParticleRange range, const SplatStyle& style, GpuBuffer& buffer,
+                  SplatWork& work) {
+  const std::vector<float> none;
+  const std::vector<float>* second = &none;
+  if (style.colour_source == ColourSource::quantity) second = &cloud.quantity;
+  if (style.colour_source == ColourSource::temperature) second = &cloud.temperature;
+  const std::array columns{&cloud.x,    &cloud.y,       &cloud.z, &cloud.density, second, &cloud.smoothing_length,
+                           &cloud.mass, &cloud.presence};
+  std::size_t next = 0;
+  work.column.fill(-1);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (columns[c]->empty()) continue;
+    work.column[c] = static_cast<std::int32_t>(next);
+    buffer.write(std::span(*columns[c]).subspan(range.first, range.count), next * sizeof(float));
+    next += range.count;
+  }
+  if (style.colour_source == ColourSource::own) {
+    const std::vector<std::uint32_t> packed = packed_colours(cloud, range);
+    work.column.back() = static_cast<std::int32_t>(next);
+    buffer.write(std::span(packed), next * sizeof(float));
+  }
+  work.particles = static_cast<std::int32_t>(range.count);
+  set_size_rule(cloud, style, work);
+}
+
+void set_pictures(const GpuPictures& pictures, SplatWork& work) {
+  work.channels = pictures.channels;
+  work.pictures = static_cast<std::int32_t>(pictures.size());
+  const PictureTable table(pictures.orders);
+  work.widest = table.widest;
+  work.scale = table.scale;
+  work.pad = table.pad;
+  std::ranges::copy(pictures.left, work.left.begin());
+  std::ranges::copy(pictures.width, work.width.begin());
+  std::ranges::copy(pictures.targets, work.planes.begin());
+  std::ranges::transform(pictures.orders, work.rows.begin(), &SplatOrder::rows);
+  work.first_parallax = pictures.orders.front().first;
+  work.plane_spacing = pictures.orders.front().spacing;
+}
+
+void set_group(const TargetGroup& group, SplatWork& work) {
+  std::ranges::copy(group.first, work.first_target.begin());
+  std::ranges::copy(group.end, work.end_target.begin());
+  std::ranges::copy(group.base, work.base.begin());
+}
+
+/// Groups of 64 invocations in rows that no driver finds too long.
+std::array<std::uint32_t, 2> rows_of_groups(std::size_t count) {
+  constexpr std::uint32_t longest = 32768;
+  const std::uint32_t groups = groups_of(count, 64);
+  return {std::min(groups, longest), (groups + longest - 1) / longest};
+}
+
+GpuBuffer light_of(const GpuBuffer& sums, std::size_t values, const GpuProgram& light_of_sums) {
+  GpuBuffer light(values * sizeof(float));
+  const auto [columns, rows] = rows_of_groups(values);
+  light_of_sums.run({columns, rows}, {&sums, &light});
+  return light;
+}
+
+}  // namespace
+
+GpuPictures gpu_pictures(const SplatOrders& orders, const Window& window, int channels) {
+  GpuPictures pictures{.orders = orders, .left = {}, .width = {}, .targets = {}, .channels = channels};
+  for (const SplatOrder& order : orders) {
+    const Window here = window_in(window, order);
+    pictures.left.push_back(static_cast<int>(here.left));
+    pictures.width.push_back(static_cast<int>(here.right - here.left));
+    pictures.targets.push_back(order.parts);
+  }
+  return pictures;
+}
+
+std::vector<TargetGroup> groups_of_targets(const GpuPictures& pictures, std::size_t most_values) {
+  std::vector<TargetGroup> groups;
+  const auto begin_group = [&] {
+    groups.push_back({.first = std::vector<int>(pictures.size()),
+                      .end = std::vector<int>(pictures.size()),
+                      .base = std::vector<int>(pictures.size())});
+  };
+  begin_group();
+  if (pictures.values(0) > most_values)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("graphics processor: a view of {} pixels does not fit into one of its buffers of {} MB; "
+                            "--device cpu has no such limit",
+                            pictures.pixels(0), most_values * sum_bytes >> 20));
+  for (std::size_t p = 0; p < pictures.size(); ++p)
+    for (int target = 0; target < pictures.targets[p]; ++target) {
+      if (groups.back().values > 0 && groups.back().values + pictures.values(p) > most_values) begin_group();
+      TargetGroup& group = groups.back();
+      if (group.first[p] == group.end[p]) {
+        group.first[p] = target;
+        group.base[p] = static_cast<int>(group.values) - target * static_cast<int>(pictures.values(p));
+      }
+      group.end[p] = target + 1;
+      group.values += pictures.values(p);
+    }
+  return groups;
+}
+
+std::vector<GpuBuffer> light_on_gpu(const RenderJob& job, const GpuPictures& pictures, GpuTargets targets,
+                                    std::span<const ViewPosition> views, std::span<const TargetGroup> groups) {
+  const Projection projection = projection_for(job, pictures.orders);
+  SplatWork work{.targets = targets};
+  set_camera(projection, work);
+  set_style(projection, work);
+  set_pictures(pictures, work);
+  work.view = gpu_views(views);
+  std::vector<GpuBuffer> sums;
+  for (const TargetGroup& group : groups) sums.emplace_back(group.values * sum_bytes);
+  const GpuProgram add_splats(add_splats_source);
+  GpuBuffer columns(work.column.size() * particles_at_a_time * sizeof(float));
+  job.chunks([&](const Cloud& cloud) {
+    for (std::size_t first = 0; first < cloud.size(); first += particles_at_a_time) {
+      const ParticleRange range{first, std::min(particles_at_a_time, cloud.size() - first)};
+      copy_columns(cloud, range, job.scene.splat_style, columns, work);
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        set_group(groups[g], work);
+        const GpuBuffer of_work(std::span<const SplatWork>(&work, 1));
+        add_splats.run({groups_of(range.count, 64)}, {&of_work, &columns, &sums[g]});
+      }
+    }
+  });
+  const GpuProgram light_of_sums(light_of_sums_source);
+  std::vector<GpuBuffer> light;
+  for (std::size_t g = 0; g < groups.size(); ++g) light.push_back(light_of(sums[g], groups[g].values, light_of_sums));
+  return light;
+}
+
+}  // namespace wheatstone

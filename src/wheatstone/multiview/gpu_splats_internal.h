@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wheatstone/gpu/buffer.h"
+#include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/multiview/splat_internal.h"
+
+namespace wheatstone {
+
+/// How particles are added to sums (add_splats.comp).
+enum class GpuTargets : std::int32_t { views = 0, nearest_plane = 1, between_planes = 2 };
+
+/// The pictures of every size (SplatOrder), as the graphics processor keeps what is added to them: target after target,
+/// which is a view or a depth plane, then row after row, pixel after pixel, channel after channel.
+struct GpuPictures {
+  SplatOrders orders;
+  std::vector<int> left, width;  ///< of each: its first column in the central view, and its columns
+  std::vector<int> targets;      ///< of each: how many
+  int channels = 2;
+
+  std::size_t size() const { return orders.size(); }
+  std::size_t pixels(std::size_t picture) const {
+    return static_cast<std::size_t>(width[picture]) * orders[picture].rows;
+  }
+  /// Numbers of a target of one picture.
+  std::size_t values(std::size_t picture) const { return pixels(picture) * channels; }
+};
+
+GpuPictures gpu_pictures(const SplatOrders& orders, const Window& window, int channels);
+
+/// Some targets of every picture, whose sums lie in one buffer.
+struct TargetGroup {
+  std::vector<int> first, end;  ///< of each picture
+  std::vector<int> base;        ///< of each picture: where target 0 would lie; below 0 where it lies in another buffer
+  std::size_t values = 0;       ///< in all
+};
+
+/// The targets of all pictures, picture after picture, in groups of at most so many numbers each. Throws
+/// Error{wrong_usage} where one target has more.
+std::vector<TargetGroup> groups_of_targets(const GpuPictures& pictures, std::size_t most_values);
+
+/// Words of a sum in fixed point.
+constexpr std::size_t words_a_sum = 2;
+constexpr std::size_t sum_bytes = words_a_sum * sizeof(std::uint32_t);
+
+/// Adds every particle to the targets of all groups: copied once, projected and lit once for each group. Returns the
+/// light of each group. Within on_gpu().
+std::vector<GpuBuffer> light_on_gpu(const RenderJob& job, const GpuPictures& pictures, GpuTargets targets,
+                                    std::span<const ViewPosition> views, std::span<const TargetGroup> groups);
+
+}  // namespace wheatstone
