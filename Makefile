@@ -1,5 +1,5 @@
 # The most common tasks. Each target first installs missing packages and builds what it needs.
-.PHONY: build test test-long demo view package bench format lint fuzz configured
+.PHONY: build test test-long demo view package bench bench-gpu format lint fuzz configured
 
 build: configured
 	@cmake --build --preset release
@@ -25,6 +25,10 @@ package: build
 
 bench: build
 	@scripts/bench
+
+bench-gpu: configured
+	@cmake --build --preset release --target bench_gpu
+	@build/release/bin/bench_gpu
 
 format:
 	@scripts/install-deps lint

@@ -1,0 +1,179 @@
+// Particles to sixteen views by the graphics processor: against the processor, and against drawing points into a
+// framebuffer of sixteen layers.
+//
+//   bench_gpu [PARTICLES]     1 million unless told otherwise
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "stopwatch.h"
+#include "wheatstone/error.h"
+#include "wheatstone/gpu/buffer.h"
+#include "wheatstone/gpu/gpu.h"
+#include "wheatstone/measures/view_measures.h"
+#include "wheatstone/multiview/render.h"
+#include "wheatstone/random.h"
+
+namespace wheatstone::bench {
+namespace {
+
+constexpr int views = 16, width = 420, height = 560;
+
+struct Workload {
+  Cloud cloud;
+  CloudStatistics statistics;
+  Scene scene;
+  Rig rig = evenly_spaced(width, height, views);
+};
+
+Workload workload_of(std::size_t particles, float splat_px) {
+  Workload work;
+  for (std::size_t i = 0; i < particles; ++i) {
+    const auto at = [i](std::uint64_t axis) { return unit_float(hash_keys({i, axis})); };
+    work.cloud.x.push_back(at(0));
+    work.cloud.y.push_back(at(1));
+    work.cloud.z.push_back(at(2));
+    work.cloud.density.push_back(0.5f + at(3));
+  }
+  work.statistics.add(work.cloud);
+  work.scene.camera = camera_around(work.statistics.centre(), work.statistics.radius(), width, height);
+  work.scene.mapping.points = {{1, -15}, {4, 15}};
+  Appearance appearance{.look = Look::thesis};
+  appearance.smallest_px = appearance.largest_px = splat_px;
+  work.scene.splat_style = make_splat_style(appearance, work.statistics);
+  return work;
+}
+
+std::vector<Image<Rgb8>> views_of(const Workload& work, Method method, Device device) {
+  const RenderOptions options{.method = method, .device = device, .exposure = 0.5f};
+  return render(chunks_of(work.cloud), work.statistics, work.scene, work.rig, options).views;
+}
+
+constexpr const char* point_source = R"(#version 450
+#extension GL_ARB_shader_viewport_layer_array : require
+layout(location = 0) in vec3 at;  // in the view, 0..1, and the parallax
+void main() {
+  gl_Layer = gl_InstanceID;
+  gl_Position = vec4(2 * at.x - 1 + at.z * (gl_InstanceID - 7.5) / 15, 2 * at.y - 1, 0, 1);
+})";
+constexpr const char* light_source = R"(#version 450
+out vec4 light;
+void main() { light = vec4(0.1); })";
+
+GLuint program_of_points() {
+  const GLuint program = glCreateProgram();
+  for (const auto& [kind, source] :
+       {std::pair{GL_VERTEX_SHADER, point_source}, std::pair{GL_FRAGMENT_SHADER, light_source}}) {
+    const GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
+    glDeleteShader(shader);
+  }
+  glLinkProgram(program);
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked != GL_TRUE) throw Error(ErrorKind::wrong_usage, "the driver does not draw points into layers");
+  return program;
+}
+
+/// Draws each particle as a point into every layer of a framebuffer of floats, with additive blending.
+double seconds_of_layers(const Workload& work) {
+  std::vector<float> points;
+  for (std::size_t i = 0; i < work.cloud.size(); ++i)
+    points.insert(points.end(), {work.cloud.x[i], work.cloud.y[i], 0.05f * work.cloud.z[i]});
+  double seconds = 0;
+  on_gpu([&](const GpuFacts&) {
+    const GLuint program = program_of_points();
+    GLuint buffer = 0, vertices = 0, texture = 0, frame = 0;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(points.size() * sizeof(float)), points.data(), 0);
+    glCreateVertexArrays(1, &vertices);
+    glVertexArrayVertexBuffer(vertices, 0, buffer, 0, 3 * sizeof(float));
+    glEnableVertexArrayAttrib(vertices, 0);
+    glVertexArrayAttribFormat(vertices, 0, 3, GL_FLOAT, GL_FALSE, 0);
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &texture);
+    glTextureStorage3D(texture, 1, GL_R32F, width, height, views);
+    glCreateFramebuffers(1, &frame);
+    glNamedFramebufferTexture(frame, GL_COLOR_ATTACHMENT0, texture, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame);
+    glBindVertexArray(vertices);
+    glUseProgram(program);
+    glViewport(0, 0, width, height);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    seconds = median_seconds(
+        [&] {
+          glClear(GL_COLOR_BUFFER_BIT);
+          glDrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(work.cloud.size()), views);
+          glFinish();
+        },
+        1);
+    glDisable(GL_BLEND);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &frame);
+    glDeleteTextures(1, &texture);
+    glDeleteVertexArrays(1, &vertices);
+    glDeleteBuffers(1, &buffer);
+    glDeleteProgram(program);
+  });
+  return seconds;
+}
+
+double copied_bytes_a_second() {
+  std::vector<char> from(std::size_t{1} << 28, 1);
+  std::vector<char> to(from.size());
+  return 2 * static_cast<double>(from.size()) /
+         median_seconds([&] { std::memcpy(to.data(), from.data(), from.size()); });
+}
+
+/// Bytes of fixed-point sums that are read and written: two words, three channels, the pixels that a splat touches.
+double bytes_of(const Workload& work, float splat_px, double targets) {
+  const double across = splat_px + 1;
+  return static_cast<double>(work.cloud.size()) * targets * across * across * 3 * 2 * sizeof(std::uint32_t);
+}
+
+void compare(std::size_t particles, float splat_px, double layers, double copy) {
+  const Workload work = workload_of(particles, splat_px);
+  for (const Method method : {Method::incremental, Method::layered}) {
+    const std::vector<Image<Rgb8>> expected = views_of(work, method, Device::processor);
+    const std::vector<Image<Rgb8>> found = views_of(work, method, Device::graphics);
+    const double psnr = measure_view(found.back(), expected.back()).psnr_db;
+    const double cpu = median_seconds([&] { views_of(work, method, Device::processor); }, 3);
+    const double gpu = median_seconds([&] { views_of(work, method, Device::graphics); }, 1);
+    const double particle_views = static_cast<double>(particles) * views / gpu;
+    const double bytes = bytes_of(work, splat_px, method == Method::incremental ? views : 1) / gpu;
+    fmt::print(
+        "  splats of {:.0f} px, {}: {:.3f} s, {:.2f} times the processor's {:.3f} s; {:.1f} million particles x "
+        "views a second; sums {:.2f} of the speed of a copy; {:.0f} dB\n",
+        splat_px, method == Method::incremental ? "incremental" : "layered", gpu, gpu / cpu, cpu, particle_views / 1e6,
+        bytes / copy, psnr);
+    if (layers > 0) fmt::print("    a framebuffer of {} layers takes {:.1f} times as long\n", views, layers / gpu);
+  }
+}
+
+void run(std::size_t particles) {
+  const GpuFacts facts = gpu_facts();
+  fmt::print("{} particles, {} views of {}x{}, on {}\n", particles, views, width, height, facts.name);
+  const double copy = copied_bytes_a_second();
+  const double layers = seconds_of_layers(workload_of(particles, 1));
+  fmt::print("  points into a framebuffer of {} layers: {:.2f} s\n", views, layers);
+  compare(particles, 1, layers, copy);
+  compare(particles, 4, 0, copy);
+}
+
+}  // namespace
+}  // namespace wheatstone::bench
+
+int main(int argc, char** argv) {
+  try {
+    wheatstone::bench::run(argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1'000'000);
+  } catch (const wheatstone::Error& error) {
+    fmt::print("bench_gpu: {}\n", error.what());
+  }
+}
