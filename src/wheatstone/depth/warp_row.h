@@ -15,6 +15,23 @@ inline int floor_of(float value) {
   return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
 }
 
+/// Where the pixels of a scan line land in that of another view, `separation` eye separations to the right, in which
+/// its first pixel has the column `left_px` before it is moved.
+struct MovedRow {
+  MovedRow(float separation_, int left_px)
+      : separation(separation_), first_centre(static_cast<float>(left_px) + 0.5f) {}
+
+  float place_of(int x, float disparity) const { return static_cast<float>(x) + first_centre - separation * disparity; }
+  /// False where a disparity is unknown, or moves a pixel nowhere near the picture.
+  static bool is_near(float place) { return std::abs(place) < 1e9f; }
+
+  // The first and the last pixel whose centres lie from one place to another.
+  static int first_centre_from(float place) { return -floor_of(0.5f - place); }
+  static int last_centre_to(float place) { return floor_of(place - 0.5f); }
+
+  float separation, first_centre;
+};
+
 /// Calls `land(x_in_other, disparity, x, t)` for every pixel centre of another view's scan line that the surface of
 /// this one covers: between the pixels x and x + 1, at the fraction t. The other view is `separation` eye separations
 /// to the right. Not z-tested; a pixel may be landed on often. Every pixel lands at least where it is (`every_pixel`),
@@ -22,10 +39,7 @@ inline int floor_of(float value) {
 /// is the other line's, in which this one's first pixel has the column `left_px` before it is moved.
 template <bool every_pixel = true, class Land>
 void warp_row(std::span<const float> disparity, float separation, int shown_width, int left_px, Land land) {
-  const float first_centre = static_cast<float>(left_px) + 0.5f;
-  const auto target_of = [separation, first_centre](int x, float d) {
-    return static_cast<float>(x) + first_centre - separation * d;
-  };
+  const MovedRow moved(separation, left_px);
   const int width = static_cast<int>(disparity.size());
   const auto land_inside = [&](int target, float d, int x, float t) {
     if (target >= 0 && target < shown_width) land(target, d, x, t);
@@ -35,15 +49,15 @@ void warp_row(std::span<const float> disparity, float separation, int shown_widt
     const bool joined_after = x + 1 < width && std::abs(disparity[x + 1] - disparity[x]) <= joined_px;
     const bool at_edge = !(joined_before && joined_after);
     joined_before = joined_after;
-    const float here = target_of(x, disparity[x]);
-    if (!(std::abs(here) < 1e9f)) continue;  // unknown, or nowhere near the picture
+    const float here = moved.place_of(x, disparity[x]);
+    if (!MovedRow::is_near(here)) continue;
     if (every_pixel || at_edge) land_inside(floor_of(here), disparity[x], x, 0);
     if (!joined_after) continue;
 
     // The surface between two pixels covers the centres between the places where they land.
-    const float next = target_of(x + 1, disparity[x + 1]);
-    const int first = -floor_of(0.5f - here), last = floor_of(next - 0.5f);
-    for (int target = first; target <= last; ++target) {
+    const float next = moved.place_of(x + 1, disparity[x + 1]);
+    const int last = MovedRow::last_centre_to(next);
+    for (int target = MovedRow::first_centre_from(here); target <= last; ++target) {
       const float t = next > here ? (static_cast<float>(target) + 0.5f - here) / (next - here) : 0;
       land_inside(target, disparity[x] + t * (disparity[x + 1] - disparity[x]), x, t);
     }
@@ -52,14 +66,41 @@ void warp_row(std::span<const float> disparity, float separation, int shown_widt
 
 /// The disparity of a part of a scan line, whose first pixel is the column `left_px` of another view's line, carried
 /// over what is there already: what is nearer stays; NaN is farther than anything. That view is `separation` eye
-/// separations to the right.
+/// separations to the right. What lands is what warp_row lands; pixels of equal disparity move as one.
 template <bool every_pixel = true>
 void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px,
                              std::span<float> nearest) {
-  warp_row<every_pixel>(disparity, separation, static_cast<int>(nearest.size()), left_px,
-                        [&](int target, float d, int, float) {
-                          if (!(nearest[target] >= d)) nearest[target] = d;
-                        });
+  const MovedRow moved(separation, left_px);
+  const int width = static_cast<int>(disparity.size()), last_column = static_cast<int>(nearest.size()) - 1;
+  const auto land = [&](int first, int last, float d) {
+    last = std::min(last, last_column);
+    for (int target = std::max(first, 0); target <= last; ++target)
+      nearest[target] = nearest[target] >= d ? nearest[target] : d;
+  };
+  bool joined_before = false;
+  for (int begin = 0, end = 0; begin < width; begin = end) {
+    const float d = disparity[begin];
+    end = begin + 1;
+    while (end < width && disparity[end] == d) ++end;
+    const bool joined_after = end < width && std::abs(disparity[end] - d) <= joined_px;
+    const bool is_single = begin + 1 == end;
+    const bool first_at_edge = !joined_before || (is_single && !joined_after);
+    const bool last_at_edge = !is_single && !joined_after;
+    joined_before = joined_after;
+    const float from = moved.place_of(begin, d), to = moved.place_of(end - 1, d);
+    if (!MovedRow::is_near(from) || !MovedRow::is_near(to)) continue;
+    if (every_pixel || first_at_edge) land(floor_of(from), floor_of(from), d);
+    if (every_pixel || last_at_edge) land(floor_of(to), floor_of(to), d);
+    if (!is_single) land(MovedRow::first_centre_from(from), MovedRow::last_centre_to(to), d);
+    if (!joined_after) continue;
+
+    const float next = moved.place_of(end, disparity[end]);
+    const int last = MovedRow::last_centre_to(next);
+    for (int target = MovedRow::first_centre_from(to); target <= last; ++target) {
+      const float t = next > to ? (static_cast<float>(target) + 0.5f - to) / (next - to) : 0;
+      land(target, target, d + t * (disparity[end] - d));
+    }
+  }
 }
 
 /// Gives unknown runs of a scan line of at most two pixels, which a surface that is stretched leaves, the smaller

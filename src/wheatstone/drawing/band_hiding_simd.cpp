@@ -80,6 +80,7 @@ void find_shown(const DistanceBand& band, int width, HiddenBelow& below) {
     }
     below.shown_rows.push_back(rows);
   }
+  below.shown_columns.resize(below.shown_columns.size() + Canvas::widest_vector);
 }
 
 /// The largest and the least of each block of columns.

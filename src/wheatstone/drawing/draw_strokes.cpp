@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/draw.h"
@@ -19,7 +20,7 @@ FrontToBackAccumulator::FrontToBackAccumulator(int row_count, int canvas_width, 
       rows_(row_count),
       blocks_(static_cast<std::size_t>(row_count) * static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)),
       covers_(keeps_cover ? blocks_.size() : 0),
-      open_columns_(blocks_.size()),
+      open_columns_(blocks_.size() + Canvas::widest_vector),
       open_rows_(static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)),
       touched_rows_(open_rows_.size()) {
   clear();
@@ -49,6 +50,16 @@ void FrontToBackAccumulator::clamp(int row, int& begin, int& end) const {
   end = std::min(end, (last + 1) * block_px);
 }
 
+std::uint32_t Stamps::add_lines(std::size_t count) {
+  const std::size_t first = line_count;
+  line_count += count;
+  const std::size_t padded = line_count + Canvas::widest_vector;
+  first_values.resize(padded);
+  begins.resize(padded);
+  ends.resize(padded);
+  return static_cast<std::uint32_t>(first);
+}
+
 namespace {
 
 /// Gives the pixels of a row that nothing covers at all the colour beside them on the farther surface.
@@ -67,11 +78,6 @@ void continue_paint(const FrontToBackAccumulator& accumulator, int band_row, std
   }
 }
 
-/// Some columns of a band.
-struct Columns {
-  int begin, end;
-};
-
 /// By what the surfaces may hide a stroke.
 enum class PlannedIn : std::uint8_t { reference_view, photographed_view, other_view };
 
@@ -87,7 +93,7 @@ struct alignas(64) Piece {
   bool is_rigid, is_thin;
   float middle;  ///< row
 
-  Columns columns_in(float view, int width) const {
+  ColumnRun columns_in(float view, int width) const {
     const auto [least, most] = std::minmax({view * farthest, view * nearest});
     return {std::max(static_cast<int>(left - most), 0), std::min(static_cast<int>(right - least) + 1, width)};
   }
@@ -101,11 +107,11 @@ struct alignas(64) Piece {
   }
 
   /// Whether surfaces may hide some of it, or hide all.
-  bool may_be_hidden(const Columns& columns, const HiddenBelow& below) const {
+  bool may_be_hidden(const ColumnRun& columns, const HiddenBelow& below) const {
     return std::any_of(blocks(below.most, columns.begin), blocks(below.most, columns.end - 1) + 1,
                        [this](float most) { return farthest < most; });
   }
-  bool is_hidden(const Columns& columns, const HiddenBelow& below) const {
+  bool is_hidden(const ColumnRun& columns, const HiddenBelow& below) const {
     return std::all_of(blocks(below.least, columns.begin), blocks(below.least, columns.end - 1) + 1,
                        [this](float least) { return nearest < least; });
   }
@@ -165,8 +171,7 @@ class BandOfViews {
       : painting_(painting),
         surfaces_(surfaces),
         band_(number * band_rows, painting.width, painting.height),
-        scratch_(band_.top, 0, painting.height),
-        accumulator_(band_.row_count, painting.width) {
+        scratch_(band_.top, 0, painting.height) {
     for (const BandedLayer& layer : painting.layers) {
       PiecesOfLayer& of_layer = layers_.emplace_back();
       for (const std::uint32_t index : layer.bands[static_cast<std::size_t>(number)]) {
@@ -179,47 +184,69 @@ class BandOfViews {
     }
   }
 
-  /// Returns how many pixels are bare.
-  std::size_t draw(const ViewToDraw& view) {
-    const SeenSurfaces seen = seen_surfaces(surfaces_, view.position, {painting_.width, band_.top, band_.row_count});
-    const BandHiding hides(seen.hiding, band_, painting_.width);
-    accumulator_.clear();
-    const std::array by_kind{&hides.own, &hides.other, &hides.continued};
-    for (std::size_t above = layers_.size(); above-- > 0;)
-      for (std::size_t nearer = layers_[above].pieces.size(); nearer-- > 0;)
-        draw_piece(above, nearer, view.position,
-                   *by_kind[static_cast<std::size_t>(layers_[above].pieces[nearer].planned_in)]);
+  /// Draws some views, stroke by stroke, so that what is made of a stroke is still at hand for the next of them.
+  void draw(std::span<const ViewToDraw> views, std::span<std::size_t> bare_pixels) {
+    while (accumulators_.size() < views.size()) accumulators_.emplace_back(band_.row_count, painting_.width);
+    std::vector<ViewAtWork> at_work;
+    for (std::size_t i = 0; i < views.size(); ++i) at_work.push_back(begin(views[i], accumulators_[i]));
+    for (std::size_t above = layers_.size(); above-- > 0;) {
+      const std::vector<Piece>& pieces = layers_[above].pieces;
+      for (std::size_t nearer = pieces.size(); nearer-- > 0;)
+        for (const ViewAtWork& view : at_work) draw_piece(above, nearer, view, view.hides_at_first(pieces[nearer]));
+    }
     for (std::size_t above = layers_.size(); above-- > 0;) {
       const std::vector<std::uint32_t>& others = layers_[above].of_other_views;
       for (std::size_t nearer = others.size(); nearer-- > 0;)
-        draw_piece(above, others[nearer], view.position, hides.gaps);
+        for (const ViewAtWork& view : at_work) draw_piece(above, others[nearer], view, view.hides.gaps);
     }
-    return finish(view, seen.hiding.surface);
+    for (std::size_t i = 0; i < views.size(); ++i) bare_pixels[i] = finish(at_work[i]);
   }
 
  private:
+  /// One view of the band, before it is finished.
+  struct ViewAtWork {
+    const HiddenBelow& hides_at_first(const Piece& piece) const {
+      if (piece.planned_in == PlannedIn::reference_view) return hides.own;
+      return piece.planned_in == PlannedIn::photographed_view ? hides.other : hides.continued;
+    }
+
+    const ViewToDraw& view;
+    SeenSurfaces seen;
+    BandHiding hides;
+    FrontToBackAccumulator& accumulator;
+  };
+
+  ViewAtWork begin(const ViewToDraw& view, FrontToBackAccumulator& accumulator) const {
+    accumulator.clear();
+    SeenSurfaces seen = seen_surfaces(surfaces_, view.position, {painting_.width, band_.top, band_.row_count});
+    BandHiding hides(seen.hiding, band_, painting_.width);
+    return {view, std::move(seen), std::move(hides), accumulator};
+  }
+
   /// `below`: what hides it.
-  void draw_piece(std::size_t above, std::size_t number, ViewPosition view, const HiddenBelow& below) {
+  void draw_piece(std::size_t above, std::size_t number, const ViewAtWork& at_work, const HiddenBelow& below) {
+    const ViewPosition view = at_work.view.position;
+    FrontToBackAccumulator& accumulator = at_work.accumulator;
     PiecesOfLayer& of_layer = layers_[above];
     const Piece& piece = of_layer.pieces[number];
     const float shift = view - central_view;
-    const Columns columns = piece.columns_in(shift, painting_.width);
+    const ColumnRun columns = piece.columns_in(shift, painting_.width);
     if (columns.begin >= columns.end || !piece.views.contains(view)) return;
-    std::uint32_t rows = piece.rows & accumulator_.open_rows(columns.begin, columns.end);
+    std::uint32_t rows = piece.rows & accumulator.open_rows(columns.begin, columns.end);
     if (rows == 0) return;
     const bool may_be_hidden = !below.pixels.empty() && piece.may_be_hidden(columns, below);
     if (may_be_hidden) rows &= below.shown_rows_within(columns.begin, columns.end);
     if (rows == 0 || (may_be_hidden && piece.is_hidden(columns, below))) return;
     const FlatLayer& layer = painting_.layers[above].flat;
     if (!piece.is_rigid) {
-      draw_stroke_under({SeenLayer(layer, view), layer.strokes[piece.stroke], below}, band_, accumulator_);
+      draw_stroke_under({SeenLayer(layer, view), layer.strokes[piece.stroke], below}, band_, accumulator);
       return;
     }
     const bool between = piece.lies_between(shift);
     Stamp& stamp = (between ? of_layer.stamps_between : of_layer.stamps)[number];
     const std::uint32_t missing = rows & ~stamp.made;
     if (missing != 0) make(layer, layer.strokes[piece.stroke], between, missing, stamp);
-    lay_stamp_under({stamp, stamps_, piece.paint, below, band_, shift, rows, may_be_hidden}, accumulator_);
+    lay_stamp_under({stamp, stamps_, piece.paint, below, band_, shift, columns, rows, may_be_hidden}, accumulator);
   }
 
   void make(const FlatLayer& layer, const FlatStroke& stroke, bool between, std::uint32_t rows, Stamp& stamp) {
@@ -232,19 +259,22 @@ class BandOfViews {
                stamps_);
   }
 
-  std::size_t finish(const ViewToDraw& view, ImageView<const float> surface) {
+  std::size_t finish(const ViewAtWork& at_work) {
+    const ViewToDraw& view = at_work.view;
+    const ImageView<const float> surface = at_work.seen.hiding.surface;
+    const FrontToBackAccumulator& accumulator = at_work.accumulator;
     std::size_t bare = 0;
     const bool is_opaque = view.background.empty() && !painting_.canvas_shows;
     for (int row = 0; row < band_.row_count; ++row) {
       const int y = band_.top + row;
       const std::span<Rgb8> picture = view.drawn.picture.row(y);
       const FinishedRow finished =
-          finish_row(accumulator_, row,
+          finish_row(accumulator, row,
                      {view.background.empty() ? std::span<const Rgb8>() : view.background.row(y),
                       painting_.canvas_colour, is_opaque, painting_.bare_light, picture, view.drawn.bare.row(y)});
       bare += finished.bare;
       if (is_opaque && finished.has_gap)
-        continue_paint(accumulator_, row, surface.empty() ? std::span<const float>() : surface.row(row), picture);
+        continue_paint(accumulator, row, surface.empty() ? std::span<const float>() : surface.row(row), picture);
     }
     return bare;
   }
@@ -256,8 +286,14 @@ class BandOfViews {
   HiddenBelow nothing_hides_;
   std::vector<PiecesOfLayer> layers_;
   Stamps stamps_;
-  FrontToBackAccumulator accumulator_;
+  std::vector<FrontToBackAccumulator> accumulators_;
 };
+
+/// How many views of a band are drawn stroke by stroke: more, and they would not stay in the second-level cache.
+std::size_t views_at_once(int width) {
+  constexpr std::size_t most_bytes = 2u << 20, bytes_a_pixel = 4 * sizeof(float);
+  return std::max<std::size_t>(most_bytes / (bytes_a_pixel * band_rows * static_cast<std::size_t>(width)), 1);
+}
 
 /// One stroke that covers half a pixel leaves this much light. Strokes that are fading do not say how opaque the paint
 /// is.
@@ -290,10 +326,14 @@ void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surface
     view.drawn.bare = Image<std::uint8_t>(painting.width, painting.height);
   }
   const int bands = (painting.height + band_rows - 1) / band_rows;
+  const std::size_t at_once = views_at_once(painting.width);
   std::vector<std::vector<std::size_t>> bare(static_cast<std::size_t>(bands), std::vector<std::size_t>(views.size()));
   tbb::parallel_for(0, bands, [&](int i) {
     BandOfViews band(painting, surfaces, i);
-    for (std::size_t v = 0; v < views.size(); ++v) bare[static_cast<std::size_t>(i)][v] = band.draw(views[v]);
+    for (std::size_t first = 0; first < views.size(); first += at_once) {
+      const std::size_t count = std::min(at_once, views.size() - first);
+      band.draw(views.subspan(first, count), std::span(bare[static_cast<std::size_t>(i)]).subspan(first, count));
+    }
   });
   for (std::size_t v = 0; v < views.size(); ++v) {
     std::size_t bare_pixels = 0;

@@ -66,7 +66,7 @@ struct HiddenBelow {
   std::vector<float> most, least;  ///< of each block of columns
 
   // Where not everything is hidden, a bit each, from the lowest.
-  std::vector<std::uint16_t> shown_columns;  ///< of a block: row_count × blocks
+  std::vector<std::uint16_t> shown_columns;  ///< of a block: row_count × blocks, and a vector more
   std::vector<std::uint32_t> shown_rows;     ///< of each block
 
   std::uint32_t shown_rows_within(int begin, int end) const {
@@ -152,6 +152,10 @@ class FrontToBackAccumulator {
   std::uint32_t open_columns(int row, int number) const {
     return open_columns_[static_cast<std::size_t>(number * rows_ + row)];
   }
+  /// From a row of a block on; after the last row, there may be others for a vector more.
+  const std::uint16_t* open_columns_from(int row, int number) const {
+    return &open_columns_[static_cast<std::size_t>(number * rows_ + row)];
+  }
   void set_open_columns(int row, int number, std::uint32_t columns) {
     open_columns_[static_cast<std::size_t>(number * rows_ + row)] = static_cast<std::uint16_t>(columns);
     touched_rows_[static_cast<std::size_t>(number)] |= std::uint32_t{1} << row;
@@ -162,7 +166,10 @@ class FrontToBackAccumulator {
     return (touched_rows_[static_cast<std::size_t>(number)] >> row & 1) != 0;
   }
 
-  /// The rows in which light may come through any of the columns [begin, end).
+  /// The rows in which light may come through.
+  std::uint32_t open_rows(int number) const { return open_rows_[static_cast<std::size_t>(number)]; }
+
+  /// The same of any of the columns [begin, end).
   std::uint32_t open_rows(int begin, int end) const {
     std::uint32_t rows = 0;
     for (int number = begin / block_px; number * block_px < end; ++number)
@@ -236,13 +243,13 @@ struct Stamps {
   static constexpr float aside_px = 1;  ///< beyond a rim cover is below nothing so far
   static constexpr std::size_t slack = 2 * Canvas::widest_vector;  ///< values before the first and after the last one
 
-  /// One row of a stamp.
-  struct Line {
-    std::uint32_t first_value = 0;    ///< of the margin before it
-    std::int32_t begin = 0, end = 0;  ///< the columns that it covers
-  };
+  /// Makes room for the lines of a stamp, which cover nothing yet. Returns the first one's number.
+  std::uint32_t add_lines(std::size_t count);
 
-  std::vector<Line> lines;
+  // The lines, a row of a stamp each, and a vector more.
+  std::vector<std::uint32_t> first_values;  ///< of the margin before a line
+  std::vector<std::int32_t> begins, ends;   ///< the columns that it covers when it is moved by less than one
+  std::size_t line_count = 0;
   std::vector<std::uint16_t> values = std::vector<std::uint16_t>(2 * slack);
 };
 
@@ -265,6 +272,7 @@ struct StampInBand {
   const HiddenBelow& hidden_below;
   const DistanceBand& band;
   float view;          ///< eye separations to the right of the central view
+  ColumnRun columns;   ///< of the picture, in which all of it lies that is to be seen
   std::uint32_t rows;  ///< the open ones, a bit each
   bool tested;         ///< a surface may hide some of it
 };

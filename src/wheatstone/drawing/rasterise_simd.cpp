@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -70,44 +71,26 @@ struct Paint {
   hn::Vec<Floats> red, green, blue, opacity;
 };
 
-/// Where a row of a stroke may be seen.
-struct RowPart {
-  int row, begin, end;              ///< columns
-  const HiddenBelow* hidden_below;  ///< may be null
+/// Columns of a block in one row: a bit each, from the lowest.
+struct ColumnsOfBlock {
+  int row, number;
+  std::uint32_t columns;
 };
 
-/// The columns of a block that are open in the part of a row, a bit each.
-HWY_INLINE std::uint32_t open_within(const FrontToBackAccumulator& accumulator, const RowPart& part, int number) {
-  constexpr int block_px = FrontToBackAccumulator::block_px;
-  const int first = std::max(part.begin - number * block_px, 0),
-            last = std::min(part.end - number * block_px, block_px);
-  const std::uint32_t open =
-      accumulator.open_columns(part.row, number) & ((std::uint32_t{1} << last) - (std::uint32_t{1} << first));
-  if (part.hidden_below == nullptr) return open;
-  return open & part.hidden_below->shown_columns[static_cast<std::size_t>(number * accumulator.rows() + part.row)];
-}
-
-/// Calls `cover_at(x)` for the vectors of the blocks that are open in the part of a row, and slides the paint under
-/// their open columns.
+/// Slides paint under some open columns of a block; `cover_at(i)` is that of a vector from its column `i` on.
 template <class CoverAt>
-HWY_INLINE void slide_under_row(const Paint& paint, const RowPart& part, FrontToBackAccumulator& accumulator,
-                                CoverAt cover_at) {
-  constexpr int block_px = FrontToBackAccumulator::block_px;
+HWY_INLINE void slide_under_block(const Paint& paint, const ColumnsOfBlock& within, FrontToBackAccumulator& accumulator,
+                                  CoverAt cover_at) {
   const Floats f;
-  const int lanes = static_cast<int>(hn::Lanes(f));
-  for (int number = part.begin / block_px; number * block_px < part.end; ++number) {
-    const std::uint32_t within = open_within(accumulator, part, number);
-    if (within == 0) continue;
-    FrontToBackAccumulator::Block& block = accumulator.block(part.row, number);
-    FrontToBackAccumulator::Cover* const most = accumulator.cover(part.row, number);
-    std::uint32_t open = 0;
-    for (int i = 0; i < block_px; i += lanes) {
-      const auto cover = hn::IfThenElseZero(lanes_of(within >> i), cover_at(number * block_px + i));
-      if (most != nullptr) hn::StoreU(hn::Max(cover, hn::LoadU(f, most->data() + i)), f, most->data() + i);
-      open |= paint.slide_under(cover, block, i);
-    }
-    accumulator.set_open_columns(part.row, number, open);
+  FrontToBackAccumulator::Block& block = accumulator.block(within.row, within.number);
+  FrontToBackAccumulator::Cover* const most = accumulator.cover(within.row, within.number);
+  std::uint32_t open = 0;
+  for (int i = 0; i < FrontToBackAccumulator::block_px; i += static_cast<int>(hn::Lanes(f))) {
+    const auto cover = hn::IfThenElseZero(lanes_of(within.columns >> i), cover_at(i));
+    if (most != nullptr) hn::StoreU(hn::Max(cover, hn::LoadU(f, most->data() + i)), f, most->data() + i);
+    open |= paint.slide_under(cover, block, i);
   }
+  accumulator.set_open_columns(within.row, within.number, open);
 }
 
 void draw_under(const StrokeInBand& of, DistanceBand& band, FrontToBackAccumulator& accumulator) {
@@ -130,9 +113,14 @@ void draw_under(const StrokeInBand& of, DistanceBand& band, FrontToBackAccumulat
   measure_distances(stroke, below, band);
   const Paint paint(stroke);
   for (int row = band.first_row; row < band.end_row; ++row) {
+    constexpr int block_px = FrontToBackAccumulator::block_px;
     const float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
-    slide_under_row(paint, {row, band.begin[row], band.end[row], nullptr}, accumulator,
-                    [&](int x) { return cover.of(hn::LoadU(Floats(), squared + x)); });
+    for (int number = band.begin[row] / block_px; number * block_px < band.end[row]; ++number) {
+      const std::uint32_t open = accumulator.open_columns(row, number);
+      if (open == 0) continue;
+      slide_under_block(paint, {row, number, open}, accumulator,
+                        [&](int i) { return cover.of(hn::LoadU(Floats(), squared + number * block_px + i)); });
+    }
   }
 }
 
@@ -167,7 +155,7 @@ void lay_band_over(FrontToBackAccumulator& accumulator, int top, Canvas& canvas)
 /// Writes the levels of a row from the value `first` on. Returns where they end; a vector of values after that may be
 /// written, too.
 std::size_t write_line(const float* squared, const BrushProfile& brush, const ColumnRun& columns, std::size_t first,
-                       Stamps& stamps, Stamps::Line& line) {
+                       std::size_t line, Stamps& stamps) {
   const Floats f;
   const hn::Rebind<std::uint16_t, Floats> halves;
   const hn::RebindToSigned<Floats> integers;
@@ -191,7 +179,9 @@ std::size_t write_line(const float* squared, const BrushProfile& brush, const Co
   to = std::min(to, columns.end);
   from = std::min(from, to);
   std::fill_n(levels + (columns.end - columns.begin), Stamps::margin, std::uint16_t{0});
-  line = {static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(from - columns.begin), from, to};
+  stamps.first_values[line] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(from - columns.begin);
+  stamps.begins[line] = from;
+  stamps.ends[line] = from < to ? to + 1 : from;
   return first + 2 * Stamps::margin + static_cast<std::size_t>(to - columns.begin);
 }
 
@@ -206,8 +196,7 @@ void make_stamp(const StrokeInBand& of, int width, std::uint32_t rows, DistanceB
   if (stamp.made == 0) {
     stamp.first_row = band.first_row;
     stamp.end_row = std::max(band.end_row, band.first_row);
-    stamp.first_line = static_cast<std::uint32_t>(stamps.lines.size());
-    stamps.lines.resize(stamps.lines.size() + static_cast<std::size_t>(stamp.end_row - stamp.first_row));
+    stamp.first_line = stamps.add_lines(static_cast<std::size_t>(stamp.end_row - stamp.first_row));
   }
   stamp.made |= rows;
   std::size_t next = stamps.values.size() - Stamps::slack, most = next + 2 * Stamps::slack;
@@ -217,8 +206,8 @@ void make_stamp(const StrokeInBand& of, int width, std::uint32_t rows, DistanceB
   for (int row = band.first_row; row < band.end_row; ++row) {
     if (band.begin[row] >= band.end[row]) continue;
     next = write_line(band.squared.data() + static_cast<std::size_t>(row) * band.stride, brush,
-                      {band.begin[row], band.end[row]}, next, stamps,
-                      stamps.lines[stamp.first_line + static_cast<std::size_t>(row - stamp.first_row)]);
+                      {band.begin[row], band.end[row]}, next,
+                      stamp.first_line + static_cast<std::size_t>(row - stamp.first_row), stamps);
   }
   stamps.values.resize(next + Stamps::slack);
   std::fill(stamps.values.begin() + static_cast<std::ptrdiff_t>(next), stamps.values.end(), std::uint16_t{0});
@@ -265,41 +254,93 @@ class RowPlaces {
     step_ = static_cast<std::int64_t>(-view * of.paint.depth_slope * unit);
   }
 
-  void find(int row) { place_ = first_ + row * step_; }
-  int whole() const { return static_cast<int>(place_ >> unit_bits); }
-  const float* weights() const {
-    return fractions.weights[place_ >> (unit_bits - Fractions::bits) & (Fractions::count - 1)];
+  int whole(int row) const { return static_cast<int>(place(row) >> unit_bits); }
+  const float* weights(int row) const {
+    return fractions.weights[place(row) >> (unit_bits - Fractions::bits) & (Fractions::count - 1)];
   }
 
  private:
   static constexpr int unit_bits = 24;
-  std::int64_t first_, step_, place_ = 0;
+  std::int64_t place(int row) const { return first_ + row * step_; }
+  std::int64_t first_, step_;
 };
+
+/// A stamp's lines as a view sees them, from its first row on.
+struct SeenLines {
+  SeenLines(const StampInBand& of, const RowPlaces& places)
+      : first_row(of.stamp.first_row), count(of.stamp.end_row - of.stamp.first_row) {
+    for (int i = 0; i < count; ++i) zeros[i] = places.whole(first_row + i);
+  }
+
+  int first_row, count;
+  std::array<std::int32_t, band_rows + Canvas::widest_vector> zeros;     ///< the columns from which lines are counted
+  std::array<std::uint32_t, band_rows + Canvas::widest_vector> columns;  ///< in a block: those to be drawn, a bit each
+};
+
+/// Finds the columns of a block that a stamp covers, and that are open and shown; `tested`: a surface may hide some.
+/// Returns the rows that have any, a bit each. All rows are looked at before any is drawn, without a branch for each:
+/// whether one has anything to draw cannot be foretold.
+template <bool tested>
+HWY_INLINE std::uint32_t find_columns_to_draw(const StampInBand& of, const FrontToBackAccumulator& accumulator,
+                                              int number, SeenLines& seen) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
+  const Floats f;
+  const hn::RebindToSigned<Floats> integers;
+  const hn::RebindToUnsigned<Floats> words;
+  const hn::Rebind<std::uint16_t, Floats> halves;
+  const std::int32_t *begins = of.stamps.begins.data() + of.stamp.first_line,
+                     *ends = of.stamps.ends.data() + of.stamp.first_line;
+  const std::uint16_t* open = accumulator.open_columns_from(seen.first_row, number);
+  const std::uint16_t* shown =
+      tested ? of.hidden_below.shown_columns.data() + number * accumulator.rows() + seen.first_row : nullptr;
+  const auto left = hn::Set(integers, number * block_px);
+  const auto in_block = [&](auto column) {
+    return hn::BitCast(words, hn::Min(hn::Max(column, hn::Zero(integers)), hn::Set(integers, block_px)));
+  };
+  std::uint32_t rows = 0;
+  for (int i = 0; i < seen.count; i += static_cast<int>(hn::Lanes(f))) {
+    const auto zero = hn::Sub(hn::LoadU(integers, seen.zeros.data() + i), left);
+    const auto begin = in_block(hn::Add(zero, hn::LoadU(integers, begins + i)));
+    const auto end = in_block(hn::Add(zero, hn::LoadU(integers, ends + i)));
+    const auto one = hn::Set(words, 1u);
+    auto columns =
+        hn::And(hn::Sub(hn::Shl(one, end), hn::Shl(one, begin)), hn::PromoteTo(words, hn::LoadU(halves, open + i)));
+    if constexpr (tested) columns = hn::And(columns, hn::PromoteTo(words, hn::LoadU(halves, shown + i)));
+    hn::StoreU(columns, words, seen.columns.data() + i);
+    rows |= bits_of(hn::RebindMask(f, hn::Ne(columns, hn::Zero(words)))) << i;
+  }
+  return rows << seen.first_row;
+}
 
 /// `tested`: a surface may hide some of the stamp.
 template <bool tested>
 void lay_lines_under(const StampInBand& of, FrontToBackAccumulator& accumulator) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
   const Floats f;
   const Paint paint(of.paint);
-  const Stamps::Line* lines = of.stamps.lines.data() + of.stamp.first_line;
-  RowPlaces places(of);
-  for (std::uint32_t rows = of.rows & of.stamp.rows(); rows != 0; rows &= rows - 1) {
-    const int row = std::countr_zero(rows);
-    const Stamps::Line& line = lines[row - of.stamp.first_row];
-    places.find(row);
-    const int begin = places.whole() + line.begin;
-    const int seen_begin = std::max(begin, 0), seen_end = std::min(places.whole() + line.end + 1, accumulator.width());
-    if (line.begin == line.end || seen_begin >= seen_end) continue;
-    const std::uint16_t* values = of.stamps.values.data() + line.first_value;
-    const float* hidden_below =
-        tested ? of.hidden_below.pixels.data() + static_cast<std::size_t>(row) * of.band.stride : nullptr;
-    const auto disparity =
-        hn::Set(f, of.paint.disparity + of.paint.depth_slope * (static_cast<float>(of.band.top + row) + 0.5f));
-    slide_under_row(paint, {row, seen_begin, seen_end, tested ? &of.hidden_below : nullptr}, accumulator, [&](int x) {
-      auto cover = interpolated(places.weights(), values + (x - begin));
-      if constexpr (tested) cover = hn::IfThenElseZero(hn::Ge(disparity, hn::LoadU(f, hidden_below + x)), cover);
-      return cover;
-    });
+  const RowPlaces places(of);
+  SeenLines seen(of, places);
+  const std::uint32_t* first_values = of.stamps.first_values.data() + of.stamp.first_line;
+  const std::int32_t* begins = of.stamps.begins.data() + of.stamp.first_line;
+  const std::uint32_t stamped = of.rows & of.stamp.rows();
+  for (int number = of.columns.begin / block_px; number * block_px < of.columns.end; ++number) {
+    if ((stamped & accumulator.open_rows(number)) == 0) continue;
+    std::uint32_t rows = stamped & find_columns_to_draw<tested>(of, accumulator, number, seen);
+    for (; rows != 0; rows &= rows - 1) {
+      const int row = std::countr_zero(rows), i = row - seen.first_row;
+      const std::uint16_t* values =
+          of.stamps.values.data() + first_values[i] + (number * block_px - seen.zeros[i] - begins[i]);
+      const float* hidden_below =
+          tested ? of.hidden_below.pixels.data() + static_cast<std::size_t>(row) * of.band.stride + number * block_px
+                 : nullptr;
+      const auto disparity =
+          hn::Set(f, of.paint.disparity + of.paint.depth_slope * (static_cast<float>(of.band.top + row) + 0.5f));
+      slide_under_block(paint, {row, number, seen.columns[i]}, accumulator, [&](int x) {
+        auto cover = interpolated(places.weights(row), values + x);
+        if constexpr (tested) cover = hn::IfThenElseZero(hn::Ge(disparity, hn::LoadU(f, hidden_below + x)), cover);
+        return cover;
+      });
+    }
   }
 }
 

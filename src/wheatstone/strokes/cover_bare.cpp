@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iterator>
 #include <span>
+#include <utility>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 #include "wheatstone/strokes/cover_bare_internal.h"
@@ -23,14 +24,19 @@ float fitting_radius(ImageView<const float> disparity, int x, int y, float radiu
   return least_px;
 }
 
+/// How far from its middle a dot covers pixels wholly.
+float whole_px(float radius_px) {
+  const BrushProfile brush(radius_px);
+  return brush.middle_px - brush.rim_px / 2;
+}
+
 /// Takes the pixels that a dot covers wholly off the mask.
 void strike_out(int x, int y, float radius_px, Image<std::uint8_t>& bare) {
-  const BrushProfile brush(radius_px);
-  const float whole_px = brush.middle_px - brush.rim_px / 2;
-  const int reach = std::max(static_cast<int>(whole_px), 0);
+  const float whole = whole_px(radius_px);
+  const int reach = std::max(static_cast<int>(whole), 0);
   for (int row = std::max(y - reach, 0); row <= std::min(y + reach, bare.height() - 1); ++row)
     for (int column = std::max(x - reach, 0); column <= std::min(x + reach, bare.width() - 1); ++column)
-      if (std::hypot(static_cast<float>(column - x), static_cast<float>(row - y)) <= whole_px) bare(column, row) = 0;
+      if (std::hypot(static_cast<float>(column - x), static_cast<float>(row - y)) <= whole) bare(column, row) = 0;
   bare(x, y) = 0;
 }
 
@@ -81,6 +87,73 @@ Layer strokes_near_bare(const Layer& layer, const Canvas& canvas) {
   return near;
 }
 
+namespace {
+
+/// A brush that goes along bare pixels of one surface and one colour: a dot for each would be thousands.
+class BareThread {
+ public:
+  /// In a style of dots it stays where it begins.
+  BareThread(const LayerPlanner& planner, const LayerInputs& inputs, const ScaledStyle& scaled, const Style& style,
+             Image<std::uint8_t>& bare)
+      : planner_(planner),
+        inputs_(inputs),
+        scaled_(scaled),
+        most_points_(static_cast<std::size_t>(std::clamp(style.max_length, 1, 8))),
+        bare_(bare) {}
+
+  Rgb8 colour_at(int x, int y) const { return colour_of_surface(planner_, inputs_.mixed_colours, x, y, scaled_); }
+
+  /// Takes the pixels off the mask that the brush covers wholly on its way from a pixel on; adds its points.
+  void follow(int x, int y, float radius_px, std::vector<ControlPoint>& points) {
+    const Begin begin{planner_.disparity(x, y), colour_at(x, y),
+                      std::max(static_cast<int>(whole_px(radius_px)), 0) + 1};
+    const std::size_t first = points.size();
+    do {
+      points.push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, planner_.disparity(x, y)});
+      strike_out(x, y, radius_px, bare_);
+    } while (points.size() - first < most_points_ && step(begin, x, y));
+  }
+
+ private:
+  struct Begin {
+    float disparity;
+    Rgb8 colour;
+    int farthest_step;  ///< to the next pixel that the brush does not cover wholly yet
+  };
+
+  /// To a bare pixel that comes later, row by row.
+  bool step(const Begin& begin, int& x, int& y) const {
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {-1, 1}, {1, 1}}) {
+      for (int by = 1; by <= begin.farthest_step; ++by) {
+        const int column = x + by * dx, row = y + by * dy;
+        if (!bare_.contains(column, row) || bare_(column, row) == 0) continue;
+        if (!is_alike(begin, column, row)) break;
+        x = column;
+        y = row;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool is_alike(const Begin& begin, int x, int y) const {
+    constexpr float most_disparity_px = 0.5f;  // strokes as good as flat are drawn fast
+    constexpr int most_squared_difference = 30 * 30;
+    if (std::abs(planner_.disparity(x, y) - begin.disparity) > most_disparity_px) return false;
+    const Rgb8 there = colour_at(x, y);
+    const int red = there.r - begin.colour.r, green = there.g - begin.colour.g, blue = there.b - begin.colour.b;
+    return red * red + green * green + blue * blue <= most_squared_difference;
+  }
+
+  const LayerPlanner& planner_;
+  const LayerInputs& inputs_;
+  const ScaledStyle& scaled_;
+  std::size_t most_points_;
+  Image<std::uint8_t>& bare_;
+};
+
+}  // namespace
+
 Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const ScaledStyle& scaled, const Style& style,
                  ImageView<const std::uint8_t> wanted) {
   const int width = planner.photograph.width(), height = planner.photograph.height();
@@ -88,24 +161,24 @@ Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const S
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       bare(x, y) = planner.canvas.coverage(x, y) < 0.5f && (wanted.empty() || wanted(x, y) != 0) ? 255 : 0;
-  Layer dots{scaled.radii_px.back(), {}, {}};
+  BareThread thread(planner, inputs, scaled, style, bare);
+  Layer cover{scaled.radii_px.back(), {}, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       if (bare(x, y) == 0) continue;
-      const float disparity = planner.disparity(x, y);
-      Stroke dot{.first_point = static_cast<std::uint32_t>(dots.points.size()), .point_count = 1};
-      dot.radius_px = fitting_radius(planner.disparity, x, y, scaled.radii_px.back(), scaled.depth_threshold_px);
-      dot.opacity = style.opacity;
-      dot.colour = colour_of_surface(planner, inputs.mixed_colours, x, y, scaled);
-      dot.disparity = disparity;
-      dot.reference_view = planner.view;
-      dot.views = all_views;
-      dots.points.push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, disparity});
-      dots.strokes.push_back(dot);
-      strike_out(x, y, dot.radius_px, bare);
+      Stroke stroke{.first_point = static_cast<std::uint32_t>(cover.points.size())};
+      stroke.radius_px = fitting_radius(planner.disparity, x, y, scaled.radii_px.back(), scaled.depth_threshold_px);
+      stroke.opacity = style.opacity;
+      stroke.colour = thread.colour_at(x, y);
+      stroke.disparity = planner.disparity(x, y);
+      stroke.reference_view = planner.view;
+      stroke.views = all_views;
+      thread.follow(x, y, stroke.radius_px, cover.points);
+      stroke.point_count = static_cast<std::uint32_t>(cover.points.size()) - stroke.first_point;
+      cover.strokes.push_back(stroke);
     }
   }
-  return dots;
+  return cover;
 }
 
 }  // namespace wheatstone

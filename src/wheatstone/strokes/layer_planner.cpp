@@ -70,6 +70,7 @@ Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Styl
                        .radius_px = scaled.radii_px[inputs.layer],
                        .layer = inputs.layer,
                        .depth_threshold_px = scaled.depth_threshold_px,
+                       .least_edge_cell_px = planner.least_edge_cell_px,
                        .depth_edges = inputs.depth_edges,
                        .edge_distance = inputs.edge_distance,
                        .mixed_colours = inputs.mixed_colours};

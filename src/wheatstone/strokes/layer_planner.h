@@ -29,6 +29,7 @@ struct LayerPlanner {
   Canvas canvas;
   /// Strokes begin where two surfaces' colours mix only if there is no other place: the surfaces part in other views.
   bool avoid_mixed_colours = true;
+  float least_edge_cell_px = 1;  ///< strokes beside depth edges begin about so far apart, or farther
 };
 
 /// What one layer of one eye is planned from, whatever is on the canvas. Of the depth test, all are empty where the

@@ -15,11 +15,12 @@
 namespace wheatstone {
 namespace {
 
-/// A grid of cells f_g·R wide, half that beside depth edges; the last row and column may be cut off by the picture's
-/// edge.
+/// A grid of cells f_g·R wide, half that beside depth edges, but not less than the plan wants there; the last row and
+/// column may be cut off by the picture's edge.
 struct Grid {
   Grid(const LayerPlan& plan, const Style& style, Place place)
-      : cell_px(std::max(style.grid * plan.radius_px * (place == Place::open ? 1.f : 0.5f), 1.f)),
+      : cell_px(place == Place::open ? std::max(style.grid * plan.radius_px, 1.f)
+                                     : std::max(style.grid * plan.radius_px / 2, plan.least_edge_cell_px)),
         width(plan.canvas.width),
         height(plan.canvas.height) {}
 

@@ -20,6 +20,7 @@ struct LayerPlan {
 
   // The depth test; all are empty where the style wants none.
   float depth_threshold_px = 2;                    ///< T_depth in pixels of this view
+  float least_edge_cell_px = 1;                    ///< of the grid beside depth edges
   ImageView<const std::uint8_t> depth_edges = {};  ///< as near_depth_edge
   ImageView<const float> edge_distance = {};  ///< as distance_to_depth_edge; empty: leave the edges to a finer layer
   ImageView<const std::uint8_t> mixed_colours = {};  ///< as behind_depth_edge: no stroke takes its colour there

@@ -209,6 +209,28 @@ TEST(CoverBare, ADotBehindADepthEdgeHasItsSurfacesColour) {
   EXPECT_EQ(dots.strokes[0].colour, (Rgb8{100, 100, 100}));
 }
 
+TEST(CoverBare, BarePixelsOfOneColourAreCoveredByOneThread) {
+  Bench bench(grey_then_red());
+  const LayerPlanner planner(bench.photograph, bench.disparity, left_eye, bench.style);
+  const ScaledStyle scaled(bench.style, 640);
+  const LayerInputs inputs = make_layer_inputs(planner, bench.style, scaled, 2);
+  Image<std::uint8_t> wanted(80, 60);
+  for (int y = 10; y < 16; ++y) wanted(20, y) = 255;
+  wanted(60, 30) = 255;
+  const Layer cover = cover_bare(planner, inputs, scaled, bench.style, wanted);
+  ASSERT_EQ(cover.strokes.size(), 2u);
+  EXPECT_EQ(cover.strokes[1].point_count, 1u);
+  EXPECT_NE(cover.strokes[0].colour, cover.strokes[1].colour);
+  const auto thread = cover.points_of(cover.strokes[0]);
+  EXPECT_EQ(thread.front().y, 10.5f);
+  EXPECT_GE(thread.back().y + cover.strokes[0].radius_px, 15.5f);
+
+  bench.style.max_length = bench.style.min_length = 0;
+  const Layer dots = cover_bare(planner, inputs, scaled, bench.style, wanted);
+  EXPECT_GT(dots.strokes.size(), 2u);
+  EXPECT_TRUE(std::ranges::all_of(dots.strokes, [](const Stroke& dot) { return dot.point_count == 1; }));
+}
+
 TEST(Plan, StrokesRunAcrossTheGradientWithPointsOneRadiusApart) {
   const Bench bench(horizontal_stripes(200, 80));
   std::vector<ControlPoint> points;

@@ -58,7 +58,8 @@ class ViewAtWork {
         numbers_(numbers),
         planner_(part_ ? part_->photograph.view() : view.picture, part_ ? part_->disparity.view() : view.disparity,
                  view.position, style) {
-    planner_.avoid_mixed_colours = !part_;  // no other eye sees them
+    planner_.avoid_mixed_colours = !part_;                // no other eye sees them
+    if (view.continued) planner_.least_edge_cell_px = 3;  // of what no photograph shows, edges need no detail
   }
 
   /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.

@@ -1,0 +1,66 @@
+// Scan lines of disparities, carried to other views.
+
+#include "wheatstone/depth/warp_row.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "wheatstone/random.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+/// Runs of one disparity with small and large steps between them, and some pixels of which nothing is known.
+std::vector<float> uneven_line(std::uint64_t seed) {
+  std::vector<float> line;
+  float disparity = 8;
+  for (std::uint64_t run = 0; line.size() < 300; ++run) {
+    const std::uint64_t random = hash_keys({seed, run});
+    const float step = static_cast<float>(random % 33) / 16 - 1;
+    disparity += random % 7 == 0 ? 8 * step : step;
+    line.insert(line.end(), 1 + (random >> 8) % 9, random % 11 == 0 ? unknown : disparity);
+  }
+  return line;
+}
+
+/// Pixel by pixel.
+template <bool every_pixel>
+std::vector<float> plainly_warped(const std::vector<float>& line, float separation, int left_px,
+                                  std::vector<float> nearest) {
+  warp_row<every_pixel>(line, separation, static_cast<int>(nearest.size()), left_px,
+                        [&](int target, float d, int, float) {
+                          if (!(nearest[target] >= d)) nearest[target] = d;
+                        });
+  return nearest;
+}
+
+/// NaN equals NaN.
+bool are_equal(const std::vector<float>& a, const std::vector<float>& b) {
+  return std::ranges::equal(a, b, [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+template <bool every_pixel>
+void expect_the_plain_way() {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const std::vector<float> line = uneven_line(seed);
+    for (const float separation : {-2.5f, -1.f, -0.3f, 0.f, 0.25f, 0.5f, 1.1f, 2.f}) {
+      std::vector<float> nearest(280, unknown);
+      std::fill_n(nearest.begin() + 40, 50, 10.f);
+      std::vector<float> moved = nearest;
+      warp_disparity_row_over<every_pixel>(line, separation, -7, moved);
+      EXPECT_TRUE(are_equal(moved, plainly_warped<every_pixel>(line, separation, -7, nearest))) << seed << separation;
+    }
+  }
+}
+
+TEST(WarpRow, PixelsOfEqualDisparityLandWhereEachWouldAlone) {
+  expect_the_plain_way<true>();
+  expect_the_plain_way<false>();
+}
+
+}  // namespace
+}  // namespace wheatstone
