@@ -61,6 +61,7 @@ DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& part
   const float light = state.look.opaque ? 1.f : static_cast<float>(every);
   const Scene scene = particle_scene(*particles, state, rig);
   const RenderOptions options{
+      .device = Device::automatic,
       .opaque = state.look.opaque,
       .exposure = state.look.exposure ? *state.look.exposure * light : std::numeric_limits<float>::quiet_NaN()};
   const auto start = std::chrono::steady_clock::now();

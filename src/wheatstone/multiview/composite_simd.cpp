@@ -241,10 +241,6 @@ Shift shift_of(float pixels, Resampling resampling) {
   return shift;
 }
 
-constexpr int taps_of(Resampling resampling) {
-  return resampling == Resampling::nearest ? 1 : resampling == Resampling::linear ? 2 : 4;
-}
-
 /// One block of one row of all planes, as floats.
 struct UnpackedBlock {
   static constexpr int widest = block_width + 2 * 64;

@@ -86,10 +86,6 @@ void unpack(std::span<const std::uint32_t> pixels, ImageView<Rgb8> picture) {
     }
 }
 
-int taps_of(Resampling resampling) {
-  return resampling == Resampling::nearest ? 1 : (resampling == Resampling::linear ? 2 : 4);
-}
-
 }  // namespace
 
 void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,

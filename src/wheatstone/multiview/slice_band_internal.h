@@ -49,6 +49,10 @@ class SliceBand {
 
 /// How a slice is read between its pixels.
 enum class Resampling { nearest, linear, cubic };
+/// Pixels that are read for one.
+constexpr int taps_of(Resampling resampling) {
+  return resampling == Resampling::nearest ? 1 : resampling == Resampling::linear ? 2 : 4;
+}
 
 /// What compositing needs besides the slices.
 struct Compositing {
