@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 
@@ -21,114 +22,107 @@ struct SurfacesAt {
   const float *nearest, *reference, *photographed;
 };
 
+/// A kind of marks, while the rows of a band are looked at.
+struct KindAtWork {
+  KindAtWork(HiddenBelow& below_, const DistanceBand& band, int width)
+      : below(below_),
+        rows(band.row_count),
+        most(static_cast<std::size_t>(band.stride), -everything),
+        least(static_cast<std::size_t>(band.stride), everything) {
+    const int blocks = (width + HiddenBelow::block_px - 1) / HiddenBelow::block_px;
+    below.shown_columns.resize(static_cast<std::size_t>(blocks * rows) + Canvas::widest_vector);
+  }
+
+  /// `value`: what a mark must lie before, from the column `x` of a row on.
+  HWY_INLINE void note(hn::Vec<Floats> value, int row, int x) {
+    const Floats f;
+    hn::StoreU(hn::Max(hn::LoadU(f, most.data() + x), value), f, most.data() + x);
+    hn::StoreU(hn::Min(hn::LoadU(f, least.data() + x), value), f, least.data() + x);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(f, hn::Lt(value, hn::Set(f, everything)), bits);
+    const int number = x / HiddenBelow::block_px, first = x % HiddenBelow::block_px;
+    std::uint16_t& shown = below.shown_columns[static_cast<std::size_t>(number * rows + row)];
+    shown = static_cast<std::uint16_t>(shown | (bits[0] | bits[1] << 8) << first);
+  }
+
+  /// Once all rows are noted.
+  void sum_up_blocks(int width) {
+    for (int first = 0, number = 0; first < width; first += HiddenBelow::block_px, ++number) {
+      const int end = std::min(first + HiddenBelow::block_px, width);
+      below.most.push_back(*std::max_element(most.begin() + first, most.begin() + end));
+      below.least.push_back(*std::min_element(least.begin() + first, least.begin() + end));
+      std::uint32_t shown = 0;
+      for (int row = 0; row < rows; ++row)
+        if (below.shown_columns[static_cast<std::size_t>(number * rows + row)] != 0) shown |= std::uint32_t{1} << row;
+      below.shown_rows.push_back(shown);
+    }
+  }
+
+  HiddenBelow& below;
+  int rows;
+  std::vector<float> most, least;  ///< of each column
+};
+
+/// Whatever kinds of marks there are, the reference view's first.
+struct KindsAtWork {
+  std::vector<KindAtWork> kinds;
+  float* nearest_below;  ///< of the reference view's marks
+  float tolerance_px;
+};
+
 /// What the marks of each kind must lie before, in a vector's columns: least_seen_disparity and least_seen_of_other.
-void hide_columns(const SurfacesAt& surfaces, float tolerance_px, std::size_t at, BandHiding& hiding) {
+void hide_columns(const SurfacesAt& surfaces, int row, int x, std::size_t at, KindsAtWork& at_work) {
   const Floats f;
-  const auto tolerance = hn::Set(f, tolerance_px), all = hn::Set(f, everything);
+  const auto tolerance = hn::Set(f, at_work.tolerance_px), all = hn::Set(f, everything);
   const auto nearest = hn::LoadU(f, surfaces.nearest);
   const auto below = hn::IfThenElse(hn::IsNaN(nearest), hn::Neg(all), hn::Sub(nearest, tolerance));
-  hn::StoreU(below, f, hiding.own.pixels.data() + at);
+  hn::StoreU(below, f, at_work.nearest_below + at);
+  at_work.kinds[0].note(below, row, x);
   if (surfaces.reference == nullptr) return;
   const auto reference = hn::LoadU(f, surfaces.reference), photographed = hn::LoadU(f, surfaces.photographed);
   const auto unless_shown = [&](auto shown) {
     return hn::IfThenElse(hn::Le(nearest, hn::Add(shown, tolerance)), all, below);
   };
-  hn::StoreU(unless_shown(reference), f, hiding.other.pixels.data() + at);
-  hn::StoreU(unless_shown(photographed), f, hiding.continued.pixels.data() + at);
-  hn::StoreU(hn::IfThenElse(hn::IsNaN(photographed), all, below), f, hiding.gaps.pixels.data() + at);
+  at_work.kinds[1].note(unless_shown(reference), row, x);
+  at_work.kinds[2].note(unless_shown(photographed), row, x);
+  at_work.kinds[3].note(hn::IfThenElse(hn::IsNaN(photographed), all, below), row, x);
 }
 
-void hide_row(const SurfacesAt& surfaces, int width, float tolerance_px, std::size_t at, BandHiding& hiding) {
+void hide_row(const SurfacesAt& surfaces, int row, int width, std::size_t at, KindsAtWork& at_work) {
   const int lanes = static_cast<int>(hn::Lanes(Floats()));
-  const auto from = [](const float* row, int x) { return row == nullptr ? nullptr : row + x; };
+  const auto from = [](const float* surface, int x) { return surface == nullptr ? nullptr : surface + x; };
   int x = 0;
   for (; x + lanes <= width; x += lanes)
-    hide_columns({surfaces.nearest + x, from(surfaces.reference, x), from(surfaces.photographed, x)}, tolerance_px,
-                 at + static_cast<std::size_t>(x), hiding);
+    hide_columns({surfaces.nearest + x, from(surfaces.reference, x), from(surfaces.photographed, x)}, row, x,
+                 at + static_cast<std::size_t>(x), at_work);
   if (x >= width) return;
   std::array<std::array<float, Canvas::widest_vector>, 3> last{};
-  const auto copied = [&](const float* row, std::size_t i) -> const float* {
-    for (int column = x; row != nullptr && column < width; ++column)
-      last[i][static_cast<std::size_t>(column - x)] = row[column];
-    return row == nullptr ? nullptr : last[i].data();
+  const auto copied = [&](const float* surface, std::size_t i) -> const float* {
+    for (int column = x; surface != nullptr && column < width; ++column)
+      last[i][static_cast<std::size_t>(column - x)] = surface[column];
+    return surface == nullptr ? nullptr : last[i].data();
   };
-  hide_columns({copied(surfaces.nearest, 0), copied(surfaces.reference, 1), copied(surfaces.photographed, 2)},
-               tolerance_px, at + static_cast<std::size_t>(x), hiding);
-}
-
-/// The columns of a block that are not wholly hidden.
-std::uint32_t shown_columns(const float* pixels) {
-  const Floats f;
-  const int lanes = static_cast<int>(hn::Lanes(f));
-  std::uint32_t shown = 0;
-  for (int i = 0; i < HiddenBelow::block_px; i += lanes) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(f, hn::Lt(hn::LoadU(f, pixels + i), hn::Set(f, everything)), bits);
-    shown |= static_cast<std::uint32_t>(bits[0] | bits[1] << 8) << i;
-  }
-  return shown;
-}
-
-void find_shown(const DistanceBand& band, int width, HiddenBelow& below) {
-  for (int first = 0; first < width; first += HiddenBelow::block_px) {
-    std::uint32_t rows = 0;
-    for (int row = 0; row < band.row_count; ++row) {
-      const std::uint32_t columns =
-          shown_columns(below.pixels.data() + static_cast<std::size_t>(row) * band.stride + first);
-      below.shown_columns.push_back(static_cast<std::uint16_t>(columns));
-      if (columns != 0) rows |= std::uint32_t{1} << row;
-    }
-    below.shown_rows.push_back(rows);
-  }
-  below.shown_columns.resize(below.shown_columns.size() + Canvas::widest_vector);
-}
-
-/// The largest and the least of each block of columns.
-void find_extremes(const DistanceBand& band, int width, HiddenBelow& below) {
-  const Floats f;
-  const int lanes = static_cast<int>(hn::Lanes(f));
-  for (int first = 0; first < width; first += HiddenBelow::block_px) {
-    const int end = std::min(first + HiddenBelow::block_px, width);
-    float most = -everything, least = everything;
-    if (end - first < HiddenBelow::block_px) {
-      for (int row = 0; row < band.row_count; ++row) {
-        const float* pixels = below.pixels.data() + static_cast<std::size_t>(row) * band.stride;
-        most = std::max(most, *std::max_element(pixels + first, pixels + end));
-        least = std::min(least, *std::min_element(pixels + first, pixels + end));
-      }
-    } else {
-      auto high = hn::Set(f, most), low = hn::Set(f, least);
-      for (int row = 0; row < band.row_count; ++row) {
-        const float* pixels = below.pixels.data() + static_cast<std::size_t>(row) * band.stride;
-        for (int x = first; x < end; x += lanes) {
-          high = hn::Max(high, hn::LoadU(f, pixels + x));
-          low = hn::Min(low, hn::LoadU(f, pixels + x));
-        }
-      }
-      most = hn::GetLane(hn::MaxOfLanes(f, high));
-      least = hn::GetLane(hn::MinOfLanes(f, low));
-    }
-    below.most.push_back(most);
-    below.least.push_back(least);
-  }
+  hide_columns({copied(surfaces.nearest, 0), copied(surfaces.reference, 1), copied(surfaces.photographed, 2)}, row, x,
+               at + static_cast<std::size_t>(x), at_work);
 }
 
 void hide_band(const Hiding& hiding, const DistanceBand& band, int width, BandHiding& hides) {
   const ImageView<const float>& photographed = hiding.photographed.empty() ? hiding.reference : hiding.photographed;
   const bool has_others = !hiding.reference.empty();
-  std::array<HiddenBelow*, 4> kinds{&hides.own, &hides.other, &hides.continued, &hides.gaps};
-  const std::span<HiddenBelow*> hidden = std::span(kinds).first(has_others ? 4 : 1);
-  for (HiddenBelow* below : hidden) below->pixels.resize(band.squared.size(), -everything);
+  hides.nearest_below.resize(band.squared.size(), -everything);
+  KindsAtWork at_work{{}, hides.nearest_below.data(), hiding.tolerance_px};
+  const std::array<HiddenBelow*, 4> kinds{&hides.own, &hides.other, &hides.continued, &hides.gaps};
+  for (HiddenBelow* below : std::span(kinds).first(has_others ? 4 : 1)) {
+    below->pixels = hides.nearest_below;
+    at_work.kinds.emplace_back(*below, band, width);
+  }
   for (int row = 0; row < band.row_count; ++row) {
     const int y = band.top + row - hiding.first_row;
     const SurfacesAt surfaces{hiding.surface.row(y).data(), has_others ? hiding.reference.row(y).data() : nullptr,
                               has_others ? photographed.row(y).data() : nullptr};
-    hide_row(surfaces, width, hiding.tolerance_px, static_cast<std::size_t>(row) * band.stride, hides);
+    hide_row(surfaces, row, width, static_cast<std::size_t>(row) * band.stride, at_work);
   }
-  for (HiddenBelow* below : hidden) {
-    find_extremes(band, width, *below);
-    find_shown(band, width, *below);
-  }
+  for (KindAtWork& kind : at_work.kinds) kind.sum_up_blocks(width);
 }
 
 }  // namespace wheatstone::HWY_NAMESPACE

@@ -59,16 +59,20 @@ struct ColumnRun {
   int begin, end;
 };
 
-/// Below which disparity paint is hidden, in a band; empty where nothing hides it.
+/// Below which disparity paint of one kind is hidden, in a band; empty where nothing hides it.
 struct HiddenBelow {
   static constexpr int block_px = Canvas::widest_vector;
-  std::vector<float> pixels;       ///< row_count × stride of the band
+  std::span<const float> pixels;   ///< row_count × stride of the band, for columns that are shown at all
   std::vector<float> most, least;  ///< of each block of columns
 
   // Where not everything is hidden, a bit each, from the lowest.
   std::vector<std::uint16_t> shown_columns;  ///< of a block: row_count × blocks, and a vector more
   std::vector<std::uint32_t> shown_rows;     ///< of each block
 
+  /// In a row of a band.
+  std::uint32_t shown_columns_in(int row, int number, int row_count) const {
+    return shown_columns.empty() ? 0xffff : shown_columns[static_cast<std::size_t>(number * row_count + row)];
+  }
   std::uint32_t shown_rows_within(int begin, int end) const {
     std::uint32_t rows = 0;
     for (int number = begin / block_px; number * block_px < end; ++number)
@@ -101,11 +105,13 @@ void measure_distances(const FlatStroke& stroke, const HiddenBelow& below, Dista
 /// What hides the marks of each kind in a band.
 struct BandHiding {
   BandHiding(const Hiding& hiding, const DistanceBand& band, int canvas_width);
+  BandHiding(BandHiding&&) = default;  // the kinds refer to what they share
 
-  HiddenBelow own;        ///< those of the reference view
-  HiddenBelow other;      ///< those of other views that photographs show
-  HiddenBelow continued;  ///< those of other views
-  HiddenBelow gaps;       ///< those that fill what the reference view's leave bare
+  std::vector<float> nearest_below;  ///< the nearest surface's disparity, less the tolerance
+  HiddenBelow own;                   ///< those of the reference view
+  HiddenBelow other;                 ///< those of other views that photographs show
+  HiddenBelow continued;             ///< those of other views
+  HiddenBelow gaps;                  ///< those that fill what the reference view's leave bare
 
   /// What hides a stroke at first.
   const HiddenBelow& of(const FlatStroke& stroke, const Hiding& hiding) const {

@@ -116,7 +116,8 @@ void draw_under(const StrokeInBand& of, DistanceBand& band, FrontToBackAccumulat
     constexpr int block_px = FrontToBackAccumulator::block_px;
     const float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
     for (int number = band.begin[row] / block_px; number * block_px < band.end[row]; ++number) {
-      const std::uint32_t open = accumulator.open_columns(row, number);
+      const std::uint32_t open =
+          accumulator.open_columns(row, number) & below.shown_columns_in(row, number, band.row_count);
       if (open == 0) continue;
       slide_under_block(paint, {row, number, open}, accumulator,
                         [&](int i) { return cover.of(hn::LoadU(Floats(), squared + number * block_px + i)); });

@@ -22,7 +22,6 @@ void put_in_order(const std::vector<Place>& places, Layer& layer) {
 void append_strokes(const Layer& part, Layer& whole) {
   const auto offset = static_cast<std::uint32_t>(whole.points.size());
   whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
-  whole.strokes.reserve(whole.strokes.size() + part.strokes.size());
   for (Stroke stroke : part.strokes) {
     stroke.first_point += offset;
     whole.strokes.push_back(stroke);
