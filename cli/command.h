@@ -36,6 +36,7 @@ void add_paint_command(CLI::App& program, const Session& session);
 void add_pack_command(CLI::App& program, const Session& session);
 void add_rotoscope_command(CLI::App& program, const Session& session);
 void add_render_command(CLI::App& program, const Session& session);
+void add_share_command(CLI::App& program, const Session& session);
 void add_depth_command(CLI::App& program, const Session& session);
 void add_measure_command(CLI::App& program, const Session& session);
 void add_synth_command(CLI::App& program, const Session& session);

@@ -74,6 +74,7 @@ std::unique_ptr<CLI::App> make_program(Session& session) {
   add_pack_command(*program, session);
   add_rotoscope_command(*program, session);
   add_render_command(*program, session);
+  add_share_command(*program, session);
   add_depth_command(*program, session);
   add_measure_command(*program, session);
   add_synth_command(*program, session);

@@ -11,7 +11,9 @@ wheatstone_find_libraries(
   PkgConfig::LIBAV PkgConfig::LCMS PkgConfig::HEIF PkgConfig::WEBP PkgConfig::EPOXY)
 unset(CMAKE_FIND_PACKAGE_NAME)
 
-# Only while building: the command line's parser and the compiler of the painting file's schema.
+# Only while building: the command line's parser, the compiler of the painting file's schema, and what puts the code
+# of shared pages into one file.
 find_package(CLI11 REQUIRED)
 find_package(FlatBuffers REQUIRED)
 find_program(FLATC_PROGRAM flatc REQUIRED)
+find_program(ESBUILD_PROGRAM esbuild REQUIRED)

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "wheatstone/files/html_text.h"
+
 namespace wheatstone {
 namespace {
 
@@ -36,21 +38,6 @@ constexpr std::string_view head = R"(<!doctype html>
 <main>
 )";
 
-/// Text that HTML shows as it is.
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 std::string gallery_html(std::string_view format, std::string_view report_json) {
@@ -62,7 +49,7 @@ std::string gallery_html(std::string_view format, std::string_view report_json) 
         fmt::format("<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
                     file, picture.caption);
   }
-  page += fmt::format("</main>\n<h2>Numbers</h2>\n<pre>{}</pre>\n</body></html>\n", escaped(report_json));
+  page += fmt::format("</main>\n<h2>Numbers</h2>\n<pre>{}</pre>\n</body></html>\n", html_text(report_json));
   return page;
 }
 

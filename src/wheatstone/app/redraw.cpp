@@ -19,7 +19,6 @@
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
-namespace {
 
 float nearest_disparity(const Painting& painting) {
   std::vector<float> disparities = disparities_of_marks(painting);
@@ -27,8 +26,6 @@ float nearest_disparity(const Painting& painting) {
   constexpr double nearest_share = 0.995;
   return percentile(std::move(disparities), nearest_share);
 }
-
-}  // namespace
 
 Painting scaled(const Painting& painting, double scale) {
   constexpr double largest_side_px = 65535;

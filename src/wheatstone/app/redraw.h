@@ -15,6 +15,9 @@ namespace wheatstone {
 /// Throws Error{wrong_usage} where the result would be over 65535 pixels a side.
 Painting scaled(const Painting& painting, double scale);
 
+/// That of the nearest mark, but for outliers; 0 where there are no marks.
+float nearest_disparity(const Painting& painting);
+
 struct RedrawOptions {
   double scale = 1;            ///< how many times as large
   bool svg = false;            ///< also left.svg and right.svg, the marks as vectors

@@ -4,12 +4,11 @@
 #include <limits>
 #include <new>
 
-#include "wheatstone/marks/deflated_internal.h"
+#include "wheatstone/marks/deflated.h"
 
 namespace wheatstone {
 
-std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes) {
-  constexpr int level = 4;  // higher ones take twice the time for a tenth of the size
+std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes, int level) {
   z_stream stream{};
   if (deflateInit(&stream, level) != Z_OK) throw std::bad_alloc();
   // What zlib may need at most, compressBound, is more than the bytes themselves.

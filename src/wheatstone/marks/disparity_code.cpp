@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "wheatstone/marks/deflated_internal.h"
-#include "wheatstone/marks/disparity_code_internal.h"
+#include "wheatstone/marks/deflated.h"
+#include "wheatstone/marks/disparity_code.h"
 #include "wheatstone/marks/surfaces.h"
 
 namespace wheatstone {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wheatstone/marks/disparity_code_internal.h"
+#include "wheatstone/marks/disparity_code.h"
 #include "wheatstone/marks/surfaces.h"
 
 namespace wheatstone {

@@ -14,8 +14,8 @@
 #include "painting_generated.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/marks/deflated_internal.h"
-#include "wheatstone/marks/disparity_code_internal.h"
+#include "wheatstone/marks/deflated.h"
+#include "wheatstone/marks/disparity_code.h"
 
 namespace wheatstone {
 namespace {

@@ -15,7 +15,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/svg.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/deflated_internal.h"
+#include "wheatstone/marks/deflated.h"
 
 namespace wheatstone {
 namespace {

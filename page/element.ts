@@ -1,0 +1,314 @@
+// <wheatstone-picture src="…">: a picture with its depth. What stands inside it, a still picture, is shown until the
+// depth is there, and where it cannot be.
+//
+//   src           "#id" of data in this document, or the address of a page that `wheatstone share` wrote
+//   flat          left, right, wiggle or anaglyph: how it begins, as <stereo-img> has it
+//   mode          any of the modes of stage.ts: how it begins
+//   controlslist  what is shown of the controls: mode, detail, fullscreen, vr; all of them by default
+
+import { addHeadsetButton } from "./headset";
+import { openPicture } from "./open_picture";
+import { PageError, sourceAt } from "./parts";
+import { contextOf, isSideBySide, Look, Mode, modes, Stage, viewsOf, windowOf } from "./stage";
+import { styles } from "./styles";
+import * as words from "./words";
+
+const wiggleMilliseconds = 160;
+const slowMilliseconds = 90;
+const restMilliseconds = 250;
+
+export class WheatstonePicture extends HTMLElement {
+  static readonly observedAttributes = ["src"];
+
+  private readonly canvas = document.createElement("canvas");
+  private readonly how = document.createElement("p");
+  private readonly alarm = document.createElement("p");
+  private readonly bar = document.createElement("div");
+  private readonly modeChoice = document.createElement("select");
+  private readonly detailSlider = document.createElement("input");
+  private stage: Stage | undefined;
+  private look: Look = { mode: "flat", view: 0, separation: 1, zeroParallax: 0 };
+  private isWanted = false;
+  private effort = 1;
+  private movedAt = -Infinity;
+  private frameAt = 0;
+  private opening = 0;
+
+  constructor() {
+    super();
+    const root = this.attachShadow({ mode: "open" });
+    root.adoptedStyleSheets = [styles()];
+    const frame = document.createElement("div");
+    frame.className = "frame";
+    frame.append(this.canvas, document.createElement("slot"));
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("role", "img");
+    this.alarm.setAttribute("role", "alert");
+    this.alarm.className = "alarm";
+    this.how.className = "how";
+    this.bar.className = "bar";
+    root.append(frame, this.alarm, this.bar, this.how);
+    this.addControls();
+    this.listen();
+  }
+
+  connectedCallback(): void {
+    void this.open();
+  }
+  attributeChangedCallback(_name: string, before: string | null): void {
+    if (before !== null && this.isConnected) void this.open();
+  }
+  disconnectedCallback(): void {
+    ++this.opening;
+    this.stage = undefined;
+  }
+
+  // How it is looked at, for scripts.
+
+  get mode(): Mode {
+    return this.look.mode;
+  }
+  set mode(mode: Mode) {
+    if (!modes.includes(mode)) throw new RangeError(`mode: there is no '${mode}', expected ${modes.join(", ")}`);
+    this.change({ mode });
+  }
+  get view(): number {
+    return this.look.view;
+  }
+  set view(view: number) {
+    this.change({ view });
+  }
+  get zeroParallax(): number {
+    return this.look.zeroParallax;
+  }
+  set zeroParallax(zeroParallax: number) {
+    this.change({ zeroParallax });
+  }
+  get separation(): number {
+    return this.look.separation;
+  }
+  set separation(separation: number) {
+    this.change({ separation });
+  }
+  get detail(): number {
+    return Number(this.detailSlider.value);
+  }
+  set detail(layers: number) {
+    this.detailSlider.value = String(layers);
+    this.stage?.picture.setDetail(layers);
+    this.stage?.forget();
+    this.redraw();
+  }
+
+  private async open(): Promise<void> {
+    const opening = ++this.opening;
+    const address = this.getAttribute("src");
+    if (!address) return;
+    this.fail("");
+    delete this.dataset.shown;
+    try {
+      const source = await sourceAt(address, this.ownerDocument);
+      if (opening !== this.opening) return;
+      const gl = contextOf(this.canvas);
+      if (!gl) throw new PageError(words.noWebgl);
+      const { facts } = source;
+      const stage = new Stage(gl, openPicture(gl, source));
+      this.stage = stage;
+      this.begin(facts.title, facts.separation, facts.zeroParallax);
+      await stage.picture.load(() => {
+        if (opening !== this.opening) return;
+        stage.forget();
+        this.redraw();
+      });
+      if (opening !== this.opening) return;
+      addHeadsetButton(this.bar, stage, () => this.look, (shown) => this.shows(shown));
+      this.dataset.loaded = "";
+      this.dispatchEvent(new Event("load"));
+    } catch (error) {
+      if (opening !== this.opening) return;
+      this.stage = undefined;
+      if (!(error instanceof PageError)) console.error(error);
+      this.fail(error instanceof PageError ? error.message : words.notShown);
+      this.dispatchEvent(new Event("error"));
+    }
+  }
+
+  private begin(title: string, separation: number, zeroParallax: number): void {
+    const picture = this.stage!.picture;
+    this.canvas.setAttribute("aria-label", this.querySelector("img")?.alt || title);
+    this.detailSlider.max = String(picture.layers);
+    this.detailSlider.value = String(picture.layers);
+    this.detailSlider.parentElement!.hidden = picture.layers < 2 || !this.shows("detail");
+    this.modeChoice.hidden = !this.shows("mode");
+    const flat = this.getAttribute("flat");
+    const [left, right] = viewsOf(picture, { ...this.look, mode: "flat" });
+    const view = flat === "left" ? left : flat === "right" ? right : (left + right) / 2;
+    const wanted = (this.getAttribute("mode") ?? flat ?? "flat") as Mode;
+    this.change({ mode: modes.includes(wanted) ? wanted : "flat", view, separation, zeroParallax });
+  }
+
+  /** Whether a control is to be shown. */
+  private shows(control: string): boolean {
+    const list = this.getAttribute("controlslist");
+    return list === null || list.split(/\s+/).includes(control);
+  }
+
+  private change(change: Partial<Look>): void {
+    this.look = { ...this.look, ...change };
+    this.modeChoice.value = this.look.mode;
+    const byHand = this.look.mode === "wiggle" && prefersNoMotion();
+    this.how.textContent = byHand ? words.wiggleByHand : words.howToLook[this.look.mode];
+    this.redraw();
+  }
+
+  private redraw(): void {
+    if (!this.stage || this.isWanted) return;
+    this.isWanted = true;
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  private frame(now: number): void {
+    this.isWanted = false;
+    const { stage, canvas, look } = this;
+    if (!stage || stage.gl.isContextLost()) return;
+    this.fit();
+    // A device that is too slow for the picture's size draws it smaller while it moves.
+    const moves = now - this.movedAt < restMilliseconds;
+    const took = now - this.frameAt;
+    this.frameAt = now;
+    if (!moves) this.effort = 1;
+    else if (took > slowMilliseconds && took < restMilliseconds * 8) this.effort = Math.max(this.effort / 2, 0.25);
+    stage.draw(this.shownLook(now, look), this.effort);
+    canvas.dataset.frames = String(Number(canvas.dataset.frames ?? 0) + 1);
+    this.dataset.shown = "";
+    const wiggles = look.mode === "wiggle" && !prefersNoMotion();
+    if (wiggles || stage.picture.moves || (moves && this.effort < 1)) this.redraw();
+  }
+
+  private shownLook(now: number, look: Look): Look {
+    if (look.mode !== "wiggle" || prefersNoMotion()) return look;
+    const [left, right] = viewsOf(this.stage!.picture, look);
+    return { ...look, view: Math.floor(now / wiggleMilliseconds) % 2 === 0 ? left : right };
+  }
+
+  /** Gives the canvas the shape of what it shows, and as many pixels as the screen has there. */
+  private fit(): void {
+    const { canvas, look } = this;
+    const window = windowOf(this.stage!.picture, look);
+    const width = window.width * (isSideBySide(look.mode) ? 2 : 1);
+    canvas.style.aspectRatio = `${width} / ${window.height}`;
+    canvas.style.setProperty("--aspect", String(width / window.height));
+    const box = canvas.getBoundingClientRect();
+    const most = 4096;
+    const pixels = Math.min(devicePixelRatio, most / Math.max(box.width, 1));
+    const size = [Math.max(Math.round(box.width * pixels), 1), Math.max(Math.round(box.height * pixels), 1)] as const;
+    if (canvas.width !== size[0]) canvas.width = size[0];
+    if (canvas.height !== size[1]) canvas.height = size[1];
+  }
+
+  private addControls(): void {
+    for (const mode of modes) this.modeChoice.add(new Option(words.nameOf[mode], mode));
+    this.modeChoice.setAttribute("aria-label", "Way of looking");
+    this.modeChoice.addEventListener("change", () => (this.mode = this.modeChoice.value as Mode));
+    const label = document.createElement("label");
+    label.textContent = "Detail ";
+    label.hidden = true;
+    Object.assign(this.detailSlider, { type: "range", min: "1", max: "1", step: "1" });
+    this.detailSlider.addEventListener("input", () => (this.detail = this.detail));
+    label.append(this.detailSlider);
+    const full = document.createElement("button");
+    full.textContent = "Full screen";
+    full.addEventListener("click", () => this.toggleFullScreen());
+    full.hidden = !this.requestFullscreen;
+    this.bar.append(this.modeChoice, label, full);
+  }
+
+  private toggleFullScreen(): void {
+    if (document.fullscreenElement === this) void document.exitFullscreen();
+    else void this.requestFullscreen();
+  }
+
+  private listen(): void {
+    const { canvas } = this;
+    canvas.addEventListener("pointermove", (event) => this.lookFrom(event.offsetX / canvas.clientWidth));
+    canvas.addEventListener("click", (event) => this.click(event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight));
+    canvas.addEventListener("keydown", (event) => {
+      if (this.press(event.key)) event.preventDefault();
+    });
+    canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.stage = undefined;
+      ++this.opening;
+      this.fail(words.contextLost);
+    });
+    canvas.addEventListener("webglcontextrestored", () => void this.open());
+    new ResizeObserver(() => this.redraw()).observe(this);
+    window.addEventListener("deviceorientation", (event) => {
+      const widestDegrees = 20;
+      if (event.gamma !== null && !prefersNoMotion()) this.lookFrom(0.5 + event.gamma / (2 * widestDegrees));
+    });
+  }
+
+  /** `place` runs from 0, as far left as there is something to see, to 1. */
+  private lookFrom(place: number): void {
+    const { stage, look } = this;
+    if (!stage || look.mode !== "flat" || this.hasAttribute("flat")) return;
+    const [left, right] = viewsOf(stage.picture, look);
+    this.movedAt = performance.now();
+    this.change({ view: left + Math.min(Math.max(place, 0), 1) * (right - left) });
+    setTimeout(() => this.redraw(), restMilliseconds);
+  }
+
+  /** What lies there comes onto the screen. */
+  private click(x: number, y: number): void {
+    const { stage, look } = this;
+    if (!stage) return;
+    if (look.mode === "wiggle" && prefersNoMotion()) {
+      this.otherEye();
+      return;
+    }
+    const [left, right] = viewsOf(stage.picture, look);
+    const beside = isSideBySide(look.mode);
+    const isSecond = beside && x >= 0.5;
+    const view = look.mode === "flat" ? look.view : isSecond === (look.mode === "parallel") ? right : left;
+    const window = windowOf(stage.picture, look);
+    const column = window.begin(view) + (beside ? (2 * x) % 1 : x) * window.width;
+    const disparity = stage.picture.disparityAt(column, y * window.height, view);
+    if (disparity !== undefined) this.change({ zeroParallax: disparity });
+  }
+
+  private otherEye(): void {
+    const [left, right] = viewsOf(this.stage!.picture, this.look);
+    this.change({ view: this.look.view === left ? right : left });
+  }
+
+  private press(key: string): boolean {
+    if (!this.stage) return false;
+    const [left, right] = viewsOf(this.stage.picture, this.look);
+    const step = (right - left) / 20;
+    const moved = (by: number) => Math.min(Math.max(this.look.view + by, left), right);
+    const number = Number(key);
+    if (key === "ArrowLeft") this.view = moved(-step);
+    else if (key === "ArrowRight") this.view = moved(step);
+    else if (key === "Home") this.view = (left + right) / 2;
+    else if (key === "f" || key === "F") this.toggleFullScreen();
+    else if (key === "+" || key === "-") this.detail += key === "+" ? 1 : -1;
+    else if (key === " " && this.look.mode === "wiggle") this.otherEye();
+    else if (number >= 1 && number <= modes.length) this.mode = modes[number - 1]!;
+    else return false;
+    return true;
+  }
+
+  /** Says why the still picture is all that there is; "": nothing is wrong. */
+  private fail(sentence: string): void {
+    this.alarm.textContent = sentence;
+    if (sentence) {
+      delete this.dataset.shown;
+      this.how.textContent = "";
+    }
+  }
+}
+
+function prefersNoMotion(): boolean {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
+}

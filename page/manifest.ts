@@ -1,0 +1,84 @@
+// What a page says of its picture, as JSON. The bytes stand beside it, as named parts (parts.ts).
+
+/** A mark's reference view, and the view positions in which it may be drawn. */
+export interface Planned {
+  reference: number;
+  first: number;
+  last: number;
+}
+
+/** What one view sees of the scene (docs/painting.fbs, Surface). */
+export interface SurfaceFacts {
+  view: number;
+  left: number;
+  width: number;
+  height: number;
+  continued: boolean;
+}
+
+export interface SurfacesFacts {
+  tolerance: number;
+  seen: SurfaceFacts[];
+}
+
+/** What pictures of every kind have in common. Lengths are in pixels of the picture. */
+interface Common {
+  title: string;
+  width: number;
+  height: number;
+  /** Eye separation at which two eyes look, as a share of the picture's own; their middle is the view position 0. */
+  separation: number;
+  /** Disparity, at full eye separation, that lies on the screen. */
+  zeroParallax: number;
+  /** The view positions that can be shown. */
+  first: number;
+  last: number;
+}
+
+export interface StrokesFacts extends Common {
+  kind: "strokes";
+  surfaces: SurfacesFacts;
+  planned: Planned[];
+  canvas: [number, number, number];
+  /** Thin paint is drawn opaque, and goes on where there is none. */
+  opaque: boolean;
+  /** Of the points' places. */
+  stepsAPixel: number;
+  /** Of the strokes' colours, in levels of 256. */
+  colourStep: number;
+  /** Coarse to fine; the bytes of each are the part "layer-0" and so on. */
+  layers: { radius: number }[];
+}
+
+export interface RegionsFacts extends Common {
+  kind: "regions";
+  surfaces: SurfacesFacts;
+  planned: Planned[];
+}
+
+/** Pictures that lie on surfaces: the part "picture-0" and so on is a surface's picture, of its size. */
+export interface LayeredFacts extends Common {
+  kind: "layered";
+  surfaces: SurfacesFacts;
+}
+
+/** Depth planes of particles, the nearest first. */
+export interface SlicesFacts extends Common {
+  kind: "slices";
+  planes: { parallax: number; left: number; top: number; width: number; height: number }[];
+  exposure: number;
+}
+
+/** Ready views in one picture or film: `columns` × `rows` of them, the leftmost view first. */
+export interface ViewsFacts extends Common {
+  kind: "views";
+  columns: number;
+  rows: number;
+  /** The first view lies bottom left and rows go upwards, as in a quilt; else top left and downwards. */
+  upwards: boolean;
+  type: string;
+  /** Of a film that stands beside the page; else the bytes are the part "views". */
+  file?: string;
+}
+
+export type Facts = StrokesFacts | RegionsFacts | LayeredFacts | SlicesFacts | ViewsFacts;

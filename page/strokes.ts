@@ -1,0 +1,462 @@
+// Strokes of a brush, drawn for any view: each is a chain of segments, laid over what is behind it as far as no surface
+// hides it. The same picture as src/wheatstone/drawing/draw_strokes.cpp, from back to front.
+
+import { drawTo, drawWholePicture, fillWithFloats, Gl, makeProgram, makeTarget, deleteTarget, makeTexture, Program, Target, useTexture, wholePicture } from "./gl";
+import { gapRule, hidingRule, PlannedIn } from "./hiding";
+import { StrokesFacts } from "./manifest";
+import { NumberStream, Source, streamsOf } from "./parts";
+import { Picture } from "./picture";
+import { Surfaces } from "./surfaces";
+
+const texelsAStroke = 2;
+const strokesARow = 1024;
+const verticesARow = 2048;
+const mostPlans = 16;
+
+/** Vertices are x in the central view, y, disparity, and the number of the stroke. */
+const valuesAVertex = 4;
+
+/** Strokes as the device draws them. */
+interface Chains {
+  vertices: Float32Array;
+  vertexCount: number;
+  /** Two texels each: red, green, blue, opacity; radius, number of its plan. */
+  strokes: Float32Array;
+  strokeCount: number;
+}
+
+/** A spline's control points, in the central view; it is clamped to the outer ones, which stand three times. */
+interface Controls {
+  x: Float64Array;
+  y: Float64Array;
+  disparity: Float64Array;
+  count: number;
+}
+
+/** Adds the vertices of a chain that leaves the spline by less than an eighth of the rim: drawing/flatten.cpp. */
+function addVertices(controls: Controls, radius: number, add: (x: number, y: number, d: number) => void): void {
+  const { x, y, disparity: d, count } = controls;
+  const control = (i: number) => Math.min(Math.max(i - 2, 0), count - 1);
+  const bendAt = (i: number): number => {
+    const [a, b, c] = [control(i - 1), control(i), control(i + 1)];
+    const depth = Math.abs(d[a]! - 2 * d[b]! + d[c]!) / 2;
+    const bendX = Math.abs(x[a]! - 2 * x[b]! + x[c]!) + depth;
+    const bendY = y[a]! - 2 * y[b]! + y[c]!;
+    return bendX * bendX + bendY * bendY;
+  };
+  const addOn = (span: number, t: number): void => {
+    const s = 1 - t;
+    const wa = (s * s * s) / 6;
+    const wb = (3 * t * t * t - 6 * t * t + 4) / 6;
+    const wd = (t * t * t) / 6;
+    const wc = 1 - wa - wb - wd;
+    const [i, j, k, l] = [control(span), control(span + 1), control(span + 2), control(span + 3)];
+    const along = (of: Float64Array) => wa * of[i]! + wb * of[j]! + wc * of[k]! + wd * of[l]!;
+    add(along(x), along(y), along(d));
+  };
+  const rim = radius > 10 ? 0.1 * radius : 1;
+  const most = rim * rim;
+  const spans = count < 2 ? 0 : count + 1;
+  add(x[0]!, y[0]!, d[0]!);
+  for (let first = 0, end = 0; first < spans; first = end) {
+    const bend = Math.max(bendAt(first + 1), bendAt(first + 2));
+    let segments = 1;
+    end = first + 1;
+    if (bend > most) {
+      segments = Math.min(Math.ceil(Math.sqrt(Math.sqrt(bend / most))), 16);
+    } else {
+      for (let largest = bend; end < spans; ++end) {
+        largest = Math.max(largest, bendAt(end + 2));
+        if (largest * (end + 1 - first) ** 4 > most) break;
+      }
+    }
+    for (let i = 1; i <= segments; ++i) addOn(end - 1, i / segments);
+  }
+}
+
+/** What of a stroke its points do not tell: red, green, blue, opacity, radius, and the number of its plan. */
+type Look = [number, number, number, number, number, number];
+
+/** Gathers strokes. */
+class ChainWriter {
+  private readonly vertices: number[] = [0, 0, 0, -1]; // a segment has one vertex before it
+  private readonly strokes: number[] = [];
+
+  add(controls: Controls, look: Look): void {
+    const number = this.strokes.length / (4 * texelsAStroke);
+    const before = this.vertices.length;
+    addVertices(controls, look[4], (x, y, d) => this.vertices.push(x, y, d, number));
+    // A dot is a segment of no length.
+    if (this.vertices.length === before + valuesAVertex) this.vertices.push(...this.vertices.slice(before));
+    this.strokes.push(...look, 0, 0);
+  }
+
+  finish(): Chains {
+    const vertexCount = this.vertices.length / valuesAVertex;
+    this.vertices.push(0, 0, 0, -1, 0, 0, 0, -1);
+    return {
+      vertices: Float32Array.from(this.vertices),
+      vertexCount,
+      strokes: Float32Array.from(this.strokes),
+      strokeCount: this.strokes.length / (4 * texelsAStroke),
+    };
+  }
+}
+
+/** Reads the points of strokes, as `Places` of src/wheatstone/share/strokes_part.cpp wrote one of their coordinates. */
+class Places {
+  private first = 0;
+  constructor(
+    private readonly stream: NumberStream,
+    private readonly stepsAPixel: number,
+    private readonly goesOn: boolean,
+  ) {}
+
+  read(count: number): Float64Array {
+    const places = new Float64Array(count);
+    let place = (this.first += this.stream.signed());
+    places[0] = place / this.stepsAPixel;
+    for (let i = 1, step = 0; i < count; ++i) {
+      const change = this.stream.signed();
+      step = this.goesOn ? step + change : change;
+      place += step;
+      places[i] = place / this.stepsAPixel;
+    }
+    return places;
+  }
+}
+
+/** A layer's strokes, and those of them that were planned in other views than the reference. */
+interface LayerChains {
+  all: Chains;
+  beside: Chains;
+}
+
+function readLayer(streams: NumberStream[], facts: StrokesFacts, isBeside: (view: number) => boolean): LayerChains {
+  const [counts, xs, ys, disparities, greens, reds, blues, radii, opacities, plans] = streams;
+  const column = new Places(xs!, facts.stepsAPixel, true);
+  const row = new Places(ys!, facts.stepsAPixel, true);
+  const depth = new Places(disparities!, facts.stepsAPixel, false);
+  const all = new ChainWriter();
+  const beside = new ChainWriter();
+  const level = facts.colourStep / 255;
+  while (!counts!.ended) {
+    const count = counts!.whole();
+    const plan = plans!.whole();
+    const view = facts.planned[plan]!.reference;
+    const controls: Controls = { x: column.read(count), y: row.read(count), disparity: depth.read(count), count };
+    for (let i = 0; i < count; ++i) controls.x[i]! += view * controls.disparity[i]!;
+    const green = greens!.signed();
+    const [red, blue] = [green + reds!.signed(), green + blues!.signed()];
+    const opacity = opacities!.whole() / 65535;
+    const look: Look = [red * level, green * level, blue * level, opacity, radii!.whole() / 256, plan];
+    all.add(controls, look);
+    if (isBeside(view)) beside.add(controls, look);
+  }
+  return { all: all.finish(), beside: beside.finish() };
+}
+
+const vertexShader = `
+uniform sampler2D vertices;  // x in the central view, y, disparity, stroke
+uniform sampler2D strokes;
+uniform vec2 size;       // of the picture
+uniform float scale;     // drawn pixels for one of the picture
+uniform float view;
+uniform float firstOrder, orderStep;
+uniform bool fillsGaps;
+uniform vec4 plans[${mostPlans}];  // kind, first view, last view
+flat out vec3 seenBefore, seenFrom, seenTo, seenAfter;  // drawn pixels and disparity
+flat out vec4 paint;
+flat out vec2 brush;     // middle and width of the rim
+flat out int kind;
+
+vec4 vertexAt(int i) { return texelFetch(vertices, ivec2(i % ${verticesARow}, i / ${verticesARow}), 0); }
+vec3 seenAt(vec4 vertex) { return vec3((vertex.x - view * vertex.z) * scale, vertex.y * scale, vertex.z); }
+
+void main() {
+  int segment = gl_VertexID >> 2;
+  vec4 before = vertexAt(segment), from = vertexAt(segment + 1), to = vertexAt(segment + 2), after = vertexAt(segment + 3);
+  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (from.w < 0.0 || from.w != to.w) return;
+  int texel = int(from.w) * ${texelsAStroke};
+  ivec2 place = ivec2(texel % ${strokesARow * texelsAStroke}, texel / ${strokesARow * texelsAStroke});
+  vec4 shape = texelFetch(strokes, place + ivec2(1, 0), 0);
+  vec4 plan = plans[int(shape.y)];
+  if (view < plan.y || view > plan.z) return;
+  paint = texelFetch(strokes, place, 0);
+  kind = fillsGaps ? ${PlannedIn.gaps} : int(plan.x);
+
+  float radius = shape.x * scale;
+  float rim = radius > 10.0 ? 0.1 * radius : 1.0;
+  brush = vec2(0.95 * radius, rim);
+  float reach = brush.x + rim / 2.0;
+  bool isFirst = before.w != from.w, isLast = after.w != to.w;
+  seenFrom = seenAt(from);
+  seenTo = seenAt(to);
+  seenBefore = isFirst ? seenFrom : seenAt(before);
+  seenAfter = isLast ? seenTo : seenAt(after);
+
+  // A segment paints the rectangle beside it, and at its end what lies outside the bend.
+  const float rounding = 1.0 / 32.0;
+  vec2 step = seenTo.xy - seenFrom.xy, stepAfter = seenAfter.xy - seenTo.xy;
+  float lengthHere = length(step), lengthAfter = length(stepAfter);
+  vec2 course = lengthHere > 0.0 ? step / lengthHere : vec2(1.0, 0.0);
+  float beyond = reach + rounding;
+  if (lengthHere > 0.0 && lengthAfter > 0.0) {
+    vec2 courseAfter = stepAfter / lengthAfter;
+    if (dot(course, courseAfter) > 0.0)
+      beyond = (reach + rounding) * abs(course.x * courseAfter.y - course.y * courseAfter.x) + rounding;
+  }
+  float ahead = isFirst || lengthHere == 0.0 ? reach + rounding : rounding;
+  vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
+  vec2 at = seenFrom.xy + course * mix(-ahead, lengthHere + beyond, corner.x) +
+            vec2(-course.y, course.x) * (reach + rounding) * (2.0 * corner.y - 1.0);
+  // What a stroke has covered, its next segment leaves as it is: all of a stroke lies at one depth of its own.
+  gl_Position = vec4(at / (size * scale) * 2.0 - 1.0, 1.0 - (firstOrder + from.w + 1.0) * orderStep, 1.0);
+}`;
+
+const fragmentShader = `
+flat in vec3 seenBefore, seenFrom, seenTo, seenAfter;
+flat in vec4 paint;
+flat in vec2 brush;
+flat in int kind;
+out vec4 drawn;
+${hidingRule}
+float squaredDistance(vec3 a, vec3 b, vec2 pixel, float leastDisparity) {
+  vec2 along = b.xy - a.xy, to = pixel - a.xy;
+  float t = clamp(dot(to, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
+  if (mix(a.z, b.z, t) < leastDisparity) return 1e30;
+  vec2 off = to - t * along;
+  return dot(off, off);
+}
+void main() {
+  vec2 pixel = gl_FragCoord.xy;
+  float least = leastSeenOf(kind, surfacesAt(pixel));
+  float squared = squaredDistance(seenFrom, seenTo, pixel, least);
+  if (seenBefore != seenFrom) squared = min(squared, squaredDistance(seenBefore, seenFrom, pixel, least));
+  if (seenAfter != seenTo) squared = min(squared, squaredDistance(seenTo, seenAfter, pixel, least));
+  float cover = clamp((brush.x - sqrt(squared)) / brush.y + 0.5, 0.0, 1.0);
+  if (cover == 0.0) discard;
+  float share = cover * paint.a;
+  drawn = vec4(paint.rgb * share, share);
+}`;
+
+const finishShader = `
+in vec2 place;
+out vec4 finished;
+uniform sampler2D painted;
+uniform vec3 canvas;
+uniform bool isOpaque;
+${hidingRule}
+${gapRule}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec4 paint = texelFetch(painted, at, 0);
+  finished = vec4(isOpaque ? continued(painted, at) : paint.rgb + (1.0 - paint.a) * canvas, 1.0);
+}`;
+
+/** The corners of each segment's rectangle, as two triangles. A draw call for each would cost some devices too much. */
+class SegmentIndices {
+  private buffer: WebGLBuffer | undefined;
+  private count = 0;
+  constructor(private readonly gl: Gl) {}
+
+  /** Binds the corners of so many segments. */
+  bind(segments: number): void {
+    const { gl } = this;
+    this.buffer ??= gl.createBuffer()!;
+    gl.bindVertexArray(null);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.buffer);
+    if (segments <= this.count) return;
+    const indices = new Uint32Array(6 * segments);
+    for (let segment = 0; segment < segments; ++segment)
+      [0, 1, 2, 2, 1, 3].forEach((corner, i) => (indices[6 * segment + i] = 4 * segment + corner));
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
+    this.count = segments;
+  }
+}
+
+/** A texture of rows of four numbers each. */
+function textureOf(gl: Gl, values: Float32Array, texelsARow: number): WebGLTexture {
+  const texture = makeTexture(gl);
+  const rows = Math.max(Math.ceil(values.length / 4 / texelsARow), 1);
+  const texels = new Float32Array(4 * texelsARow * rows);
+  texels.set(values);
+  fillWithFloats(gl, texture, texelsARow, rows, texels);
+  return texture;
+}
+
+/** Strokes in the device's memory. */
+class DeviceChains {
+  readonly strokeCount: number;
+  private readonly segments: number;
+  private readonly vertices: WebGLTexture;
+  private readonly strokes: WebGLTexture;
+
+  constructor(
+    private readonly gl: Gl,
+    private readonly indices: SegmentIndices,
+    chains: Chains,
+  ) {
+    this.strokeCount = chains.strokeCount;
+    this.segments = chains.strokeCount > 0 ? chains.vertexCount - 2 : 0;
+    this.vertices = textureOf(gl, chains.vertices, verticesARow);
+    this.strokes = textureOf(gl, chains.strokes, strokesARow * texelsAStroke);
+  }
+
+  draw(program: Program, firstOrder: number): void {
+    if (this.segments === 0) return;
+    const { gl } = this;
+    useTexture(gl, program, "strokes", 1, this.strokes);
+    useTexture(gl, program, "vertices", 2, this.vertices);
+    gl.uniform1f(program.at("firstOrder"), firstOrder);
+    this.indices.bind(this.segments);
+    gl.drawElements(gl.TRIANGLES, 6 * this.segments, gl.UNSIGNED_INT, 0);
+  }
+}
+
+export class StrokesPicture implements Picture {
+  readonly moves = false;
+  private readonly program: Program;
+  private readonly finish: Program;
+  private readonly seen: WebGLTexture;
+  private seenView: number | undefined;
+  private surfaces: Surfaces | undefined;
+  private canvas: Target | undefined;
+  private readonly loaded: { all: DeviceChains; beside: DeviceChains }[] = [];
+  private readonly indices: SegmentIndices;
+  private detail = Infinity;
+
+  constructor(
+    private readonly gl: Gl,
+    readonly facts: StrokesFacts,
+    private readonly source: Source,
+  ) {
+    this.program = makeProgram(gl, vertexShader, fragmentShader);
+    this.finish = makeProgram(gl, wholePicture, finishShader);
+    this.seen = makeTexture(gl);
+    this.indices = new SegmentIndices(gl);
+  }
+
+  get layers(): number {
+    return this.facts.layers.length;
+  }
+  setDetail(layers: number): void {
+    this.detail = layers;
+  }
+
+  async load(changed: () => void): Promise<void> {
+    const surfaces = (this.surfaces = await Surfaces.from(this.source, this.facts.surfaces));
+    const isBeside = (view: number) => plannedIn(view, surfaces) !== PlannedIn.reference;
+    for (let layer = 0; layer < this.facts.layers.length; ++layer) {
+      const streams = await streamsOf(this.source, `layer-${layer}`);
+      const { all, beside } = readLayer(streams, this.facts, isBeside);
+      this.loaded.push({ all: new DeviceChains(this.gl, this.indices, all), beside: new DeviceChains(this.gl, this.indices, beside) });
+      changed();
+    }
+  }
+
+  disparityAt(x: number, y: number, view: number): number | undefined {
+    return disparityInView(this.surfaces, x, y, view);
+  }
+
+  draw(view: number, target: Target): void {
+    const { gl, facts, surfaces } = this;
+    if (!surfaces) return;
+    this.see(view, surfaces);
+    const canvas = this.canvasLike(target);
+    drawTo(gl, canvas);
+    gl.depthMask(true);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clearDepth(1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LESS);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    this.drawStrokes(view, canvas.width / facts.width);
+    gl.disable(gl.BLEND);
+    gl.disable(gl.DEPTH_TEST);
+
+    drawTo(gl, target);
+    gl.useProgram(this.finish.program);
+    useTexture(gl, this.finish, "painted", 1, canvas.texture);
+    this.useSeen(this.finish, canvas.width / facts.width);
+    gl.uniform3f(this.finish.at("canvas"), facts.canvas[0] / 255, facts.canvas[1] / 255, facts.canvas[2] / 255);
+    gl.uniform1i(this.finish.at("isOpaque"), facts.opaque ? 1 : 0);
+    drawWholePicture(gl);
+  }
+
+  private drawStrokes(view: number, scale: number): void {
+    const { gl, program, facts } = this;
+    const shown = this.loaded.slice(0, this.detail);
+    const count = shown.reduce((sum, layer) => sum + layer.all.strokeCount + layer.beside.strokeCount, 0);
+    gl.useProgram(program.program);
+    this.useSeen(program, scale);
+    gl.uniform2f(program.at("size"), facts.width, facts.height);
+    gl.uniform1f(program.at("scale"), scale);
+    gl.uniform1f(program.at("view"), view);
+    gl.uniform1f(program.at("orderStep"), 2 / (count + 2));
+    gl.uniform4fv(program.at("plans[0]"), this.plans());
+    // Behind everything, what other views planned fills the gaps that the reference view's strokes leave.
+    let order = 0;
+    for (const gaps of [true, false]) {
+      gl.uniform1i(program.at("fillsGaps"), gaps ? 1 : 0);
+      for (const layer of shown) {
+        const chains = gaps ? layer.beside : layer.all;
+        chains.draw(program, order);
+        order += chains.strokeCount;
+      }
+    }
+  }
+
+  private plans(): Float32Array {
+    const plans = new Float32Array(4 * mostPlans);
+    this.facts.planned.slice(0, mostPlans).forEach((plan, i) => {
+      plans.set([plannedIn(plan.reference, this.surfaces!), plan.first, plan.last, 0], 4 * i);
+    });
+    return plans;
+  }
+
+  private see(view: number, surfaces: Surfaces): void {
+    if (this.seenView === view) return;
+    const { width, height } = this.facts;
+    fillWithFloats(this.gl, this.seen, width, height, surfaces.seenFrom(view, width, height));
+    this.seenView = view;
+  }
+
+  private useSeen(program: Program, scale: number): void {
+    useTexture(this.gl, program, "seen", 0, this.seen);
+    this.gl.uniform2f(program.at("seenScale"), 1 / scale, 1 / scale);
+    this.gl.uniform1f(program.at("tolerance"), this.surfaces!.tolerance);
+  }
+
+  private canvasLike(target: Target): Target {
+    if (this.canvas && (this.canvas.width !== target.width || this.canvas.height !== target.height)) {
+      deleteTarget(this.gl, this.canvas);
+      this.canvas = undefined;
+    }
+    return (this.canvas ??= makeTarget(this.gl, target.width, target.height, { precise: true, depth: true }));
+  }
+}
+
+/** By what the surfaces may hide what was planned in a view. */
+export function plannedIn(view: number, surfaces: Surfaces): PlannedIn {
+  if (surfaces.isEmpty || view === surfaces.reference) return PlannedIn.reference;
+  const [first, last] = surfaces.photographed;
+  return view >= first && view <= last ? PlannedIn.photographed : PlannedIn.other;
+}
+
+/** The disparity at a place of any view: what the reference view sees there, once it is moved there. */
+export function disparityInView(surfaces: Surfaces | undefined, x: number, y: number, view: number): number | undefined {
+  if (!surfaces || surfaces.isEmpty) return undefined;
+  const [reference] = surfaces.facts;
+  let found: number | undefined;
+  for (let column = 0; column < reference!.width; ++column) {
+    const d = surfaces.disparityAt(column, y);
+    if (d === undefined) continue;
+    const seen = reference!.left + column + 0.5 - (view - reference!.view) * d;
+    if (Math.abs(seen - x) <= 1 && (found === undefined || d > found)) found = d;
+  }
+  return found;
+}

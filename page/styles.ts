@@ -1,0 +1,21 @@
+/** How the element looks. A constructed sheet: a strict Content-Security-Policy lets it be. */
+export function styles(): CSSStyleSheet {
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(`
+:host { display: block; font: 16px/1.4 system-ui, sans-serif; }
+[hidden] { display: none !important; }
+.frame { display: grid; justify-items: center; }
+canvas { display: none; width: min(100%, var(--height, 80vh) * var(--aspect, 1.33)); outline-offset: 2px; touch-action: pan-y; }
+:host([data-shown]) canvas { display: block; }
+:host([data-shown]) slot { display: none; }
+:host(:fullscreen) { background: #000; color: #ddd; overflow: auto; }
+:host(:fullscreen) canvas { --height: 100vh; }
+.bar { display: flex; flex-wrap: wrap; gap: .8em; align-items: center; justify-content: center; margin: .6em 0 0; }
+:host(:not([data-shown])) .bar { visibility: hidden; }
+.bar > * { font: inherit; }
+.how, .alarm { margin: .5em auto; max-width: 40em; text-align: center; min-height: 1.4em; }
+.alarm:empty { display: none; }
+.alarm { padding: .6em 1em; background: #fff3d6; color: #402c00; border-radius: .3em; }
+`);
+  return sheet;
+}

@@ -1,0 +1,161 @@
+// Shared pages in a browser: their pixels against those that the program draws, and what they say where something is
+// wrong. One browser and few programs for all of it.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { alarmOf, openPage, pngAt, psnr, shotOf, sizeOf, startBrowser } from "./browser.mjs";
+
+const [wheatstone, folder] = process.argv.slice(2);
+const run = (...words) => execFileSync(wheatstone, ["--quiet", ...words], { cwd: folder, stdio: ["ignore", "ignore", "inherit"] });
+const at = (name) => `${folder}/${name}`;
+const leastPsnr = 35;
+const hostile = `"><script>document.body.textContent="taken"</script>`;
+const browser = await startBrowser();
+const failures = [];
+
+async function test(name, body) {
+  const begin = Date.now();
+  try {
+    const told = (await body()) ?? "";
+    console.log(`ok      ${name} ${told} (${Date.now() - begin} ms)`);
+  } catch (error) {
+    failures.push(name);
+    console.log(`FAILED  ${name}: ${error.message}`);
+  }
+}
+
+/** Each look with the file that it has to be like. */
+async function comparePictures(page, folderOfViews, looks) {
+  const told = [];
+  for (const [look, file] of looks) {
+    const expected = pngAt(at(`${folderOfViews}/${file}`));
+    const [width] = sizeOf(expected);
+    const found = await psnr(page, await shotOf(page, width, look), expected);
+    assert.ok(found >= leastPsnr, `${JSON.stringify(look)}: ${found} dB to ${file}, expected at least ${leastPsnr}`);
+    told.push(`${look.mode} ${found.toFixed(1)} dB`);
+  }
+  return told.join(", ");
+}
+
+const leftAndRight = [
+  [{ mode: "flat", view: -0.5, zeroParallax: 0 }, "left.png"],
+  [{ mode: "flat", view: 0.5, zeroParallax: 0 }, "right.png"],
+];
+
+run("synth", "still", "--size", "320x240", "--samples", "1", "-o", "still");
+const photographs = ["still/left.png", "still/right.png", "--disparity", "still/left_disparity.pfm", "--absolute-radii"];
+
+/** Paints the still life, shares it, and draws it again over its canvas. */
+function paint(name, ...options) {
+  run("paint", ...photographs, ...options, "-o", name);
+  run("paint", `${name}/painting.wst`, "-o", `${name}-drawn`);
+  run("share", `${name}/painting.wst`, "-o", `${name}.html`, "--title", `Painting ${hostile}`, "--description", "Fruit", "--caption", hostile);
+}
+
+paint("impressionist");
+run("pack", "impressionist-drawn/side_by_side.png", "--layout", "left-right", "--to", "right-left", "-o", "impressionist-drawn/crossed.png");
+await test("strokes and modes are those of the command line, and no address is asked for anything", async () => {
+  const { page, requests, troubles } = await openPage(browser, at("impressionist.html"));
+  const { zeroParallax, separation } = await page.evaluate(() => {
+    const { zeroParallax, separation } = document.querySelector("wheatstone-picture");
+    return { zeroParallax, separation };
+  });
+  const pair = { zeroParallax, separation };
+  const told = await comparePictures(page, "impressionist-drawn", [
+    ...leftAndRight,
+    [{ mode: "anaglyph", ...pair }, "anaglyph.png"],
+    [{ mode: "parallel", ...pair }, "side_by_side.png"],
+    [{ mode: "cross-eyed", ...pair }, "crossed.png"],
+  ]);
+  assert.deepEqual(requests.filter((address) => !address.startsWith("data:")), [`file://${at("impressionist.html")}`]);
+  assert.deepEqual(troubles, []);
+  assert.equal(await page.title(), `Painting ${hostile}`);
+  assert.equal(await page.locator("wheatstone-picture canvas").getAttribute("aria-label"), "Fruit");
+  assert.equal(await page.locator("figcaption").textContent(), hostile);
+  await page.close();
+  return told;
+});
+
+await test("pointer, keys and clicks change what is seen; less detail is another picture", async () => {
+  const { page } = await openPage(browser, at("impressionist.html"));
+  const get = (name) => page.evaluate((name) => document.querySelector("wheatstone-picture")[name], name);
+  const canvas = page.locator("wheatstone-picture canvas");
+  await canvas.hover({ position: { x: 3, y: 50 } });
+  assert.ok((await get("view")) < -0.4, "the pointer does not change the view");
+  await canvas.press("Home");
+  assert.equal(await get("view"), 0);
+  const before = await get("zeroParallax");
+  await canvas.click({ position: { x: 5, y: 5 } });
+  assert.ok((await get("zeroParallax")) < before - 5, "the wall lies behind the nearest point");
+  await canvas.press("3");
+  assert.equal(await get("mode"), "anaglyph");
+  const fine = await shotOf(page, 320, { mode: "flat" });
+  const coarse = await shotOf(page, 320, { detail: 1 });
+  assert.ok((await psnr(page, fine, coarse)) < leastPsnr, "less detail is the same picture");
+  await page.close();
+});
+
+await test("who wants no motion gets none", async () => {
+  const { page } = await openPage(browser, at("impressionist.html"), { reducedMotion: "reduce" });
+  const first = await shotOf(page, 320, { mode: "wiggle" });
+  await page.waitForTimeout(400);
+  assert.ok(first.equals(await shotOf(page, 320, {})), "the picture moved by itself");
+  await page.locator("wheatstone-picture canvas").press(" ");
+  assert.ok(!first.equals(await shotOf(page, 320, {})), "the space bar shows the other eye's view");
+  await page.close();
+});
+
+/** The sentence that is said, beside the still picture. */
+async function expectStill(page, sentence) {
+  assert.match(await alarmOf(page), sentence);
+  assert.ok(await page.locator("wheatstone-picture img").isVisible(), "the still picture is not seen");
+  assert.ok(!(await page.locator("wheatstone-picture canvas").isVisible()), "the canvas is seen");
+}
+
+await test("a page whose data were cut says so, and shows the still picture", async () => {
+  const whole = readFileSync(at("impressionist.html"), "utf8");
+  for (const [name, share] of [["cut-late", 0.8], ["cut-early", 0.3]]) {
+    writeFileSync(at(`${name}.html`), whole.slice(0, Math.round(whole.length * share)));
+    const { page } = await openPage(browser, at(`${name}.html`));
+    await expectStill(page, /incomplete/);
+    await page.close();
+  }
+});
+
+await test("a browser without WebGL, or one that loses it, says so and shows the still picture", async () => {
+  const without = await openPage(browser, at("impressionist.html"), {
+    before: () => {
+      HTMLCanvasElement.prototype.getContext = () => null;
+    },
+  });
+  await expectStill(without.page, /no WebGL/);
+  await without.page.close();
+  const { page } = await openPage(browser, at("impressionist.html"));
+  await page.evaluate(() => {
+    const canvas = document.querySelector("wheatstone-picture").shadowRoot.querySelector("canvas");
+    window.lost = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
+    window.lost.loseContext();
+  });
+  await page.waitForTimeout(100);
+  await expectStill(page, /lost/);
+  await page.evaluate(() => window.lost.restoreContext());
+  await page.waitForFunction(() => document.querySelector("wheatstone-picture").matches("[data-shown]"));
+  assert.equal(await alarmOf(page), "");
+  await page.close();
+});
+
+await test("without JavaScript the still picture is shown, with a sentence", async () => {
+  const context = await browser.newContext({ javaScriptEnabled: false });
+  const page = await context.newPage();
+  await page.goto(`file://${at("impressionist.html")}`);
+  assert.ok(await page.locator("wheatstone-picture img").isVisible());
+  assert.match(await page.locator("noscript").innerText(), /JavaScript/);
+  await context.close();
+});
+
+await browser.close();
+if (failures.length > 0) {
+  console.log(`${failures.length} failed`);
+  process.exit(1);
+}

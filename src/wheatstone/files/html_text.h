@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace wheatstone {
+
+/// Text that HTML shows as it is, between tags and in quoted attributes.
+std::string html_text(std::string_view text);
+
+}  // namespace wheatstone

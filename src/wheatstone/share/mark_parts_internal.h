@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/share/page.h"
+
+namespace wheatstone {
+
+/// A mark's reference view and the views in which it may be drawn.
+struct Planned {
+  ViewPosition reference;
+  ViewRange views;
+  friend bool operator==(const Planned&, const Planned&) = default;
+};
+
+/// The kinds of planning that a painting's marks have, in the order in which they were met.
+class Plans {
+ public:
+  std::size_t number_of(const Planned& planned);
+  const std::vector<Planned>& all() const { return plans_; }
+
+ private:
+  std::vector<Planned> plans_;
+};
+
+/// To what a page rounds what it tells of marks.
+struct Rounding {
+  int steps_a_px = 8;   ///< of places and disparities
+  int colour_step = 1;  ///< in levels of 256
+};
+
+/// A layer's strokes, in few bytes. page/strokes.ts reads them.
+PagePart strokes_part(std::string name, const Layer& layer, const Rounding& rounding, Plans& plans);
+
+}  // namespace wheatstone

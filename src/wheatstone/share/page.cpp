@@ -1,0 +1,77 @@
+#include "wheatstone/share/page.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <iterator>
+
+#include "wheatstone/files/base64.h"
+#include "wheatstone/files/html_text.h"
+#include "wheatstone/share/page_code_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// As a Content-Security-Policy names a text.
+std::string source_of(const PageText& text) {
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < text.sha256.size(); i += 2) {
+    unsigned byte = 0;
+    std::from_chars(text.sha256.data() + i, text.sha256.data() + i + 2, byte, 16);
+    bytes.push_back(static_cast<char>(byte));
+  }
+  return fmt::format("'sha256-{}'", base64(bytes));
+}
+
+/// JSON that no text in it can end early: a "<" stands in strings only.
+std::string script_text(std::string_view json) {
+  std::string result;
+  for (const char c : json) {
+    if (c == '<') {
+      result += "\\u003c";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string_view as_text(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+constexpr std::string_view without_script =
+    "This page needs JavaScript to show the depth of the picture, which is shown still without it.";
+
+}  // namespace
+
+std::string html_page(const SharedPicture& picture, const PageWords& words) {
+  const std::string title = html_text(words.title);
+  std::string page;
+  const auto to = std::back_inserter(page);
+  fmt::format_to(to,
+                 "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+                 "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {}; style-src "
+                 "{}; img-src data: blob:; media-src data: blob:; base-uri 'none'; form-action 'none'\">\n"
+                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n",
+                 source_of(page_code), source_of(page_style), title);
+  // The code stands before the data: it can say that they were cut off.
+  fmt::format_to(to, "<style>{}</style>\n<script>{}</script>\n</head><body>\n", page_style.text, page_code.text);
+  fmt::format_to(to,
+                 "<figure>\n<wheatstone-picture src=\"#picture\"><img src=\"data:image/jpeg;base64,{}\" width=\"{}\" "
+                 "height=\"{}\" alt=\"{}\"></wheatstone-picture>\n",
+                 base64(picture.still_jpeg), picture.width, picture.height,
+                 words.description.empty() ? title : html_text(words.description));
+  if (!words.caption.empty()) fmt::format_to(to, "<figcaption>{}</figcaption>\n", html_text(words.caption));
+  fmt::format_to(to, "<noscript><p>{}</p></noscript>\n</figure>\n", without_script);
+  fmt::format_to(to, "<script type=\"application/json\" id=\"picture\">{}</script>\n", script_text(picture.facts));
+  for (const PagePart& part : picture.parts)
+    fmt::format_to(to, "<script type=\"text/plain\" data-part=\"picture/{}\">base64:{}:{}</script>\n", part.name,
+                   part.bytes.size(), base64(as_text(part.bytes)));
+  page += "</body></html>\n";
+  return page;
+}
+
+std::string_view page_element_code() { return page_code.text; }
+
+}  // namespace wheatstone

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "wheatstone/marks/painting.h"
+#include "wheatstone/share/page.h"
+
+namespace wheatstone {
+
+struct SharePaintingOptions {
+  std::string title;
+  std::size_t most_bytes = 1'500'000;  ///< of a page with 640 × 480 pixels, and more for more pixels
+};
+
+/// A painting for a page, which draws its marks for any view. Places of marks are rounded to an eighth of a pixel, or
+/// where the page would be larger than is wanted, to a quarter or half of one, and colours to
+/// two or four levels; what hides them is rounded to a quarter
+/// of a pixel of disparity. Throws Error{bad_input} where the page cannot draw it.
+SharedPicture share_painting(const Painting& painting, const SharePaintingOptions& options);
+
+}  // namespace wheatstone
