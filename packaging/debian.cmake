@@ -62,7 +62,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libopencv-dev, libopencv-contrib-dev, libopenimageio-dev, openimageio-tools, liblcms2-dev, libheif-dev, \
 libwebp-dev, libepoxy-dev, libtbb-dev, libhwy-dev, zlib1g-dev, libhdf5-dev, libcfitsio-dev, libzip-dev, libnanoflann-dev, \
 libfftw3-dev, libavformat-dev, libavcodec-dev, libavutil-dev, libswscale-dev, libtomlplusplus-dev, libfmt-dev, \
-nlohmann-json3-dev, libflatbuffers-dev")
+libboost-dev, libeigen3-dev, nlohmann-json3-dev, libflatbuffers-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "The static library of Wheatstone, its headers, and what CMake's
 find_package(Wheatstone) reads.")

@@ -59,5 +59,29 @@ TEST(StudyCommand, ADesignIsCopiedToBeChanged) {
   expect_refused(folder, {"study", "design", "mine.toml", "-o", "mine.toml"}, 3, "31 subjects");
 }
 
+TEST(StudyCommand, ASimulatedStudyIsAnalysed) {
+  const TemporaryFolder folder;
+  const ProgramRun here{.folder = folder / ""};
+  ASSERT_EQ(
+      run_program({"study", "simulate", "path-searching-2", "--effect", "views_per_10cm=2:9", "-o", "data", "--quiet"},
+                  here)
+          .exit_code,
+      0);
+  const ProgramResult result = run_program({"study", "analyse", "data", "-o", "out", "--json"}, here);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto facts = nlohmann::json::parse(result.output);
+  EXPECT_EQ(facts["simulated"], true);
+  EXPECT_EQ(facts["trials"], 1500);
+  EXPECT_LT(facts["measures"]["response_time"]["by_subjects"][0]["p"], 1e-4);
+  EXPECT_EQ(facts["measures"]["response_time"]["by_subjects"][0]["df"], (std::vector<double>{4, 56}));
+  EXPECT_THAT(files_in(folder / "out"),
+              testing::UnorderedElementsAre("analysis.html", "comparisons.tsv", "effects.tsv", "head_movement.tsv",
+                                            "means.tsv", "questions.tsv"));
+  expect_refused(folder, {"study", "simulate", "painting-comfort", "-o", "data"}, 3, "holds data of another design");
+  expect_refused(folder, {"study", "analyse", "out"}, 3, "out: is no study");
+  expect_refused(folder, {"study", "simulate", "path-searching-2", "--effect", "depth"}, 2,
+                 "--effect: is 'depth', expected FACTOR=LEVEL:SECONDS");
+}
+
 }  // namespace
 }  // namespace wheatstone

@@ -13,11 +13,13 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include "cli/view_arguments.h"
 #include "end_signals.h"
 #include "kept_settings.h"
+#include "study.h"
 #include "viewer/command_table.h"
 #include "viewer/control.h"
 #include "wheatstone/display/looking_glass_bridge.h"
@@ -131,6 +133,16 @@ int run(const ViewArguments& arguments) {
 int main(int argc, char** argv) {
   cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  // What Qt's platforms lack is not told; what goes wrong here is one line of ours.
+  qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
+  if (argc > 1 && std::string_view(argv[1]) == "study") {
+    try {
+      return run_study(argc - 1, argv + 1);
+    } catch (const Error& error) {
+      fmt::print(stderr, "wheatstone: {}\n", error.what());
+      return static_cast<int>(error.kind());
+    }
+  }
   CLI::App program("Look at paintings, photographs, slices and particles in a window", "wheatstone-view");
   ViewArguments arguments;
   cli::add_view_options(program, arguments);
@@ -153,8 +165,6 @@ int main(int argc, char** argv) {
       write_bridge_calibration(arguments.bridge_calibration);
       return 0;
     }
-    // What Qt's platforms lack is not told; what goes wrong here is one line of ours.
-    qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
     choose_platform(arguments);
     int none = 1;
     const QApplication application(none, argv);

@@ -236,7 +236,7 @@ void check_whole(const Table& table, const StudyDesign& design) {
   std::set<std::string> names;
   for (const StudyFactor& factor : design.factors)
     if (!names.insert(factor.name).second) table.refuse("factor", fmt::format("'{}' once only", factor.name));
-  const int trials = static_cast<int>(conditions_of_group(design, 0).size()) * design.repetitions;
+  const int trials = condition_count(design) * design.repetitions;
   if (design.item_count < trials)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: {} trials need as many items, which are met once each, and there are {}",
@@ -266,7 +266,7 @@ StudyDesign parse_study_design(std::string_view toml, std::string_view name) {
     read_texts(table.table("texts"), design.texts);
     read_pictures(table.table("pictures"), design);
     if (design.item_count == 0 && !design.factors.empty())
-      design.item_count = static_cast<int>(conditions_of_group(design, 0).size()) * design.repetitions;
+      design.item_count = condition_count(design) * design.repetitions;
     check_whole(table, design);
   } catch (const toml::parse_error& error) {
     throw Error(ErrorKind::bad_input,

@@ -118,6 +118,14 @@ int combination_count(const StudyDesign& design, bool between) {
   return count;
 }
 
+/// The conditions that are combinations of the factors. Where all factors are between subjects, controls may stand
+/// alone.
+int crossed_count(const StudyDesign& design) {
+  const bool has_within =
+      std::ranges::any_of(design.factors, [](const StudyFactor& factor) { return !factor.between; });
+  return has_within || design.controls.empty() ? combination_count(design, false) : 0;
+}
+
 StudyCondition factor_condition(const StudyDesign& design, int group, int number) {
   const std::vector<const FactorLevel*> of_group = combination(design, true, group);
   const std::vector<const FactorLevel*> own = combination(design, false, number);
@@ -152,13 +160,14 @@ void apply_setting(std::string_view name, const std::string& value, ShownSetting
 
 int group_count(const StudyDesign& design) { return combination_count(design, true); }
 
+int condition_count(const StudyDesign& design) {
+  return crossed_count(design) + static_cast<int>(design.controls.size());
+}
+
 std::vector<StudyCondition> conditions_of_group(const StudyDesign& design, int group) {
-  const bool has_within =
-      std::ranges::any_of(design.factors, [](const StudyFactor& factor) { return !factor.between; });
   std::vector<StudyCondition> conditions;
-  if (has_within || design.controls.empty())
-    for (int number = 0; number < combination_count(design, false); ++number)
-      conditions.push_back(factor_condition(design, group, number));
+  for (int number = 0; number < crossed_count(design); ++number)
+    conditions.push_back(factor_condition(design, group, number));
   for (const ControlCondition& control : design.controls) {
     StudyCondition condition{.name = control.name, .is_control = true};
     condition.levels.assign(design.factors.size(), "n/a");
@@ -170,7 +179,7 @@ std::vector<StudyCondition> conditions_of_group(const StudyDesign& design, int g
 
 bool is_connected(const StudyDesign& design, int item) {
   // Conditions are dealt out to the items in turn.
-  const int conditions = static_cast<int>(conditions_of_group(design, 0).size());
+  const int conditions = condition_count(design);
   return (item / conditions + item % conditions) % 2 == 0;
 }
 

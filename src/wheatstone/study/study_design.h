@@ -109,6 +109,8 @@ struct StudyCondition {
 
 /// The combinations of the levels of the factors between subjects; one where there are none.
 int group_count(const StudyDesign& design);
+/// How many conditions each subject meets.
+int condition_count(const StudyDesign& design);
 /// Those that a subject of the group meets, the last factor's levels in turn first, then the controls.
 std::vector<StudyCondition> conditions_of_group(const StudyDesign& design, int group);
 

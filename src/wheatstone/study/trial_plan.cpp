@@ -22,8 +22,7 @@ struct Numbers {
 };
 
 Numbers numbers_of(const StudyDesign& design) {
-  return {design.subjects / group_count(design), static_cast<int>(std::ssize(conditions_of_group(design, 0))),
-          design.repetitions, design.item_count};
+  return {design.subjects / group_count(design), condition_count(design), design.repetitions, design.item_count};
 }
 
 OrderSquare square_of(TrialOrder order, const Numbers& numbers) {

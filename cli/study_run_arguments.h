@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace wheatstone::cli {
+
+/// How a session is to be run, as it is typed.
+struct StudyRunArguments {
+  std::string design;
+  std::string folder = "study";
+  int subject = 1;
+  std::string mode = "red-cyan";
+  double screen_width_mm = 0;  ///< 0: as the screen tells
+  double card_px = 0;          ///< width of a bank card held to the screen; 0: not measured
+  double distance_mm = 700;
+  double eye_separation_mm = 65;
+  int tracker_port = -1;  ///< none
+  bool pointer = false, opengl = false, no_opengl = false;
+  std::string size;  ///< of a window instead of the full screen
+};
+
+/// Adds the options of `wheatstone study run`, which the window's own program takes as well.
+void add_study_run_options(CLI::App& command, StudyRunArguments& arguments);
+
+/// The words that add_study_run_options understands as these arguments.
+std::vector<std::string> study_run_words(const StudyRunArguments& arguments);
+
+/// Width of a screen of so many pixels, in mm, where it was given or measured by a card; 0 where neither.
+double screen_width_mm(const StudyRunArguments& arguments, int width_px);
+
+}  // namespace wheatstone::cli

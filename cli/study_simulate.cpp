@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "number_arguments.h"
+#include "output_option.h"
+#include "print_facts.h"
+#include "study_kinds.h"
+#include "typed_options.h"
+#include "wheatstone/error.h"
+#include "wheatstone/study/simulate.h"
+#include "wheatstone/study/study_folder.h"
+
+namespace wheatstone::cli {
+namespace {
+
+struct Arguments {
+  std::string design;
+  std::optional<int> subjects;
+  int studies = 0;
+  std::vector<std::string> effects;
+  SimulatedObservers observers;
+  std::string folder = "simulated";
+};
+
+/// "depth_cm=10:-1.24" or "depth_cm=10:-1.24:0.04".
+SimulatedEffect parse_effect(const std::string& text) {
+  const std::size_t equals = text.find('='), colon = text.find(':', equals);
+  if (equals == std::string::npos || colon == std::string::npos)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--effect: is '{}', expected FACTOR=LEVEL:SECONDS or FACTOR=LEVEL:SECONDS:SHARE", text));
+  const std::size_t second = text.find(':', colon + 1);
+  SimulatedEffect effect{text.substr(0, equals), text.substr(equals + 1, colon - equals - 1)};
+  effect.seconds = parse_number(
+      "--effect", text.substr(colon + 1, second == std::string::npos ? second : second - colon - 1), {-1000, 1000});
+  if (second != std::string::npos) effect.share = parse_number("--effect", text.substr(second + 1), {-10, 10});
+  return effect;
+}
+
+/// How often that many studies find each effect; nothing is written.
+void print_power(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
+  const std::vector<SimulatedPower> power = simulated_power(
+      design, arguments.observers, {.subjects = subjects, .studies = arguments.studies, .seed = session.seed});
+  if (session.json) {
+    nlohmann::ordered_json effects = nlohmann::ordered_json::array();
+    for (const SimulatedPower& one : power)
+      effects.push_back({{"measure", one.measure}, {"effect", one.effect}, {"share", one.share}});
+    print_facts({{"simulated", true}, {"subjects", subjects}, {"studies", arguments.studies}, {"found", effects}},
+                session);
+    return;
+  }
+  fmt::print(session.output, "{} simulated studies of {} subjects; share that finds an effect at the 5 % level:\n",
+             arguments.studies, subjects);
+  for (const SimulatedPower& one : power)
+    fmt::print(session.output, "  {} on {}: {:.3f}\n", one.effect, one.measure, one.share);
+}
+
+void write_data(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
+  const StudyFolder folder(arguments.folder, design, true);
+  for (int subject = 0; subject < subjects; ++subject) {
+    report(session.progress, "simulating", static_cast<double>(subject) / subjects);
+    write_subject(folder, simulate_subject(design, arguments.observers, subject, session.seed));
+  }
+  if (session.json)
+    print_facts({{"simulated", true}, {"folder", arguments.folder}, {"subjects", subjects}, {"seed", session.seed}},
+                session);
+  else
+    fmt::print(session.output, "{} simulated subjects written to {}\n", subjects, arguments.folder);
+}
+
+void run(Arguments arguments, const Session& session) {
+  const StudyDesign design = load_study_design(arguments.design);
+  for (const std::string& effect : arguments.effects) arguments.observers.effects.push_back(parse_effect(effect));
+  check_effects(design, arguments.observers);
+  const int subjects = arguments.subjects.value_or(design.subjects);
+  if (arguments.studies > 0)
+    print_power(design, arguments, subjects, session);
+  else
+    write_data(design, arguments, subjects, session);
+}
+
+}  // namespace
+
+void add_study_simulate(CLI::App& study, const Session& session) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& command = *study.add_subcommand(
+      "simulate", "Let simulated observers answer: to try an analysis, or how many subjects are needed");
+  command.fallthrough();
+  command.add_option("design", arguments->design, "Design, as for study design")
+      ->required()
+      ->type_name("NAME|FILE.toml");
+  CLI::Option* const output = add_output_option(command, arguments->folder, "Folder of the data, marked as simulated");
+  add_number(command, "--subjects", arguments->subjects, {1, 10'000}, "Number of subjects; the design's if not given");
+  add_number(command, "--studies", arguments->studies, {0, 1'000'000},
+             "Simulate that many studies, write none of them, and tell how often each effect is found")
+      ->excludes(output);
+  command
+      .add_option(
+          "--effect", arguments->effects,
+          "FACTOR=LEVEL:SECONDS[:SHARE]: what a level adds to response times, and to the probability of a right "
+          "answer or to ratings; may be given several times")
+      ->type_name("EFFECT");
+  SimulatedObservers& observers = arguments->observers;
+  add_number(command, "--time", observers.response_time_s, {0.5, 1000}, "Mean response time in seconds");
+  add_number(command, "--noise", observers.noise_s, {0, 1000}, "Standard deviation of a subject's response times");
+  add_number(command, "--between", observers.between_subjects_s, {0, 1000},
+             "Standard deviation of subjects' mean times");
+  add_number(command, "--correct", observers.correct, {0, 1}, "Probability of a right answer");
+  add_number(command, "--lapses", observers.lapses, {0, 1}, "Share of trials answered by chance");
+  command.footer(
+      "Examples:\n"
+      "  wheatstone study simulate path-searching-1 --effect depth_cm=10:-1.24:0.04 -o data\n"
+      "  wheatstone study simulate path-searching-2 --subjects 15 --effect views_per_10cm=8:-3 --studies 200");
+  command.callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace wheatstone::cli

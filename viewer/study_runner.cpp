@@ -1,0 +1,221 @@
+#include "study_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/study/draw_graph.h"
+#include "wheatstone/study/trial_table.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 26;
+constexpr std::string_view head_header = "trial\ttime\tx\tobserver\n";
+
+bool is_digit(const std::string& name) { return name.size() == 1 && name[0] >= '0' && name[0] <= '9'; }
+
+/// "1 … 5", with what its ends mean.
+std::string scale_text(int least, int most, const std::string& least_means, const std::string& most_means) {
+  const auto end = [](int number, const std::string& means) {
+    return means.empty() ? fmt::format("{}", number) : fmt::format("{} ({})", number, means);
+  };
+  return fmt::format("{} … {}", end(least, least_means), end(most, most_means));
+}
+
+/// A picture in the middle of a grey one of the screen's size, reduced to whole shares where it is too large.
+Image<Rgb8> in_the_middle(const Image<Rgb8>& picture, const StudyScreen& screen) {
+  const int by = std::max({1, (picture.width() + screen.width_px - 1) / screen.width_px,
+                           (picture.height() + screen.height_px - 1) / screen.height_px});
+  const int width = picture.width() / by, height = picture.height() / by;
+  Image<Rgb8> framed(screen.width_px, screen.height_px, {64, 64, 64});
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      framed((screen.width_px - width) / 2 + x, (screen.height_px - height) / 2 + y) = picture(x * by, y * by);
+  return framed;
+}
+
+}  // namespace
+
+StudyRunner::StudyRunner(const StudyFolder& folder, int subject, const StudyScreen& screen)
+    : folder_(folder), screen_(screen) {
+  const StudyDesign& design = folder.design();
+  if (subject < 0 || subject >= design.subjects)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("subject: is {}, expected a number from 1 to {}", subject + 1, design.subjects));
+  folder.make_stimuli(screen);
+  folder.add_participant(subject);
+  conditions_ = conditions_of_group(design, group_of_subject(design, subject));
+  trials_ = plan_trials(design, subject);
+  log_ = std::make_unique<TrialLog>(folder.trial_table(subject), trial_table_header(design));
+  head_log_ = std::make_unique<TrialLog>(folder.head_path(subject), head_header);
+  records_ = read_subject(folder, subject);
+  if (records_.trials.empty()) return;
+  // Practice is over, and these trials are done.
+  next_ = std::min(trials_.size(), static_cast<std::size_t>(design.practice) + records_.trials.size());
+  question_ = std::min(records_.answers.size(), design.questions.size());
+  if (next_ == trials_.size() && question_ == design.questions.size()) page_ = Page::end;
+}
+
+std::string StudyRunner::text() const {
+  const StudyDesign& design = folder_.design();
+  switch (page_) {
+    case Page::instruction:
+      return design.texts.instruction;
+    case Page::practice_ends:
+      return design.texts.practice_ends;
+    case Page::pause:
+      return design.texts.pause;
+    case Page::question: {
+      const StudyQuestion& question = design.questions[question_];
+      return question.text + "\n\n" +
+             scale_text(question.least, question.most, question.least_means, question.most_means);
+    }
+    case Page::thanks:
+      return design.texts.thanks;
+    default:
+      return {};
+  }
+}
+
+int StudyRunner::counted() const { return std::max(0, static_cast<int>(next_) - folder_.design().practice); }
+
+std::string StudyRunner::progress() const {
+  const std::string subject = "sub-" + subject_label(folder_.design(), records_.number);
+  const int all = static_cast<int>(trials_.size()) - folder_.design().practice;
+  if (page_ == Page::end) return fmt::format("{}: finished", subject);
+  if (next_ < trials_.size() && planned().practice) return fmt::format("{}: practice", subject);
+  return fmt::format("{}: {} of {} trials done", subject, counted(), all);
+}
+
+StereoPair StudyRunner::draw() const {
+  const StudyDesign& design = folder_.design();
+  const StudyCondition& condition = conditions_[static_cast<std::size_t>(planned().condition)];
+  const std::vector<std::string> files = stimulus_files(design, planned().item, condition);
+  const auto path = [&](std::size_t i) { return folder_.stimuli() / files[i]; };
+  if (design.items.empty()) {
+    const PathGraph graph = graph_from_json(read_whole_file(path(0), most_bytes), path(0).string());
+    return draw_for_eyes(graph, screen_, condition.shown.display,
+                         {static_cast<float>(head_mm_), screen_.viewing_distance_mm});
+  }
+  StereoPair pair;
+  pair.left = in_the_middle(read_image(path(0)), screen_);
+  const bool flat = files.size() < 2 || condition.shown.display.monoscopic;
+  pair.right = flat ? pair.left : in_the_middle(read_image(path(1)), screen_);
+  return pair;
+}
+
+bool StudyRunner::views_changed() {
+  if (page_ != Page::trial || !folder_.design().items.empty()) return false;
+  const SimulatedDisplay& display = conditions_[static_cast<std::size_t>(planned().condition)].shown.display;
+  const auto shown = shown_views(display, screen_, {static_cast<float>(head_mm_), screen_.viewing_distance_mm});
+  const bool changed = shown[0].view != seen_[0].view || shown[1].view != seen_[1].view;
+  seen_ = shown;
+  return changed;
+}
+
+void StudyRunner::shown(double time_s) {
+  if (shown_s_) return;
+  shown_s_ = time_s;
+  head_at(head_mm_, time_s);
+}
+
+void StudyRunner::head_at(double x_mm, double time_s) {
+  head_mm_ = x_mm;
+  if (page_ != Page::trial || !shown_s_) return;
+  const double x_m = x_mm / 1000;
+  now_.head_least_m = std::isnan(now_.head_least_m) ? x_m : std::min(now_.head_least_m, x_m);
+  now_.head_most_m = std::isnan(now_.head_most_m) ? x_m : std::max(now_.head_most_m, x_m);
+  if (!planned().practice)
+    head_path_ += fmt::format("{}\t{:.6f}\t{:.4f}\tperson\n", counted() + 1, time_s - *shown_s_, x_m);
+}
+
+bool StudyRunner::key(const std::string& name, double pressed_s, double noted_s) {
+  // What was pressed before the page was seen does not answer it.
+  if (!shown_s_ || pressed_s < *shown_s_) return false;
+  if (page_ == Page::trial) return answer_trial(name, pressed_s, noted_s);
+  if (page_ == Page::question) return answer_question(name);
+  if (name != "space") return false;
+  if (page_ == Page::thanks) {
+    page_ = Page::end;
+  } else if (page_ != Page::end) {
+    if (next_ < trials_.size())
+      begin_trial();
+    else
+      go_to_question_or_end();
+  }
+  return true;
+}
+
+bool StudyRunner::answer_trial(const std::string& name, double pressed_s, double noted_s) {
+  const StudyDesign& design = folder_.design();
+  if (design.task == StudyTask::path) {
+    if (name != "y" && name != "n") return false;
+    record(name == "y" ? 1 : 0, pressed_s, noted_s);
+  } else {
+    if (!is_digit(name) || name[0] - '0' < design.scale_least || name[0] - '0' > design.scale_most) return false;
+    record(name[0] - '0', pressed_s, noted_s);
+  }
+  ++next_;
+  go_to_trial_or_on();
+  return true;
+}
+
+void StudyRunner::record(int response, double pressed_s, double noted_s) {
+  if (planned().practice) return;
+  now_.trial = counted() + 1;
+  now_.condition = planned().condition;
+  now_.item = planned().item;
+  now_.response = response;
+  now_.response_time_s = pressed_s - *shown_s_;
+  now_.log_delay_s = noted_s - pressed_s;
+  log_->append(trial_table_row(folder_.design(), records_.number, now_, folder_.simulated()));
+  records_.trials.push_back(now_);
+  if (!head_path_.empty()) head_log_->append(head_path_);
+}
+
+void StudyRunner::go_to_trial_or_on() {
+  const int pause_every = folder_.design().break_every;
+  shown_s_.reset();
+  if (next_ == trials_.size())
+    go_to_question_or_end();
+  else if (!planned().practice && trials_[next_ - 1].practice)
+    page_ = Page::practice_ends;
+  else if (!planned().practice && pause_every > 0 && counted() % pause_every == 0)
+    page_ = Page::pause;
+  else
+    begin_trial();
+}
+
+void StudyRunner::begin_trial() {
+  page_ = Page::trial;
+  shown_s_.reset();
+  now_ = {};
+  head_path_.clear();
+  seen_ = {};
+}
+
+void StudyRunner::go_to_question_or_end() {
+  shown_s_.reset();
+  const bool asks = question_ < folder_.design().questions.size();
+  page_ = asks ? Page::question : Page::thanks;
+  if (asks) return;
+  log_->finish();
+  head_log_->finish();
+}
+
+bool StudyRunner::answer_question(const std::string& name) {
+  const StudyQuestion& question = folder_.design().questions[question_];
+  if (!is_digit(name) || name[0] - '0' < question.least || name[0] - '0' > question.most) return false;
+  records_.answers.emplace_back(question.name, name[0] - '0');
+  folder_.write_answers(records_);
+  ++question_;
+  go_to_question_or_end();
+  return true;
+}
+
+}  // namespace wheatstone::viewer

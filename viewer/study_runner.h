@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wheatstone/stereo/stereo_pair.h"
+#include "wheatstone/study/simulated_display.h"
+#include "wheatstone/study/study_folder.h"
+#include "wheatstone/study/trial_plan.h"
+
+namespace wheatstone::viewer {
+
+/// A subject's session, from the instruction to the last question: what is on the screen, and what keys and the head
+/// do. Knows no window system. Times are of one clock that never goes back, in s. A session that was broken off goes on
+/// with its first trial without an answer.
+class StudyRunner {
+ public:
+  /// Throws Error as StudyFolder and TrialLog do, and Error{bad_input} where a stimulus is missing or the subject has
+  /// no row in the design.
+  StudyRunner(const StudyFolder& folder, int subject, const StudyScreen& screen);
+
+  /// What subjects read now; empty while a stimulus is shown.
+  std::string text() const;
+  bool shows_stimulus() const { return page_ == Page::trial; }
+  bool is_finished() const { return page_ == Page::end; }
+  /// For the experimenter: "sub-01: trial 12 of 78", without answers.
+  std::string progress() const;
+
+  /// Both eyes' pictures of the stimulus, for the head's place. Throws Error{bad_input}.
+  StereoPair draw() const;
+  /// Whether the eyes see other views than when this was last asked.
+  bool views_changed();
+
+  /// The screen has shown the page's first frame.
+  void shown(double time_s);
+  /// A key that was pressed at one time and came to the program at another: "space", or a letter or digit. True where
+  /// it changed what is shown. Throws Error{cannot_read_write} where the answer cannot be written; see TrialLog.
+  bool key(const std::string& name, double pressed_s, double noted_s);
+  /// The head is here, in mm to the right of the screen's middle.
+  void head_at(double x_mm, double time_s);
+
+ private:
+  enum class Page { instruction, trial, practice_ends, pause, question, thanks, end };
+
+  const PlannedTrial& planned() const { return trials_[next_]; }
+  bool answer_trial(const std::string& name, double pressed_s, double noted_s);
+  bool answer_question(const std::string& name);
+  void record(int response, double pressed_s, double noted_s);
+  void go_to_trial_or_on();
+  void go_to_question_or_end();
+  void begin_trial();
+  /// How many trials that count lie before the next one.
+  int counted() const;
+
+  const StudyFolder& folder_;
+  StudyScreen screen_;
+  std::vector<StudyCondition> conditions_;
+  std::vector<PlannedTrial> trials_;
+  std::size_t next_ = 0;
+  SubjectRecords records_;
+  std::unique_ptr<TrialLog> log_, head_log_;
+  Page page_ = Page::instruction;
+  std::size_t question_ = 0;
+  std::optional<double> shown_s_;
+  double head_mm_ = 0;
+  TrialRecord now_;        ///< of the trial that is shown
+  std::string head_path_;  ///< its lines
+  std::array<ShownView, 2> seen_{};
+};
+
+}  // namespace wheatstone::viewer

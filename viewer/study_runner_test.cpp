@@ -1,0 +1,147 @@
+#include "study_runner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "temporary_folder.h"
+#include "throws_error.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr StudyScreen small{.width_px = 80, .height_px = 60};
+
+/// Four trials after one for practice, a pause after each second, one question.
+StudyDesign small_design() {
+  return parse_study_design(
+      "name = 'small'\ntask_label = 'paths'\nsubjects = 4\nrepetitions = 2\npractice = 1\nbreak_every = 2\n"
+      "[shown]\nnodes = 30\n[texts]\ninstruction = 'Look.'\npause = 'Rest.'\nthanks = 'Thank you.'\n"
+      "[[factor]]\nname = 'views_per_10cm'\nlevels = [0, 8]\n"
+      "[[question]]\nname = 'tired'\ntext = 'Tired?'\nleast_means = 'no'\nmost_means = 'yes'\n",
+      "small.toml");
+}
+
+class StudySession : public testing::Test {
+ protected:
+  /// Begins the session again, as after the machine died.
+  void begin() { runner_ = std::make_unique<StudyRunner>(study_, 1, small); }
+  StudyRunner& runner() { return *runner_; }
+  /// A page is seen, and a key pressed two seconds later.
+  bool press(const std::string& name) {
+    runner_->shown(now_s_);
+    now_s_ += 2;
+    return runner_->key(name, now_s_, now_s_ + 0.003);
+  }
+  void press_all(std::initializer_list<const char*> names) {
+    for (const char* name : names) EXPECT_TRUE(press(name)) << name;
+  }
+  const StudyFolder& study() const { return study_; }
+
+  double now_s_ = 100;
+
+ private:
+  TemporaryFolder folder_;
+  StudyFolder study_{folder_ / "data", small_design(), false};
+  std::unique_ptr<StudyRunner> runner_;
+};
+
+TEST_F(StudySession, GoesFromTheInstructionToTheLastQuestion) {
+  begin();
+  EXPECT_EQ(runner().text(), "Look.");
+  press_all({"space"});
+  EXPECT_TRUE(runner().shows_stimulus());
+  EXPECT_EQ(runner().progress(), "sub-02: practice");
+  press_all({"y"});
+  EXPECT_THAT(runner().text(), HasSubstr("practice is over"));
+  press_all({"space", "n", "y"});
+  EXPECT_EQ(runner().text(), "Rest.");
+  EXPECT_EQ(runner().progress(), "sub-02: 2 of 4 trials done");
+  press_all({"space", "y", "n"});
+  EXPECT_EQ(runner().text(), "Tired?\n\n1 (no) … 5 (yes)");
+  EXPECT_FALSE(press("6")) << "is not on the scale";
+  press_all({"4"});
+  EXPECT_EQ(runner().text(), "Thank you.");
+  press_all({"space"});
+  EXPECT_TRUE(runner().is_finished());
+  const StudyData data = read_study(study().path());
+  ASSERT_EQ(data.subjects.size(), 1u);
+  EXPECT_EQ(data.subjects[0].trials.size(), 4u);
+  EXPECT_EQ(data.subjects[0].answers.at(0).second, 4);
+  EXPECT_FALSE(data.simulated);
+}
+
+TEST_F(StudySession, TimesAreFromTheShownFrameToTheKey) {
+  begin();
+  press_all({"space", "y", "space"});
+  runner().shown(200);
+  runner().shown(200.5);
+  EXPECT_FALSE(runner().key("y", 199.9, 200.1)) << "was pressed before the stimulus was seen";
+  EXPECT_FALSE(runner().key("x", 201, 201)) << "is no answer";
+  EXPECT_TRUE(runner().key("y", 203.25, 203.262));
+  const TrialRecord record = read_subject(study(), 1).trials.at(0);
+  EXPECT_DOUBLE_EQ(record.response_time_s, 3.25);
+  EXPECT_NEAR(record.log_delay_s, 0.012, 1e-6);
+  EXPECT_EQ(record.response, 1);
+}
+
+TEST_F(StudySession, TheHeadsPathIsRecorded) {
+  begin();
+  press_all({"space", "y", "space"});
+  runner().head_at(500, 199);
+  runner().head_at(10, 199.5);
+  runner().shown(200);
+  runner().head_at(-80, 200.5);
+  runner().head_at(40, 201);
+  EXPECT_TRUE(runner().key("n", 203, 203));
+  const TrialRecord record = read_subject(study(), 1).trials.at(0);
+  EXPECT_DOUBLE_EQ(record.head_least_m, -0.08) << "what was before the stimulus does not count";
+  EXPECT_DOUBLE_EQ(record.head_most_m, 0.04);
+  EXPECT_THAT(bytes_of(study().head_path(1)), HasSubstr("1\t0.500000\t-0.0800\tperson\n1\t1.000000\t0.0400"));
+}
+
+TEST_F(StudySession, GoesOnWhereItStopped) {
+  begin();
+  press_all({"space", "y", "space", "n"});
+  begin();
+  EXPECT_EQ(runner().progress(), "sub-02: 1 of 4 trials done") << "without practice";
+  press_all({"space", "y", "space", "y", "n"});
+  begin();
+  press_all({"space", "4", "space"});
+  std::set<int> items;
+  for (const TrialRecord& record : read_subject(study(), 1).trials) items.insert(record.item);
+  EXPECT_EQ(items.size(), 4u) << "each trial once";
+  begin();
+  EXPECT_TRUE(runner().is_finished());
+}
+
+TEST_F(StudySession, DrawsAgainWhereTheHeadComesToAnotherView) {
+  begin();
+  press_all({"space", "y", "space"});
+  int fixed = 0, moving = 0;
+  for (int trial = 0; trial < 2; ++trial) {
+    EXPECT_TRUE(runner().views_changed()) << "the first frame";
+    const StereoPair middle = runner().draw();
+    runner().head_at(3, 0);
+    EXPECT_FALSE(runner().views_changed()) << "still the nearest view";
+    runner().head_at(60, 0);
+    const bool changed = runner().views_changed();
+    EXPECT_EQ(changed, runner().draw().left != middle.left);
+    ++(changed ? moving : fixed);
+    runner().head_at(0, 0);
+    press("y");
+  }
+  EXPECT_EQ(fixed, 1) << "the condition of no views along the movement";
+  EXPECT_EQ(moving, 1);
+}
+
+TEST_F(StudySession, ASubjectThatTheDesignDoesNotHaveIsRefused) {
+  expect_error(ErrorKind::bad_input, "subject: is 5, expected a number from 1 to 4",
+               [&] { StudyRunner(study(), 4, small); });
+}
+
+}  // namespace
+}  // namespace wheatstone::viewer
