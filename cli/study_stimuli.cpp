@@ -52,7 +52,8 @@ void write_graph(const Arguments& arguments, int number, const OutputFolder& fol
       .nodes = arguments.nodes,
       .placement = arguments.kind == Kind::volume ? GraphPlacement::volume : GraphPlacement::planes,
       .depth_mm = arguments.depth_mm,
-      .viewing_distance_mm = arguments.screen.viewing_distance_mm};
+      .viewing_distance_mm = arguments.screen.viewing_distance_mm,
+      .eye_separation_mm = arguments.screen.eye_separation_mm};
   const PathGraph graph =
       make_path_graph(options, hash_keys({session.seed, static_cast<std::uint64_t>(number)}), number % 2 == 0);
   write_whole_file(folder.file(fmt::format("graph_{:03}.json", number)), graph_json(graph));

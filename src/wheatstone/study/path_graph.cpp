@@ -16,10 +16,15 @@ namespace {
 /// A node as the central view shows it on the screen: a disc.
 struct Disc {
   float x, y, radius;
+  float right_mm;  ///< so far to the right does the right eye see it on the screen, and the left eye to the left
 };
 
+/// Whether two discs come closer than the gap in the view of an eye or in the central one.
 bool touch(const Disc& a, const Disc& b, float gap) {
-  return std::hypot(a.x - b.x, a.y - b.y) < a.radius + b.radius + gap;
+  const float apart = b.right_mm - a.right_mm;
+  for (const float eye : {-1.0f, 0.0f, 1.0f})
+    if (std::hypot(b.x - a.x + eye * apart, b.y - a.y) < a.radius + b.radius + gap) return true;
+  return false;
 }
 
 void check(const PathGraphOptions& options) {
@@ -45,11 +50,12 @@ std::optional<Disc> free_disc(const PathGraphOptions& options, float depth_mm, c
   const float scale = options.viewing_distance_mm / (options.viewing_distance_mm + depth_mm);
   // The outline of a sphere is a little larger than its radius at its depth.
   const float radius = options.node_radius_mm * scale * 1.02f;
+  const float right_mm = options.eye_separation_mm / 2 * depth_mm / (options.viewing_distance_mm + depth_mm);
   const bool may_hide = options.placement == GraphPlacement::volume;
   constexpr int most_trials = 2000;
   for (int trial = 0; trial < most_trials; ++trial) {
     const Disc disc{(lots.unit() - 0.5f) * (options.width_mm - 2 * radius),
-                    (lots.unit() - 0.5f) * (options.height_mm - 2 * radius), radius};
+                    (lots.unit() - 0.5f) * (options.height_mm - 2 * radius), radius, right_mm};
     const auto is_near = [&](const Disc& other) { return touch(disc, other, options.node_radius_mm / 4); };
     if (may_hide || std::ranges::none_of(taken, is_near)) return disc;
   }

@@ -22,11 +22,14 @@ using testing::FloatNear;
 constexpr int seeds = 1000;
 const StudyScreen screen;
 
-/// Whether the central eye sees two spheres' outlines overlap, by the angle between them and their apparent radii.
-bool hide_each_other(const PathGraph& graph, std::size_t a, std::size_t b, float distance_mm) {
+/// Whether an eye sees two spheres' outlines overlap, by the angle between them and their apparent radii.
+bool hide_each_other(const PathGraph& graph, std::size_t a, std::size_t b, const EyePlace& eye) {
+  // What is far apart is not worth a closer look.
+  if (std::abs(graph.nodes[a][0] - graph.nodes[b][0]) + std::abs(graph.nodes[a][1] - graph.nodes[b][1]) > 80)
+    return false;
   const auto from_eye = [&](std::size_t node) {
     const PlaceMm& place = graph.nodes[node];
-    return std::array<double, 3>{place[0], place[1], place[2] + distance_mm};
+    return std::array<double, 3>{place[0] - eye.x_mm, place[1], place[2] + eye.distance_mm};
   };
   const auto p = from_eye(a), q = from_eye(b);
   const double length_p = std::hypot(p[0], p[1], p[2]), length_q = std::hypot(q[0], q[1], q[2]);
@@ -56,7 +59,8 @@ std::string broken_rule(const PathGraph& graph, const PathGraphOptions& options)
   if (has_path_of_two(graph) != graph.connected) return "the answer";
   for (std::size_t a = 0; a < graph.nodes.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      if (hide_each_other(graph, a, b, options.viewing_distance_mm)) return "occlusion";
+      for (const float x_mm : {0.0f, -options.eye_separation_mm / 2, options.eye_separation_mm / 2})
+        if (hide_each_other(graph, a, b, {x_mm, options.viewing_distance_mm})) return "occlusion";
   return "";
 }
 

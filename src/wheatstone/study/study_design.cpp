@@ -187,7 +187,8 @@ PathGraph graph_of_item(const StudyDesign& design, int item, const ShownSettings
   const PathGraphOptions options{.nodes = shown.nodes,
                                  .placement = shown.placement,
                                  .depth_mm = shown.depth_mm,
-                                 .viewing_distance_mm = screen.viewing_distance_mm};
+                                 .viewing_distance_mm = screen.viewing_distance_mm,
+                                 .eye_separation_mm = screen.eye_separation_mm};
   return make_path_graph(options, hash_keys({design.seed, static_cast<std::uint64_t>(item)}),
                          is_connected(design, item));
 }
