@@ -280,6 +280,11 @@ void refuse_for_one_eye(const CLI::App& command, const FilmFiles& film, const Ro
 void run(Arguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.style = style_from(arguments.style, session.seed);
   arguments.options.frames.matching = match_options_from(arguments.matching);
+  // Whoever chooses a method of matching has each frame matched by it.
+  arguments.options.frames.match_near_last =
+      arguments.matching.quality != "best" &&
+      std::ranges::none_of(std::array{"--matcher", "--block", "--no-left-right-check", "--refine"},
+                           [&](const char* option) { return was_given(command, option); });
   take_flow(arguments);
   take_display(command, arguments);
   take_depth_budget(command, arguments);

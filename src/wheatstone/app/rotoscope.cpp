@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/matching/match_near.h"
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/motion/central_flow.h"
+#include "wheatstone/motion/expected_disparity.h"
 #include "wheatstone/painting/still_scene.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/scene_view.h"
@@ -26,6 +28,7 @@ struct FrameTask {
   const RotoscopeOptions& options;
   const KnownFrame* known;
   const Progress& progress;
+  Flow to_before = {};  ///< of the left eye, in pixels of a small copy; empty where none is known
 };
 
 /// A frame as it is painted from.
@@ -77,34 +80,61 @@ double share_of_width(const Image<Rgb8>& picture, int widest_px) {
   return std::min(static_cast<double>(widest_px) / picture.width(), 1.0);
 }
 
+/// Matches near the frame before, moved along the flow; where a scene begins, or too little is found so, over the whole
+/// range first. None where nothing matches.
+std::optional<MatchedPair> match_frame(const FrameTask& task, const MatchOptions& matching,
+                                       const RotoscopeState& state) {
+  constexpr double least_found_share = 0.4;
+  const StereoPair& eyes = task.eyes;
+  const bool follows = task.options.match_near_last && !task.options.anew;
+  if (follows && state.frames_of_scene > 0 && !task.to_before.x.empty()) {
+    const int width = static_cast<int>(eyes.left.width() * matching.size),
+              height = static_cast<int>(eyes.left.height() * matching.size);
+    std::optional<MatchedPair> matched =
+        match_near(eyes, expected_disparity(state.left_disparity_before, task.to_before, width, height), matching);
+    if (matched && matched->left_found_share >= least_found_share) return matched;
+  }
+  std::optional<MatchedPair> matched = match_if_any(eyes, matching, task.progress);
+  if (!matched || !follows) return matched;
+  // Found as in the frames to come, so that nothing jumps between the two methods.
+  std::optional<MatchedPair> near = match_near(eyes, matched->geometry.left_disparity, matching);
+  return near && near->left_found_share >= least_found_share ? near : matched;
+}
+
 StereoGeometry find_geometry(const FrameTask& task, RotoscopeState& state) {
   MatchOptions matching = task.options.matching;
   if (!matching.range) matching.range = scene_range(task.eyes, state);
   matching.size = std::min(matching.size, share_of_width(task.eyes.left, task.options.widest_matched_px));
-  if (std::optional<MatchedPair> matched = match_if_any(task.eyes, matching, task.progress))
-    return std::move(matched->geometry);
+  if (std::optional<MatchedPair> matched = match_frame(task, matching, state)) return std::move(matched->geometry);
   // A frame that shows nothing, as a black one, is as deep as the one before, or flat where a scene begins with it.
   if (state.frames_of_scene > 0 && !state.left_disparity_before.empty())
     return geometry_from_left(state.left_disparity_before);
   return geometry_from_left(Image<float>(task.eyes.left.width(), task.eyes.left.height(), 0));
 }
 
-bool scene_begins(const StereoPair& eyes, const RotoscopeState& state, const KnownFrame* known) {
+/// A frame that is looked at first.
+struct FirstLook {
+  StereoPair eyes;
+  Flow to_before;  ///< as in FrameTask
+};
+
+/// Tells a cut, and the flow to the frame before where it had to be found for that.
+bool scene_begins(const RotoscopeState& state, const KnownFrame* known, FirstLook& frame) {
   if (state.left_before.empty()) return true;
   if (known != nullptr && known->flow) return tells_cut(*known->flow);
-  return find_cut(state.left_before, eyes.left).cut;
+  FrameChange change = find_cut(state.left_before, frame.eyes.left);
+  frame.to_before = std::move(change.flow.backward);
+  return change.cut;
 }
 
 /// The frame as its scene is rectified. Until a scene has shown whether its rows fit, later frames are measured too.
-StereoPair rectify_frame(const FrameTask& photographed, RotoscopeState& state, RotoscopedFrame& result) {
+FirstLook rectify_frame(const FrameTask& photographed, RotoscopeState& state, RotoscopedFrame& result) {
   const StereoPair& eyes = photographed.eyes;
   const KnownFrame* known = photographed.known;
-  if (eyes.right.empty() || known != nullptr) {
-    result.scene_begins = scene_begins(eyes, state, known);
-    return eyes;
-  }
-  StereoPair frame = rectified(eyes, state.rectification);
-  result.scene_begins = scene_begins(frame, state, known);
+  const bool as_it_is = eyes.right.empty() || known != nullptr;
+  FirstLook frame{as_it_is ? eyes : rectified(eyes, state.rectification), {}};
+  result.scene_begins = scene_begins(state, known, frame);
+  if (as_it_is) return frame;
   const bool look_again = !state.rectification.measured && looks_again(state.frames_of_scene);
   if (!result.scene_begins && !look_again) return frame;
   MeasuredScene scene = measure_scene(eyes, photographed.options.rectify, photographed.progress);
@@ -116,7 +146,8 @@ StereoPair rectify_frame(const FrameTask& photographed, RotoscopeState& state, R
   result.rows_note = std::move(scene.note);
   result.scene_begins = result.scene_begins || scene.rectification.how;
   state.rectification = scene.rectification;
-  return rectified(eyes, state.rectification);
+  frame.eyes = rectified(eyes, state.rectification);
+  return frame;
 }
 
 /// A film of one eye: all on the screen.
@@ -222,7 +253,8 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   const bool has_depth = known != nullptr && known->depth;
   check_eyes(photographed, options, state, has_depth);
   RotoscopedFrame result;
-  StereoPair eyes = rectify_frame({photographed, options, known, progress}, state, result);
+  FirstLook first = rectify_frame({photographed, options, known, progress}, state, result);
+  StereoPair eyes = std::move(first.eyes);
   if (result.scene_begins) {
     state.frames_of_scene = 0;
     state.flow_before = {};
@@ -234,7 +266,7 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
     made = {std::move(pair.geometry), known->flow};
     known = &made;
   }
-  const FrameTask task{eyes, options, known, progress};
+  const FrameTask task{eyes, options, known, progress, std::move(first.to_before)};
   FrameAtWork frame = look_at(task, state, result.times);
   find_views(task, result.scene_begins, state, frame);
   const bool carries = !result.scene_begins && !options.anew;

@@ -23,6 +23,9 @@ struct RotoscopeOptions {
   Style style;
   /// Where it has no range, one is found for each scene.
   MatchOptions matching{.matcher = Matcher::sgbm};
+  /// Only the first frame of a scene is matched by itself; others near the disparity of the frame before, as
+  /// match_near.
+  bool match_near_last = true;
   /// Asked once a scene, and of no effect where a frame's geometry is known.
   RectifyPolicy rectify = RectifyPolicy::automatic;
   int widest_matched_px = 1280;  ///< wider frames are matched in copies of this width

@@ -17,87 +17,20 @@
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/enlarge_internal.h"
 #include "wheatstone/matching/fill_in_picture_internal.h"
+#include "wheatstone/matching/levels_internal.h"
 #include "wheatstone/matching/semi_global_internal.h"
 #include "wheatstone/matching/trusted_places_internal.h"
 
 namespace wheatstone {
 namespace {
 
-/// The coarsest copies are at most this wide, and have at most this many costs.
-constexpr int coarsest_width_px = 900;
-constexpr double most_coarse_costs = 80e6;
-/// Disparities looked at around what the coarser copy had.
-constexpr int fine_count = 16;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-
-struct Level {
-  cv::Mat left, right;
-};
 
 /// What one size leaves to the next.
 struct Guess {
   Image<float> left, found;
   cv::Mat confirmed;
 };
-
-double coarsest_scale(cv::Size size, const DisparityRange& range) {
-  const double count = static_cast<double>(range.largest) - range.least + 1;
-  const double costs = static_cast<double>(size.area()) * count;
-  return std::min({1.0, static_cast<double>(coarsest_width_px) / size.width, std::cbrt(most_coarse_costs / costs)});
-}
-
-/// The pair at its own size first, each copy half as large as the one before, until it is small enough.
-std::vector<Level> levels_of(const cv::Mat& left, const cv::Mat& right, double coarsest) {
-  std::vector<Level> levels{{left, right}};
-  while (static_cast<double>(levels.back().left.cols) > left.cols * coarsest * 1.001) {
-    const Level& larger = levels.back();
-    const cv::Size size((larger.left.cols + 1) / 2, (larger.left.rows + 1) / 2);
-    Level smaller;
-    tbb::parallel_invoke([&] { cv::resize(larger.left, smaller.left, size, 0, 0, cv::INTER_AREA); },
-                         [&] { cv::resize(larger.right, smaller.right, size, 0, 0, cv::INTER_AREA); });
-    levels.push_back(std::move(smaller));
-  }
-  return levels;
-}
-
-/// The right picture with the left one's exposure and colour, told from the means and spreads of their channels; as it
-/// is where these are nearly equal.
-cv::Mat exposed_alike(const cv::Mat& left, const cv::Mat& right) {
-  cv::Scalar left_mean, left_spread, right_mean, right_spread;
-  tbb::parallel_invoke([&] { cv::meanStdDev(left, left_mean, left_spread); },
-                       [&] { cv::meanStdDev(right, right_mean, right_spread); });
-  constexpr double least_spread = 1, near_gain = 0.03, near_mean = 3;
-  bool alike = true;
-  std::array<double, 3> gain{};
-  for (int channel = 0; channel < 3; ++channel) {
-    gain[channel] = std::max(left_spread[channel], least_spread) / std::max(right_spread[channel], least_spread);
-    alike = alike && std::abs(gain[channel] - 1) <= near_gain &&
-            std::abs(left_mean[channel] - right_mean[channel]) <= near_mean;
-  }
-  if (alike) return right;
-  cv::Mat table(1, 256, CV_8UC3), result;
-  for (int code = 0; code < 256; ++code)
-    for (int channel = 0; channel < 3; ++channel)
-      table.at<cv::Vec3b>(code)[channel] =
-          cv::saturate_cast<std::uint8_t>(gain[channel] * (code - right_mean[channel]) + left_mean[channel]);
-  cv::LUT(right, table, result);
-  return result;
-}
-
-SearchBand whole_range(cv::Size size, const DisparityRange& range) {
-  return {Image<std::int16_t>(size.width, size.height, static_cast<std::int16_t>(range.least)),
-          range.largest - range.least + 1};
-}
-
-SearchBand band_around(const Image<float>& disparity) {
-  constexpr int half_band = fine_count / 2;
-  SearchBand band{Image<std::int16_t>(disparity.width(), disparity.height()), fine_count};
-  tbb::parallel_for(0, disparity.height(), [&](int y) {
-    std::ranges::transform(disparity.row(y), band.first.row(y).begin(),
-                           [](float d) { return static_cast<std::int16_t>(std::floor(d + 0.5f) - half_band); });
-  });
-  return band;
-}
 
 /// Checks and completes what was found at one size. `guess`, none at the coarsest, is what the coarser copy had: it
 /// stays where this size finds nothing.
@@ -139,7 +72,7 @@ CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<G
 
 CheckedMatch match_coarse_to_fine(const cv::Mat& left, const cv::Mat& right, const DisparityRange& range,
                                   const MatchOptions& options, const Progress& progress) {
-  const std::vector<Level> levels = levels_of(left, exposed_alike(left, right), coarsest_scale(left.size(), range));
+  const std::vector<Level> levels = levels_of(left, right, range);
   CheckedMatch match;
   std::size_t pixels = 0, matched = 0;
   for (const Level& level : levels) pixels += level.left.total();
@@ -150,9 +83,7 @@ CheckedMatch match_coarse_to_fine(const cv::Mat& left, const cv::Mat& right, con
     std::optional<Guess> guess;
     SearchBand band;
     if (i + 1 == levels.size()) {
-      const double scale = static_cast<double>(level.left.cols) / left.cols;
-      band = whole_range(level.left.size(), {static_cast<int>(std::floor(range.least * scale)),
-                                             static_cast<int>(std::ceil(range.largest * scale))});
+      band = whole_range(level, static_cast<double>(level.left.cols) / left.cols, range);
     } else {
       const Image<std::uint8_t> alike = most_alike_neighbours(levels[i + 1].left, level.left);
       guess = {enlarged(match.left, alike), enlarged(match.found, alike), match.confirmed};

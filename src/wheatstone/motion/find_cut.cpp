@@ -51,8 +51,8 @@ FrameChange find_cut(ImageView<const Rgb8> first, ImageView<const Rgb8> second) 
   const Image<Rgb8> a = shrunk(first), b = shrunk(second);
   FrameChange change;
   change.histogram_distance = histogram_distance(a, b);
-  const FlowPair flow = estimate_flow(a, b);
-  const Image<std::uint8_t> mask = confirmed(flow.forward, flow.backward);
+  change.flow = estimate_flow(a, b);
+  const Image<std::uint8_t> mask = confirmed(change.flow.forward, change.flow.backward);
   const auto count = std::ranges::count(mask.pixels(), 255);
   change.confirmed_share = static_cast<double>(count) / static_cast<double>(mask.pixels().size());
   change.cut = change.histogram_distance > least_histogram_distance && change.confirmed_share < most_confirmed_share;

@@ -71,6 +71,7 @@ struct FrameChange {
   double histogram_distance = 0;  ///< share of the pixels that would have to change colour, of 8³ colours: 0..1
   double confirmed_share = 0;     ///< of the pixels whose flow is confirmed, in small pictures
   bool cut = false;               ///< another scene begins with the second frame
+  FlowPair flow;                  ///< between small copies of the frames, in pixels of these
 };
 
 /// Tells a cut from motion: at a cut the colours change at once and the flow is not confirmed. Throws Error{bad_input}

@@ -1,0 +1,64 @@
+// Matching near what is expected, where that is right, wrong, or unknown.
+
+#include "wheatstone/matching/match_near.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wheatstone/synthetic/synthetic_still.h"
+
+namespace wheatstone {
+namespace {
+
+/// Mean error in pixels over all pixels; none counts for more than 20.
+double mean_error(const Image<float>& found, const Image<float>& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < found.pixels().size(); ++i)
+    sum += std::min(std::abs(found.pixels()[i] - truth.pixels()[i]), 20.f);
+  return sum / static_cast<double>(found.pixels().size());
+}
+
+class MatchNear : public testing::Test {
+ protected:
+  MatchNear() {
+    options_.matcher = Matcher::sgbm;
+    options_.range = DisparityRange{0, 64};
+  }
+  double error_of(const Image<float>& expected) {
+    const auto matched = match_near(still_.pictures, expected, options_);
+    EXPECT_TRUE(matched);
+    return mean_error(matched->geometry.left_disparity, still_.geometry.left_disparity);
+  }
+  SyntheticStill still_ = make_synthetic_still({.width = 480, .height = 320, .samples_a_side = 1});
+  MatchOptions options_;
+};
+
+TEST_F(MatchNear, IsAsGoodAsMatchingTheWholeRange) {
+  const double whole =
+      mean_error(match(still_.pictures, options_).geometry.left_disparity, still_.geometry.left_disparity);
+  EXPECT_LE(error_of(still_.geometry.left_disparity), whole);
+}
+
+TEST_F(MatchNear, FindsWhatIsExpectedWronglyOrNotAtAll) {
+  const Image<float>& truth = still_.geometry.left_disparity;
+  const double right = error_of(truth);
+  Image<float> wrong = truth;
+  for (float& disparity : wrong.pixels()) disparity += 25;
+  // Nearer than the band's half; what leads to it is the coarse copy alone.
+  EXPECT_LE(error_of(wrong), 1.5 * right);
+  EXPECT_LE(error_of(Image<float>(480, 320, std::numeric_limits<float>::quiet_NaN())), 1.5 * right);
+}
+
+TEST_F(MatchNear, FindsNothingInBlackAndInTinyPictures) {
+  const Image<float> flat(64, 48, 0);
+  EXPECT_FALSE(match_near({Image<Rgb8>(16, 16), Image<Rgb8>(16, 16)}, Image<float>(16, 16, 0), options_));
+  const auto black = match_near({Image<Rgb8>(64, 48), Image<Rgb8>(64, 48)}, flat, options_);
+  EXPECT_TRUE(!black ||
+              std::ranges::all_of(black->geometry.left_disparity.pixels(), [](float d) { return std::isfinite(d); }));
+}
+
+}  // namespace
+}  // namespace wheatstone

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "wheatstone/motion/flow.h"
+
+namespace wheatstone {
+
+/// The disparity of the frame before, brought along the flow to where it is expected now. `to_before` leads from this
+/// frame's pixels to that one's; both may be of other sizes than the result. NaN where the flow leads out of the
+/// picture or is unknown.
+Image<float> expected_disparity(const Image<float>& before, const Flow& to_before, int width, int height);
+
+}  // namespace wheatstone
