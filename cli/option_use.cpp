@@ -25,7 +25,10 @@ bool is_one_of(const CLI::Option& option, const std::vector<std::string>& names)
 
 }  // namespace
 
-bool was_given(const CLI::App& command, const std::string& option) { return command.count(option) > 0; }
+bool was_given(const CLI::App& command, const std::string& option) {
+  const CLI::Option* const known = command.get_option_no_throw(option);
+  return known != nullptr && known->count() > 0;
+}
 
 void refuse_options(const CLI::App& command, const std::vector<std::string>& options, std::string_view situation,
                     std::string_view where) {

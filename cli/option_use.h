@@ -24,7 +24,7 @@ void refuse_group(const CLI::App& command, const std::string& group, const std::
 void refuse_all_but(const CLI::App& command, const std::vector<std::string>& kept, std::string_view situation,
                     std::string_view where);
 
-/// Whether an option was given.
+/// Whether an option was given; one that the command does not have was not.
 bool was_given(const CLI::App& command, const std::string& option);
 
 }  // namespace wheatstone::cli

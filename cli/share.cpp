@@ -1,21 +1,32 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "command.h"
+#include "depth_argument.h"
+#include "disparity_argument.h"
+#include "option_use.h"
 #include "output_option.h"
 #include "print_facts.h"
+#include "stereo_arguments.h"
+#include "views_argument.h"
+#include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
+#include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/share/page.h"
 #include "wheatstone/share/share_painting.h"
+#include "wheatstone/share/share_photograph.h"
+#include "wheatstone/share/share_views.h"
+#include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -23,20 +34,96 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string file;
+  ViewsArguments views;  ///< the files, as all kinds have them
+  DepthArguments depth;
+  std::string disparity;
   std::string output = "page.html";
   PageWords words;
   std::string element;  ///< file for the element's code; empty: it is not wanted
 };
 
-void run(Arguments arguments, const Session& session) {
-  const std::array<fs::path, 1> inputs{arguments.file};
+std::vector<fs::path> files_that_are_read(const Arguments& arguments) {
+  std::vector<fs::path> files = files_read(arguments.views);
+  for (const std::string& file : {arguments.depth.file, arguments.depth.model, arguments.disparity})
+    files.emplace_back(file);
+  return files;
+}
+
+/// Whether the files are views that are shown as they are, and no photograph of two that is looked into.
+bool are_ready_views(const ViewsArguments& views) {
+  const std::string& first = views.files.front();
+  return views.files.size() > 2 || fs::is_directory(first) || !views.quilt.empty() || first.ends_with(".exr") ||
+         quilt_of_name(fs::path(first).filename().string()).has_value();
+}
+
+SharedPicture share_ready_views(ViewsArguments views, const std::string& title, const CLI::App& command,
+                                const Session& session) {
+  constexpr int views_of_slices = 33;
+  if (views.quilt.empty())
+    if (const auto named = quilt_of_name(fs::path(views.files.front()).filename().string()))
+      views.quilt = fmt::format("{}x{}", named->layout.columns, named->layout.rows);
+  return share_views(read_views_argument(views, views_of_slices, command, session).views, title);
+}
+
+SharedPicture share_picture_with_depth(const Arguments& arguments, const Session& session) {
+  StereoArguments files{.left = arguments.views.files.front(), .layout = arguments.views.layout};
+  DepthArguments depth = arguments.depth;
+  depth.carried = !has_depth(depth);
+  const SinglePicture single = read_single_picture(files, depth, session);
+  return share_photograph(single.pair.pictures, single.pair.geometry, arguments.words.title);
+}
+
+SharedPicture share_stereo_photograph(const Arguments& arguments, const Session& session) {
+  const std::vector<std::string>& files = arguments.views.files;
+  const ReadPhotograph read = read_photographs({.left = files.front(),
+                                                .right = files.size() > 1 ? files[1] : "",
+                                                .layout = arguments.views.layout,
+                                                .swap = arguments.views.swap},
+                                               !arguments.disparity.empty(), session);
+  PaintPhotographOptions options;
+  if (!arguments.disparity.empty()) options.left_disparity = read_disparity_argument(arguments.disparity);
+  const FoundGeometry found = find_geometry(read.pair.pictures, options, session.progress);
+  if (found.confidence) tell_of_match(read, *found.confidence, session);
+  return share_photograph(read.pair.pictures, found.geometry, arguments.words.title);
+}
+
+/// Refuses options that have no effect on what is shared.
+void refuse_others(const CLI::App& command, std::vector<std::string> kept, std::string_view situation) {
+  kept.insert(kept.end(), {"--output", "--title", "--caption", "--description", "--element"});
+  refuse_all_but(command, kept, situation, "it is for other pictures");
+}
+
+SharedPicture share(const Arguments& arguments, const CLI::App& command, const Session& session) {
+  const ViewsArguments& views = arguments.views;
+  const std::string& first = views.files.front();
+  const bool is_one = views.files.size() == 1;
+  if (is_one && first.ends_with(".wst")) {
+    refuse_others(command, {}, "on a painting (.wst)");
+    return share_painting(read_painting(first), {.title = arguments.words.title});
+  }
+  if (is_film(first))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: is a film, expected a painting, a photograph, views or slices", first));
+  if (are_ready_views(views)) {
+    refuse_others(command, {"--swap", "--from-quilt"}, "on views");
+    return share_ready_views(views, arguments.words.title, command, session);
+  }
+  if (is_one && (has_depth(arguments.depth) || views.layout == depth_layout || carries_depth(first))) {
+    refuse_others(command, {"--depth", "--depth-model", "--depth-is", "--strength", "--layout"},
+                  "on one picture with its depth");
+    return share_picture_with_depth(arguments, session);
+  }
+  refuse_others(command, {"--disparity", "--layout", "--swap"}, "on a stereo photograph");
+  return share_stereo_photograph(arguments, session);
+}
+
+void run(Arguments arguments, const CLI::App& command, const Session& session) {
+  const std::vector<fs::path> inputs = files_that_are_read(arguments);
   for (const std::string& output : {arguments.output, arguments.element}) check_not_an_input(output, inputs);
-  if (arguments.words.title.empty()) arguments.words.title = fs::path(arguments.file).stem().string();
+  if (arguments.words.title.empty()) arguments.words.title = fs::path(arguments.views.files.front()).stem().string();
   report(session.progress, "reading", 0);
-  const Painting painting = read_painting(arguments.file);
-  report(session.progress, "sharing", 0);
-  const std::string page = html_page(share_painting(painting, {.title = arguments.words.title}), arguments.words);
+  const SharedPicture picture = share(arguments, command, session);
+  const std::string page = html_page(picture, arguments.words);
   write_whole_file(arguments.output, page);
   if (!arguments.element.empty()) write_whole_file(arguments.element, page_element_code());
   if (session.json) {
@@ -51,8 +138,12 @@ void run(Arguments arguments, const Session& session) {
 void add_share_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      program.add_subcommand("share", "Write a page that shows a painting with its depth in any browser");
-  command->add_option("FILE", arguments->file, "Painting (.wst)")->required();
+      program.add_subcommand("share", "Write a page that shows a picture with its depth in any browser");
+  command
+      ->add_option("FILE", arguments->views.files,
+                   "Painting (.wst); LEFT and RIGHT photograph, or one file that holds both; one picture with its "
+                   "depth; views from left to right, a folder of them or a quilt; slices (.exr)")
+      ->required();
   add_output_option(*command, arguments->output, "Page: one HTML file, which needs nothing else");
   command->add_option("--title", arguments->words.title, "Title of the page; the name of the file by default");
   command->add_option("--caption", arguments->words.caption, "Text below the picture");
@@ -61,11 +152,20 @@ void add_share_command(CLI::App& program, const Session& session) {
   command->add_option("--element", arguments->element,
                       "Also write the code of the element <wheatstone-picture>, with which other pages embed this one, "
                       "to this .js file");
+  command->add_option("--disparity", arguments->disparity,
+                      "Disparity of the left photograph, which replaces matching, as of 'wheatstone paint'");
+  command->add_option("--layout", arguments->views.layout,
+                      "Layout of one file that holds both views, as of 'wheatstone paint'");
+  command->add_flag("--swap", arguments->views.swap, "Swap the two views, or reverse the order of all");
+  command->add_option("--from-quilt", arguments->views.quilt, "Read the picture as a quilt of COLUMNSxROWS views");
+  add_depth_options(*command, arguments->depth);
   command->footer(
       "Examples:\n"
       "  wheatstone share painting.wst -o page.html\n"
-      "  wheatstone share painting.wst -o page.html --title Fruit --element wheatstone-picture.js");
-  command->callback([arguments, &session] { run(*arguments, session); });
+      "  wheatstone share painting.wst -o page.html --title Fruit --element wheatstone-picture.js\n"
+      "  wheatstone share left.png right.png -o page.html\n"
+      "  wheatstone share photo.jpg --depth depth.png -o page.html");
+  command->callback([arguments, command, &session] { run(*arguments, *command, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -121,7 +121,7 @@ export class WheatstonePicture extends HTMLElement {
         this.redraw();
       });
       if (opening !== this.opening) return;
-      addHeadsetButton(this.bar, stage, () => this.look, (shown) => this.shows(shown));
+      if (this.shows("vr")) addHeadsetButton(this.bar, stage, () => this.look, () => this.redraw());
       this.dataset.loaded = "";
       this.dispatchEvent(new Event("load"));
     } catch (error) {
@@ -170,7 +170,7 @@ export class WheatstonePicture extends HTMLElement {
   private frame(now: number): void {
     this.isWanted = false;
     const { stage, canvas, look } = this;
-    if (!stage || stage.gl.isContextLost()) return;
+    if (!stage || stage.isElsewhere || stage.gl.isContextLost()) return;
     this.fit();
     // A device that is too slow for the picture's size draws it smaller while it moves.
     const moves = now - this.movedAt < restMilliseconds;
@@ -196,7 +196,6 @@ export class WheatstonePicture extends HTMLElement {
     const { canvas, look } = this;
     const window = windowOf(this.stage!.picture, look);
     const width = window.width * (isSideBySide(look.mode) ? 2 : 1);
-    canvas.style.aspectRatio = `${width} / ${window.height}`;
     canvas.style.setProperty("--aspect", String(width / window.height));
     const box = canvas.getBoundingClientRect();
     const most = 4096;

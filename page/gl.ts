@@ -84,7 +84,7 @@ export interface Target {
   readonly height: number;
 }
 
-interface TargetKind {
+export interface TargetKind {
   /** Of the colours: more than eight bits where the device can blend them. */
   precise?: boolean;
   depth?: boolean;
@@ -121,4 +121,18 @@ export function deleteTarget(gl: Gl, target: Target): void {
 export function drawTo(gl: Gl, target: Target): void {
   gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
   gl.viewport(0, 0, target.width, target.height);
+}
+
+/** One target, made anew where another size is wanted. */
+export class TargetKeeper {
+  private kept: Target | undefined;
+
+  /** As large as that one. */
+  like(gl: Gl, size: { width: number; height: number }, kind: TargetKind): Target {
+    if (this.kept && (this.kept.width !== size.width || this.kept.height !== size.height)) {
+      deleteTarget(gl, this.kept);
+      this.kept = undefined;
+    }
+    return (this.kept ??= makeTarget(gl, size.width, size.height, kind));
+  }
 }

@@ -6,7 +6,7 @@ import { Look, Stage, windowOf } from "./stage";
 const eyesApartMetres = 0.063;
 const wallMetres = 2; // from the eyes to the picture
 const widthMetres = 2;
-const viewStep = 1 / 64; // of the eye separation: less movement of the head shows nothing new
+const viewStep = 1 / 256; // of the eye separation: less movement of the head shows nothing new
 
 const quadShader = `
 out vec2 place;
@@ -39,6 +39,7 @@ class Headset {
   constructor(
     private readonly stage: Stage,
     private readonly look: () => Look,
+    private readonly ended: () => void,
   ) {
     this.program = makeProgram(stage.gl, quadShader, pictureShader);
   }
@@ -54,6 +55,11 @@ class Headset {
       const pose = xrFrame.getViewerPose(space);
       if (pose) this.draw(session.renderState.baseLayer!, pose);
     };
+    this.stage.isElsewhere = true;
+    session.addEventListener("end", () => {
+      this.stage.isElsewhere = false;
+      this.ended();
+    });
     session.requestAnimationFrame(frame);
   }
 
@@ -89,16 +95,16 @@ class Headset {
   }
 }
 
-/** Adds a button that enters VR, where the browser has a headset. */
-export function addHeadsetButton(bar: HTMLElement, stage: Stage, look: () => Look, shows: (control: string) => boolean): void {
+/** Adds a button that enters VR, where the browser has a headset; `ended` is called when somebody comes back. */
+export function addHeadsetButton(bar: HTMLElement, stage: Stage, look: () => Look, ended: () => void): void {
   bar.querySelector(".headset")?.remove();
-  if (!navigator.xr || !shows("vr")) return;
+  if (!navigator.xr) return;
   void navigator.xr.isSessionSupported("immersive-vr").then((isSupported) => {
     if (!isSupported) return;
     const button = document.createElement("button");
     button.className = "headset";
     button.textContent = "Enter VR";
-    button.addEventListener("click", () => void new Headset(stage, look).start());
+    button.addEventListener("click", () => void new Headset(stage, look, ended).start());
     bar.append(button);
   });
 }

@@ -54,9 +54,11 @@ export interface RegionsFacts extends Common {
   kind: "regions";
   surfaces: SurfacesFacts;
   planned: Planned[];
+  /** Of the points' places. */
+  stepsAPixel: number;
 }
 
-/** Pictures that lie on surfaces: the part "picture-0" and so on is a surface's picture, of its size. */
+/** Pictures that lie on surfaces: the part "picture-0" and so on is a surface's picture, of its size, a JPEG file. */
 export interface LayeredFacts extends Common {
   kind: "layered";
   surfaces: SurfacesFacts;

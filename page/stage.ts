@@ -1,6 +1,6 @@
 // What the canvas shows: one view, or two eyes' in one of the ways in which screens show them.
 
-import { deleteTarget, drawTo, drawWholePicture, Gl, makeProgram, makeTarget, Program, Target, useTexture, wholePicture } from "./gl";
+import { drawWholePicture, Gl, makeProgram, Program, Target, TargetKeeper, useTexture, wholePicture } from "./gl";
 import { Picture } from "./picture";
 
 export const modes = ["flat", "wiggle", "anaglyph", "parallel", "cross-eyed"] as const;
@@ -82,6 +82,7 @@ void main() {
 
 /** A view's picture, kept until it changes. */
 interface KeptView {
+  keeper: TargetKeeper;
   target: Target;
   view: number;
   isCurrent: boolean;
@@ -94,6 +95,8 @@ export function contextOf(canvas: HTMLCanvasElement): Gl | undefined {
 
 export class Stage {
   private readonly compose: Program;
+  /** A headset shows the picture, and has the canvas. */
+  isElsewhere = false;
   private readonly kept: (KeptView | undefined)[] = [];
 
   constructor(
@@ -115,13 +118,10 @@ export class Stage {
     const used = Math.min(scale, most / facts.width, most / facts.height);
     const width = Math.max(Math.round(facts.width * used), 1);
     const height = Math.max(Math.round(facts.height * used), 1);
+    const keeper = this.kept[slot]?.keeper ?? new TargetKeeper();
+    const target = keeper.like(this.gl, { width, height }, { filter: this.gl.LINEAR });
     let kept = this.kept[slot];
-    if (kept && (kept.target.width !== width || kept.target.height !== height)) {
-      deleteTarget(this.gl, kept.target);
-      kept = undefined;
-    }
-    kept ??= { target: makeTarget(this.gl, width, height, { filter: this.gl.LINEAR }), view, isCurrent: false };
-    this.kept[slot] = kept;
+    if (kept?.target !== target) kept = this.kept[slot] = { keeper, target, view, isCurrent: false };
     if (!kept.isCurrent || kept.view !== view) this.picture.draw(view, kept.target);
     kept.view = view;
     kept.isCurrent = !this.picture.moves;

@@ -1,11 +1,12 @@
 // Strokes of a brush, drawn for any view: each is a chain of segments, laid over what is behind it as far as no surface
 // hides it. The same picture as src/wheatstone/drawing/draw_strokes.cpp, from back to front.
 
-import { drawTo, drawWholePicture, fillWithFloats, Gl, makeProgram, makeTarget, deleteTarget, makeTexture, Program, Target, useTexture, wholePicture } from "./gl";
+import { drawTo, drawWholePicture, fillWithFloats, Gl, makeProgram, makeTexture, Program, Target, TargetKeeper, useTexture, wholePicture } from "./gl";
 import { gapRule, hidingRule, PlannedIn } from "./hiding";
 import { StrokesFacts } from "./manifest";
 import { NumberStream, Source, streamsOf } from "./parts";
 import { Picture } from "./picture";
+import { disparityInView } from "./pointing";
 import { Surfaces } from "./surfaces";
 
 const texelsAStroke = 2;
@@ -322,7 +323,7 @@ export class StrokesPicture implements Picture {
   private readonly seen: WebGLTexture;
   private seenView: number | undefined;
   private surfaces: Surfaces | undefined;
-  private canvas: Target | undefined;
+  private readonly targets = new TargetKeeper();
   private readonly loaded: { all: DeviceChains; beside: DeviceChains }[] = [];
   private readonly indices: SegmentIndices;
   private detail = Infinity;
@@ -364,7 +365,7 @@ export class StrokesPicture implements Picture {
     const { gl, facts, surfaces } = this;
     if (!surfaces) return;
     this.see(view, surfaces);
-    const canvas = this.canvasLike(target);
+    const canvas = this.targets.like(gl, target, { precise: true, depth: true });
     drawTo(gl, canvas);
     gl.depthMask(true);
     gl.clearColor(0, 0, 0, 0);
@@ -430,14 +431,6 @@ export class StrokesPicture implements Picture {
     this.gl.uniform2f(program.at("seenScale"), 1 / scale, 1 / scale);
     this.gl.uniform1f(program.at("tolerance"), this.surfaces!.tolerance);
   }
-
-  private canvasLike(target: Target): Target {
-    if (this.canvas && (this.canvas.width !== target.width || this.canvas.height !== target.height)) {
-      deleteTarget(this.gl, this.canvas);
-      this.canvas = undefined;
-    }
-    return (this.canvas ??= makeTarget(this.gl, target.width, target.height, { precise: true, depth: true }));
-  }
 }
 
 /** By what the surfaces may hide what was planned in a view. */
@@ -445,18 +438,4 @@ export function plannedIn(view: number, surfaces: Surfaces): PlannedIn {
   if (surfaces.isEmpty || view === surfaces.reference) return PlannedIn.reference;
   const [first, last] = surfaces.photographed;
   return view >= first && view <= last ? PlannedIn.photographed : PlannedIn.other;
-}
-
-/** The disparity at a place of any view: what the reference view sees there, once it is moved there. */
-export function disparityInView(surfaces: Surfaces | undefined, x: number, y: number, view: number): number | undefined {
-  if (!surfaces || surfaces.isEmpty) return undefined;
-  const [reference] = surfaces.facts;
-  let found: number | undefined;
-  for (let column = 0; column < reference!.width; ++column) {
-    const d = surfaces.disparityAt(column, y);
-    if (d === undefined) continue;
-    const seen = reference!.left + column + 0.5 - (view - reference!.view) * d;
-    if (Math.abs(seen - x) <= 1 && (found === undefined || d > found)) found = d;
-  }
-  return found;
 }

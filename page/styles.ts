@@ -5,7 +5,7 @@ export function styles(): CSSStyleSheet {
 :host { display: block; font: 16px/1.4 system-ui, sans-serif; }
 [hidden] { display: none !important; }
 .frame { display: grid; justify-items: center; }
-canvas { display: none; width: min(100%, var(--height, 80vh) * var(--aspect, 1.33)); outline-offset: 2px; touch-action: pan-y; }
+canvas { display: none; aspect-ratio: var(--aspect, 1.33); width: min(100%, var(--height, 80vh) * var(--aspect, 1.33)); outline-offset: 2px; touch-action: pan-y; }
 :host([data-shown]) canvas { display: block; }
 :host([data-shown]) slot { display: none; }
 :host(:fullscreen) { background: #000; color: #ddd; overflow: auto; }

@@ -13,6 +13,8 @@ const widestCrack = 2;
 /** What one view sees: runs of columns whose disparities are known, row by row. */
 interface KnownPart extends SurfaceFacts {
   disparities: Float32Array;
+  /** Number of its picture, where surfaces have some. */
+  picture: number;
   /** Of each run its row's first and last column, in the surface. */
   runs: Int32Array;
   firstRun: Int32Array;
@@ -45,7 +47,7 @@ async function decodedDisparities(bytes: Uint8Array, width: number, height: numb
   return disparities;
 }
 
-function knownPart(facts: SurfaceFacts, disparities: Float32Array): KnownPart {
+function knownPart(facts: SurfaceFacts, disparities: Float32Array, picture: number): KnownPart {
   const runs: number[] = [];
   const firstRun = new Int32Array(facts.height + 1);
   for (let y = 0; y < facts.height; ++y) {
@@ -60,7 +62,7 @@ function knownPart(facts: SurfaceFacts, disparities: Float32Array): KnownPart {
     }
   }
   firstRun[facts.height] = runs.length / 2;
-  return { ...facts, disparities, runs: Int32Array.from(runs), firstRun };
+  return { ...facts, disparities, picture, runs: Int32Array.from(runs), firstRun };
 }
 
 /** A row of a view that surfaces are warped to. */
@@ -78,7 +80,8 @@ class Row {
     this.nearest.set(from.nearest);
     this.source.set(from.source);
   }
-  land(x: number, disparity: number, source: number): void {
+  land(x: number, exact: number, source: number): void {
+    const disparity = Math.fround(exact); // as it is kept: what is as near does not replace it
     if (x < 0 || x >= this.width || this.nearest[x]! >= disparity) return;
     this.nearest[x] = disparity;
     this.source[x] = source;
@@ -131,16 +134,26 @@ function closeCracks(row: Row): void {
   }
 }
 
+/** Gives what is unknown in a row the farther disparity of what lies on both sides of it. */
+function goOn(row: Float32Array): void {
+  for (let begin = 0; begin < row.length; ++begin) {
+    if (row[begin] !== unknown) continue;
+    let end = begin;
+    while (end < row.length && row[end] === unknown) ++end;
+    const sides = [row[begin - 1], row[end]].filter((d): d is number => d !== undefined);
+    row.fill(sides.length > 0 ? Math.min(...sides) : 0, begin, end);
+    begin = end;
+  }
+}
+
 export class Surfaces {
-  readonly tolerance: number;
   readonly reference: number;
   /** From the leftmost to the rightmost view that a photograph shows. */
   readonly photographed: [number, number];
   private constructor(
-    facts: SurfacesFacts,
+    readonly tolerance: number,
     private readonly parts: KnownPart[],
   ) {
-    this.tolerance = facts.tolerance;
     this.reference = parts[0]?.view ?? 0;
     const views = parts.filter((part) => !part.continued).map((part) => part.view);
     this.photographed = [Math.min(this.reference, ...views), Math.max(this.reference, ...views)];
@@ -148,9 +161,19 @@ export class Surfaces {
 
   static async from(source: Source, facts: SurfacesFacts): Promise<Surfaces> {
     const parts = facts.seen.map(async (surface, i) =>
-      knownPart(surface, await decodedDisparities(await source.bytes(`surface-${i}`), surface.width, surface.height)),
+      knownPart(surface, await decodedDisparities(await source.bytes(`surface-${i}`), surface.width, surface.height), i),
     );
-    return new Surfaces(facts, await Promise.all(parts));
+    return new Surfaces(facts.tolerance, await Promise.all(parts));
+  }
+
+  /** The same with another view as the reference, which sees all of what the surfaces show; one of them is its own. */
+  seenFirstFrom(own: number, width: number, height: number): Surfaces {
+    const { view } = this.parts[own]!;
+    const seen = this.seenFrom(view, width, height);
+    const disparities = Float32Array.from({ length: width * height }, (_, i) => seen[4 * i]!);
+    for (let y = 0; y < height; ++y) goOn(disparities.subarray(y * width, (y + 1) * width));
+    const facts = { view, left: 0, width, height, continued: false };
+    return new Surfaces(this.tolerance, [knownPart(facts, disparities, own), ...this.parts]);
   }
 
   get isEmpty(): boolean {
@@ -182,7 +205,7 @@ export class Surfaces {
       for (const row of [reference, photographed, continued]) row.clear();
       this.parts.forEach((part, i) => {
         const over = i === 0 ? reference : part.continued ? continued : photographed;
-        warp(part, y, view - part.view, i * columnsASurface, over);
+        warp(part, y, view - part.view, part.picture * columnsASurface, over);
         if (i > 0) return;
         closeCracks(reference);
         photographed.copy(reference);

@@ -3,8 +3,8 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
-import { alarmOf, openPage, pngAt, psnr, shotOf, sizeOf, startBrowser } from "./browser.mjs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { alarmOf, fakeHeadset, openPage, picturesAlike, pngAt, psnr, shotOf, sizeOf, startBrowser } from "./browser.mjs";
 
 const [wheatstone, folder] = process.argv.slice(2);
 const run = (...words) => execFileSync(wheatstone, ["--quiet", ...words], { cwd: folder, stdio: ["ignore", "ignore", "inherit"] });
@@ -43,7 +43,7 @@ const leftAndRight = [
   [{ mode: "flat", view: 0.5, zeroParallax: 0 }, "right.png"],
 ];
 
-run("synth", "still", "--size", "320x240", "--samples", "1", "-o", "still");
+run("synth", "still", "--size", "240x180", "--samples", "1", "-o", "still");
 const photographs = ["still/left.png", "still/right.png", "--disparity", "still/left_disparity.pfm", "--absolute-radii"];
 
 /** Paints the still life, shares it, and draws it again over its canvas. */
@@ -104,6 +104,60 @@ await test("who wants no motion gets none", async () => {
   await page.locator("wheatstone-picture canvas").press(" ");
   assert.ok(!first.equals(await shotOf(page, 320, {})), "the space bar shows the other eye's view");
   await page.close();
+});
+
+await test("a headset shows each eye its view, on a wall two metres away", async () => {
+  const { page } = await openPage(browser, at("impressionist.html"), { before: fakeHeadset });
+  await page.setViewportSize({ width: 1600, height: 800 });
+  await page.evaluate(() => Object.assign(document.querySelector("wheatstone-picture"), { zeroParallax: 0, separation: 1 }));
+  await page.getByRole("button", { name: "Enter VR" }).click();
+  await page.waitForTimeout(1500);
+  const shot = await page.screenshot();
+  const told = [];
+  for (const [file, eye, sign] of [
+    ["left.png", 0, 1],
+    ["right.png", 800, -1],
+  ]) {
+    // Two metres wide at two metres, a quarter turn to 800 pixels: 400 of them. The eye stands 31.5 mm beside the middle.
+    const middle = eye + 400 + sign * (0.0315 / 2) * 400;
+    const found = await picturesAlike(page, shot, pngAt(at(`impressionist-drawn/${file}`)), { x: middle - 200, y: 250, width: 400, height: 300 });
+    assert.ok(found >= leastPsnr, `${file}: ${found} dB`);
+    told.push(`${found.toFixed(1)} dB`);
+  }
+  await page.close();
+  return told.join(", ");
+});
+
+for (const [name, ...options] of [["posterise"], ["diffusion"], ["relief", "--style", "impressionist", "--texture"]]) {
+  await test(`a painting of ${name} is that of the command line`, async () => {
+    paint(name, ...(options.length > 0 ? options : ["--style", name]));
+    const { page } = await openPage(browser, at(`${name}.html`));
+    const told = await comparePictures(page, `${name}-drawn`, leftAndRight);
+    await page.close();
+    return told;
+  });
+}
+
+await test("a photograph with its disparity is its two pictures", async () => {
+  run("share", "still/left.png", "still/right.png", "--disparity", "still/left_disparity.pfm", "-o", "photograph.html");
+  const { page } = await openPage(browser, at("photograph.html"));
+  const told = await comparePictures(page, "still", leftAndRight);
+  await page.close();
+  return told;
+});
+
+await test("a quilt is its views", async () => {
+  run("pack", "impressionist/painting.wst", "--to", "quilt", "--quilt", "3x2", "-o", "fruit");
+  run("pack", "impressionist/painting.wst", "--to", "views", "--views", "6", "-o", "views");
+  const quilt = readdirSync(folder).find((name) => name.startsWith("fruit_qs3x2"));
+  run("share", quilt, "-o", "quilt.html");
+  const { page } = await openPage(browser, at("quilt.html"));
+  const told = await comparePictures(page, "views", [
+    [{ mode: "flat", view: -0.5 }, "view_000.png"],
+    [{ mode: "flat", view: 0.1 }, "view_003.png"],
+  ]);
+  await page.close();
+  return told;
 });
 
 /** The sentence that is said, beside the still picture. */

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/marks/region_painting.h"
 #include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/share/page.h"
 
@@ -33,5 +34,8 @@ struct Rounding {
 
 /// A layer's strokes, in few bytes. page/strokes.ts reads them.
 PagePart strokes_part(std::string name, const Layer& layer, const Rounding& rounding, Plans& plans);
+
+/// Regions in their order; colours are not rounded, as there are few. page/regions.ts reads them.
+PagePart regions_part(std::string name, const RegionPainting& painting, const Rounding& rounding, Plans& plans);
 
 }  // namespace wheatstone

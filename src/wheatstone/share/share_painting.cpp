@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "wheatstone/app/present_pair.h"
@@ -12,40 +10,14 @@
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/disparity_code.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/share/mark_parts_internal.h"
+#include "wheatstone/share/surface_parts_internal.h"
 
 namespace wheatstone {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr int still_quality = 60;
 constexpr std::size_t most_plans = 16;  // page/strokes.ts: mostPlans
-
-/// Disparities in fewer steps than a painting file has. They tell what hides marks, where far more than this counts.
-Image<float> rounded(const Image<float>& disparity) {
-  constexpr float steps_a_px = 4;
-  Image<float> result(disparity.width(), disparity.height());
-  std::ranges::transform(disparity.pixels(), result.pixels().begin(),
-                         [](float d) { return std::round(d * steps_a_px) / steps_a_px; });
-  return result;
-}
-
-/// Surfaces as parts, and what is told of them.
-Json add_surfaces(const Surfaces& surfaces, std::vector<PagePart>& parts) {
-  Json seen = Json::array();
-  for (const Surface& surface : surfaces.seen) {
-    parts.push_back({fmt::format("surface-{}", seen.size()), encode_disparities(rounded(surface.disparity))});
-    seen.push_back({{"view", surface.view.eye_separations()},
-                    {"left", surface.left_px},
-                    {"width", surface.disparity.width()},
-                    {"height", surface.disparity.height()},
-                    {"continued", surface.continued}});
-  }
-  return {{"tolerance", surfaces.tolerance_px}, {"seen", seen}};
-}
 
 Json facts_of(const Plans& plans) {
   if (plans.all().size() > most_plans)
@@ -76,11 +48,33 @@ void add_marks(const StrokePainting& painting, const Rounding& rounding, Json& f
   facts["planned"] = facts_of(plans);
 }
 
-template <class Marks>
-void add_marks(const Marks& /*painting*/, const Rounding& /*rounding*/, Json& /*facts*/,
-               std::vector<PagePart>& /*parts*/) {
-  throw Error(ErrorKind::bad_input, "only paintings of strokes can be shared");
+void add_marks(const RegionPainting& painting, const Rounding& rounding, Json& facts, std::vector<PagePart>& parts) {
+  facts["kind"] = "regions";
+  facts["stepsAPixel"] = rounding.steps_a_px;
+  Plans plans;
+  parts.push_back(regions_part("regions", painting, rounding, plans));
+  facts["planned"] = facts_of(plans);
 }
+
+/// What the page cannot draw from marks: it gets the pictures that the surfaces' views show.
+bool needs_pictures(const Painting& painting) {
+  return std::holds_alternative<DiffusionPainting>(painting.marks) || painting.relief.depth_px > 0;
+}
+
+/// For each surface the painting as its view shows it, in the surface's own columns.
+std::vector<Image<Rgb8>> pictures_on_surfaces(const Painting& painting) {
+  std::vector<Image<Rgb8>> pictures;
+  for (const Surface& surface : painting.surfaces.seen) {
+    const Placement placement{.width = surface.disparity.width(),
+                              .height = surface.disparity.height(),
+                              .left = static_cast<double>(surface.left_px)};
+    pictures.push_back(draw(prepare(painting, {.placement = placement}), surface.view).picture);
+  }
+  return pictures;
+}
+
+void add_marks(const DiffusionPainting& /*painting*/, const Rounding& /*rounding*/, Json& /*facts*/,
+               std::vector<PagePart>& /*parts*/) {}
 
 /// Bytes of the page, but for its code.
 std::size_t size_of(const SharedPicture& picture) {
@@ -105,6 +99,16 @@ SharedPicture share_painting(const Painting& painting, const SharePaintingOption
   common["surfaces"] = add_surfaces(painting.surfaces, ground.parts);
   ground.still_jpeg = encode_jpeg(draw(painting, is_of_two_eyes ? left_eye : central_view).picture, still_quality);
 
+  if (needs_pictures(painting)) {
+    if (is_of_two_eyes)
+      throw Error(ErrorKind::bad_input,
+                  "the painting has no surfaces, which pages of lines of colour and of relief need; paint its "
+                  "photographs again, with strokes that are propagated");
+    common["kind"] = "layered";
+    add_pictures(pictures_on_surfaces(painting), painting.surfaces, ground.parts);
+    ground.facts = text_of(common);
+    return ground;
+  }
   constexpr double usual_pixels = 640 * 480;
   const double most_bytes = std::max(static_cast<double>(ground.width) * ground.height / usual_pixels, 1.) *
                                 static_cast<double>(options.most_bytes) -
@@ -114,7 +118,7 @@ SharedPicture share_painting(const Painting& painting, const SharePaintingOption
     shared = ground;
     Json facts = common;
     std::visit([&](const auto& marks) { add_marks(marks, rounding, facts, shared.parts); }, painting.marks);
-    shared.facts = facts.dump(-1, ' ', true, Json::error_handler_t::replace);
+    shared.facts = text_of(facts);
     if (static_cast<double>(size_of(shared)) <= most_bytes) break;
   }
   return shared;
