@@ -108,6 +108,10 @@ void tell_how(const RenderedParticles& result, const Session& session) {
   }
 }
 
+const char* word_of(DensitySource source) {
+  return source == DensitySource::file ? "file" : source == DensitySource::neighbours ? "neighbours" : "grid";
+}
+
 void tell(const RenderedParticles& result, const std::string& written, const Session& session) {
   if (session.json) {
     nlohmann::ordered_json facts{{"output", written},
@@ -118,7 +122,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"mended", result.mended},
                                  {"extreme", result.extreme},
                                  {"outside", result.outside},
-                                 {"density_estimated", result.density_estimated},
+                                 {"density_from", word_of(result.density)},
                                  {"views", result.rig.positions.size()},
                                  {"method", name_of(result.rendered.method)},
                                  {"reason", result.rendered.reason},
@@ -150,7 +154,12 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
   if (result.outside > 0)
     fmt::print(session.output, "outside what the views are framed by (--fit): {} of {} particles\n", result.outside,
                result.particles);
-  if (result.density_estimated) fmt::print(session.output, "density: estimated from the neighbours of each particle\n");
+  if (result.density == DensitySource::neighbours)
+    fmt::print(session.output, "density: estimated from the neighbours of each particle\n");
+  if (result.density == DensitySource::grid)
+    fmt::print(session.output,
+               "density: estimated from a grid of {} cells a side, because not all particles are held\n",
+               DensityGrid::side);
   for (const std::string& warning : result.warnings) fmt::print(session.output, "note: {}\n", warning);
   if (session.verbose) tell_how(result, session);
   fmt::print(session.output, "written to {}\n", written);

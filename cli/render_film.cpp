@@ -80,12 +80,8 @@ FrameSource frames_of_slices(const RenderArguments& arguments, const CLI::App& c
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("{}: is one file of slices, expected a pattern as slices_%04d.exr", arguments.file));
   refuse_options(command, {"--orbit", "--camera", "--frames"}, "on slices (.exr)", "the camera stays where it was");
-  const std::vector<std::int64_t> numbers = numbers_of(*pattern);
-  if (numbers.empty()) throw Error(ErrorKind::bad_input, fmt::format("{}: no files have such names", arguments.file));
+  const std::vector<std::int64_t> numbers = numbers_without_hole(*pattern);
   count = static_cast<int>(numbers.size());
-  if (numbers.back() - numbers.front() + 1 != count)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: {} files are there, expected all from {} to {}", arguments.file,
-                                                  count, numbers.front(), numbers.back()));
   return [pattern = *pattern, first = numbers.front(), &command, options](int frame, const Progress& progress) {
     return render_slice_file(pattern.file(first + frame), command, options, progress);
   };

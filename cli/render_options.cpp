@@ -89,7 +89,7 @@ void add_particle_options(CLI::App& command, RenderArguments& arguments) {
   add_number(command, "--subsample", arguments.options.selection.every, {1, 1e12}, "Keep every Nth particle")
       ->group(particles_group);
   add_number(command, "--neighbours", arguments.options.neighbours, {2, 1000},
-             "Neighbours that the density is estimated from, where the file has no density")
+             "Particles in a kernel, from which the density is estimated where the file has none")
       ->group(particles_group);
   CLI::Option* stream = command
                             .add_flag("--stream", arguments.options.stream,
@@ -158,6 +158,9 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
                     "How particles that lie behind each other come together: their light is added, or the nearer ones "
                     "also absorb light, so that they are in front")
       ->group(appearance_group);
+  number("--shine", appearance.shine, {0, 1000},
+         "Light of highlights on the surfaces of clumps, which move from view to view, as a multiple of the particles' "
+         "own");
   command
       .add_flag("--opaque", arguments.options.rendering.opaque,
                 "Draw opaque particles: the nearest hides the others, instead of adding their light")
@@ -289,6 +292,10 @@ std::string option_of_thesis(const RenderArguments& arguments) {
 void refuse_for_look(const CLI::App& command, const RenderArguments& arguments) {
   const Appearance& appearance = arguments.options.appearance;
   const std::string option = option_of_thesis(arguments);
+  if (!option.empty())
+    refuse_options(command, {"--shine"}, "with " + option, "it works on particles that add their light");
+  if (!arguments.options.quantity.empty())
+    refuse_options(command, {"--shine"}, "with --quantity", "it works on pictures, not on numbers");
   if (!option.empty() && appearance.look == Look::mass)
     refuse_options(command, {"--look"}, "with " + option, "such particles are drawn in --look thesis");
   if (arguments.options.rendering.opaque)
@@ -334,8 +341,6 @@ void refuse_for_particles(const CLI::App& command, const RenderArguments& argume
                    "it works with --method layered");
   if (rendering.opaque && !makes_slices)
     refuse_options(command, {"--filter"}, "with --opaque", "it works on particles that add their light");
-  if (arguments.options.stream)
-    refuse_options(command, {"--neighbours"}, "with --stream", "streamed particles have no density estimate");
   if (!arguments.interleave.empty()) refuse_options(command, {"--annotate"}, "with --interleave", "it works on views");
   if (!arguments.centre.empty())
     refuse_options(command, {"--look-at"}, "with --centre", "the centre is what the views look at");

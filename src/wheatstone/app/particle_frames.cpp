@@ -20,7 +20,6 @@ ParticleFrames::ParticleFrames(const std::string& input, const ParticleFramesOpt
   if (options_.count == 0) options_.count = series ? static_cast<int>(series->files.size()) : 1;
   if (series) series_.emplace(*std::move(series), choice_of(particles));
   survey(input, progress);
-  hold_brightness();
 }
 
 /// Learns what is held through the film.
@@ -29,37 +28,63 @@ void ParticleFrames::survey(const std::string& input, const Progress& progress) 
   if (!series_) {
     still_ = read_particles(input, particles, progress);
     statistics_ = still_.statistics;
-    return;
+    return hold_brightness({statistics_, statistics_});
   }
   const SnapshotSeries& series = series_->series();
+  const std::array<double, 2> ends{moment_of(0).time, moment_of(options_.count - 1).time};
+  std::array<CloudStatistics, 2> at_ends;
   for (std::size_t i = 0; i < series.files.size(); ++i) {
     const Progress of_all = [&](std::string_view /*step*/, double /*done*/) {
       report(progress, "statistics", static_cast<double>(i) / static_cast<double>(series.files.size()));
     };
-    statistics_.add(ready_particles(series_->at(series.times[i], of_all), series.files[i], particles, of_all).cloud);
+    const ReadyParticles snapshot =
+        ready_particles(series_->at(series.times[i], of_all), series.files[i], particles, of_all);
+    statistics_.add(snapshot.cloud);
+    // The last snapshot that is not after a frame stands for it.
+    for (const std::size_t end : {0, 1})
+      if (i == 0 || series.times[i] <= ends[end]) at_ends[end] = snapshot.statistics;
   }
   statistics_.framed = framed_region(statistics_, particles.fit);
+  hold_brightness(at_ends);
 }
 
 /// The darker of what the first and the last frame would choose: nothing is too bright.
-void ParticleFrames::hold_brightness() {
+void ParticleFrames::hold_brightness(const std::array<CloudStatistics, 2>& at_ends) {
   RenderParticlesOptions& options = options_.particles;
   const bool thesis = options.appearance.look == Look::thesis;
   if (thesis ? !std::isnan(options.rendering.exposure) : !std::isnan(options.least) && !std::isnan(options.most))
     return;
-  RenderedParticles first = frame(0);
-  if (options_.count > 1) {
-    const RenderedParticles last = frame(options_.count - 1);
-    first.rendered.exposure = std::min(first.rendered.exposure, last.rendered.exposure);
-    first.least = std::min(first.least, last.least);
-    first.most = std::max(first.most, last.most);
-  }
+  const auto at = [&](std::size_t end) {
+    const int number = end == 0 ? 0 : options_.count - 1;
+    return brightness_for(held(at_ends[end]), options_at(number, moment_of(number).key));
+  };
+  const Brightness first = at(0);
+  const Brightness last = options_.count > 1 ? at(1) : first;
   if (thesis) {
-    options.rendering.exposure = first.rendered.exposure;
+    options.rendering.exposure = std::min(first.exposure, last.exposure);
   } else {
-    options.least = first.least;
-    options.most = first.most;
+    options.least = std::min(first.least, last.least);
+    options.most = std::max(first.most, last.most);
   }
+}
+
+/// What frames the views and colours the particles is held; how many there are is the frame's own.
+CloudStatistics ParticleFrames::held(CloudStatistics of_frame) const {
+  if (!series_) return of_frame;
+  CloudStatistics held = statistics_;
+  held.count = of_frame.count;
+  held.mass = of_frame.mass;
+  held.sample = std::move(of_frame.sample);
+  held.grid = std::move(of_frame.grid);
+  return held;
+}
+
+ParticleFrames::Moment ParticleFrames::moment_of(int number) const {
+  Moment moment{.key = options_.path ? camera_at(*options_.path, share_of(number)) : CameraKey()};
+  if (!series_) return moment;
+  const std::vector<double>& times = series_->series().times;
+  moment.time = moment.key.time.value_or(std::lerp(times.front(), times.back(), share_of(number)));
+  return moment;
 }
 
 double ParticleFrames::share_of(int number) const {
@@ -82,18 +107,11 @@ RenderParticlesOptions ParticleFrames::options_at(int number, const CameraKey& k
 }
 
 RenderedParticles ParticleFrames::frame(int number, const Progress& progress) {
-  const CameraKey key = options_.path ? camera_at(*options_.path, share_of(number)) : CameraKey();
-  const RenderParticlesOptions options = options_at(number, key);
+  const Moment moment = moment_of(number);
+  const RenderParticlesOptions options = options_at(number, moment.key);
   if (!series_) return render_ready(still_, options, progress);
-  const std::vector<double>& times = series_->series().times;
-  const double time = key.time.value_or(std::lerp(times.front(), times.back(), share_of(number)));
-  ReadyParticles particles = ready_particles(series_->at(time, progress), input_, options, progress);
-  // What frames the views and colours the particles is held; how many there are is the frame's own.
-  CloudStatistics held = statistics_;
-  held.count = particles.statistics.count;
-  held.mass = particles.statistics.mass;
-  held.sample = std::move(particles.statistics.sample);
-  particles.statistics = std::move(held);
+  ReadyParticles particles = ready_particles(series_->at(moment.time, progress), input_, options, progress);
+  particles.statistics = held(std::move(particles.statistics));
   return render_ready(particles, options, progress);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -33,9 +34,16 @@ class ParticleFrames {
   RenderedParticles frame(int number, const Progress& progress = {});
 
  private:
+  /// The camera at a frame, and what time it shows.
+  struct Moment {
+    CameraKey key;
+    double time = 0;  ///< of a series
+  };
   void survey(const std::string& input, const Progress& progress);
-  void hold_brightness();
+  void hold_brightness(const std::array<CloudStatistics, 2>& at_ends);
+  Moment moment_of(int number) const;
   RenderParticlesOptions options_at(int number, const CameraKey& key) const;
+  CloudStatistics held(CloudStatistics of_frame) const;
   double share_of(int number) const;
 
   ParticleFramesOptions options_;

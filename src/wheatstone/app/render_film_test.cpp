@@ -163,10 +163,10 @@ TEST(SnapshotSeries, NamesWhatIsWrongWithIt) {
   const auto refused = [&](const std::string& message) {
     expect_error(ErrorKind::bad_input, message, [&] { ParticleFrames(pattern, {}); });
   };
-  refused("0 snapshots have such names");
+  refused("s_%d.hdf5: 0 files have such names, expected at least 2");
   write_universe(folder / "s_1.hdf5", 0.4);
   write_universe(folder / "s_3.hdf5", 0.6);
-  refused("s_2.hdf5: is missing, expected all snapshots from 1 to 3");
+  refused("s_2.hdf5 is missing, the next there is s_3.hdf5");
   write_universe(folder / "s_2.hdf5", 0.3);
   refused("s_2.hdf5: its time is 0.3, expected one after 0.4");
   write_universe(folder / "s_2.hdf5", 0.5, 50);

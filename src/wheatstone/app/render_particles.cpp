@@ -146,6 +146,7 @@ struct SurveyedParticles {
   SelectionCounts counts;
   std::vector<Cloud> kept;  ///< all chunks, where they are few enough
   bool all_kept = true;
+  DensitySource density = DensitySource::file;
 };
 
 std::size_t bytes_of(const Cloud& cloud) {
@@ -156,6 +157,12 @@ std::size_t bytes_of(const Cloud& cloud) {
   return numbers * sizeof(float) + cloud.colour.size() * sizeof(Rgb8);
 }
 
+/// Whether kernels or brightness need a density that the particles do not have.
+bool lacks_density(const Cloud& cloud, const RenderParticlesOptions& options) {
+  const bool sized = options.appearance.look == Look::mass && !cloud.smoothing_length.empty();
+  return cloud.density.empty() && cloud.colour.empty() && !sized;
+}
+
 /// Reads all particles once. Those of a small file stay in memory, so that they need not be read again.
 SurveyedParticles survey(const std::filesystem::path& file, const RenderParticlesOptions& options,
                          const Progress& progress) {
@@ -164,6 +171,11 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   surveyed.all_kept = !options.stream;
   std::size_t bytes = 0;
   surveyed.counts = for_each_chunk(file, options, "reading", progress, [&](Cloud& chunk) {
+    const bool lacks = lacks_density(chunk, options);
+    if (surveyed.statistics.count == 0 && (lacks || options.appearance.shine > 0)) {
+      surveyed.statistics.grid = std::make_shared<DensityGrid>();
+      if (lacks) surveyed.density = options.stream ? DensitySource::grid : DensitySource::neighbours;
+    }
     surveyed.statistics.add(chunk);
     bytes += bytes_of(chunk);
     if (surveyed.all_kept && bytes > most_bytes_kept) {
@@ -174,6 +186,9 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   });
   if (surveyed.statistics.count == 0) refuse_nothing(file, surveyed.counts);
   surveyed.statistics.framed = framed_region(surveyed.statistics, options.fit);
+  if (surveyed.density == DensitySource::neighbours && !surveyed.all_kept) surveyed.density = DensitySource::grid;
+  if (surveyed.statistics.grid != nullptr) surveyed.statistics.grid->finish(options.neighbours);
+  if (surveyed.density == DensitySource::grid) surveyed.statistics.take_densities_of_grid();
   return surveyed;
 }
 
@@ -184,15 +199,12 @@ Chunks chunks_from(const SurveyedParticles& surveyed, const std::filesystem::pat
     return [&surveyed](const std::function<void(const Cloud&)>& visit) {
       for (const Cloud& chunk : surveyed.kept) visit(chunk);
     };
-  return [&file, &options, &progress](const std::function<void(const Cloud&)>& visit) {
-    for_each_chunk(file, options, "drawing", progress, visit);
+  return [&](const std::function<void(const Cloud&)>& visit) {
+    for_each_chunk(file, options, "drawing", progress, [&](Cloud& chunk) {
+      if (surveyed.density == DensitySource::grid) surveyed.statistics.grid->put_densities(chunk);
+      visit(chunk);
+    });
   };
-}
-
-/// Whether kernels or brightness need a density that only the neighbours tell.
-bool needs_density(const CloudStatistics& statistics, const RenderParticlesOptions& options) {
-  const bool sized = options.appearance.look == Look::mass && statistics.has_smoothing_length;
-  return !options.stream && !statistics.has_density && !statistics.has_colour && !sized;
 }
 
 /// The views from the slices that were made.
@@ -215,15 +227,6 @@ void note_what_is_missing(const CloudStatistics& statistics, const RenderParticl
         "gives it in the units of the file");
   if (mass && !options.quantity.empty() && !statistics.has_mass)
     result.warnings.emplace_back("the file has no masses: each particle counts 1");
-  if (!options.stream || statistics.has_density || statistics.has_colour) return;
-  if (mass && !statistics.has_smoothing_length) {
-    result.warnings.emplace_back(
-        "the file has neither smoothing lengths nor densities, and streamed particles cannot estimate them: all are "
-        "equally wide");
-  } else if (!mass) {
-    result.warnings.emplace_back(
-        "the file has no density, and streamed particles cannot estimate it: all are equally bright");
-  }
 }
 
 /// Particles of which all is known.
@@ -275,12 +278,13 @@ RenderedParticles render_known(const KnownParticles& particles, const RenderPart
 RenderedParticles render_surveyed(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                   const Progress& progress) {
   SurveyedParticles surveyed = survey(file, options, progress);
-  if (needs_density(surveyed.statistics, options)) {
+  if (surveyed.density == DensitySource::neighbours) {
     surveyed = {};
     return render_ready(read_particles(file, options, progress), options, progress);
   }
   const Chunks chunks = chunks_from(surveyed, file, options, progress);
   RenderedParticles result = render_known({chunks, surveyed.statistics, surveyed.counts}, options, progress);
+  result.density = surveyed.density;
   note_what_is_missing(surveyed.statistics, options, result);
   return result;
 }
@@ -323,9 +327,11 @@ ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, c
   check_positions(file, ready.cloud);
   if (ready.cloud.density.empty() && ready.cloud.colour.empty()) {
     estimate_density(ready.cloud, options.neighbours, progress);
-    ready.density_estimated = true;
+    ready.density = DensitySource::neighbours;
   }
+  if (options.appearance.shine > 0) ready.statistics.grid = std::make_shared<DensityGrid>();
   ready.statistics.add(ready.cloud);
+  if (ready.statistics.grid != nullptr) ready.statistics.grid->finish(options.neighbours);
   ready.statistics.framed = framed_region(ready.statistics, options.fit);
   return ready;
 }
@@ -333,6 +339,15 @@ ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, c
 ReadyParticles read_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                               const Progress& progress) {
   return ready_particles(read_cloud(file, choice_of(options), progress), file, options, progress);
+}
+
+Brightness brightness_for(const CloudStatistics& statistics, const RenderParticlesOptions& options) {
+  Staged staged = stage(options, statistics);
+  RenderOptions rendering = options.rendering;
+  show_quantity(options, statistics, staged.scene, rendering.tone);
+  const ToneSettings tone = tone_found(statistics, staged.scene, staged.rig, rendering);
+  const float unit = unit_of_tone(staged.scene);
+  return {.exposure = tone.exposure, .least = tone.least * unit, .most = tone.most * unit};
 }
 
 // A point that is only looked at does not count: a window that looks elsewhere keeps the cloud it has, and shows the
@@ -373,6 +388,10 @@ Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& 
   scene.mapping = mapping_for(options.depth, options.width, std::max(depth - radius, depth * 0.01f), depth + radius);
   scene.splat_style = make_splat_style(options.appearance, statistics);
   scene.splat_style.size_depth = distance;
+  const ViewingGeometry& viewing = options.depth.viewing;
+  scene.shine = {.strength = options.appearance.shine,
+                 .turn = viewing.eye_separation_mm / viewing.viewing_distance_mm,
+                 .grid = statistics.grid};
   return scene;
 }
 
@@ -393,7 +412,7 @@ RenderedParticles render_ready(const ReadyParticles& particles, const RenderPart
                                const Progress& progress) {
   const Chunks chunks = chunks_of(particles.cloud);
   RenderedParticles result = render_known({chunks, particles.statistics, particles.counts}, options, progress);
-  result.density_estimated = particles.density_estimated;
+  result.density = particles.density;
   note_what_is_missing(particles.statistics, options, result);
   return result;
 }

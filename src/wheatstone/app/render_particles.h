@@ -37,7 +37,7 @@ struct PerceivedDepth {
 struct RenderParticlesOptions {
   CloudChoice choice;
   Selection selection;
-  int neighbours = 32;  ///< of the density estimate, where the file has no density
+  int neighbours = 32;  ///< in a kernel, where the file has no density and it is estimated
   Appearance appearance;
   Framing framing{.zoom = 1.2f};  ///< a box seldom fills the sphere around it
   /// As the framing's, in the file's own units, where the cloud has an origin of its own.
@@ -69,6 +69,13 @@ struct ShownUnits {
   std::string name;   ///< of what is shown: "column density"
 };
 
+/// Where the densities of particles come from.
+enum class DensitySource {
+  file,        ///< or they are not needed
+  neighbours,  ///< estimated from those of each particle
+  grid,        ///< in which particles were counted that are not all held
+};
+
 /// What became of a file of particles.
 struct RenderedParticles {
   RenderedViews rendered;
@@ -86,7 +93,7 @@ struct RenderedParticles {
   std::uint64_t mended = 0;      ///< with a density or temperature that is not above 0, which got the least one
   std::uint64_t extreme = 0;     ///< densities and temperatures beyond single precision, put at its limits
   std::uint64_t outside = 0;     ///< of what the views are framed by
-  bool density_estimated = false;
+  DensitySource density = DensitySource::file;
   bool has_mass = false;              ///< else each particle counts 1
   std::vector<std::string> warnings;  ///< of comfort and of what is missing, in words for people
 };
@@ -100,7 +107,7 @@ struct ReadyParticles {
   Cloud cloud;                 ///< with densities, or colours of its own
   CloudStatistics statistics;  ///< with what the views are framed by
   SelectionCounts counts;
-  bool density_estimated = false;
+  DensitySource density = DensitySource::file;
 };
 
 /// Reads particles, selects, and estimates their density where the file has none. Throws Error: bad_input for the file,
@@ -117,6 +124,13 @@ ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file,
 /// caller.
 RenderedParticles render_ready(const ReadyParticles& particles, const RenderParticlesOptions& options,
                                const Progress& progress = {});
+
+/// The exposure, or the limits between which brightness lies, that views of such particles would get.
+struct Brightness {
+  float exposure;     ///< of the thesis's look
+  float least, most;  ///< in units of what is shown
+};
+Brightness brightness_for(const CloudStatistics& statistics, const RenderParticlesOptions& options);
 
 /// What of a file becomes the cloud: with the middle of what is shown as its origin, where the options tell it.
 CloudChoice choice_of(const RenderParticlesOptions& options);

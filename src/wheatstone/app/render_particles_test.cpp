@@ -151,6 +151,32 @@ TEST(RenderParticles, AreFramedByABoxOrSphereOfTheFile) {
   EXPECT_EQ(sphere.particles, 1500u);
 }
 
+TEST(RenderParticles, OfAStreamHaveNearlyTheSizesThatNeighboursTell) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.txt", as_text(cluster(1, 0)));
+  const RenderedParticles whole = rendered(folder / "a.txt");
+  const RenderedParticles stream = rendered(folder / "a.txt", {.stream = true, .chunk = 100});
+  EXPECT_EQ(whole.density, DensitySource::neighbours);
+  EXPECT_EQ(stream.density, DensitySource::grid);
+  EXPECT_GT(psnr_db(stream.rendered.views[0], whole.rendered.views[0]), 27);
+}
+
+TEST(RenderParticles, OfWhichEveryThirdIsKeptHaveTheMassOfAll) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.txt", as_text(cluster(1, 0)));
+  const auto mass_of = [&](std::uint64_t every) {
+    RenderParticlesOptions options{.values = true};
+    options.selection.every = every;
+    options.framing.orthographic = true;
+    double sum = 0;
+    const RenderedParticles result = rendered(folder / "a.txt", options);
+    for (const float column : result.values[0].column.pixels()) sum += column;
+    return sum * std::pow(result.scene.camera.orthographic_depth / result.scene.camera.focal_px, 2);
+  };
+  EXPECT_NEAR(mass_of(1), 1500, 40);
+  EXPECT_NEAR(mass_of(3), 1500, 40);
+}
+
 TEST(Annotate, StandsInTheSamePlaceOfEveryView) {
   const TemporaryFolder folder;
   write_whole_file(folder / "a.txt", as_text(cluster(1, 0)));

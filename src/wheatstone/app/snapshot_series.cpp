@@ -13,16 +13,8 @@ namespace wheatstone {
 std::optional<SnapshotSeries> find_series(const std::string& pattern, const CloudChoice& choice) {
   const std::optional<FramePattern> names = frame_pattern(pattern);
   if (!names) return std::nullopt;
-  const std::vector<std::int64_t> numbers = numbers_of(*names);
-  if (numbers.size() < 2)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: {} snapshots have such names, expected at least 2", pattern, numbers.size()));
   SnapshotSeries series;
-  for (const std::int64_t number : numbers) {
-    const std::int64_t expected = numbers.front() + static_cast<std::int64_t>(series.files.size());
-    if (number != expected)
-      throw Error(ErrorKind::bad_input, fmt::format("{}: is missing, expected all snapshots from {} to {}",
-                                                    names->file(expected).string(), numbers.front(), numbers.back()));
+  for (const std::int64_t number : numbers_without_hole(*names, 2)) {
     const std::filesystem::path file = names->file(number);
     const std::optional<double> time = open_cloud(file, choice).time;
     if (!time)

@@ -311,8 +311,10 @@ ViewGroup group_from(std::size_t first, const Compositing& compositing) {
     std::vector<Shift> shifts;
     bool fits = true;
     for (std::size_t plane = 0; plane < compositing.parallaxes.size(); ++plane) {
-      const Shift shift = shift_of((central_view - compositing.views[group.end]) * compositing.parallaxes[plane],
-                                   compositing.resampling);
+      Shift shift = shift_of((central_view - compositing.views[group.end]) * compositing.parallaxes[plane],
+                             compositing.resampling);
+      if (!compositing.shares.empty())
+        for (float& weight : shift.weight) weight *= compositing.shares[group.end][plane];
       if (group.end == first) reach.push_back({shift.whole, shift.whole + taps - 1});
       reach[plane] = {std::min(reach[plane][0], shift.whole), std::max(reach[plane][1], shift.whole + taps - 1)};
       fits = fits && reach[plane][1] - reach[plane][0] <= UnpackedBlock::widest - block_width - lanes;

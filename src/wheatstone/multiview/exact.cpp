@@ -2,6 +2,7 @@
 
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/multiview/shine_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -22,7 +23,7 @@ void make_view(const RenderJob& job, ViewPosition view, std::span<const ImageVie
   const Window window{.left = 0, .right = static_cast<float>(job.rig.width), .height = job.rig.height};
   const Deposit kind = deposit_of(job.scene.splat_style);
   light.darken();
-  for_each_ordered(job.chunks, projection_for(job, orders, view), window, orders,
+  for_each_ordered(with_shine(job, view), projection_for(job, orders, view), window, orders,
                    [&](const std::vector<SplatBlock>& blocks) { deposit_all(blocks, orders, kind, light); });
   for (std::size_t p = orders.size(); p-- > 0;) {
     const ViewTarget target = pyramid.targets(p, picture).front();

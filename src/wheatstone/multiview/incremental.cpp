@@ -2,6 +2,7 @@
 
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/multiview/shine_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -9,22 +10,43 @@ namespace {
 /// As many views as are filled at a time: their light stays within the memory that one picture of each takes.
 constexpr std::size_t views_at_a_time = 16;
 
+/// Some of a rig's views, whose light is gathered at the same time.
+struct ViewsAtOnce {
+  std::span<const ViewPosition> views;
+  const SplatOrders& orders;
+  Deposit kind;
+  GatheredLight& light;
+};
+
+/// Adds splats of the central view to some of the views, `count` of them from the first on.
+void deposit_in(const std::vector<SplatBlock>& blocks, std::size_t first, std::size_t count, const ViewsAtOnce& to) {
+  for_each_band(to.orders, [&](std::size_t picture, int b) {
+    const SplatOrder& order = to.orders[picture];
+    for (int part = 0; part < order.parts; ++part)
+      for (const SplatBlock& block : blocks)
+        deposit_in_views(to.kind, block.bin(order.bin(b, part)), b * order.band_rows, to.views.subspan(first, count),
+                         to.light.band_in_targets(picture, b).subspan(first, count));
+  });
+}
+
 void render_some(const RenderJob& job, std::span<const ViewPosition> views, std::span<const ImageView<Rgb8>> pictures) {
   const SplatOrders orders = orders_for(job.rig, job.scene.splat_style);
-  const Deposit kind = deposit_of(job.scene.splat_style);
   // One enlarged frustum holds what any view sees (Hassaine 2010, sec. 4.3.1).
   const float around = look_around_px(job.scene, job.rig);
   const auto width = static_cast<float>(job.rig.width);
   const Window seen{.left = -around, .right = width + around, .height = job.rig.height};
   GatheredLight light(orders, {.left = 0, .right = width, .height = job.rig.height}, static_cast<int>(views.size()));
-  for_each_ordered(job.chunks, projection_for(job, orders), seen, orders, [&](const std::vector<SplatBlock>& blocks) {
-    for_each_band(orders, [&](std::size_t picture, int b) {
-      const SplatOrder& order = orders[picture];
-      for (int part = 0; part < order.parts; ++part)
-        for (const SplatBlock& block : blocks)
-          deposit_in_views(kind, block.bin(order.bin(b, part)), b * order.band_rows, views,
-                           light.band_in_targets(picture, b));
-    });
+  const ViewsAtOnce to{views, orders, deposit_of(job.scene.splat_style), light};
+  const Projection projection = projection_for(job, orders);
+  job.chunks([&](const Cloud& chunk) {
+    for_each_ordered(chunks_of(chunk), projection, seen, orders,
+                     [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, 0, views.size(), to); });
+    if (!job.scene.shine.lit()) return;
+    // Those that shine are few: their light is each view's own, and the rest is not done again.
+    ShiningParticles shining(chunk, job.scene, job.rig.positions);
+    for (std::size_t v = 0; v < views.size() && !shining.empty(); ++v)
+      for_each_ordered(chunks_of(shining.seen_from(views[v])), projection, seen, orders,
+                       [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, v, 1, to); });
   });
   ViewPyramid pyramid(orders, job.rig, views.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {

@@ -9,6 +9,7 @@
 
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/multiview/shine_internal.h"
 
 namespace wheatstone {
 
@@ -90,6 +91,13 @@ struct KeptForPlanes {
   std::optional<GatheredLight> light;
 };
 
+/// Light that all views see, and after it what only some of them see: the highlights of views between which they are
+/// interpolated.
+struct PlanesOfViews {
+  std::vector<KeptForPlanes> kept;
+  std::vector<ViewPosition> keys;
+};
+
 bool light_is_less(const SplatOrders& orders, const Window& window, std::uint64_t particles) {
   const double width = static_cast<double>(window.right) - window.left + 2 * LightBand::margin;
   double pixels = 0;
@@ -98,19 +106,31 @@ bool light_is_less(const SplatOrders& orders, const Window& window, std::uint64_
   return pixels * LightBand::channels * sizeof(float) < 1.3 * sizeof(Splat) * static_cast<double>(particles);
 }
 
-KeptForPlanes keep(const RenderJob& job, const SplatOrders& orders, const Window& window) {
-  KeptForPlanes kept;
+PlanesOfViews keep(const RenderJob& job, const SplatOrders& orders, const Window& window) {
+  PlanesOfViews planes;
   const Deposit kind = deposit_of(job.scene.splat_style);
-  if (light_is_less(orders, window, job.statistics.count)) kept.light.emplace(orders, window, 0);
   const Projection projection = projection_for(job, orders);
-  for_each_ordered(job.chunks, projection, window, orders, [&](std::vector<SplatBlock> blocks) {
-    if (kept.light) {
-      deposit_in_planes(blocks, orders, kind, *kept.light);
-    } else {
-      std::ranges::move(blocks, std::back_inserter(kept.splats));
-    }
+  const Shine& shine = job.scene.shine;
+  if (shine.lit()) planes.keys = shine_keys(shine, job.rig.positions);
+  planes.kept.resize(1 + planes.keys.size());
+  if (light_is_less(orders, window, job.statistics.count)) planes.kept[0].light.emplace(orders, window, 0);
+  const auto take = [&](const Cloud& particles, KeptForPlanes& kept) {
+    for_each_ordered(chunks_of(particles), projection, window, orders, [&](std::vector<SplatBlock> blocks) {
+      if (kept.light) {
+        deposit_in_planes(blocks, orders, kind, *kept.light);
+      } else {
+        std::ranges::move(blocks, std::back_inserter(kept.splats));
+      }
+    });
+  };
+  job.chunks([&](const Cloud& chunk) {
+    take(chunk, planes.kept[0]);
+    if (!shine.lit()) return;
+    ShiningParticles shining(chunk, job.scene, job.rig.positions);
+    for (std::size_t key = 0; key < planes.keys.size() && !shining.empty(); ++key)
+      take(shining.seen_from(planes.keys[key]), planes.kept[key + 1]);
   });
-  return kept;
+  return planes;
 }
 
 /// Where a picture of all views goes, and how its planes are read.
@@ -125,26 +145,46 @@ struct Workplace {
   SliceBand slices;
 };
 
+/// How much each view sees of each plane: all of the common light, and its share of the highlights. Empty where there
+/// are none.
+std::vector<std::vector<float>> shares_of_planes(const PlanesOfViews& planes, const Rig& rig, int parts) {
+  if (planes.keys.empty()) return {};
+  const auto planes_a_set = static_cast<std::size_t>(parts);
+  std::vector<std::vector<float>> shares = shares_of_keys(planes.keys, rig.positions);
+  for (std::vector<float>& of_view : shares) {
+    std::vector<float> of_planes(planes_a_set, 1.f);
+    for (const float share : of_view) of_planes.insert(of_planes.end(), planes_a_set, share);
+    of_view = std::move(of_planes);
+  }
+  return shares;
+}
+
 /// Composites one of the pictures of all views.
-void composite_picture(const RenderJob& job, const SplatOrders& orders, std::size_t picture, KeptForPlanes& kept,
+void composite_picture(const RenderJob& job, const SplatOrders& orders, std::size_t picture, PlanesOfViews& planes,
                        const PictureOfViews& to) {
   const SplatOrder& order = orders[picture];
   const Window window = window_in(window_around(job.scene, job.rig), order);
+  const int sets = static_cast<int>(planes.kept.size());
   std::vector<float> parallaxes;
-  for (int plane = 0; plane < order.parts; ++plane)
-    parallaxes.push_back(order.first * order.scale + static_cast<float>(plane) * order.spacing);
-  const Compositing compositing{parallaxes, job.rig.positions, to.resampling};
+  for (int set = 0; set < sets; ++set)
+    for (int plane = 0; plane < order.parts; ++plane)
+      parallaxes.push_back(order.first * order.scale + static_cast<float>(plane) * order.spacing);
+  const std::vector<std::vector<float>> shares = shares_of_planes(planes, job.rig, order.parts);
+  const Compositing compositing{parallaxes, job.rig.positions, to.resampling, shares};
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {
     return Workplace{
         PlaneFiller(window, order, deposit_of(job.scene.splat_style)),
-        SliceBand(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows, order.parts)};
+        SliceBand(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows, sets * order.parts)};
   });
   tbb::parallel_for(0, order.bands, [&](int b) {
     Workplace& work = workplaces.local();
-    work.filler.begin_band();
-    for (int plane = 0; plane < order.parts; ++plane)
-      work.slices.take(plane,
-                       kept.light ? kept.light->band(picture, b, plane) : work.filler.fill(kept.splats, b, plane));
+    for (int set = 0; set < sets; ++set) {
+      KeptForPlanes& kept = planes.kept[static_cast<std::size_t>(set)];
+      work.filler.begin_band();
+      for (int plane = 0; plane < order.parts; ++plane)
+        work.slices.take(set * order.parts + plane,
+                         kept.light ? kept.light->band(picture, b, plane) : work.filler.fill(kept.splats, b, plane));
+    }
     if (!to.targets.empty()) composite(work.slices, compositing, job.tone, b * order.band_rows, to.targets);
   });
 }
@@ -154,7 +194,7 @@ void composite_picture(const RenderJob& job, const SplatOrders& orders, std::siz
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures) {
   const SplatOrders orders = orders_by_plane(job.rig, job.scene.splat_style, planes, filter);
-  KeptForPlanes kept = keep(job, orders, window_around(job.scene, job.rig));
+  PlanesOfViews kept = keep(job, orders, window_around(job.scene, job.rig));
   ViewPyramid pyramid(orders, job.rig, pictures.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> targets = pyramid.targets(p, pictures);

@@ -13,6 +13,7 @@
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/opaque_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/multiview/shine_internal.h"
 
 namespace wheatstone {
 
@@ -39,18 +40,20 @@ void SliceMaker::State::add(const Cloud& cloud) {
   const ToneMap none(ToneSettings{.exposure = 1});
   const Chunks chunks = chunks_of(cloud);
   const RenderJob job{chunks, scene, rig, statistics, none};
-  for_each_ordered(chunks, projection_for(job, orders), window, orders, [&](const std::vector<SplatBlock>& blocks) {
-    if (light) {
-      deposit_in_planes(blocks, orders, deposit_of(scene.splat_style), *light);
-      return;
-    }
-    tbb::parallel_for(0, order().bands, [&](int b) {
-      for (int plane = 0; plane < order().parts; ++plane)
-        for (const SplatBlock& block : blocks)
-          draw_discs(block.bin(order().bin(b, plane)), b * order().band_rows, central_view,
-                     opaque[order().bin(b, plane)]);
-    });
-  });
+  // Slices serve any rig: their highlights are those of the central view.
+  for_each_ordered(with_shine(job, central_view), projection_for(job, orders), window, orders,
+                   [&](const std::vector<SplatBlock>& blocks) {
+                     if (light) {
+                       deposit_in_planes(blocks, orders, deposit_of(scene.splat_style), *light);
+                       return;
+                     }
+                     tbb::parallel_for(0, order().bands, [&](int b) {
+                       for (int plane = 0; plane < order().parts; ++plane)
+                         for (const SplatBlock& block : blocks)
+                           draw_discs(block.bin(order().bin(b, plane)), b * order().band_rows, central_view,
+                                      opaque[order().bin(b, plane)]);
+                     });
+                   });
 }
 
 LinearRgba SliceMaker::State::at(int plane, int x, int y) {

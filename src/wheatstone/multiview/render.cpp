@@ -36,6 +36,11 @@ float automatic_exposure(const Cloud& cloud, const Scene& scene, const Rig& rig)
   return settled({}, scene, statistics, rig).exposure;
 }
 
+ToneSettings tone_found(const CloudStatistics& statistics, const Scene& scene, const Rig& rig,
+                        const RenderOptions& options) {
+  return settled(tone_for(scene, options), scene, statistics, rig);
+}
+
 ToneSettings tone_for(const Scene& scene, const RenderOptions& options) {
   ToneSettings tone = options.tone;
   tone.look = scene.splat_style.look;
@@ -69,6 +74,8 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
 void check_gpu_can(const Scene& scene, const RenderOptions& options) {
   if (scene.splat_style.blend == Blend::over)
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --blend over, expected --device cpu");
+  if (scene.shine.lit())
+    throw Error(ErrorKind::wrong_usage, "--device gpu does not render --shine, expected --device cpu");
   if (options.opaque)
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --opaque, expected --device cpu");
   if (options.method == Method::exact)
@@ -161,7 +168,7 @@ RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, co
                      const RenderOptions& options, const Progress& progress) {
   check(scene, rig, options);
   RenderedViews result;
-  result.tone = settled(tone_for(scene, options), scene, statistics, rig);
+  result.tone = tone_found(statistics, scene, rig, options);
   result.exposure = result.tone.exposure;
   const Choice choice = choose(statistics.count, scene, rig, options);
   result.method = choice.method;
@@ -203,10 +210,12 @@ std::vector<ViewValues> view_values(const Chunks& chunks, const CloudStatistics&
   ToneSettings as_mass{.look = Look::mass, .least = 0, .most = 1};
   const ToneMap tone(as_mass);
   const float unit = column_of_light(scene);
+  Scene without_shine = scene;  // which is no mass
+  without_shine.shine = {};
   const bool with_quantity = scene.splat_style.colour_source == ColourSource::quantity;
   std::vector<ViewValues> values;
   for (const ViewPosition view : rig.positions) {
-    const ViewLight light = light_of_view({chunks, scene, rig, statistics, tone}, view);
+    const ViewLight light = light_of_view({chunks, without_shine, rig, statistics, tone}, view);
     ViewValues& of_view = values.emplace_back();
     of_view.column = Image<float>(rig.width, rig.height);
     if (with_quantity) of_view.mean = Image<float>(rig.width, rig.height);

@@ -76,6 +76,10 @@ struct ViewValues {
 std::vector<ViewValues> view_values(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene,
                                     const Rig& rig);
 
+/// The tone that render() would find for this scene, from a small picture of some of the particles.
+ToneSettings tone_found(const CloudStatistics& statistics, const Scene& scene, const Rig& rig,
+                        const RenderOptions& options);
+
 /// Mass per area of the scene that a unit of light stands for.
 float column_of_light(const Scene& scene);
 

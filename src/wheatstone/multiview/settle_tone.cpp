@@ -24,6 +24,7 @@ Reduced reduced(const Scene& scene, const CloudStatistics& statistics, const Rig
   const float scale =
       mass || every > 1 ? std::max(0.25f, 16.f / static_cast<float>(std::min(rig.width, rig.height))) : 1.f;
   Reduced small{scene, rig};
+  small.scene.shine = {};
   if (scale < 1) {
     small.rig.width = static_cast<int>(std::ceil(static_cast<float>(rig.width) * scale));
     small.rig.height = static_cast<int>(std::ceil(static_cast<float>(rig.height) * scale));

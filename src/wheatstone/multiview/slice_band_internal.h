@@ -59,6 +59,7 @@ struct Compositing {
   std::span<const float> parallaxes;  ///< of the planes, in pixels
   std::span<const ViewPosition> views;
   Resampling resampling = Resampling::cubic;
+  std::span<const std::vector<float>> shares = {};  ///< [view][plane]: how much of a plane a view sees; empty: all
 };
 
 /// Composites every view's part of a band whose first row is `top` in the pictures. All targets are of one size.

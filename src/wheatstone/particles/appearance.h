@@ -49,6 +49,7 @@ struct Appearance {
   std::optional<Rgb8> cold, hot;  ///< of the look's own where they are not given (usual_colours)
   std::string colour_map;         ///< of OpenCV by name ("inferno"); empty: from `cold` to `hot`
   bool logarithmic = true;        ///< temperature
+  float shine = 0;  ///< light at the middle of a highlight that moves from view to view, times the particles' own
   float coldest = std::numeric_limits<float>::quiet_NaN();  ///< where the colours begin; NaN: 2nd percentile
   float hottest = std::numeric_limits<float>::quiet_NaN();  ///< where they end; NaN: 98th percentile
 };

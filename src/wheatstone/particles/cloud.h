@@ -21,7 +21,8 @@ struct Cloud {
   std::vector<float> mass;      ///< where there is none, each particle counts 1
   std::vector<float> quantity;  ///< what the user named to be shown (CloudChoice::quantity)
   std::vector<Rgb8> colour;
-  std::vector<float> presence;    ///< share of its light that a particle gives, 0..1; empty: all of it
+  /// Share of its light that a particle gives, where it fades, or how many particles it stands for; empty: 1.
+  std::vector<float> presence;
   std::vector<std::uint64_t> id;  ///< in a simulation; only where motion was asked for
   /// Changes of x, y and z in a unit of the snapshot's time; only where motion was asked for.
   std::vector<float> rate_x, rate_y, rate_z;

@@ -75,6 +75,7 @@ void CloudStatistics::add(const Cloud& cloud) {
   }
   if (cloud.size() > 0) origin = cloud.origin;
   sample.add(cloud);
+  if (grid) grid->add(cloud);
   count += cloud.size();
   density.add(cloud.density);
   temperature.add(cloud.temperature);
@@ -86,6 +87,12 @@ void CloudStatistics::add(const Cloud& cloud) {
   has_mass = has_mass || !cloud.mass.empty();
   has_colour = has_colour || !cloud.colour.empty();
   has_smoothing_length = has_smoothing_length || !cloud.smoothing_length.empty();
+}
+
+void CloudStatistics::take_densities_of_grid() {
+  grid->put_densities(sample.cloud());
+  density.add(sample.cloud().density);
+  has_density = has_smoothing_length = true;
 }
 
 std::array<float, 3> CloudStatistics::centre() const {

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "wheatstone/particles/cloud.h"
+#include "wheatstone/particles/density_grid.h"
 #include "wheatstone/particles/framed_region.h"
 
 namespace wheatstone {
@@ -31,6 +33,7 @@ class ParticleSample {
  public:
   void add(const Cloud& cloud);
   const Cloud& cloud() const { return kept_; }
+  Cloud& cloud() { return kept_; }
 
  private:
   std::vector<std::uint32_t> keys_;
@@ -45,6 +48,7 @@ struct CloudStatistics {
   std::array<double, 3> origin{};         ///< the cloud's
   std::array<float, 3> lower{}, upper{};  ///< bounds of the positions
   ParticleSample sample;
+  std::shared_ptr<DensityGrid> grid;   ///< counts the particles too, where it is wanted
   std::optional<FramedRegion> framed;  ///< what the views are framed by; nothing: by the bounds
   LogHistogram density, temperature;
   double mass = 0;             ///< of all
@@ -52,6 +56,8 @@ struct CloudStatistics {
   bool has_density = false, has_temperature = false, has_colour = false, has_smoothing_length = false, has_mass = false;
 
   void add(const Cloud& cloud);
+  /// Of a grid that is finished: densities and smoothing lengths are those that it tells.
+  void take_densities_of_grid();
   /// Of what the views are framed by; the radius is not 0.
   std::array<float, 3> centre() const;
   float radius() const;

@@ -70,6 +70,18 @@ TEST(Select, EveryNthIsTheSameInChunks) {
   EXPECT_EQ(joined, whole.x);
 }
 
+TEST(Select, EveryNthHasTheMassOfAll) {
+  Cloud heavy = points({0, 1, 2, 3, 4, 5, 6, 7});
+  heavy.mass = std::vector<float>(8, 2.f);
+  heavy.smoothing_length = std::vector<float>(8, 0.5f);
+  select_particles(heavy, {.every = 8});
+  EXPECT_THAT(heavy.mass, ElementsAre(16));
+  EXPECT_THAT(heavy.smoothing_length, ElementsAre(1));
+  Cloud without_mass = points({0, 1, 2, 3, 4, 5});
+  select_particles(without_mass, {.every = 3});
+  EXPECT_THAT(without_mass.presence, ElementsAre(3, 3));
+}
+
 TEST(Select, MovesAPointToTheMiddleOfAPeriodicBox) {
   Cloud cloud = points({9, 1, 5});
   cloud.box_size = 10;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/particles/columns_internal.h"
@@ -33,9 +34,26 @@ struct Part {
   Hdf5Column position, density, temperature, energy, electrons, smoothing_length, volume, mass, quantity;
   Hdf5Column id, velocity;
   double rate_of_velocity = 1;
-  int component = -1;       // of the quantity, where it is a vector
-  double mass_of_each = 0;  // where the header says it
+  int component = -1;          // of the quantity, where it is a vector
+  double mass_of_each = 0;     // where the header says it
+  float radius_of_length = 1;  // of the kernel, over what the file calls the smoothing length
 };
+
+/// SWIFT's smoothing lengths measure its kernels' widths, not the radii where they end. How many of them these are:
+/// Dehnen & Aly 2012, table 1, in three dimensions.
+float radius_of_swift_length(hid_t file) {
+  constexpr std::array<std::pair<const char*, float>, 6> kernels{{{"Cubic spline (M4)", 1.825742f},
+                                                                  {"Quartic spline (M5)", 2.018932f},
+                                                                  {"Quintic spline (M6)", 2.195775f},
+                                                                  {"Wendland C2", 1.936492f},
+                                                                  {"Wendland C4", 2.207940f},
+                                                                  {"Wendland C6", 2.449490f}}};
+  if (!hdf5_has(file, "HydroScheme")) return 1;
+  const Hdf5Handle scheme(H5Gopen2(file, "HydroScheme", H5P_DEFAULT), H5Gclose);
+  const std::string name = hdf5_text(scheme, "Kernel function");
+  const auto* const found = std::ranges::find(kernels, name, [](const auto& kernel) { return kernel.first; });
+  return found == kernels.end() ? kernels.front().second : found->second;
+}
 
 double box_size_of(hid_t file) {
   if (!hdf5_has(file, "Header")) return 0;
@@ -114,6 +132,7 @@ Part open_part(const std::filesystem::path& path, int type, const CloudChoice& c
   if (!part.temperature.dataset) part.energy = find_column(part, {}, {"InternalEnergy", "InternalEnergies"});
   part.electrons = find_column(part, {}, {"ElectronAbundance"});
   part.smoothing_length = find_column(part, choice.smoothing_length, {"SmoothingLength", "SmoothingLengths"});
+  if (choice.smoothing_length.empty()) part.radius_of_length = radius_of_swift_length(part.file);
   if (!part.smoothing_length.dataset) part.volume = find_column(part, {}, {"Volume"});  // AREPO's cells
   part.mass = find_column(part, choice.mass, {"Masses", "Mass"});
   if (!part.mass.dataset) part.mass_of_each = header_mass(part.file, type);
@@ -142,6 +161,7 @@ void put_temperature(const Part& part, hsize_t first, hsize_t count, Cloud& clou
 
 void put_smoothing_length(const Part& part, hsize_t first, hsize_t count, Cloud& cloud) {
   put_scalars(part, part.smoothing_length, first, count, cloud.smoothing_length);
+  for (float& length : cloud.smoothing_length) length *= part.radius_of_length;
   std::vector<float> volume;
   put_scalars(part, part.volume, first, count, volume);
   if (!part.smoothing_length.dataset && !volume.empty()) {
@@ -287,6 +307,9 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
                   fmt::format("{}: has other datasets than {}, expected the same in all files of a snapshot",
                               file.string(), snapshot->files.front().string()));
     }
+    if (const double box = box_size_of(part.file); box != snapshot->box_size)
+      throw Error(ErrorKind::bad_input, fmt::format("{}: its box has a side of {}, expected {}, that of {}",
+                                                    file.string(), box, snapshot->box_size, path.filename().string()));
     snapshot->files.push_back(file);
     count += part.count;
   }

@@ -88,6 +88,19 @@ std::optional<double> hdf5_number(hid_t object, const std::string& attribute) {
   return numbers.front();
 }
 
+std::string hdf5_text(hid_t object, const std::string& attribute) {
+  if (H5Aexists(object, attribute.c_str()) <= 0) return {};
+  const Hdf5Handle opened(H5Aopen(object, attribute.c_str(), H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
+  constexpr std::size_t most = 4096;
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || H5Tget_size(type) > most) return {};
+  const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space) != 1) return {};
+  std::string text(H5Tget_size(type), '\0');
+  if (H5Aread(opened, type, text.data()) < 0) return {};
+  return text.c_str();  // up to where it is filled up with zeros
+}
+
 std::vector<std::string> hdf5_datasets(hid_t group) {
   std::vector<std::string> names;
   H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, note_dataset, &names);

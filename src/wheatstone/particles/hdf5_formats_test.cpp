@@ -1,5 +1,6 @@
 // Snapshots and other tables of particles in HDF5.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -41,6 +42,14 @@ class Hdf5Writer {
     const Hdf5Handle made(H5Acreate2(where, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     H5Awrite(made, H5T_NATIVE_DOUBLE, values.data());
   }
+  void attribute(const std::string& group, const std::string& name, const std::string& text) {
+    const Hdf5Handle where(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
+    const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, text.size() + 3);
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Hdf5Handle made(H5Acreate2(where, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    H5Awrite(made, type, (text + std::string(3, '\0')).c_str());
+  }
   void dataset(const std::string& name, std::vector<float> values, hsize_t width = 1) {
     const std::array<hsize_t, 2> size{values.size() / width, width};
     const Hdf5Handle space(H5Screate_simple(width > 1 ? 2 : 1, size.data(), nullptr), H5Sclose);
@@ -63,7 +72,8 @@ class Hdf5Writer {
   Hdf5Handle file_;
 };
 
-void write_snapshot(const std::filesystem::path& path, std::size_t header_entries, int files = 1, double total = 3) {
+void write_snapshot(const std::filesystem::path& path, std::size_t header_entries, int files = 1, double total = 3,
+                    double box_size = 50) {
   Hdf5Writer file(path);
   file.group("Header");
   std::vector<double> totals(header_entries, 0.);
@@ -71,7 +81,7 @@ void write_snapshot(const std::filesystem::path& path, std::size_t header_entrie
   file.attribute("Header", "NumPart_Total", totals);
   file.attribute("Header", "MassTable", std::vector<double>(header_entries, 1.));
   file.attribute("Header", "NumFilesPerSnapshot", {static_cast<double>(files)});
-  file.attribute("Header", "BoxSize", {50.});
+  file.attribute("Header", "BoxSize", {box_size});
   file.attribute("Header", "Redshift", {2.});
   file.group("PartType0");
   file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
@@ -204,6 +214,39 @@ TEST(GadgetHdf5, PartsWithOtherDatasetsAreRefused) {
   }
   expect_error(ErrorKind::bad_input, "snap.1.hdf5: has other datasets than",
                [&] { read_cloud(folder / "snap.0.hdf5"); });
+}
+
+TEST(GadgetHdf5, PartsOfDifferentBoxesAreRefused) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.0.hdf5", 6, 2, 6);
+  write_snapshot(folder / "snap.1.hdf5", 6, 2, 6, 60);
+  expect_error(ErrorKind::bad_input, "snap.1.hdf5: its box has a side of 60, expected 50, that of snap.0.hdf5",
+               [&] { read_cloud(folder / "snap.0.hdf5"); });
+}
+
+TEST(GadgetHdf5, ADamagedPartAmongEightIsNamed) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 8; ++i) write_snapshot(folder / fmt::format("snap.{}.hdf5", i), 6, 8, 24);
+  EXPECT_EQ(read_cloud(folder / "snap.0.hdf5").size(), 24u);
+  std::filesystem::resize_file(folder / "snap.5.hdf5", std::filesystem::file_size(folder / "snap.5.hdf5") / 2);
+  expect_error(ErrorKind::bad_input, "snap.5.hdf5: ", [&] { read_cloud(folder / "snap.0.hdf5"); });
+}
+
+TEST(GadgetHdf5, SmoothingLengthsOfSwiftBecomeTheKernelsRadii) {
+  const TemporaryFolder folder;
+  for (const auto& [kernel, factor] : {std::pair{"Cubic spline (M4)", 1.825742f}, {"Wendland C2", 1.936492f}}) {
+    {
+      Hdf5Writer file(folder / "swift.hdf5");
+      file.group("HydroScheme");
+      file.attribute("HydroScheme", "Kernel function", std::string(kernel));
+      file.group("PartType0");
+      file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
+      file.dataset("PartType0/SmoothingLengths", {1, 2});
+    }
+    EXPECT_THAT(read_cloud(folder / "swift.hdf5").smoothing_length, ElementsAre(factor, 2 * factor));
+    EXPECT_THAT(read_cloud(folder / "swift.hdf5", {.smoothing_length = "SmoothingLengths"}).smoothing_length,
+                ElementsAre(1, 2));
+  }
 }
 
 TEST(GadgetHdf5, RowsThatTheFileCannotHoldAreRefused) {

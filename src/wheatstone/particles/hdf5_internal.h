@@ -46,6 +46,9 @@ bool hdf5_has(hid_t where, const std::string& name);
 std::vector<double> hdf5_numbers(hid_t object, const std::string& attribute);
 std::optional<double> hdf5_number(hid_t object, const std::string& attribute);
 
+/// An attribute's text; empty where there is no such attribute or it is no text.
+std::string hdf5_text(hid_t object, const std::string& attribute);
+
 /// The names of the datasets in a group.
 std::vector<std::string> hdf5_datasets(hid_t group);
 

@@ -63,6 +63,16 @@ bool counts_for_something(const Cloud& cloud, std::size_t i) {
   return cloud.quantity.empty() || std::isfinite(cloud.quantity[i]);
 }
 
+/// The particles that are kept stand for those that are not: each is as heavy as so many, and as wide as their number
+/// asks for.
+void stand_for(Cloud& cloud, std::uint64_t every) {
+  const auto times = static_cast<float>(every);
+  for (float& mass : cloud.mass) mass *= times;
+  if (cloud.mass.empty()) cloud.presence.assign(cloud.size(), times);
+  const auto wider = static_cast<float>(std::cbrt(static_cast<double>(every)));
+  for (float& length : cloud.smoothing_length) length *= wider;
+}
+
 bool keeps_all(const Cloud& cloud, const Selection& selection) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
   return selection.every <= 1 && selection.cut.index() == 0 && all_between(cloud.x, -infinite, infinite) &&
@@ -103,6 +113,7 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
   if (!all && kept.size() < cloud.size()) {
     std::apply([&](auto&... column) { (keep(column, kept), ...); }, columns_of(cloud));
   }
+  if (selection.every > 1) stand_for(cloud, selection.every);
   mend(cloud.density, counts);
   mend(cloud.temperature, counts);
   // Without a length a particle is a point.

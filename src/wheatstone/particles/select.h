@@ -22,7 +22,7 @@ using Cut = std::variant<std::monostate, Sphere, Box>;
 struct Selection {
   std::optional<std::array<double, 3>> centre;  ///< moved to the middle of a periodic box
   Cut cut;
-  std::uint64_t every = 1;  ///< keep one particle of so many
+  std::uint64_t every = 1;  ///< keep one particle of so many, with the mass of all of them
 };
 
 /// What was left out, or put right.

@@ -87,4 +87,21 @@ std::vector<std::int64_t> numbers_of(const FramePattern& pattern) {
   return numbers;
 }
 
+std::vector<std::int64_t> numbers_without_hole(const FramePattern& pattern, std::size_t least) {
+  std::vector<std::int64_t> numbers = numbers_of(pattern);
+  const auto refuse = [&](const std::string& what) {
+    const std::string name =
+        fmt::format("{}%{}d{}", pattern.before,
+                    pattern.least_digits > 1 ? fmt::format("0{}", pattern.least_digits) : "", pattern.after);
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {}", (pattern.folder / name).string(), what));
+  };
+  if (numbers.size() < least)
+    refuse(fmt::format("{} files have such names, expected at least {}", numbers.size(), least));
+  const auto hole = std::ranges::adjacent_find(numbers, [](std::int64_t a, std::int64_t b) { return b != a + 1; });
+  if (hole != numbers.end())
+    refuse(fmt::format("{} is missing, the next there is {}", pattern.file(*hole + 1).filename().string(),
+                       pattern.file(*(hole + 1)).filename().string()));
+  return numbers;
+}
+
 }  // namespace wheatstone

@@ -28,4 +28,8 @@ std::optional<FramePattern> frame_pattern(const std::filesystem::path& path);
 /// The numbers of the files that exist, ascending.
 std::vector<std::int64_t> numbers_of(const FramePattern& pattern);
 
+/// The same of at least so many files, without a hole between the first and the last. Throws Error{bad_input} naming
+/// the first file that is missing.
+std::vector<std::int64_t> numbers_without_hole(const FramePattern& pattern, std::size_t least = 1);
+
 }  // namespace wheatstone

@@ -12,14 +12,7 @@ namespace wheatstone {
 
 PictureSequence::PictureSequence(const std::filesystem::path& path, FramePattern pattern, Rational rate)
     : pattern_(std::move(pattern)) {
-  const std::vector<std::int64_t> numbers = numbers_of(pattern_);
-  if (numbers.empty()) refuse_film(path, "no picture has such a name, expected a numbered sequence");
-  for (std::size_t i = 1; i < numbers.size(); ++i) {
-    if (numbers[i] == numbers[i - 1] + 1) continue;
-    refuse_film(
-        path, fmt::format("{} is missing, the next there is {}", pattern_.file(numbers[i - 1] + 1).filename().string(),
-                          pattern_.file(numbers[i]).filename().string()));
-  }
+  const std::vector<std::int64_t> numbers = numbers_without_hole(pattern_);
   first_ = numbers.front();
   count_ = static_cast<std::int64_t>(numbers.size());
   const Image<Rgb8> first = read_image(pattern_.file(first_));

@@ -1,0 +1,202 @@
+#include "wheatstone/particles/density_grid.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace wheatstone {
+
+DensityGrid::Place DensityGrid::cell_of(const std::array<float, 3>& point) const {
+  Place place;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    place[axis] = static_cast<std::int64_t>(std::floor(static_cast<double>(point[axis]) / cell_));
+  return place;
+}
+
+/// Makes cells as large as it takes to cover the points too, and counts again what was counted.
+void DensityGrid::cover(const std::array<float, 3>& lower, const std::array<float, 3>& upper) {
+  if (cell_ == 0) {
+    double extent = std::numeric_limits<float>::min();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      extent = std::max({extent, static_cast<double>(upper[axis]) - lower[axis], std::abs(lower[axis]) * 1e-6});
+    cell_ = std::exp2(std::ceil(std::log2(extent / side)));
+    least_ = first_ = cell_of(lower);
+    most_ = cell_of(upper);
+    counts_.assign(static_cast<std::size_t>(side) * side * side, 0);
+  }
+  const Place lower_cell = cell_of(lower);
+  const Place upper_cell = cell_of(upper);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    least_[axis] = std::min(least_[axis], lower_cell[axis]);
+    most_[axis] = std::max(most_[axis], upper_cell[axis]);
+  }
+  int halvings = 0;
+  const auto fits = [&](std::size_t axis) { return (most_[axis] >> halvings) - (least_[axis] >> halvings) < side; };
+  while (!fits(0) || !fits(1) || !fits(2)) ++halvings;
+  const Place before = std::exchange(first_, {least_[0] >> halvings, least_[1] >> halvings, least_[2] >> halvings});
+  if (halvings == 0 && before == first_) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    least_[axis] >>= halvings;
+    most_[axis] >>= halvings;
+  }
+  cell_ = std::ldexp(cell_, halvings);
+  const std::vector<std::uint32_t> counted = std::exchange(counts_, std::vector<std::uint32_t>(counts_.size()));
+  const auto moved = [&](int at, std::size_t axis) {
+    return static_cast<int>(((before[axis] + at) >> halvings) - first_[axis]);
+  };
+  for (int z = 0; z < side; ++z)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        if (const std::uint32_t count = counted[index(x, y, z)]; count > 0)
+          counts_[index(moved(x, 0), moved(y, 1), moved(z, 2))] += count;
+}
+
+void DensityGrid::add(const Cloud& cloud) {
+  if (cloud.size() == 0) return;
+  const auto [left, right] = std::ranges::minmax(cloud.x);
+  const auto [front, back] = std::ranges::minmax(cloud.y);
+  const auto [below, above] = std::ranges::minmax(cloud.z);
+  cover({left, front, below}, {right, back, above});
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Place place = cell_of({cloud.x[i], cloud.y[i], cloud.z[i]});
+    ++counts_[index(static_cast<int>(place[0] - first_[0]), static_cast<int>(place[1] - first_[1]),
+                    static_cast<int>(place[2] - first_[2]))];
+  }
+}
+
+namespace {
+
+/// Counts in blocks of twice the size.
+std::vector<std::uint32_t> joined(const std::vector<std::uint32_t>& counts, int blocks) {
+  const int half = blocks / 2;
+  std::vector<std::uint32_t> sums(static_cast<std::size_t>(half) * half * half);
+  for (int z = 0; z < blocks; ++z)
+    for (int y = 0; y < blocks; ++y)
+      for (int x = 0; x < blocks; ++x)
+        sums[(static_cast<std::size_t>(z / 2) * half + y / 2) * half + x / 2] +=
+            counts[(static_cast<std::size_t>(z) * blocks + y) * blocks + x];
+  return sums;
+}
+
+/// Between the middles of so many cells a side; beyond the outermost middles, as there.
+float interpolated(const std::vector<float>& values, int cells, const std::array<float, 3>& in_cells) {
+  std::array<int, 3> near;
+  std::array<int, 3> far;
+  std::array<float, 3> share;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float at = std::clamp(in_cells[axis], 0.f, static_cast<float>(cells - 1));
+    near[axis] = static_cast<int>(at);
+    far[axis] = std::min(near[axis] + 1, cells - 1);
+    share[axis] = at - static_cast<float>(near[axis]);
+  }
+  const auto between = [](float from, float to, float part) { return from + part * (to - from); };
+  const auto along_x = [&](int y, int z) {
+    const float* const row = values.data() + (static_cast<std::size_t>(z) * cells + y) * cells;
+    return between(row[near[0]], row[far[0]], share[0]);
+  };
+  const auto in_plane = [&](int z) { return between(along_x(near[1], z), along_x(far[1], z), share[1]); };
+  return between(in_plane(near[2]), in_plane(far[2]), share[2]);
+}
+
+}  // namespace
+
+/// From the whole grid to its cells: each block of cells has the density that its own count tells, as far as it is full
+/// enough, else that of the blocks of twice its size around it.
+void DensityGrid::fill_densities() {
+  std::vector<std::vector<std::uint32_t>> sums{std::move(counts_)};
+  for (int blocks = side / 2; blocks > 0; blocks /= 2) sums.push_back(joined(sums.back(), 2 * blocks));
+  std::vector<float> wider{0.f};
+  for (int level = static_cast<int>(sums.size()) - 1; level >= 0; --level) {
+    const std::vector<std::uint32_t>& counts = sums[static_cast<std::size_t>(level)];
+    const int blocks = side >> level;
+    const double volume = std::pow(std::ldexp(cell_, level), 3);
+    std::vector<float> density(counts.size());
+    tbb::parallel_for(0, blocks, [&](int z) {
+      for (int y = 0; y < blocks; ++y)
+        for (int x = 0; x < blocks; ++x) {
+          const std::size_t at = (static_cast<std::size_t>(z) * blocks + y) * blocks + x;
+          const double full = blocks == 1 ? 1 : std::min(counts[at] / static_cast<double>(particles_a_kernel_), 1.);
+          const auto in_wider = [](int place) { return (static_cast<float>(place) - 0.5f) / 2; };
+          const double around = full < 1 ? interpolated(wider, blocks / 2, {in_wider(x), in_wider(y), in_wider(z)}) : 0;
+          const double own = full > 0 ? std::log2(counts[at] / volume) : 0;
+          density[at] = static_cast<float>(full * own + (1 - full) * around);
+        }
+    });
+    wider = std::move(density);
+  }
+  log2_density_ = std::move(wider);
+}
+
+namespace {
+
+/// Spreads values over their neighbours along one axis, a quarter to either side; values beyond the ends are as at
+/// them.
+void blur(std::vector<float>& values, std::size_t stride, std::size_t side) {
+  tbb::parallel_for(std::size_t{0}, side * side, [&](std::size_t line) {
+    // Lines along an axis begin wherever the other two coordinates put them.
+    float* const first = values.data() + (stride == 1      ? line * side
+                                          : stride == side ? line / side * side * side + line % side
+                                                           : line);
+    float before = first[0];
+    for (std::size_t i = 0; i < side; ++i) {
+      const float here = first[i * stride];
+      const float after = first[std::min(i + 1, side - 1) * stride];
+      first[i * stride] = (before + 2 * here + after) / 4;
+      before = here;
+    }
+  });
+}
+
+}  // namespace
+
+void DensityGrid::finish(int particles_a_kernel) {
+  if (cell_ == 0) return;
+  particles_a_kernel_ = particles_a_kernel;
+  fill_densities();
+  smooth_ = log2_density_;
+  constexpr std::size_t line = side;
+  for (int times = 0; times < 2; ++times)
+    for (const std::size_t stride : {std::size_t{1}, line, line * line}) blur(smooth_, stride, line);
+}
+
+std::array<float, 3> DensityGrid::in_cells(float x, float y, float z) const {
+  const std::array<float, 3> point{x, y, z};
+  std::array<float, 3> at;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    at[axis] = static_cast<float>(static_cast<double>(point[axis]) / cell_ - static_cast<double>(first_[axis]) - 0.5);
+  return at;
+}
+
+void DensityGrid::put_densities(Cloud& cloud) const {
+  cloud.density.resize(cloud.size());
+  cloud.smoothing_length.resize(cloud.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const double density = std::exp2(
+          static_cast<double>(interpolated(log2_density_, side, in_cells(cloud.x[i], cloud.y[i], cloud.z[i]))));
+      cloud.density[i] = static_cast<float>(std::clamp(density, 1e-37, 1e37));
+      cloud.smoothing_length[i] = static_cast<float>(std::cbrt(kernel_volume() / density));
+    }
+  });
+}
+
+std::array<float, 3> DensityGrid::slope(float x, float y, float z) const {
+  const std::array<float, 3> at = in_cells(x, y, z);
+  const double density = std::exp2(static_cast<double>(interpolated(smooth_, side, at)));
+  const auto radius_in_cells = static_cast<float>(std::cbrt(kernel_volume() / density) / cell_);
+  std::array<float, 3> slope;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<float, 3> before = at;
+    std::array<float, 3> after = at;
+    before[axis] -= 1;
+    after[axis] += 1;
+    slope[axis] = (interpolated(smooth_, side, after) - interpolated(smooth_, side, before)) / 2 * radius_in_cells;
+  }
+  return slope;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "wheatstone/particles/cloud.h"
+
+namespace wheatstone {
+
+/// How dense particles lie: they are counted in the cells of a grid as they come, chunk by chunk, and need not be held.
+/// The grid grows with them: its cells are the smallest power of two, in the cloud's units, of which `side` cover all.
+class DensityGrid {
+ public:
+  static constexpr int side = 128;
+
+  void add(const Cloud& cloud);
+  /// To be called when all particles were added. Where a cell holds fewer than `particles_a_kernel`, its density
+  /// follows from larger blocks of cells too.
+  void finish(int particles_a_kernel = 32);
+
+  /// Sets the particles' densities, in particles a unit of volume, and their smoothing lengths: the radius that holds
+  /// as many particles as a kernel, as estimate_density does.
+  void put_densities(Cloud& cloud) const;
+  /// How log2 of the density, smoothed over two cells, changes over the radius of a kernel along each axis.
+  std::array<float, 3> slope(float x, float y, float z) const;
+
+ private:
+  using Place = std::array<std::int64_t, 3>;
+  /// Numbers of cells, the first along x first.
+  static std::size_t index(int x, int y, int z) { return (static_cast<std::size_t>(z) * side + y) * side + x; }
+  Place cell_of(const std::array<float, 3>& point) const;
+  void cover(const std::array<float, 3>& lower, const std::array<float, 3>& upper);
+  void fill_densities();
+  /// Of the ball that holds the particles of a kernel where there is one in a unit of volume.
+  double kernel_volume() const { return particles_a_kernel_ / (4 * std::numbers::pi / 3); }
+  std::array<float, 3> in_cells(float x, float y, float z) const;
+
+  double cell_ = 0;  ///< its side's length; 0: nothing was added
+  Place first_{};    ///< of the grid's cells, counted from the cloud's 0
+  Place least_{}, most_{};
+  std::vector<std::uint32_t> counts_;
+  double particles_a_kernel_ = 32;
+  std::vector<float> log2_density_, smooth_;
+};
+
+}  // namespace wheatstone
