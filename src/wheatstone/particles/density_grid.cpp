@@ -13,16 +13,41 @@ namespace wheatstone {
 DensityGrid::Place DensityGrid::cell_of(const std::array<float, 3>& point) const {
   Place place;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    place[axis] = static_cast<std::int64_t>(std::floor(static_cast<double>(point[axis]) / cell_));
+    place[axis] = static_cast<std::int64_t>(std::floor((origin_[axis] + static_cast<double>(point[axis])) / cell_));
   return place;
 }
 
-/// Makes cells as large as it takes to cover the points too, and counts again what was counted.
-void DensityGrid::cover(const std::array<float, 3>& lower, const std::array<float, 3>& upper) {
+/// The bounds, but for what lies farther from the middle 99.8 % than half of their extent.
+DensityGrid::Region DensityGrid::region_of(const Cloud& cloud) {
+  constexpr std::size_t enough = 4096;
+  const std::size_t every = (cloud.size() + enough - 1) / enough;
+  Region region;
+  const std::array<const std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, most] = std::ranges::minmax(*axes[axis]);
+    std::vector<float> some;
+    for (std::size_t i = 0; i < cloud.size(); i += every) some.push_back((*axes[axis])[i]);
+    const std::size_t ends = some.size() < 20 ? 0 : some.size() / 1000 + 1;
+    const auto first = some.begin() + static_cast<std::ptrdiff_t>(ends);
+    const auto last = some.end() - 1 - static_cast<std::ptrdiff_t>(ends);
+    std::ranges::nth_element(some, first);
+    const float lower = *first;
+    std::ranges::nth_element(some, last);
+    const float margin = (*last - lower) / 2;
+    region.lower[axis] = std::max(least, lower - margin);
+    region.upper[axis] = std::min(most, *last + margin);
+  }
+  return region;
+}
+
+/// Makes cells as large as it takes to cover the region too, and counts again what was counted.
+void DensityGrid::cover(const Region& region) {
+  const auto& [lower, upper] = region;
   if (cell_ == 0) {
     double extent = std::numeric_limits<float>::min();
     for (std::size_t axis = 0; axis < 3; ++axis)
-      extent = std::max({extent, static_cast<double>(upper[axis]) - lower[axis], std::abs(lower[axis]) * 1e-6});
+      extent = std::max({extent, static_cast<double>(upper[axis]) - lower[axis], std::abs(lower[axis]) * 1e-6,
+                         std::abs(origin_[axis]) * 1e-12});
     cell_ = std::exp2(std::ceil(std::log2(extent / side)));
     least_ = first_ = cell_of(lower);
     most_ = cell_of(upper);
@@ -57,14 +82,18 @@ void DensityGrid::cover(const std::array<float, 3>& lower, const std::array<floa
 
 void DensityGrid::add(const Cloud& cloud) {
   if (cloud.size() == 0) return;
-  const auto [left, right] = std::ranges::minmax(cloud.x);
-  const auto [front, back] = std::ranges::minmax(cloud.y);
-  const auto [below, above] = std::ranges::minmax(cloud.z);
-  cover({left, front, below}, {right, back, above});
+  origin_ = cloud.origin;
+  // A few beside all that were seen do not decide how large the cells are.
+  constexpr std::uint64_t few = 1000;
+  if (cloud.size() * few > seen_) cover(region_of(cloud));
+  seen_ += cloud.size();
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Place place = cell_of({cloud.x[i], cloud.y[i], cloud.z[i]});
-    ++counts_[index(static_cast<int>(place[0] - first_[0]), static_cast<int>(place[1] - first_[1]),
-                    static_cast<int>(place[2] - first_[2]))];
+    const std::int64_t x = place[0] - first_[0];
+    const std::int64_t y = place[1] - first_[1];
+    const std::int64_t z = place[2] - first_[2];
+    const bool inside = std::min({x, y, z}) >= 0 && std::max({x, y, z}) < side;
+    if (inside) ++counts_[index(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z))];
   }
 }
 
@@ -167,7 +196,8 @@ std::array<float, 3> DensityGrid::in_cells(float x, float y, float z) const {
   const std::array<float, 3> point{x, y, z};
   std::array<float, 3> at;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    at[axis] = static_cast<float>(static_cast<double>(point[axis]) / cell_ - static_cast<double>(first_[axis]) - 0.5);
+    at[axis] = static_cast<float>((origin_[axis] + static_cast<double>(point[axis])) / cell_ -
+                                  static_cast<double>(first_[axis]) - 0.5);
   return at;
 }
 

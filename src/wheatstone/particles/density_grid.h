@@ -10,7 +10,8 @@
 namespace wheatstone {
 
 /// How dense particles lie: they are counted in the cells of a grid as they come, chunk by chunk, and need not be held.
-/// The grid grows with them: its cells are the smallest power of two, in the cloud's units, of which `side` cover all.
+/// The grid grows with them: its cells are the smallest power of two, in the cloud's units, of which `side` cover all
+/// but a few that lie far out.
 class DensityGrid {
  public:
   static constexpr int side = 128;
@@ -30,16 +31,23 @@ class DensityGrid {
   using Place = std::array<std::int64_t, 3>;
   /// Numbers of cells, the first along x first.
   static std::size_t index(int x, int y, int z) { return (static_cast<std::size_t>(z) * side + y) * side + x; }
+  /// What of a chunk the grid is to cover.
+  struct Region {
+    std::array<float, 3> lower, upper;
+  };
+  static Region region_of(const Cloud& cloud);
   Place cell_of(const std::array<float, 3>& point) const;
-  void cover(const std::array<float, 3>& lower, const std::array<float, 3>& upper);
+  void cover(const Region& region);
   void fill_densities();
   /// Of the ball that holds the particles of a kernel where there is one in a unit of volume.
   double kernel_volume() const { return particles_a_kernel_ / (4 * std::numbers::pi / 3); }
   std::array<float, 3> in_cells(float x, float y, float z) const;
 
-  double cell_ = 0;  ///< its side's length; 0: nothing was added
-  Place first_{};    ///< of the grid's cells, counted from the cloud's 0
+  double cell_ = 0;                 ///< its side's length; 0: nothing was added
+  std::array<double, 3> origin_{};  ///< the clouds'
+  Place first_{};                   ///< of the grid's cells, counted from the file's 0
   Place least_{}, most_{};
+  std::uint64_t seen_ = 0;
   std::vector<std::uint32_t> counts_;
   double particles_a_kernel_ = 32;
   std::vector<float> log2_density_, smooth_;

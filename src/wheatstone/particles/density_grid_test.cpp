@@ -77,6 +77,24 @@ TEST(DensityGrid, IsTheSameInChunksOfAnySizeAndOrderOfPlaces) {
   EXPECT_EQ(whole.density, in_chunks.density);
 }
 
+TEST(DensityGrid, IsNotCoarserForOneThatLiesFarOut) {
+  const Cloud cloud = knot(3000);
+  Cloud alone = cloud;
+  grid_of({cloud}).put_densities(alone);
+  Cloud far;
+  far.x = far.y = far.z = {1e6f};
+  for (const bool in_the_same_chunk : {false, true}) {
+    Cloud beside = cloud;
+    if (in_the_same_chunk)
+      for (std::vector<float>* axis : {&beside.x, &beside.y, &beside.z}) axis->push_back(1e6f);
+    grid_of(in_the_same_chunk ? std::vector{beside} : std::vector{beside, far}).put_densities(beside);
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      near += std::abs(std::log2(beside.smoothing_length[i] / alone.smoothing_length[i])) < 0.5f;
+    EXPECT_GT(near, cloud.size() * 19 / 20);
+  }
+}
+
 TEST(DensityGrid, IsSteepestTowardsTheKnot) {
   const DensityGrid grid = grid_of({knot(60000)});
   for (const std::array<float, 3> away : {std::array{1.f, 0.f, 0.f}, {0.f, -1.f, 0.f}, {0.f, 0.6f, 0.8f}}) {

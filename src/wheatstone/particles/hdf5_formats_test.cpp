@@ -42,7 +42,7 @@ class Hdf5Writer {
     const Hdf5Handle made(H5Acreate2(where, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     H5Awrite(made, H5T_NATIVE_DOUBLE, values.data());
   }
-  void attribute(const std::string& group, const std::string& name, const std::string& text) {
+  void text(const std::string& group, const std::string& name, const std::string& text) {
     const Hdf5Handle where(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
     const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type, text.size() + 3);
@@ -238,7 +238,7 @@ TEST(GadgetHdf5, SmoothingLengthsOfSwiftBecomeTheKernelsRadii) {
     {
       Hdf5Writer file(folder / "swift.hdf5");
       file.group("HydroScheme");
-      file.attribute("HydroScheme", "Kernel function", std::string(kernel));
+      file.text("HydroScheme", "Kernel function", kernel);
       file.group("PartType0");
       file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
       file.dataset("PartType0/SmoothingLengths", {1, 2});
