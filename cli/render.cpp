@@ -42,7 +42,7 @@ void write_interleaved(const RenderArguments& arguments, const RenderedParticles
   const int views = static_cast<int>(result.rig.positions.size());
   const InterleavedView interleaved = render_interleaved(
       result.stack, result.rig.positions,
-      [&](int y, std::span<std::uint16_t> three) { views_of_row(screen, views, y, three); }, progress);
+      [&](int y, std::span<std::uint16_t> three) { views_of_row(screen, views, y, three); }, progress, result.focus);
   write_image(arguments.output, interleaved.picture);
 }
 

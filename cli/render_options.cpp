@@ -29,6 +29,8 @@ constexpr std::array<std::pair<std::string_view, SliceFilter>, 3> filters{
     {{"nearest", SliceFilter::nearest}, {"linear", SliceFilter::linear}, {"centroid", SliceFilter::centroid}}};
 constexpr std::array<std::pair<std::string_view, Look>, 2> looks{{{"mass", Look::mass}, {"thesis", Look::thesis}}};
 constexpr std::array<std::pair<std::string_view, Blend>, 2> blends{{{"add", Blend::add}, {"over", Blend::over}}};
+constexpr std::array<std::pair<std::string_view, Kernel>, 2> kernels{
+    {{"gaussian", Kernel::gaussian}, {"cubic-spline", Kernel::cubic_spline}}};
 constexpr std::array<std::pair<std::string_view, Stretch>, 3> stretches{
     {{"asinh", Stretch::asinh}, {"log", Stretch::log}, {"linear", Stretch::linear}}};
 constexpr std::array<std::pair<std::string_view, bool>, 2> projections{
@@ -120,6 +122,8 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
          "Column density, or quantity, where brightness begins; 0 or the 1st percentile by default");
   number("--most", arguments.options.most, coordinates,
          "Column density, or quantity, where brightness ends; the 99.9th percentile by default");
+  add_choice<Kernel>(command, "--kernel", appearance.kernel, kernels, "How a particle's mass is spread")
+      ->group(appearance_group);
   command
       .add_option("--splat", arguments.splat,
                   "Smallest and largest splat diameter in pixels: MIN,MAX; 2,6 by default. The largest counts for the "
@@ -210,6 +214,18 @@ void add_depth_options(CLI::App& command, RenderArguments& arguments) {
                       "Depth mapping by regions: SHARE:MM,... where SHARE is 0 for the nearest and 1 for the farthest "
                       "particle, and MM is the depth behind the screen")
           ->group(views_group);
+  CLI::Option* focus = command
+                           .add_option("--focus", arguments.focus,
+                                       "Point X,Y of the screen around which there is more depth than elsewhere, as "
+                                       "shares of its width and height from the upper left: 0.5,0.5 is the middle")
+                           ->group(views_group);
+  add_number(command, "--focus-radius", arguments.focus_radius, {0.001, 10},
+             "Radius of that area, as a share of the width")
+      ->needs(focus)
+      ->group(views_group);
+  add_number(command, "--focus-gain", arguments.focus_gain, {0, 10}, "Factor on the depth at that point")
+      ->needs(focus)
+      ->group(views_group);
   command.add_flag("--smooth-depth", depth.smooth, "Interpolate the depth mapping with a smooth monotone curve")
       ->needs(mapping)
       ->group(views_group);
@@ -274,7 +290,8 @@ void refuse_for_slices(const CLI::App& command) {
   refuse_group(command, particles_group, {}, situation, where);
   refuse_group(command, appearance_group, {"--exposure"}, situation, where);
   refuse_group(command, views_group,
-               {"--display", "--views", "--span", "--near", "--far", "--eye", "--distance", "--screen-width"},
+               {"--display", "--views", "--span", "--near", "--far", "--eye", "--distance", "--screen-width", "--focus",
+                "--focus-radius", "--focus-gain"},
                situation, where);
   refuse_options(command, {"--method", "--device", "--planes", "--values", "--annotate"}, situation, where);
   if (!was_given(command, "--near") && !was_given(command, "--far"))
@@ -301,7 +318,7 @@ void refuse_for_look(const CLI::App& command, const RenderArguments& arguments) 
   if (arguments.options.rendering.opaque)
     refuse_options(command, {"--blend"}, "with --opaque", "it works on particles that are seen through");
   if (appearance.look == Look::thesis || !option.empty()) {
-    refuse_options(command, {"--quantity", "--stretch", "--least", "--most", "--values"},
+    refuse_options(command, {"--quantity", "--stretch", "--least", "--most", "--values", "--kernel"},
                    "with " + (option.empty() ? "--look thesis" : option), "it works with --look mass");
     return;
   }
@@ -337,8 +354,8 @@ void refuse_for_particles(const CLI::App& command, const RenderArguments& argume
   if (makes_slices)
     refuse_options(command, {"--device"}, "with --save-slices or --interleave", "depth planes are rendered by the cpu");
   if (other_method)
-    refuse_options(command, {"--filter", "--planes"}, fmt::format("with --method {}", name_of(rendering.method)),
-                   "it works with --method layered");
+    refuse_options(command, {"--filter", "--planes", "--focus"},
+                   fmt::format("with --method {}", name_of(rendering.method)), "it works with --method layered");
   if (rendering.opaque && !makes_slices)
     refuse_options(command, {"--filter"}, "with --opaque", "it works on particles that add their light");
   if (!arguments.interleave.empty()) refuse_options(command, {"--annotate"}, "with --interleave", "it works on views");
@@ -407,6 +424,16 @@ RenderArguments for_display(const RenderArguments& given, const CLI::App& comman
   return arguments;
 }
 
+std::optional<Focus> focus_in(const RenderArguments& arguments, const Size& size) {
+  if (arguments.focus.empty()) return {};
+  const auto point = parse_numbers("--focus", arguments.focus, {',', 2, {0, 1}, "X,Y from 0 to 1"});
+  const auto width = static_cast<float>(size.width);
+  return Focus{.x_px = static_cast<float>(point[0]) * width,
+               .y_px = static_cast<float>(point[1]) * static_cast<float>(size.height),
+               .radius_px = arguments.focus_radius * width,
+               .gain = arguments.focus_gain};
+}
+
 RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   RenderParticlesOptions options = arguments.options;
   constexpr double most_pixels = 16384;
@@ -433,6 +460,7 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   options.fit = parse_fit(arguments.fit);
   if (!arguments.depth_mapping.empty())
     options.depth.regions = parse_depth_regions(arguments.depth_mapping, "--depth-mapping");
+  options.rendering.focus = focus_in(arguments, size);
   if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);
   if (!arguments.hot.empty()) options.appearance.hot = parse_colour("--hot", arguments.hot);
   check_limits(options);

@@ -29,6 +29,8 @@ struct RenderArguments {
   std::string size = "640x360";
   std::string splat;
   std::string display, centre, look_at, selection, depth_mapping;
+  std::string focus;
+  float focus_radius = 0.25f, focus_gain = 1.5f;
   std::string fit = "auto";
   bool annotate = false;
   std::string values;

@@ -22,10 +22,18 @@ RenderedParticles render_slice_file(const std::filesystem::path& file, const CLI
   if (result.stack.tone.look == Look::mass)
     refuse_options(command, {"--exposure"}, "on these slices", "it works on slices of --look thesis");
   if (!std::isnan(options.rendering.exposure)) result.stack.tone.exposure = options.rendering.exposure;
+  result.focus = options.rendering.focus;
+  if (result.focus) {
+    // It was told for views of another size.
+    const float across = static_cast<float>(result.stack.width) / static_cast<float>(options.width);
+    result.focus->x_px *= across;
+    result.focus->y_px *= static_cast<float>(result.stack.height) / static_cast<float>(options.height);
+    result.focus->radius_px *= across;
+  }
   result.rig = evenly_spaced(result.stack.width, result.stack.height, options.views, options.span);
-  result.rendered = {.views = options.without_views
-                                  ? std::vector<Image<Rgb8>>{}
-                                  : render_slices(result.stack, result.rig, options.rendering.filter, progress),
+  result.rendered = {.views = options.without_views ? std::vector<Image<Rgb8>>{}
+                                                    : render_slices(result.stack, result.rig, options.rendering.filter,
+                                                                    progress, result.focus),
                      .method = Method::layered,
                      .reason = "layered: the file has slices",
                      .planes = static_cast<int>(result.stack.slices.size()),

@@ -215,7 +215,8 @@ void draw_slices(const RenderParticlesOptions& options, RenderedParticles& resul
   result.rendered.exposure = result.stack.tone.exposure;
   result.rendered.tone = result.stack.tone;
   if (!options.without_views)
-    result.rendered.views = render_slices(result.stack, result.rig, options.rendering.filter, progress);
+    result.rendered.views =
+        render_slices(result.stack, result.rig, options.rendering.filter, progress, options.rendering.focus);
 }
 
 void note_what_is_missing(const CloudStatistics& statistics, const RenderParticlesOptions& options,
@@ -250,6 +251,7 @@ RenderedParticles render_known(const KnownParticles& particles, const RenderPart
   RenderOptions rendering = options.rendering;
   show_quantity(options, statistics, staged.scene, rendering.tone);
   result.rig = staged.rig;
+  result.focus = options.rendering.focus;
   bool first_pass = true;
   const Chunks counted = [&](const std::function<void(const Cloud&)>& visit) {
     particles.chunks([&](const Cloud& chunk) {

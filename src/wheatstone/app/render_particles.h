@@ -82,6 +82,7 @@ struct RenderedParticles {
   SliceStack stack;  ///< empty unless slices were made
   Rig rig;
   Scene scene;
+  std::optional<Focus> focus;
   std::vector<ViewValues> values;  ///< of the views, where they were asked for
   ShownUnits units;
   float least = 0, most = 0;  ///< where the brightness of what is shown begins and ends

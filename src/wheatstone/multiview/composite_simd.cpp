@@ -295,9 +295,84 @@ void composite_block(const UnpackedBlock& block, int x, std::span<const Shift> s
   }
 }
 
+/// How much farther than elsewhere the pixels of a block move.
+struct Gains {
+  bool all_one = true;
+  HWY_ALIGN float values[block_width];
+};
+
+void find_gains(const std::optional<Focus>& focus, int x, int y, Gains& gains) {
+  gains.all_one = true;
+  if (!focus || std::abs(static_cast<float>(y) + 0.5f - focus->y_px) >= focus->radius_px) return;
+  for (int i = 0; i < block_width; ++i) {
+    gains.values[i] = focus->gain_at(static_cast<float>(x + i) + 0.5f, static_cast<float>(y) + 0.5f);
+    gains.all_one = gains.all_one && gains.values[i] == 1;
+  }
+}
+
+/// A plane of a view: by how much it moves, and how much of it is seen.
+struct Move {
+  float pixels, share;
+};
+
+/// The weights of the pixels around a place between them, and the first of these.
+template <int taps>
+HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> weigh_around(Vec place, Vec share, Vec (&weights)[taps]) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  const Vec one = hn::Set(d, 1.f);
+  if constexpr (taps == 1) {
+    weights[0] = share;
+    return hn::ConvertTo(di, hn::Floor(hn::Add(place, hn::Set(d, 0.5f))));
+  }
+  const Vec whole = hn::Floor(place);
+  const Vec f = hn::Sub(place, whole);
+  if constexpr (taps == 2) {
+    weights[1] = hn::Mul(f, share);
+    weights[0] = hn::Sub(share, weights[1]);
+  } else if constexpr (taps == 4) {
+    const auto polynomial = [&](float cubic, float square, float linear, Vec constant) {
+      const Vec inner = hn::MulAdd(hn::Set(d, cubic), f, hn::Set(d, square));
+      return hn::Mul(hn::MulAdd(hn::MulAdd(inner, f, hn::Set(d, linear)), f, constant), share);
+    };
+    weights[0] = polynomial(-0.5f, 1, -0.5f, hn::Zero(d));
+    weights[1] = polynomial(1.5f, -2.5f, 0, one);
+    weights[2] = polynomial(-1.5f, 2, 0.5f, hn::Zero(d));
+    weights[3] = polynomial(0.5f, -0.5f, 0, hn::Zero(d));
+  }
+  return hn::ConvertTo(di, taps == 4 ? hn::Sub(whole, one) : whole);
+}
+
+/// The same where each pixel moves by its own gain.
+template <int taps>
+void composite_in_focus(const UnpackedBlock& block, int x, std::span<const Move> moves, const Gains& gains,
+                        int channels, Sums& sums) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  for (int channel = 0; channel < channels; ++channel) std::fill_n(sums[channel], block_width, 0.f);
+  for (const int plane : block.lit) {
+    const Move move = moves[plane];
+    const Vec share = hn::Set(d, move.share);
+    for (int i = 0; i < block_width; i += lanes) {
+      const Vec from_first = hn::Iota(d, static_cast<float>(x + i - block.first[plane]));
+      const Vec place = hn::MulAdd(hn::Load(d, gains.values + i), hn::Set(d, move.pixels), from_first);
+      Vec weights[taps];
+      const auto first = hn::Min(hn::Max(weigh_around<taps>(place, share, weights), hn::Zero(di)),
+                                 hn::Set(di, UnpackedBlock::widest - taps));
+      for (int channel = 0; channel < channels; ++channel) {
+        Vec sum = hn::Load(d, sums[channel] + i);
+        for (int tap = 0; tap < taps; ++tap)
+          sum = hn::MulAdd(weights[tap], hn::GatherIndex(d, block.at(plane, channel) + tap, first), sum);
+        hn::Store(sum, d, sums[channel] + i);
+      }
+    }
+  }
+}
+
 /// Views that are composited from the same unpacked block, and how far each plane moves in them.
 struct ViewGroup {
   std::size_t first = 0, end = 0;
+  std::vector<Move> moves;                // [view][plane]
   std::vector<Shift> shifts;              // [view][plane]: x in the view is x − v·p in the reference
   std::vector<std::array<int, 2>> reach;  // of a plane: its least and its largest whole shift
 };
@@ -305,23 +380,29 @@ struct ViewGroup {
 /// As many views from `first` on as one block can serve.
 ViewGroup group_from(std::size_t first, const Compositing& compositing) {
   const int taps = taps_of(compositing.resampling);
-  ViewGroup group{.first = first, .end = first, .shifts = {}, .reach = {}};
+  const float gain = compositing.focus ? compositing.focus->gain : 1;
+  ViewGroup group{.first = first, .end = first, .moves = {}, .shifts = {}, .reach = {}};
   for (; group.end < compositing.views.size(); ++group.end) {
     std::vector<std::array<int, 2>> reach = group.reach;
     std::vector<Shift> shifts;
+    std::vector<Move> moves;
     bool fits = true;
     for (std::size_t plane = 0; plane < compositing.parallaxes.size(); ++plane) {
-      Shift shift = shift_of((central_view - compositing.views[group.end]) * compositing.parallaxes[plane],
-                             compositing.resampling);
-      if (!compositing.shares.empty())
-        for (float& weight : shift.weight) weight *= compositing.shares[group.end][plane];
+      const float pixels = (central_view - compositing.views[group.end]) * compositing.parallaxes[plane];
+      const float share = compositing.shares.empty() ? 1 : compositing.shares[group.end][plane];
+      Shift shift = shift_of(pixels, compositing.resampling);
+      for (float& weight : shift.weight) weight *= share;
+      const int in_focus = shift_of(pixels * gain, compositing.resampling).whole;
       if (group.end == first) reach.push_back({shift.whole, shift.whole + taps - 1});
-      reach[plane] = {std::min(reach[plane][0], shift.whole), std::max(reach[plane][1], shift.whole + taps - 1)};
+      reach[plane] = {std::min({reach[plane][0], shift.whole, in_focus}),
+                      std::max({reach[plane][1], shift.whole + taps - 1, in_focus + taps - 1})};
       fits = fits && reach[plane][1] - reach[plane][0] <= UnpackedBlock::widest - block_width - lanes;
       shifts.push_back(shift);
+      moves.push_back({pixels, share});
     }
     if (!fits) break;
     group.reach = std::move(reach);
+    group.moves.insert(group.moves.end(), moves.begin(), moves.end());
     group.shifts.insert(group.shifts.end(), shifts.begin(), shifts.end());
   }
   return group;
@@ -330,6 +411,7 @@ ViewGroup group_from(std::size_t first, const Compositing& compositing) {
 /// Where a band of every view goes: into the rows of its target from `top` on.
 struct BandOfViews {
   const ToneMap& map;
+  const std::optional<Focus>& focus;
   int top;
   std::span<const ViewTarget> targets;
 };
@@ -341,12 +423,18 @@ void composite_group(const SliceBand& slices, const ViewGroup& group, const Band
   const int rows = std::min(slices.rows(), to.targets.front().height() - to.top);
   const int channels = to.map.three_channels() ? 3 : 2;
   HWY_ALIGN Sums sums;
+  Gains gains;
   for (int row = 0; row < rows; ++row) {
     for (int x = 0; x < width; x += block_width) {
+      find_gains(to.focus, x, to.top + row, gains);
       unpack(slices, row, x, group.reach, channels, block);
       for (std::size_t view = group.first; view < group.end; ++view) {
-        const std::span shifts = std::span(group.shifts).subspan((view - group.first) * planes, planes);
-        composite_block<taps>(block, x, shifts, channels, sums);
+        const std::size_t of_view = (view - group.first) * planes;
+        if (gains.all_one) {
+          composite_block<taps>(block, x, std::span(group.shifts).subspan(of_view, planes), channels, sums);
+        } else {
+          composite_in_focus<taps>(block, x, std::span(group.moves).subspan(of_view, planes), gains, channels, sums);
+        }
         finish_block(sums, to.map, to.targets[view], to.top + row, x);
       }
     }
@@ -367,7 +455,7 @@ void composite_band(const SliceBand& slices, const Compositing& compositing, con
 
 void composite_views(const SliceBand& slices, const Compositing& compositing, const ToneMap& map, int top,
                      std::span<const ViewTarget> targets) {
-  const BandOfViews to{map, top, targets};
+  const BandOfViews to{map, compositing.focus, top, targets};
   switch (taps_of(compositing.resampling)) {
     case 1:
       return composite_band<1>(slices, compositing, to);

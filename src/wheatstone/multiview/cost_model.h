@@ -10,7 +10,8 @@ namespace wheatstone {
 /// What decides how long each way of rendering takes.
 struct Workload {
   std::uint64_t particles = 0;
-  float splat_px = 4;  ///< typical diameter
+  float splat_px = 4;  ///< diameter of a splat of mean area
+  bool mass = false;   ///< splats are spread over the areas of pixels
   int views = 2;
   int planes = 36;
   std::uint64_t pixels = std::uint64_t{640} * 360;  ///< of a view

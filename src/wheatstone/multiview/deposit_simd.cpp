@@ -33,6 +33,7 @@ HWY_INLINE int rounded_up(float x) {
 struct Spread {
   HWY_ALIGN float colour[4];
   float reach, sharpness;
+  bool spline;  // of mass: the cubic spline kernel in place of a Gaussian
 };
 
 template <Deposit deposit>
@@ -60,7 +61,8 @@ HWY_INLINE void unpack(const Splat& splat, Spread& spread) {
   }
   if constexpr (keeps_sums(deposit)) {
     spread.reach = reach_of(size);
-    spread.sharpness = diameters_a_mass_deviation * 0.70710678f / size;  // 1 / (√2 deviations)
+    // Of a Gaussian 1 / (√2 deviations), of the spline 1 / radius.
+    spread.sharpness = (spread.spline ? 2.f : diameters_a_mass_deviation * 0.70710678f) / size;
     return;
   }
   const float variance = size * size * (1 / (diameters_a_deviation * diameters_a_deviation)) + pixel_variance;
@@ -70,7 +72,7 @@ HWY_INLINE void unpack(const Splat& splat, Spread& spread) {
 
 /// How much of a Gaussian lies between its middle and a distance, −½ to ½; all of a half beyond its rim. `scaled` is
 /// the distance over √2 deviations. Abramowitz & Stegun 1964, 7.1.26.
-HWY_INLINE Vec half_within(Vec scaled) {
+HWY_INLINE Vec half_within_gaussian(Vec scaled) {
   const Floats d;
   const Vec x = hn::Abs(scaled);
   const Vec t = hn::Div(hn::Set(d, 1.f), hn::MulAdd(x, hn::Set(d, 0.3275911f), hn::Set(d, 1.f)));
@@ -84,6 +86,26 @@ HWY_INLINE Vec half_within(Vec scaled) {
   return hn::CopySign(hn::Min(within, hn::Set(d, 0.5f)), scaled);
 }
 
+/// The same of the cubic spline kernel, projected on an axis, where 1 is its radius: the integrals of 32 (1−r)³ r and
+/// of 16 r (1 − 6 r² + 6 r³) beyond and below a half, from the distance on.
+HWY_INLINE Vec half_within_spline(Vec scaled) {
+  const Floats d;
+  const Vec x = hn::Min(hn::Abs(scaled), hn::Set(d, 1.f));
+  const Vec square = hn::Mul(x, x);
+  Vec inner = hn::MulAdd(x, hn::Set(d, -3.2f), hn::Set(d, 4.8f));
+  inner = hn::MulAdd(inner, square, hn::Set(d, -8.f / 3));
+  inner = hn::Mul(hn::MulAdd(inner, square, hn::Set(d, 1.4f)), x);
+  const Vec rest = hn::Sub(hn::Set(d, 1.f), x);
+  const Vec fourth = hn::Mul(hn::Mul(rest, rest), hn::Mul(rest, rest));
+  const Vec tail = hn::Mul(hn::MulAdd(rest, hn::Set(d, -16.f / 15), hn::Set(d, 1.6f)), hn::Mul(fourth, rest));
+  const Vec outer = hn::Sub(hn::Set(d, 0.5f), tail);
+  return hn::CopySign(hn::IfThenElse(hn::Lt(x, hn::Set(d, 0.5f)), inner, outer), scaled);
+}
+
+HWY_INLINE Vec half_within(Vec scaled, const Spread& spread) {
+  return spread.spline ? half_within_spline(scaled) : half_within_gaussian(scaled);
+}
+
 /// Weights of pixels whose centres lie at these distances from the splat's.
 template <Deposit deposit>
 HWY_INLINE Vec weights_at(Vec distance, const Spread& spread) {
@@ -91,8 +113,8 @@ HWY_INLINE Vec weights_at(Vec distance, const Spread& spread) {
   if constexpr (keeps_sums(deposit)) {
     const Vec scale = hn::Set(d, spread.sharpness);
     const Vec half = hn::Set(d, 0.5f);
-    return hn::Sub(half_within(hn::Mul(hn::Add(distance, half), scale)),
-                   half_within(hn::Mul(hn::Sub(distance, half), scale)));
+    return hn::Sub(half_within(hn::Mul(hn::Add(distance, half), scale), spread),
+                   half_within(hn::Mul(hn::Sub(distance, half), scale), spread));
   }
   const Vec weight = fast_exp2(d, hn::Mul(hn::Mul(distance, distance), hn::Set(d, -spread.sharpness)));
   return hn::IfThenElseZero(hn::Le(hn::Abs(distance), hn::Set(d, spread.reach)), weight);
@@ -105,7 +127,7 @@ HWY_INLINE Vec weights_in_window(float distance, const Spread& spread) {
   const Floats d;
   if constexpr (!keeps_sums(deposit)) return weights_at<deposit>(hn::Iota(d, distance), spread);
   const hn::RebindToSigned<Floats> di;
-  const Vec at_edge = half_within(hn::Mul(hn::Iota(d, distance - 0.5f), hn::Set(d, spread.sharpness)));
+  const Vec at_edge = half_within(hn::Mul(hn::Iota(d, distance - 0.5f), hn::Set(d, spread.sharpness)), spread);
   const auto next = hn::IndicesFromVec(d, hn::Min(hn::Iota(di, 1), hn::Set(di, static_cast<int>(lanes) - 1)));
   return hn::Sub(hn::TableLookupLanes(at_edge, next), at_edge);
 }
@@ -197,9 +219,10 @@ HWY_INLINE void add(const Spread& spread, const RowWindow& rows, float x, LightB
 }
 
 template <Deposit deposit>
-void deposit_splats(std::span<const Splat> splats, int top, LightBand& band) {
+void deposit_splats(std::span<const Splat> splats, int top, bool spline, LightBand& band) {
   RowWindow rows;
   Spread spread;
+  spread.spline = spline;
   const auto left = static_cast<float>(band.left());
   for (const Splat& splat : splats) {
     unpack<deposit>(splat, spread);
@@ -209,11 +232,12 @@ void deposit_splats(std::span<const Splat> splats, int top, LightBand& band) {
 }
 
 template <Deposit deposit>
-void deposit_splats_between(std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
-                            LightBand& farther) {
+void deposit_splats_between(std::span<const Splat> splats, int top, bool spline, const PlanePair& planes,
+                            LightBand& nearer, LightBand& farther) {
   constexpr float nearly = 0.25f;
   RowWindow rows;
   Spread spread;
+  spread.spline = spline;
   const auto left = static_cast<float>(nearer.left());
   for (const Splat& splat : splats) {
     unpack<deposit>(splat, spread);
@@ -233,10 +257,11 @@ void deposit_splats_between(std::span<const Splat> splats, int top, const PlaneP
 }
 
 template <Deposit deposit>
-void deposit_splats_in_views(std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
+void deposit_splats_in_views(std::span<const Splat> splats, int top, bool spline, std::span<const ViewPosition> views,
                              std::span<LightBand> bands) {
   RowWindow rows;
   Spread spread;
+  spread.spline = spline;
   const auto left = static_cast<float>(bands.front().left());
   const float width = static_cast<float>(bands.front().right()) - left;
   const hn::CappedTag<float, 1> d1;
@@ -256,12 +281,14 @@ void deposit_splats_in_views(std::span<const Splat> splats, int top, std::span<c
 /// Calls `call` with what splats add as a constant.
 template <class Call>
 void for_deposit(Deposit deposit, Call call) {
-  switch (deposit) {
+  switch (channels_of(deposit)) {
     case Deposit::light:
       return call(std::integral_constant<Deposit, Deposit::light>());
     case Deposit::mass:
+    case Deposit::mass_by_spline:
       return call(std::integral_constant<Deposit, Deposit::mass>());
     case Deposit::colours:
+    case Deposit::colours_by_spline:
       return call(std::integral_constant<Deposit, Deposit::colours>());
     case Deposit::absorbing:
       return call(std::integral_constant<Deposit, Deposit::absorbing>());
@@ -269,17 +296,21 @@ void for_deposit(Deposit deposit, Call call) {
 }
 
 void deposit_any(Deposit deposit, std::span<const Splat> splats, int top, LightBand& band) {
-  for_deposit(deposit, [&](auto kind) { deposit_splats<kind()>(splats, top, band); });
+  for_deposit(deposit, [&](auto kind) { deposit_splats<kind()>(splats, top, channels_of(deposit) != deposit, band); });
 }
 
 void deposit_any_between(Deposit deposit, std::span<const Splat> splats, int top, const PlanePair& planes,
                          LightBand& nearer, LightBand& farther) {
-  for_deposit(deposit, [&](auto kind) { deposit_splats_between<kind()>(splats, top, planes, nearer, farther); });
+  for_deposit(deposit, [&](auto kind) {
+    deposit_splats_between<kind()>(splats, top, channels_of(deposit) != deposit, planes, nearer, farther);
+  });
 }
 
 void deposit_any_in_views(Deposit deposit, std::span<const Splat> splats, int top, std::span<const ViewPosition> views,
                           std::span<LightBand> bands) {
-  for_deposit(deposit, [&](auto kind) { deposit_splats_in_views<kind()>(splats, top, views, bands); });
+  for_deposit(deposit, [&](auto kind) {
+    deposit_splats_in_views<kind()>(splats, top, channels_of(deposit) != deposit, views, bands);
+  });
 }
 
 }  // namespace wheatstone::HWY_NAMESPACE

@@ -36,8 +36,8 @@ Resampling resampling_of(SliceFilter filter) {
   }
 }
 
-Window window_around(const Scene& scene, const Rig& rig) {
-  const float around = std::ceil(look_around_px(scene, rig)) + 2;
+Window window_around(const Scene& scene, const Rig& rig, float gain) {
+  const float around = std::ceil(look_around_px(scene, rig) * gain) + 2;
   return {.left = -around, .right = static_cast<float>(rig.width) + around, .height = rig.height};
 }
 
@@ -84,6 +84,20 @@ void deposit_in_planes(const std::vector<SplatBlock>& blocks, const SplatOrders&
 }
 
 namespace {
+
+Window window_of(const RenderJob& job) {
+  return window_around(job.scene, job.rig, job.focus ? job.focus->largest_gain() : 1.f);
+}
+
+/// A view's focus in the pixels of one of its pictures.
+std::optional<Focus> focus_in(const std::optional<Focus>& focus, const SplatOrder& order) {
+  if (!focus) return {};
+  const auto pad = static_cast<float>(order.pad);
+  return Focus{.x_px = focus->x_px * order.scale + pad,
+               .y_px = focus->y_px * order.scale + pad,
+               .radius_px = focus->radius_px * order.scale,
+               .gain = focus->gain};
+}
 
 /// What is kept between reading particles and compositing: the light of all planes, or all splats, whichever is less.
 struct KeptForPlanes {
@@ -163,14 +177,14 @@ std::vector<std::vector<float>> shares_of_planes(const PlanesOfViews& planes, co
 void composite_picture(const RenderJob& job, const SplatOrders& orders, std::size_t picture, PlanesOfViews& planes,
                        const PictureOfViews& to) {
   const SplatOrder& order = orders[picture];
-  const Window window = window_in(window_around(job.scene, job.rig), order);
+  const Window window = window_in(window_of(job), order);
   const int sets = static_cast<int>(planes.kept.size());
   std::vector<float> parallaxes;
   for (int set = 0; set < sets; ++set)
     for (int plane = 0; plane < order.parts; ++plane)
       parallaxes.push_back(order.first * order.scale + static_cast<float>(plane) * order.spacing);
   const std::vector<std::vector<float>> shares = shares_of_planes(planes, job.rig, order.parts);
-  const Compositing compositing{parallaxes, job.rig.positions, to.resampling, shares};
+  const Compositing compositing{parallaxes, job.rig.positions, to.resampling, focus_in(job.focus, order), shares};
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {
     return Workplace{
         PlaneFiller(window, order, deposit_of(job.scene.splat_style)),
@@ -194,7 +208,7 @@ void composite_picture(const RenderJob& job, const SplatOrders& orders, std::siz
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures) {
   const SplatOrders orders = orders_by_plane(job.rig, job.scene.splat_style, planes, filter);
-  PlanesOfViews kept = keep(job, orders, window_around(job.scene, job.rig));
+  PlanesOfViews kept = keep(job, orders, window_of(job));
   ViewPyramid pyramid(orders, job.rig, pictures.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> targets = pyramid.targets(p, pictures);

@@ -158,7 +158,7 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
   state.rig = rig;
   state.options = options;
   state.planes = planes_of(scene.mapping, options.planes, span_of(rig));
-  state.window = window_around(scene, rig);
+  state.window = window_around(scene, rig, options.focus ? options.focus->largest_gain() : 1.f);
   state.orders =
       orders_by_plane(rig, scene.splat_style, state.planes, options.opaque ? SliceFilter::nearest : options.filter);
 

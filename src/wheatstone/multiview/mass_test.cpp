@@ -29,6 +29,19 @@ double area_of_pixel(const Scene& scene) {
   return std::pow(scene.camera.orthographic_depth / scene.camera.focal_px, 2);
 }
 
+/// The cubic spline of radius 1, along a line at this distance from its middle.
+double projected_spline(double distance) {
+  constexpr int steps = 400;
+  if (distance >= 1) return 0;
+  const double half = std::sqrt(1 - distance * distance);
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double r = std::hypot(distance, (i + 0.5) / steps * half);
+    sum += r < 0.5 ? 1 - 6 * r * r * (1 - r) : 2 * std::pow(1 - r, 3);
+  }
+  return sum * 2 * half / steps * 8 / std::numbers::pi;
+}
+
 TEST(Mass, OfAllParticlesIsThatOfThePictureAtAnySize) {
   const Cloud cloud = kernels(4000);
   double mass = 0;
@@ -43,21 +56,62 @@ TEST(Mass, OfAllParticlesIsThatOfThePictureAtAnySize) {
   }
 }
 
+TEST(Mass, OfTheSplineIsKeptAndFollowsTheProjectedKernel) {
+  const Cloud many = kernels(1500);
+  Stage stage = stage_of(many, 320, 180);
+  stage.scene.splat_style.kernel = Kernel::cubic_spline;
+  double mass = 0;
+  for (const float one : many.mass) mass += one;
+  double sum = 0;
+  const Image<float> columns = values_of(many, stage)[0].column;
+  for (const float column : columns.pixels()) sum += column;
+  EXPECT_NEAR(sum * area_of_pixel(stage.scene) / mass, 1, 1e-4);
+
+  // One particle, against the spline summed along the line of sight.
+  Cloud one;
+  one.x = one.y = one.z = {0};
+  one.mass = {1};
+  one.smoothing_length = {0.06f};
+  one.temperature = one.density = {1};
+  Stage single = stage_of(one, 640, 360);
+  const auto profile = [&](Kernel kernel) {
+    single.scene.splat_style.kernel = kernel;
+    return values_of(one, single)[0].column;
+  };
+  const double pixel = std::sqrt(area_of_pixel(single.scene));
+  const double peak = 6 / std::numbers::pi / (0.06 * 0.06);
+  double of_spline = 0;
+  double of_gaussian = 0;
+  const Image<float> spline = profile(Kernel::cubic_spline);
+  const Image<float> gaussian = profile(Kernel::gaussian);
+  for (int y = 160; y < 200; ++y)
+    for (int x = 300; x < 340; ++x) {
+      const double truth = projected_spline(std::hypot(x + 0.5 - 320, y + 0.5 - 180) * pixel / 0.06) / (0.06 * 0.06);
+      of_spline = std::max(of_spline, std::abs(spline(x, y) - truth) / peak);
+      of_gaussian = std::max(of_gaussian, std::abs(gaussian(x, y) - truth) / peak);
+    }
+  EXPECT_LT(of_spline, 0.03);
+  EXPECT_GT(of_gaussian, 0.08) << "another kernel must be told apart";
+}
+
 TEST(Mass, IsTheSameOnEveryInstructionSet) {
   const Cloud cloud = kernels(500);
-  const Stage stage = stage_of(cloud, 131, 67);
-  const Image<float> usual = values_of(cloud, stage)[0].column;
-  const float most = std::ranges::max(usual.pixels());
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    const Image<float> column = values_of(cloud, stage)[0].column;
-    float difference = 0;
-    for (std::size_t i = 0; i < usual.pixels().size(); ++i)
-      difference = std::max(difference, std::abs(column.pixels()[i] - usual.pixels()[i]));
-    EXPECT_LT(difference, 1e-4f * most);
+  Stage stage = stage_of(cloud, 131, 67);
+  for (const Kernel kernel : {Kernel::gaussian, Kernel::cubic_spline}) {
+    stage.scene.splat_style.kernel = kernel;
+    const Image<float> usual = values_of(cloud, stage)[0].column;
+    const float most = std::ranges::max(usual.pixels());
+    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+      SCOPED_TRACE(hwy::TargetName(target));
+      hwy::SetSupportedTargetsForTest(target);
+      const Image<float> column = values_of(cloud, stage)[0].column;
+      float difference = 0;
+      for (std::size_t i = 0; i < usual.pixels().size(); ++i)
+        difference = std::max(difference, std::abs(column.pixels()[i] - usual.pixels()[i]));
+      EXPECT_LT(difference, 1e-4f * most);
+    }
+    hwy::SetSupportedTargetsForTest(0);
   }
-  hwy::SetSupportedTargetsForTest(0);
 }
 
 /// The mean of so many pixels a side.

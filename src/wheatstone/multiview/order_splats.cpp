@@ -89,7 +89,9 @@ Cloud last_of(const Cloud& cloud, std::size_t first) {
 
 Deposit deposit_of(const SplatStyle& splat_style) {
   if (splat_style.look == Look::thesis) return splat_style.blend == Blend::over ? Deposit::absorbing : Deposit::light;
-  return splat_style.colour_source == ColourSource::own ? Deposit::colours : Deposit::mass;
+  const bool gaussian = splat_style.kernel == Kernel::gaussian;
+  if (splat_style.colour_source == ColourSource::own) return gaussian ? Deposit::colours : Deposit::colours_by_spline;
+  return gaussian ? Deposit::mass : Deposit::mass_by_spline;
 }
 
 PictureTable::PictureTable(const SplatOrders& orders) : pictures(static_cast<int>(orders.size())), first(orders[0]) {

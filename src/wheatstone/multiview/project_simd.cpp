@@ -100,7 +100,7 @@ HWY_INLINE Vec size_of(const Cloud& cloud, std::size_t i, Vec log2_density, Vec 
     return hn::Min(hn::Max(size, smallest), largest);
   }
   const bool mass = splat_style.look == Look::mass;
-  const float diameters_a_radius = mass ? diameters_a_mass_deviation * deviations_a_radius : 2.f;
+  const float diameters_a_radius = mass ? mass_diameters(splat_style.kernel) * deviations_a_radius : 2.f;
   const Vec diameter = hn::Mul(radius_of(cloud, i, log2_density, splat_style),
                                hn::Set(d, diameters_a_radius * projection.camera.focal_px));
   const Vec size = hn::Mul(diameter, nearness);
@@ -210,8 +210,10 @@ struct Bins {
 
 /// Moves splats that are too wide for the view's picture to the smaller one that fits, and dims them as their pixels
 /// are larger: light is what lies above an area. Returns the pictures' numbers.
-HWY_INLINE hn::Vec<Ints> choose_picture(const PictureTable& table, Placed& placed, Lit& lit, bool all_channels) {
+HWY_INLINE hn::Vec<Ints> choose_picture(const PictureTable& table, Placed& placed, Lit& lit,
+                                        const SplatStyle& splat_style) {
   const Floats d;
+  const bool all_channels = splat_style.colour_source == ColourSource::own;
   Vec picture = hn::Zero(d);
   for (int i = 0; i + 1 < table.pictures; ++i)
     picture = hn::Add(picture, hn::IfThenElseZero(hn::Gt(lit.size, hn::Set(d, table.widest[i])), hn::Set(d, 1.f)));
@@ -229,7 +231,7 @@ HWY_INLINE hn::Vec<Ints> choose_picture(const PictureTable& table, Placed& place
     lit.blue = hn::Mul(lit.blue, area);
   }
   // Enlarging the picture spreads what is in it: by the variance of a line from pixel to pixel.
-  constexpr float spread = 0.2f * diameters_a_mass_deviation * diameters_a_mass_deviation;
+  const float spread = 0.2f * mass_diameters(splat_style.kernel) * mass_diameters(splat_style.kernel);
   const Vec smaller = hn::Sqrt(hn::Sub(hn::Mul(hn::Mul(lit.size, lit.size), area), hn::Set(d, spread)));
   lit.size = hn::IfThenElse(hn::Gt(picture, hn::Zero(d)), smaller, lit.size);
   return number;
@@ -281,7 +283,7 @@ void project(const Cloud& cloud, const Projection& projection, const Window& win
   const Floats d;
   const hn::RebindToUnsigned<Floats> du;
   const std::size_t lanes = hn::Lanes(d);
-  const Deposit deposit = deposit_of(projection.splat_style);
+  const Deposit deposit = channels_of(deposit_of(projection.splat_style));
   HWY_ALIGN float x[most_lanes], y[most_lanes], parallax[most_lanes];
   HWY_ALIGN std::uint32_t bits[most_lanes];
   HWY_ALIGN std::uint16_t size[most_lanes], red[most_lanes], green[most_lanes], blue[most_lanes];
@@ -290,7 +292,7 @@ void project(const Cloud& cloud, const Projection& projection, const Window& win
     const std::size_t at = std::min(i, block.count - lanes);
     Placed placed = place(cloud, block.first + at, projection);
     Lit lit = light(cloud, placed, projection, block, at);
-    const auto picture = choose_picture(table, placed, lit, deposit == Deposit::colours);
+    const auto picture = choose_picture(table, placed, lit, projection.splat_style);
     const Bins bins = bins_of(placed, lit.size, picture, window, table);
     hn::StoreU(bins.first, du, block.bin.data() + at);
     hn::StoreU(bins.last, du, block.next_bin.data() + at);

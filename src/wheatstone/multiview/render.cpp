@@ -12,6 +12,7 @@
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/multiview/splat_internal.h"
 
 namespace wheatstone {
 
@@ -66,6 +67,9 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("views are {}x{} pixels, expected at least 1x1", rig.width, rig.height));
   if (scene.mapping.points.empty()) throw Error(ErrorKind::wrong_usage, "the depth mapping has no point");
+  if (options.focus) check_focus(*options.focus, look_around_px(scene, rig));
+  if (options.focus && (options.method == Method::exact || options.method == Method::incremental))
+    throw Error(ErrorKind::wrong_usage, "--focus: the depth planes are moved, expected --method auto or layered");
   if (options.planes < 0)
     throw Error(ErrorKind::wrong_usage, fmt::format("there are {} depth planes, expected at least 1", options.planes));
 }
@@ -74,6 +78,9 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
 void check_gpu_can(const Scene& scene, const RenderOptions& options) {
   if (scene.splat_style.blend == Blend::over)
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --blend over, expected --device cpu");
+  if (options.focus) throw Error(ErrorKind::wrong_usage, "--device gpu does not render --focus, expected --device cpu");
+  if (scene.splat_style.look == Look::mass && scene.splat_style.kernel != Kernel::gaussian)
+    throw Error(ErrorKind::wrong_usage, "--device gpu does not render --kernel cubic-spline, expected --device cpu");
   if (scene.shine.lit())
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --shine, expected --device cpu");
   if (options.opaque)
@@ -92,11 +99,39 @@ bool chooses_gpu(std::uint64_t particles, const Rig& rig, const RenderOptions& o
   return particles * rig.positions.size() >= worthwhile && has_real_gpu();
 }
 
-Choice choose(std::uint64_t particles, const Scene& scene, const Rig& rig, const RenderOptions& options) {
+/// The diameter, in the picture that it is drawn in, of a splat of mean area.
+float typical_splat_px(const CloudStatistics& statistics, const Scene& scene) {
+  const SplatStyle& style = scene.splat_style;
+  const bool by_rank = style.size_rule == SizeRule::denser_smaller || style.size_rule == SizeRule::denser_larger;
+  const Cloud& sample = statistics.sample.cloud();
+  if (style.look == Look::thesis || by_rank || sample.size() == 0) return (style.smallest_px + style.largest_px) / 2;
+  const float px_a_radius =
+      mass_diameters(style.kernel) * deviations_a_radius * scene.camera.focal_px / style.size_depth;
+  const bool own = style.size_rule == SizeRule::smoothing_length && !sample.smoothing_length.empty();
+  const std::size_t every = sample.size() / 4096 + 1;
+  double area = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < sample.size(); i += every, ++count) {
+    float radius = style.fixed_radius;
+    if (own) {
+      radius = sample.smoothing_length[i];
+    } else if (!sample.density.empty()) {
+      radius = style.radius_factor / std::cbrt(sample.density[i]);
+    }
+    float diameter = std::max(radius * px_a_radius, style.smallest_px);
+    while (diameter > widest_mass_px) diameter /= 2;
+    area += std::pow(diameter + 1, 2);
+  }
+  return static_cast<float>(std::sqrt(area / count)) - 1;
+}
+
+Choice choose(const CloudStatistics& statistics, const Scene& scene, const Rig& rig, const RenderOptions& options) {
   if (options.method != Method::automatic) return {options.method, "as asked for"};
+  if (options.focus) return {Method::layered, "layered: the focus moves depth planes"};
   const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
-  return choose_method({.particles = particles,
-                        .splat_px = (scene.splat_style.smallest_px + scene.splat_style.largest_px) / 2,
+  return choose_method({.particles = statistics.count,
+                        .splat_px = typical_splat_px(statistics, scene),
+                        .mass = scene.splat_style.look == Look::mass,
                         .views = static_cast<int>(rig.positions.size()),
                         .planes = static_cast<int>(planes.parallaxes.size()),
                         .pixels = static_cast<std::uint64_t>(rig.width) * rig.height,
@@ -139,7 +174,7 @@ void render_hiding_slices(const RenderJob& job, const RenderOptions& options, Re
   with_exposure.exposure = result.exposure;
   SliceMaker maker(job.scene, job.statistics, job.rig, with_exposure);
   job.chunks([&](const Cloud& chunk) { maker.add(chunk); });
-  result.views = render_slices(maker.finish({}), job.rig, options.filter);
+  result.views = render_slices(maker.finish({}), job.rig, options.filter, {}, options.focus);
 }
 
 /// Some of the views by the method that was chosen; the exact one gets them one by one.
@@ -170,13 +205,13 @@ RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, co
   RenderedViews result;
   result.tone = tone_found(statistics, scene, rig, options);
   result.exposure = result.tone.exposure;
-  const Choice choice = choose(statistics.count, scene, rig, options);
+  const Choice choice = choose(statistics, scene, rig, options);
   result.method = choice.method;
   result.reason = choice.reason;
   result.views.assign(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
   const std::vector<ImageView<Rgb8>> pictures(result.views.begin(), result.views.end());
   const ToneMap tone(result.tone);
-  const RenderJob job{chunks, scene, rig, statistics, tone};
+  const RenderJob job{chunks, scene, rig, statistics, tone, options.focus};
 
   report(progress, "views", 0);
   result.device = "cpu";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "wheatstone/gpu/device.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/multiview/chunks.h"
+#include "wheatstone/multiview/focus.h"
 #include "wheatstone/multiview/scene.h"
 #include "wheatstone/multiview/tone.h"
 #include "wheatstone/particles/cloud.h"
@@ -37,7 +39,8 @@ struct RenderOptions {
   int planes = 0;  ///< depth planes; 0: one for each pixel of parallax
   /// A graphics processor renders by the incremental or the layered method, what is neither opaque nor absorbs.
   Device device = Device::processor;
-  bool opaque = false;  ///< the nearest particle hides the others, instead of adding its light to theirs
+  std::optional<Focus> focus;  ///< of the layered method, which auto then chooses: where the depth differs
+  bool opaque = false;         ///< the nearest particle hides the others, instead of adding its light to theirs
   /// Of the thesis's look; NaN: found from some of the particles, as are limits that `tone` leaves open.
   float exposure = std::numeric_limits<float>::quiet_NaN();
   ToneSettings tone;  ///< of mass; the look is the scene's

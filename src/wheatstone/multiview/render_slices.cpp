@@ -60,15 +60,20 @@ std::vector<float> parallaxes_of(const SliceStack& stack) {
   return parallaxes;
 }
 
-void add_glowing(const SliceStack& stack, const Rig& rig, SliceFilter filter,
+/// How far the views move the slices.
+float largest_shift_px(const SliceStack& stack, std::span<const ViewPosition> views) {
+  float largest = 0;
+  for (const ViewPosition view : views)
+    for (const Slice& slice : stack.slices)
+      largest = std::max(largest, std::abs((view - central_view) * slice.parallax_px));
+  return largest;
+}
+
+void add_glowing(const SliceStack& stack, const Rig& rig, const Compositing& compositing,
                  std::span<const ImageView<Rgb8>> pictures) {
-  const std::vector<float> parallaxes = parallaxes_of(stack);
-  const Compositing compositing{parallaxes, rig.positions, resampling_of(filter)};
   const ToneMap tone(stack.tone);
-  float reach = 0;
-  for (const ViewPosition view : rig.positions)
-    for (const float parallax : parallaxes) reach = std::max(reach, std::abs((view - central_view) * parallax));
-  const int around = static_cast<int>(std::ceil(reach)) + 2;
+  const float gain = compositing.focus ? compositing.focus->largest_gain() : 1;
+  const int around = static_cast<int>(std::ceil(largest_shift_px(stack, rig.positions) * gain)) + 2;
   const int planes = static_cast<int>(stack.slices.size());
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {
     return Workplace{LightBand(-around, rig.width + around, band_rows),
@@ -86,12 +91,24 @@ void add_glowing(const SliceStack& stack, const Rig& rig, SliceFilter filter,
   });
 }
 
+/// A pixel of a view, and how far it moves the slices for each pixel of their parallax.
+struct ViewPixel {
+  int x, y;
+  float shift;
+};
+
+ViewPixel pixel_of(int x, int y, ViewPosition view, const std::optional<Focus>& focus) {
+  const float gain = focus ? focus->gain_at(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) : 1;
+  return {x, y, (view - central_view) * gain};
+}
+
 /// Light of one pixel of one view, front to back. Slices are read at their nearest pixel: opaque edges stay sharp.
-LinearRgba look_through(const SliceStack& stack, ViewPosition view, int x, int y) {
+LinearRgba look_through(const SliceStack& stack, const ViewPixel& pixel) {
+  const auto [x, y, shift] = pixel;
   LinearRgba seen;
   float through = 1;
   for (const Slice& slice : stack.slices) {
-    const int column = x - static_cast<int>(std::lround((view - central_view) * slice.parallax_px)) - slice.left;
+    const int column = x - static_cast<int>(std::lround(shift * slice.parallax_px)) - slice.left;
     if (!slice.pixels.contains(column, y - slice.top)) continue;
     const LinearRgba& light = slice.pixels(column, y - slice.top);
     seen.r += through * light.r;
@@ -110,13 +127,14 @@ LinearRgba mixed(const LinearRgba& a, const LinearRgba& b, float share) {
 
 /// What a view sees at a pixel: the sum of all slices there, or what of them is not hidden. Slices are read between
 /// their pixels.
-LinearRgba look_between(const SliceStack& stack, ViewPosition view, int x, int y) {
+LinearRgba look_between(const SliceStack& stack, const ViewPixel& pixel) {
+  const auto [x, y, shift] = pixel;
   LinearRgba seen;
   float through = 1;
   for (const Slice& slice : stack.slices) {
     const int row = y - slice.top;
     if (row < 0 || row >= slice.pixels.height()) continue;
-    const float at = static_cast<float>(x - slice.left) - (view - central_view) * slice.parallax_px;
+    const float at = static_cast<float>(x - slice.left) - shift * slice.parallax_px;
     const int column = static_cast<int>(std::floor(at));
     if (column < -1 || column >= slice.pixels.width()) continue;
     const std::span<const LinearRgba> pixels = slice.pixels.row(row);
@@ -135,20 +153,22 @@ LinearRgba look_between(const SliceStack& stack, ViewPosition view, int x, int y
 }  // namespace
 
 std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, SliceFilter filter,
-                                       const Progress& progress) {
+                                       const Progress& progress, const std::optional<Focus>& focus) {
+  if (focus) check_focus(*focus, largest_shift_px(stack, rig.positions));
   std::vector<Image<Rgb8>> views(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
   const std::vector<ImageView<Rgb8>> pictures(views.begin(), views.end());
   if (stack.slices.empty() || views.empty()) return views;
   const Hiding hiding = hiding_of(stack);
   if (!hiding.any) {
-    add_glowing(stack, rig, filter, pictures);
+    const std::vector<float> parallaxes = parallaxes_of(stack);
+    add_glowing(stack, rig, {parallaxes, rig.positions, resampling_of(filter), focus}, pictures);
   } else {
     const ToneMap tone(stack.tone);
     const auto look = hiding.sharp || filter == SliceFilter::nearest ? look_through : look_between;
     tbb::parallel_for(0, rig.height, [&](int y) {
       for (std::size_t v = 0; v < views.size(); ++v)
         for (int x = 0; x < rig.width; ++x) {
-          const LinearRgba seen = look(stack, rig.positions[v], x, y);
+          const LinearRgba seen = look(stack, pixel_of(x, y, rig.positions[v], focus));
           views[v](x, y) = tone(seen.r, seen.g, seen.b);
         }
     });
@@ -158,7 +178,9 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
 }
 
 InterleavedView render_interleaved(const SliceStack& stack, std::span<const ViewPosition> views,
-                                   const ViewsOfRow& views_of_row, const Progress& progress) {
+                                   const ViewsOfRow& views_of_row, const Progress& progress,
+                                   const std::optional<Focus>& focus) {
+  if (focus) check_focus(*focus, largest_shift_px(stack, views));
   InterleavedView result{.picture = Image<Rgb8>(stack.width, stack.height), .composited = 0};
   const ToneMap tone(stack.tone);
   std::atomic<std::uint64_t> composited = 0;
@@ -168,7 +190,7 @@ InterleavedView render_interleaved(const SliceStack& stack, std::span<const View
     for (int x = 0; x < stack.width; ++x) {
       const std::uint16_t* const view = shown.data() + 3 * static_cast<std::size_t>(x);
       const auto colour_of = [&](std::uint16_t of_view) {
-        const LinearRgba seen = look_between(stack, views[of_view], x, y);
+        const LinearRgba seen = look_between(stack, pixel_of(x, y, views[of_view], focus));
         return tone(seen.r, seen.g, seen.b);
       };
       const Rgb8 red = colour_of(view[0]);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "wheatstone/depth/rig.h"
@@ -11,9 +12,11 @@
 namespace wheatstone {
 
 /// The views of a rig from slices, without the particles (Hassaine 2010, sec. 5.5, 6.2). The rig's size is the stack's.
-/// Slices with alpha hide what is behind them; a pixel that is full is not looked at further (sec. 6.4, 6.5.1).
+/// Slices with alpha hide what is behind them; a pixel that is full is not looked at further (sec. 6.4, 6.5.1). Throws
+/// Error{wrong_usage} where the focus would fold a view.
 std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig,
-                                       SliceFilter filter = SliceFilter::centroid, const Progress& progress = {});
+                                       SliceFilter filter = SliceFilter::centroid, const Progress& progress = {},
+                                       const std::optional<Focus>& focus = {});
 
 /// Fills in which view each sub-pixel of a row shows: three for each pixel, red, green, blue.
 using ViewsOfRow = std::function<void(int y, std::span<std::uint16_t> three_per_pixel)>;
@@ -25,7 +28,8 @@ struct InterleavedView {
   std::uint64_t composited = 0;  ///< sub-pixels
 };
 InterleavedView render_interleaved(const SliceStack& stack, std::span<const ViewPosition> views,
-                                   const ViewsOfRow& views_of_row, const Progress& progress = {});
+                                   const ViewsOfRow& views_of_row, const Progress& progress = {},
+                                   const std::optional<Focus>& focus = {});
 
 /// Moves every slice: the parallaxes' range becomes the one given, in pixels. For another display, or less depth.
 void map_depth(SliceStack& stack, float nearest_px, float farthest_px);

@@ -13,6 +13,7 @@ struct RenderJob {
   const Rig& rig;
   const CloudStatistics& statistics;
   const ToneMap& tone;
+  std::optional<Focus> focus = {};  ///< of the layered method
 };
 
 /// Depth planes between the nearest and the farthest parallax of a mapping.
@@ -27,8 +28,9 @@ DepthPlanes planes_of(const DepthMapping& mapping, int count, float span = 1);
 
 Resampling resampling_of(SliceFilter filter);
 
-/// The enlarged frustum: whatever any view of the rig sees (Hassaine 2010, sec. 4.3.1), in whole pixels.
-Window window_around(const Scene& scene, const Rig& rig);
+/// The enlarged frustum: whatever any view of the rig sees (Hassaine 2010, sec. 4.3.1), in whole pixels, where depth is
+/// multiplied by up to `gain`.
+Window window_around(const Scene& scene, const Rig& rig, float gain = 1);
 
 class GatheredLight;
 

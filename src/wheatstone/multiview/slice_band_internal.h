@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/multiview/focus.h"
 #include "wheatstone/multiview/light_band_internal.h"
 #include "wheatstone/multiview/tone_map_internal.h"
 #include "wheatstone/multiview/view_light_internal.h"
@@ -59,6 +61,8 @@ struct Compositing {
   std::span<const float> parallaxes;  ///< of the planes, in pixels
   std::span<const ViewPosition> views;
   Resampling resampling = Resampling::cubic;
+  /// Where the depth differs, in pixels of the picture that is made; nothing: nowhere.
+  std::optional<Focus> focus = {};
   std::span<const std::vector<float>> shares = {};  ///< [view][plane]: how much of a plane a view sees; empty: all
 };
 

@@ -24,16 +24,23 @@ struct Splat {
 static_assert(sizeof(Splat) == 20);
 
 /// What splats add to the channels of a pixel.
-enum class Deposit {
-  light,      ///< of the thesis's look: a Gaussian with the colour at its middle
-  mass,       ///< light, and light times the second number, whose sums over all pixels are those of the splats
-  colours,    ///< three channels of light, whose sums are those of the splats
-  absorbing,  ///< as light, and in the fourth channel the optical depth, by which the three are multiplied
+enum class Deposit : std::uint8_t {
+  light,    ///< of the thesis's look: a Gaussian with the colour at its middle
+  mass,     ///< light, and light times the second number, whose sums over all pixels are those of the splats
+  colours,  ///< three channels of light, whose sums are those of the splats
+  mass_by_spline,
+  colours_by_spline,  ///< by the cubic spline kernel, not the Gaussian
+  absorbing,          ///< as light, and in the fourth channel the optical depth, by which the three are multiplied
 };
 /// Whether splats are spread over areas of pixels, so that their sums are kept; others have a Gaussian's value at the
 /// middle of a pixel.
 constexpr bool keeps_sums(Deposit deposit) { return deposit == Deposit::mass || deposit == Deposit::colours; }
 Deposit deposit_of(const SplatStyle& splat_style);
+/// The same without what tells kernels apart.
+constexpr Deposit channels_of(Deposit deposit) {
+  if (deposit == Deposit::mass_by_spline) return Deposit::mass;
+  return deposit == Deposit::colours_by_spline ? Deposit::colours : deposit;
+}
 
 /// Linear light 0..1 that is packed in 32 bits: the square roots of red and green in eleven bits each, and of blue in
 /// ten.
@@ -46,10 +53,14 @@ inline std::array<float, 3> unpacked_light(std::uint32_t bits) {
 
 /// A Gaussian's standard deviation is its splat's diameter over this: at the rim 4 % of the peak are left.
 constexpr float diameters_a_deviation = 5;
-/// The same of a splat of mass: 2 % of the peak are left at the rim, and what would lie beyond is within.
+/// The same of a splat of mass: of a Gaussian 2 % of the peak are left at the rim, and what would lie beyond is within.
 constexpr float diameters_a_mass_deviation = 5.5f;
 /// The standard deviation of the cubic spline kernel along an axis, of the radius where it ends: √0.3 / 2.
 constexpr float deviations_a_radius = 0.27386f;
+/// Diameters of a splat of mass over its standard deviation along an axis.
+constexpr float mass_diameters(Kernel kernel) {
+  return kernel == Kernel::gaussian ? diameters_a_mass_deviation : 2 / deviations_a_radius;
+}
 /// Variance that the area of a pixel adds to a splat's (a box one pixel wide).
 constexpr float pixel_variance = 1.f / 12;
 /// Half the width of what a splat touches: its radius, and half of a pixel's width around it.

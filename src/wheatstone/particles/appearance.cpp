@@ -133,6 +133,7 @@ SplatStyle make_splat_style(const Appearance& appearance, const CloudStatistics&
   splat_style.least_opacity = appearance.least_opacity * appearance.opacity;
   splat_style.look = appearance.look;
   if (appearance.look == Look::thesis) splat_style.blend = appearance.blend;
+  splat_style.kernel = appearance.kernel;
   splat_style.size_rule = size_rule_of(appearance, statistics);
   set_radii(splat_style, statistics);
   if (statistics.count > 0 && statistics.mass > 0)

@@ -22,6 +22,12 @@ enum class Blend {
   over,  ///< particles absorb what comes from behind them as they shine: the nearer ones are in front
 };
 
+/// How a particle's mass is spread.
+enum class Kernel {
+  gaussian,      ///< with the cubic spline's width
+  cubic_spline,  ///< of SPH, which ends at its radius (Monaghan 1992): its projection on rows times that on columns
+};
+
 /// What decides how large a particle's splat is.
 enum class SizeRule {
   automatic,         ///< of mass: smoothing length, else density; of the thesis: denser_smaller
@@ -34,9 +40,10 @@ enum class SizeRule {
 /// How a particle looks, as the user says it (Hassaine 2010, sec. 4.2). Colours are sRGB.
 struct Appearance {
   Look look = Look::mass;
-  Blend blend = Blend::add;  ///< of the thesis's look
-  float density_slope = 2;   ///< of the sigmoid, for a factor of ten in density
-  float density_shift = 0;   ///< of its middle, in factors of ten above the median density
+  Blend blend = Blend::add;          ///< of the thesis's look
+  Kernel kernel = Kernel::gaussian;  ///< of mass
+  float density_slope = 2;           ///< of the sigmoid, for a factor of ten in density
+  float density_shift = 0;           ///< of its middle, in factors of ten above the median density
   /// Of the densest, at the middle of a splat. Of particles that absorb, it is an optical depth: a share of
   /// exp(−opacity) comes through.
   float opacity = 0.5f;
@@ -61,6 +68,7 @@ enum class ColourSource { temperature, density, own, quantity };
 struct SplatStyle {
   Look look = Look::mass;
   Blend blend = Blend::add;
+  Kernel kernel = Kernel::gaussian;
   float mean_mass = 1;       ///< of a particle: light is counted in it
   float radius_factor = 0;   ///< of mass: a kernel's radius is it times the cube root of 1 over the density
   float fixed_radius = 0;    ///< of mass: every kernel's radius, where neither density nor smoothing length is known

@@ -164,11 +164,13 @@ void put_smoothing_length(const Part& part, hsize_t first, hsize_t count, Cloud&
   for (float& length : cloud.smoothing_length) length *= part.radius_of_length;
   std::vector<float> volume;
   put_scalars(part, part.volume, first, count, volume);
+  // The radius of the ball that holds as many cells as a kernel does particles, 32, over the side of a cell.
+  constexpr float radius_of_side = 1.9695f;
   if (!part.smoothing_length.dataset && !volume.empty()) {
-    for (const float cell : volume) cloud.smoothing_length.push_back(std::cbrt(cell));
+    for (const float cell : volume) cloud.smoothing_length.push_back(radius_of_side * std::cbrt(cell));
   } else if (!part.smoothing_length.dataset && !cloud.mass.empty() && !cloud.density.empty()) {
     for (std::size_t i = 0; i < cloud.mass.size(); ++i)
-      cloud.smoothing_length.push_back(std::cbrt(cloud.mass[i] / cloud.density[i]));
+      cloud.smoothing_length.push_back(radius_of_side * std::cbrt(cloud.mass[i] / cloud.density[i]));
   }
 }
 
