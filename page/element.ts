@@ -230,7 +230,7 @@ export class WheatstonePicture extends HTMLElement {
   private listen(): void {
     const { canvas } = this;
     canvas.addEventListener("pointermove", (event) => this.lookFrom(event.offsetX / canvas.clientWidth));
-    canvas.addEventListener("click", (event) => this.click(event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight));
+    canvas.addEventListener("click", (event) => this.pick(event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight));
     canvas.addEventListener("keydown", (event) => {
       if (this.press(event.key)) event.preventDefault();
     });
@@ -259,7 +259,7 @@ export class WheatstonePicture extends HTMLElement {
   }
 
   /** What lies there comes onto the screen. */
-  private click(x: number, y: number): void {
+  private pick(x: number, y: number): void {
     const { stage, look } = this;
     if (!stage) return;
     if (look.mode === "wiggle" && prefersNoMotion()) {

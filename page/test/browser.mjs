@@ -24,7 +24,7 @@ export async function openPage(browser, file, { before, reducedMotion = "no-pref
   });
   if (before === fakeHeadset) await before(page);
   else if (before) await page.addInitScript(before);
-  await page.goto(`file://${file}`);
+  await page.goto(file.includes("://") ? file : `file://${file}`);
   await page.waitForFunction(() => {
     const picture = document.querySelector("wheatstone-picture");
     return !picture || picture.matches("[data-loaded]") || picture.shadowRoot.querySelector(".alarm").textContent !== "";

@@ -3,7 +3,9 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
+import { once } from "node:events";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { alarmOf, fakeHeadset, openPage, picturesAlike, pngAt, psnr, shotOf, sizeOf, startBrowser } from "./browser.mjs";
 
 const [wheatstone, folder] = process.argv.slice(2);
@@ -33,7 +35,7 @@ async function comparePictures(page, folderOfViews, looks) {
     const [width] = sizeOf(expected);
     const found = await psnr(page, await shotOf(page, width, look), expected);
     assert.ok(found >= leastPsnr, `${JSON.stringify(look)}: ${found} dB to ${file}, expected at least ${leastPsnr}`);
-    told.push(`${look.mode} ${found.toFixed(1)} dB`);
+    told.push(`${look.mode ?? "as it begins"} ${found.toFixed(1)} dB`);
   }
   return told.join(", ");
 }
@@ -157,6 +159,22 @@ await test("a quilt is its views", async () => {
     [{ mode: "flat", view: 0.1 }, "view_003.png"],
   ]);
   await page.close();
+  return told;
+});
+
+await test("another site shows a page in its element, with the controls that it wants", async () => {
+  run("share", "impressionist/painting.wst", "-o", "shared.html", "--element", "wheatstone-picture.js");
+  writeFileSync(at("site.html"), `<script src="wheatstone-picture.js"></script>
+    <wheatstone-picture src="shared.html" flat="right" controlslist="mode"><img src="still/left.png" alt="Fruit"></wheatstone-picture>`);
+  const server = createServer((request, answer) => answer.end(readFileSync(at(request.url.slice(1))))).listen(0, "127.0.0.1");
+  await once(server, "listening");
+  const { page } = await openPage(browser, `http://127.0.0.1:${server.address().port}/site.html`);
+  const told = await comparePictures(page, "impressionist-drawn", [[{ zeroParallax: 0 }, "right.png"]]);
+  assert.equal(await page.locator("wheatstone-picture canvas").getAttribute("aria-label"), "Fruit");
+  assert.ok(await page.locator("wheatstone-picture select").isVisible());
+  assert.ok(!(await page.locator("wheatstone-picture input").isVisible()), "the slider was not asked for");
+  await page.close();
+  server.close();
   return told;
 });
 
