@@ -53,6 +53,7 @@ std::optional<float> HeadTracker::newest(double now_s, const HeadFilterOptions& 
   if (!last) return {};
   if (is_silent(now_s)) filter_.forget();
   heard_at_s_ = now_s;
+  farther_cm_ = last->z_cm;
   const double place = filter_.add(last->x_cm / eye_separation_cm, now_s, options);
   return static_cast<float>(std::clamp(place, -farthest, farthest));
 }

@@ -21,6 +21,9 @@ class HeadTracker {
   /// The steadied position to the right of the middle, in eye separations, from all that has arrived; none where
   /// nothing has. Does not block.
   std::optional<float> newest(double now_s, const HeadFilterOptions& options);
+  /// How far from the screen the last position lies behind the one that the tracker was centred at, in cm; 0 where
+  /// nothing has arrived. Not steadied.
+  double farther_cm() const { return farther_cm_; }
   /// Nothing has come for a second, or ever.
   bool is_silent(double now_s) const;
 
@@ -29,6 +32,7 @@ class HeadTracker {
   std::uint16_t port_ = 0;
   HeadFilter filter_;
   std::optional<double> heard_at_s_;
+  double farther_cm_ = 0;
 };
 
 }  // namespace wheatstone::viewer

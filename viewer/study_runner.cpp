@@ -15,7 +15,7 @@ namespace wheatstone::viewer {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 26;
-constexpr std::string_view head_header = "trial\ttime\tx\tobserver\n";
+constexpr std::string_view head_header = "trial\ttime\tx\tdistance\tobserver\n";
 
 bool is_digit(const std::string& name) { return name.size() == 1 && name[0] >= '0' && name[0] <= '9'; }
 
@@ -25,6 +25,14 @@ std::string scale_text(int least, int most, const std::string& least_means, cons
     return means.empty() ? fmt::format("{}", number) : fmt::format("{} ({})", number, means);
   };
   return fmt::format("{} … {}", end(least, least_means), end(most, most_means));
+}
+
+/// What is to be done, the question, and the keys that answer it.
+std::string instruction_text(const StudyDesign& design) {
+  const StudyTexts& texts = design.texts;
+  const std::string keys = design.task == StudyTask::path ? fmt::format("Y: {}      N: {}", texts.yes, texts.no)
+                                                          : scale_text(design.scale_least, design.scale_most, "", "");
+  return fmt::format("{}\n\n{}\n{}", texts.instruction, texts.question, keys);
 }
 
 /// A picture in the middle of a grey one of the screen's size, reduced to whole shares where it is too large.
@@ -42,7 +50,7 @@ Image<Rgb8> in_the_middle(const Image<Rgb8>& picture, const StudyScreen& screen)
 }  // namespace
 
 StudyRunner::StudyRunner(const StudyFolder& folder, int subject, const StudyScreen& screen)
-    : folder_(folder), screen_(screen) {
+    : folder_(folder), screen_(screen), head_{0, screen.viewing_distance_mm} {
   const StudyDesign& design = folder.design();
   if (subject < 0 || subject >= design.subjects)
     throw Error(ErrorKind::bad_input,
@@ -65,7 +73,7 @@ std::string StudyRunner::text() const {
   const StudyDesign& design = folder_.design();
   switch (page_) {
     case Page::instruction:
-      return design.texts.instruction;
+      return instruction_text(design);
     case Page::practice_ends:
       return design.texts.practice_ends;
     case Page::pause:
@@ -99,8 +107,7 @@ StereoPair StudyRunner::draw() const {
   const auto path = [&](std::size_t i) { return folder_.stimuli() / files[i]; };
   if (design.items.empty()) {
     const PathGraph graph = graph_from_json(read_whole_file(path(0), most_bytes), path(0).string());
-    return draw_for_eyes(graph, screen_, condition.shown.display,
-                         {static_cast<float>(head_mm_), screen_.viewing_distance_mm});
+    return draw_for_eyes(graph, screen_, condition.shown.display, head_);
   }
   StereoPair pair;
   pair.left = in_the_middle(read_image(path(0)), screen_);
@@ -112,7 +119,7 @@ StereoPair StudyRunner::draw() const {
 bool StudyRunner::views_changed() {
   if (page_ != Page::trial || !folder_.design().items.empty()) return false;
   const SimulatedDisplay& display = conditions_[static_cast<std::size_t>(planned().condition)].shown.display;
-  const auto shown = shown_views(display, screen_, {static_cast<float>(head_mm_), screen_.viewing_distance_mm});
+  const auto shown = shown_views(display, screen_, head_);
   const bool changed = shown[0].view != seen_[0].view || shown[1].view != seen_[1].view;
   seen_ = shown;
   return changed;
@@ -121,17 +128,18 @@ bool StudyRunner::views_changed() {
 void StudyRunner::shown(double time_s) {
   if (shown_s_) return;
   shown_s_ = time_s;
-  head_at(head_mm_, time_s);
+  head_at(head_, time_s);
 }
 
-void StudyRunner::head_at(double x_mm, double time_s) {
-  head_mm_ = x_mm;
+void StudyRunner::head_at(const HeadPlace& head, double time_s) {
+  head_ = head;
   if (page_ != Page::trial || !shown_s_) return;
-  const double x_m = x_mm / 1000;
+  const double x_m = static_cast<double>(head.x_mm) / 1000;
   now_.head_least_m = std::isnan(now_.head_least_m) ? x_m : std::min(now_.head_least_m, x_m);
   now_.head_most_m = std::isnan(now_.head_most_m) ? x_m : std::max(now_.head_most_m, x_m);
   if (!planned().practice)
-    head_path_ += fmt::format("{}\t{:.6f}\t{:.4f}\tperson\n", counted() + 1, time_s - *shown_s_, x_m);
+    head_path_ += fmt::format("{}\t{:.6f}\t{:.4f}\t{:.4f}\tperson\n", counted() + 1, time_s - *shown_s_, x_m,
+                              head.distance_mm / 1000);
 }
 
 bool StudyRunner::key(const std::string& name, double pressed_s, double noted_s) {

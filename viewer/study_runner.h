@@ -38,8 +38,8 @@ class StudyRunner {
   /// A key that was pressed at one time and came to the program at another: "space", or a letter or digit. True where
   /// it changed what is shown. Throws Error{cannot_read_write} where the answer cannot be written; see TrialLog.
   bool key(const std::string& name, double pressed_s, double noted_s);
-  /// The head is here, in mm to the right of the screen's middle.
-  void head_at(double x_mm, double time_s);
+  /// The head is here.
+  void head_at(const HeadPlace& head, double time_s);
 
  private:
   enum class Page { instruction, trial, practice_ends, pause, question, thanks, end };
@@ -64,7 +64,7 @@ class StudyRunner {
   Page page_ = Page::instruction;
   std::size_t question_ = 0;
   std::optional<double> shown_s_;
-  double head_mm_ = 0;
+  HeadPlace head_;
   TrialRecord now_;        ///< of the trial that is shown
   std::string head_path_;  ///< its lines
   std::array<ShownView, 2> seen_{};

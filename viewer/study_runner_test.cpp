@@ -19,7 +19,8 @@ constexpr StudyScreen small{.width_px = 80, .height_px = 60};
 StudyDesign small_design() {
   return parse_study_design(
       "name = 'small'\ntask_label = 'paths'\nsubjects = 4\nrepetitions = 2\npractice = 1\nbreak_every = 2\n"
-      "[shown]\nnodes = 30\n[texts]\ninstruction = 'Look.'\npause = 'Rest.'\nthanks = 'Thank you.'\n"
+      "[shown]\nnodes = 30\n[texts]\ninstruction = 'Look.'\nquestion = 'Path?'\nyes = 'ja'\nno = 'nein'\npause = "
+      "'Rest.'\nthanks = 'Thank you.'\n"
       "[[factor]]\nname = 'views_per_10cm'\nlevels = [0, 8]\n"
       "[[question]]\nname = 'tired'\ntext = 'Tired?'\nleast_means = 'no'\nmost_means = 'yes'\n",
       "small.toml");
@@ -51,7 +52,7 @@ class StudySession : public testing::Test {
 
 TEST_F(StudySession, GoesFromTheInstructionToTheLastQuestion) {
   begin();
-  EXPECT_EQ(runner().text(), "Look.");
+  EXPECT_EQ(runner().text(), "Look.\n\nPath?\nY: ja      N: nein");
   press_all({"space"});
   EXPECT_TRUE(runner().shows_stimulus());
   EXPECT_EQ(runner().progress(), "sub-02: practice");
@@ -91,16 +92,16 @@ TEST_F(StudySession, TimesAreFromTheShownFrameToTheKey) {
 TEST_F(StudySession, TheHeadsPathIsRecorded) {
   begin();
   press_all({"space", "y", "space"});
-  runner().head_at(500, 199);
-  runner().head_at(10, 199.5);
+  runner().head_at({500, 700}, 199);
+  runner().head_at({10, 700}, 199.5);
   runner().shown(200);
-  runner().head_at(-80, 200.5);
-  runner().head_at(40, 201);
+  runner().head_at({-80, 700}, 200.5);
+  runner().head_at({40, 700}, 201);
   EXPECT_TRUE(runner().key("n", 203, 203));
   const TrialRecord record = read_subject(study(), 1).trials.at(0);
   EXPECT_DOUBLE_EQ(record.head_least_m, -0.08) << "what was before the stimulus does not count";
   EXPECT_DOUBLE_EQ(record.head_most_m, 0.04);
-  EXPECT_THAT(bytes_of(study().head_path(1)), HasSubstr("1\t0.500000\t-0.0800\tperson\n1\t1.000000\t0.0400"));
+  EXPECT_THAT(bytes_of(study().head_path(1)), HasSubstr("1\t0.500000\t-0.0800\t0.7000\tperson\n1\t1.000000\t0.0400"));
 }
 
 TEST_F(StudySession, GoesOnWhereItStopped) {
@@ -125,17 +126,31 @@ TEST_F(StudySession, DrawsAgainWhereTheHeadComesToAnotherView) {
   for (int trial = 0; trial < 2; ++trial) {
     EXPECT_TRUE(runner().views_changed()) << "the first frame";
     const StereoPair middle = runner().draw();
-    runner().head_at(3, 0);
+    runner().head_at({3, 700}, 0);
     EXPECT_FALSE(runner().views_changed()) << "still the nearest view";
-    runner().head_at(60, 0);
+    runner().head_at({60, 700}, 0);
     const bool changed = runner().views_changed();
     EXPECT_EQ(changed, runner().draw().left != middle.left);
     ++(changed ? moving : fixed);
-    runner().head_at(0, 0);
+    runner().head_at({0, 700}, 0);
     press("y");
   }
   EXPECT_EQ(fixed, 1) << "the condition of no views along the movement";
   EXPECT_EQ(moving, 1);
+}
+
+TEST_F(StudySession, TheHeadsDistanceChangesTheViews) {
+  begin();
+  press_all({"space", "y", "space"});
+  int changed = 0;
+  for (int trial = 0; trial < 2; ++trial) {
+    runner().views_changed();
+    runner().head_at({0, 600}, 0);
+    changed += runner().views_changed() ? 1 : 0;
+    runner().head_at({0, 700}, 0);
+    press("y");
+  }
+  EXPECT_EQ(changed, 1) << "where views follow the head at all";
 }
 
 TEST_F(StudySession, ASubjectThatTheDesignDoesNotHaveIsRefused) {

@@ -64,7 +64,10 @@ int run_session(const StudyRunArguments& arguments) {
   const OpenglUse opengl = arguments.no_opengl || QApplication::platformName() == "offscreen" ? OpenglUse::never
                            : arguments.opengl                                                 ? OpenglUse::always
                                                                                               : OpenglUse::where_fast;
-  StudyWindow window(runner, {.mode = &mode_of(arguments), .opengl = opengl, .head_by_pointer = arguments.pointer});
+  StudyWindow window(runner, {.mode = &mode_of(arguments),
+                              .opengl = opengl,
+                              .head_by_pointer = arguments.pointer,
+                              .viewing_distance_mm = static_cast<float>(arguments.distance_mm)});
   if (arguments.tracker_port >= 0)
     window.track(std::make_unique<HeadTracker>(static_cast<std::uint16_t>(arguments.tracker_port)));
   const EndSignals end_signals([] { QApplication::exit(static_cast<int>(ErrorKind::interrupted)); });

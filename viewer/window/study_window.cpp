@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QOpenGLWidget>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -16,8 +17,9 @@
 namespace wheatstone::viewer {
 namespace {
 
-constexpr double step_of_key_mm = 10;
-constexpr double mm_of_eye_separation = 65;
+constexpr float step_of_key_mm = 10;
+constexpr float mm_of_eye_separation = 65;  // in which the tracker counts
+constexpr float nearest_mm = 200;           // a head that is said to be in the screen is not
 constexpr int follow_every_ms = 8;
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -37,7 +39,7 @@ std::string key_name(const QKeyEvent& event) {
 }  // namespace
 
 StudyWindow::StudyWindow(StudyRunner& runner, const StudyWindowOptions& options)
-    : runner_(runner), options_(options), page_(new QLabel(this)) {
+    : runner_(runner), options_(options), page_(new QLabel(this)), head_{0, options.viewing_distance_mm} {
   QString why_not;
   surface_ = make_surface(options.opengl, why_not);
   surface_->widget()->setParent(this);
@@ -125,8 +127,9 @@ void StudyWindow::frame_is_shown() {
 void StudyWindow::follow_head() {
   if (tracker_)
     if (const std::optional<float> place = tracker_->newest(now_s(), {}))
-      head_mm_ = mm_of_eye_separation * static_cast<double>(*place);
-  runner_.head_at(head_mm_, now_s());
+      head_ = {mm_of_eye_separation * *place,
+               std::max(nearest_mm, options_.viewing_distance_mm + static_cast<float>(10 * tracker_->farther_cm()))};
+  runner_.head_at(head_, now_s());
   if (runner_.views_changed()) guarded([this] { show_stimulus(); });
 }
 
@@ -136,7 +139,7 @@ bool StudyWindow::eventFilter(QObject* watched, QEvent* event) {
     QTimer::singleShot(0, this, [this] { frame_is_shown(); });
   } else if (event->type() == QEvent::MouseMove && options_.head_by_pointer && width() > 0) {
     const double share = static_cast<const QMouseEvent*>(event)->position().x() / width() - 0.5;
-    head_mm_ = share * options_.pointer_range_mm;
+    head_.x_mm = static_cast<float>(share * options_.pointer_range_mm);
   }
   return QWidget::eventFilter(watched, event);
 }
@@ -147,7 +150,7 @@ void StudyWindow::keyPressEvent(QKeyEvent* event) {
     fmt::print(stderr, "wheatstone: the session was broken off; run it again to go on\n");
     end(static_cast<int>(ErrorKind::interrupted));
   } else if (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right) {
-    head_mm_ += event->key() == Qt::Key_Left ? -step_of_key_mm : step_of_key_mm;
+    head_.x_mm += event->key() == Qt::Key_Left ? -step_of_key_mm : step_of_key_mm;
   } else if (!event->isAutoRepeat()) {
     guarded([&] {
       if (!runner_.key(key_name(*event), pressed_s(*event, noted_s), noted_s)) return;

@@ -17,8 +17,9 @@ namespace wheatstone::viewer {
 struct StudyWindowOptions {
   const OutputMode* mode = nullptr;  ///< in which each eye's picture fills the screen
   OpenglUse opengl = OpenglUse::where_fast;
-  bool head_by_pointer = false;   ///< the pointer's place stands for the head's
-  double pointer_range_mm = 400;  ///< across the screen
+  bool head_by_pointer = false;     ///< the pointer's place stands for the head's
+  double pointer_range_mm = 400;    ///< across the screen
+  float viewing_distance_mm = 700;  ///< at which the tracker was centred
 };
 
 /// A session on a screen: shows what a StudyRunner says, and brings it keys, the moments of frames and the head. What
@@ -57,7 +58,7 @@ class StudyWindow final : public QWidget {
   QLabel* page_;
   std::unique_ptr<HeadTracker> tracker_;
   QTimer following_;
-  double head_mm_ = 0;
+  HeadPlace head_;
   bool waits_for_frame_ = false;
   int exit_code_ = 0;
 };

@@ -37,10 +37,10 @@ views_per_10cm = 0
 [texts]
 instruction = """
 You will see a network of balls and tubes. Two of the balls are red.
-Is there a path of exactly two tubes from one red ball to the other?
-Press Y for yes and N for no. Being right matters more than being fast.
-Move your head to the left and to the right as much as you like."""
-question = "Are the red balls joined by a path of two tubes?"
+Being right matters more than being fast.
+Move your head to the left and to the right as much as you like.
+Press the space bar to begin."""
+question = "Is there a path of exactly two tubes from one red ball to the other?"
 
 [[question]]
 name = "flipping"
@@ -87,10 +87,10 @@ levels = [2, 4, 6, 8, 50]
 [texts]
 instruction = """
 You will see a network of balls and tubes. Two of the balls are red.
-Is there a path of exactly two tubes from one red ball to the other?
-Press Y for yes and N for no. Being right matters more than being fast.
-Move your head to the left and to the right: it helps."""
-question = "Are the red balls joined by a path of two tubes?"
+Being right matters more than being fast.
+Move your head to the left and to the right: it helps.
+Press the space bar to begin."""
+question = "Is there a path of exactly two tubes from one red ball to the other?"
 
 [[question]]
 name = "flipping"
@@ -134,7 +134,7 @@ scale_most = 5
 [texts]
 instruction = """
 You will see pictures in depth. Look at each as long as you like.
-How comfortable is it to look at? Press a key from 1 (sick) to 5 (super)."""
+Press the space bar to begin."""
 question = "How comfortable is this picture to look at, from 1 (sick) to 5 (super)?"
 )";
 
@@ -168,10 +168,10 @@ levels = [60, 120, 240]
 [texts]
 instruction = """
 You will see a network of balls and tubes. Two of the balls are red.
-Is there a path of exactly two tubes from one red ball to the other?
-Press Y for yes and N for no. Being right matters more than being fast.
-Move your head to the left and to the right as much as you like."""
-question = "Are the red balls joined by a path of two tubes?"
+Being right matters more than being fast.
+Move your head to the left and to the right as much as you like.
+Press the space bar to begin."""
+question = "Is there a path of exactly two tubes from one red ball to the other?"
 
 [[question]]
 name = "discomfort"
