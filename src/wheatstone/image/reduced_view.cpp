@@ -2,25 +2,37 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace wheatstone {
 namespace {
 
-/// Sums of as many neighbouring rows as a picture is reduced by.
-struct RowSums {
-  explicit RowSums(std::size_t width) : colours(3 * width), seeds(width) {}
+constexpr float one_surface_px = 1;
 
-  void add(std::span<const Rgb8> row, std::span<const std::uint8_t> row_seeds) {
+/// Some neighbouring rows, by columns: sums of the colours, whether any pixel is wanted, and the range of disparities.
+struct RowSums {
+  explicit RowSums(std::size_t width)
+      : colours(3 * width),
+        seeds(width),
+        farthest(width, std::numeric_limits<float>::infinity()),
+        nearest(width, -std::numeric_limits<float>::infinity()) {}
+
+  void add(std::span<const Rgb8> row, std::span<const float> disparity, std::span<const std::uint8_t> row_seeds) {
     const std::uint8_t* const from = &row.data()->r;
     for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = static_cast<std::uint16_t>(colours[i] + from[i]);
     for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] |= row_seeds[i];
+    for (std::size_t i = 0; i < farthest.size(); ++i) farthest[i] = std::min(farthest[i], disparity[i]);
+    for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::max(nearest[i], disparity[i]);
   }
 
   std::vector<std::uint16_t> colours;  ///< by channel
   std::vector<std::uint8_t> seeds;     ///< any
+  std::vector<float> farthest, nearest;
 };
 
 /// Divides sums of so many values, rounded; without a division, which would take longer than all else.
@@ -35,6 +47,72 @@ class Mean {
   std::uint64_t factor_;
 };
 
+/// The part of the pictures that one reduced pixel stands for.
+struct Block {
+  int left, top, size;
+
+  /// Calls `visit(x, y)` for its pixels.
+  template <class Visit>
+  void visit_pixels(Visit visit) const {
+    for (int y = top; y < top + size; ++y)
+      for (int x = left; x < left + size; ++x) visit(x, y);
+  }
+};
+
+/// The farthest disparity of the wanted pixels, or of all where none is.
+float farthest_wanted(const Block& block, ImageView<const float> disparity, ImageView<const std::uint8_t> seeds) {
+  constexpr float nowhere = std::numeric_limits<float>::infinity();
+  float wanted = nowhere, farthest = nowhere;
+  block.visit_pixels([&](int x, int y) {
+    farthest = std::min(farthest, disparity(x, y));
+    if (seeds(x, y) != 0) wanted = std::min(wanted, disparity(x, y));
+  });
+  return wanted < nowhere ? wanted : farthest;
+}
+
+/// The mean colour of one of a block's surfaces.
+Rgb8 colour_of_surface(const Block& block, ImageView<const Rgb8> photograph, ImageView<const float> disparity,
+                       float surface) {
+  int count = 0, red = 0, green = 0, blue = 0;
+  block.visit_pixels([&](int x, int y) {
+    if (std::abs(disparity(x, y) - surface) > one_surface_px) return;
+    const Rgb8 colour = photograph(x, y);
+    red += colour.r;
+    green += colour.g;
+    blue += colour.b;
+    ++count;
+  });
+  const auto mean = [count](int sum) { return static_cast<std::uint8_t>((sum + count / 2) / count); };
+  return {mean(red), mean(green), mean(blue)};
+}
+
+struct WholeView {
+  ImageView<const Rgb8> photograph;
+  ImageView<const float> disparity;
+  ImageView<const std::uint8_t> seeds;
+};
+
+/// Notes what lies before a block's surface, for each two by two pixels.
+void leave_out(const Block& block, const WholeView& view, float surface, std::vector<ReducedView::LeftOut>& left_out) {
+  constexpr int step = 2;
+  for (int top = block.top; top < block.top + block.size; top += step) {
+    for (int left = block.left; left < block.left + block.size; left += step) {
+      const Block part{left, top, std::min({step, block.left + block.size - left, block.top + block.size - top})};
+      ReducedView::LeftOut mean{};
+      float count = 0;
+      part.visit_pixels([&](int x, int y) {
+        if (view.seeds(x, y) == 0 || view.disparity(x, y) - surface <= one_surface_px) return;
+        mean.x += static_cast<float>(x) + 0.5f;
+        mean.y += static_cast<float>(y) + 0.5f;
+        mean.disparity = std::max(mean.disparity, view.disparity(x, y));
+        mean.colour = view.photograph(x, y);
+        ++count;
+      });
+      if (count > 0) left_out.push_back({mean.x / count, mean.y / count, mean.disparity, mean.colour});
+    }
+  }
+}
+
 }  // namespace
 
 ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
@@ -43,27 +121,41 @@ ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> dis
   ReducedView view{reduction, Image<Rgb8>(width, height), Image<float>(width, height),
                    Image<std::uint8_t>(width, height)};
   const Mean mean(reduction * reduction);
+  std::vector<std::vector<ReducedView::LeftOut>> left_out(height);
   tbb::parallel_for(0, height, [&](int y) {
     const auto columns = static_cast<std::size_t>(width * reduction);
     RowSums sums(columns);
     for (int row = reduction * y; row < reduction * (y + 1); ++row)
-      sums.add(photograph.row(row).first(columns), seeds.row(row).first(columns));
+      sums.add(photograph.row(row).first(columns), disparity.row(row).first(columns), seeds.row(row).first(columns));
     const auto from_disparity = disparity.row(reduction * y);
     const auto to_colours = view.photograph.row(y);
     const auto to_seeds = view.seeds.row(y);
     for (int x = 0, from = 0; x < width; ++x) {
       std::uint32_t red = 0, green = 0, blue = 0;
+      const auto begin = static_cast<std::size_t>(from);
+      float farthest = sums.farthest[begin], nearest = sums.nearest[begin];
       for (const int end = from + reduction; from < end; ++from) {
         const auto column = static_cast<std::size_t>(from);
         red += sums.colours[3 * column];
         green += sums.colours[3 * column + 1];
         blue += sums.colours[3 * column + 2];
         to_seeds[x] |= sums.seeds[column];
+        farthest = std::min(farthest, sums.farthest[column]);
+        nearest = std::max(nearest, sums.nearest[column]);
       }
       to_colours[x] = {mean(red), mean(green), mean(blue)};
-      view.disparity(x, y) = from_disparity[reduction * x] / static_cast<float>(reduction);
+      float surface = from_disparity[begin];
+      if (nearest - farthest > one_surface_px) {
+        const Block block{reduction * x, reduction * y, reduction};
+        surface = farthest_wanted(block, disparity, seeds);
+        to_colours[x] = colour_of_surface(block, photograph, disparity, surface);
+        leave_out(block, {photograph, disparity, seeds}, surface, left_out[y]);
+      }
+      view.disparity(x, y) = surface / static_cast<float>(reduction);
     }
   });
+  for (const std::vector<ReducedView::LeftOut>& of_row : left_out)
+    view.left_out.insert(view.left_out.end(), of_row.begin(), of_row.end());
   return view;
 }
 

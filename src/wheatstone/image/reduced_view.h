@@ -1,16 +1,29 @@
 #pragma once
 
+#include <vector>
+
 #include "wheatstone/image/image.h"
 
 namespace wheatstone {
 
-/// What a view sees, smaller: a part that only it sees is small, and its cost is mostly that of looking at pictures. A
-/// last row or column that is not whole is left to its neighbours' strokes.
+/// What a view sees, smaller: a part that only it sees is small, and its cost is mostly that of looking at pictures.
+/// Where pixels of several surfaces become one, it is of the farthest that is wanted, and has that one's colour: paint
+/// of a nearer one would spill over what lies behind it. A last row or column that is not whole is left to its
+/// neighbours' strokes.
 struct ReducedView {
+  /// Wanted pixels, of the whole view, that lie before the surface of the pixel that they became part of: at most four
+  /// that touch each other.
+  struct LeftOut {
+    float x, y;       ///< their middle
+    float disparity;  ///< in the view's pixels
+    Rgb8 colour;
+  };
+
   int reduction = 1;
   Image<Rgb8> photograph;
   Image<float> disparity;     ///< in reduced pixels
   Image<std::uint8_t> seeds;  ///< not 0 where any of the pixels' is not
+  std::vector<LeftOut> left_out;
 };
 
 /// The three are of one size; `reduction` is 1 or more.

@@ -83,6 +83,7 @@ class ViewAtWork {
     rasterise(finest ? strokes_near_bare(begun, planner_.canvas) : begun, planner_.view, hiding(), planner_.canvas);
     if (!finest) return;
     Layer dots = cover_bare(planner_, inputs, scaled_, style_, part);
+    if (part_) append_strokes(dots_left_out(), dots);
     numbers_.give(dots);
     add(std::move(dots), inputs, before, options, tracked);
   }
@@ -263,6 +264,25 @@ class ViewAtWork {
       }
     });
     return seeds;
+  }
+
+  /// Dots for the thin edges of near surfaces that the smaller picture does not show.
+  Layer dots_left_out() const {
+    const auto reduction = static_cast<float>(reduction_);
+    Layer dots{scaled_.radii_px.back(), {}, {}};
+    for (const ReducedView::LeftOut& pixels : part_->left_out) {
+      const ControlPoint point{pixels.x / reduction, pixels.y / reduction, pixels.disparity / reduction};
+      dots.strokes.push_back({.first_point = static_cast<std::uint32_t>(dots.points.size()),
+                              .point_count = 1,
+                              .radius_px = 1 / reduction,
+                              .opacity = style_.opacity,
+                              .colour = pixels.colour,
+                              .disparity = point.disparity,
+                              .reference_view = planner_.view,
+                              .views = all_views});
+      dots.points.push_back(point);
+    }
+    return dots;
   }
 
   void add(Layer begun, const LayerInputs& inputs, const Image<float>& before, const CarryOptions& options,
