@@ -213,6 +213,50 @@ void add_edges(const TwoSides& line, std::uint32_t view, std::vector<CarriedEdge
   }
 }
 
+/// A pixel of a picture, by column and row.
+struct Pixel {
+  int x = 0, y = 0;
+};
+
+/// The pixels along a picture's border, side by side.
+std::vector<std::vector<Pixel>> border_of(int width, int height) {
+  std::vector<std::vector<Pixel>> sides;
+  for (int y = 0; y < height; y += std::max(height - 1, 1)) {
+    std::vector<Pixel>& side = sides.emplace_back();
+    for (int x = 0; x < width; ++x) side.push_back({x, y});
+  }
+  for (int x = 0; x < width; x += std::max(width - 1, 1)) {
+    std::vector<Pixel>& side = sides.emplace_back();
+    for (int y = 0; y < height; ++y) side.push_back({x, y});
+  }
+  return sides;
+}
+
+/// The picture's border is a line, too: between it and the edges colours are interpolated, and what no edge bounds, as
+/// a soft shadow in a corner, is not painted in the colour of some edge far away. It is there in every frame of a film.
+void add_border(const ViewOfEdges& view, float depth_threshold_px, DiffusionPainting& painting) {
+  const auto is_wanted = [&](const Pixel& at) { return view.only_here.empty() || view.only_here(at.x, at.y) != 0; };
+  for (const std::vector<Pixel>& side : border_of(view.picture.width(), view.picture.height())) {
+    bool goes_on = false;
+    float disparity_before = 0;
+    for (const Pixel& at : side) {
+      const float disparity = view.disparity(at.x, at.y);
+      goes_on = goes_on && std::abs(disparity - disparity_before) <= depth_threshold_px;
+      disparity_before = disparity;
+      if (!is_wanted(at)) {
+        goes_on = false;
+        continue;
+      }
+      if (!goes_on)
+        painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()), 0, view.position, all_views});
+      goes_on = true;
+      ++painting.lines.back().point_count;
+      painting.points.push_back(
+          {{static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f, disparity}, view.picture(at.x, at.y)});
+    }
+  }
+}
+
 LinesAndEdges lines_of_view(const SceneOfEdges& scene, std::size_t index, const CarriedEdges* before) {
   const ViewOfEdges& view = scene.views[index];
   const SideMaker maker(scene, index);
@@ -229,15 +273,8 @@ LinesAndEdges lines_of_view(const SceneOfEdges& scene, std::size_t index, const 
     for (const int side : {0, 1}) add_lines(line, side, scene, view.position, result.painting);
     add_edges(line, number, result.edges);
   }
+  add_border(view, scene.depth_threshold_px, result.painting);
   return result;
-}
-
-/// A picture without edges still has a colour.
-void add_middle(const ViewOfEdges& view, DiffusionPainting& painting) {
-  const int x = painting.width / 2, y = painting.height / 2;
-  painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()), 1, view.position, all_views});
-  painting.points.push_back(
-      {{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)}, view.picture(x, y)});
 }
 
 void append(const LinesAndEdges& part, LinesAndEdges& whole) {
@@ -257,7 +294,6 @@ LinesAndEdges lines_beside_edges(const SceneOfEdges& scene, const CarriedEdges* 
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) { parts[i] = lines_of_view(scene, i, before); });
   LinesAndEdges whole{{parts[0].painting.width, parts[0].painting.height, {}, {}}, {}};
   for (const LinesAndEdges& part : parts) append(part, whole);
-  if (whole.painting.lines.empty()) add_middle(scene.views[0], whole.painting);
   return whole;
 }
 

@@ -8,6 +8,7 @@
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/measures/consistency.h"
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
 
 namespace wheatstone {
@@ -67,6 +68,22 @@ TEST(Diffusion, SpreadsColourEvenlyBetweenTwoLines) {
   EXPECT_EQ(drawn.picture(0, 4).r, 40);
   EXPECT_EQ(drawn.picture(40, 4).r, 240);
   for (const int x : {10, 20, 30}) EXPECT_NEAR(drawn.picture(x, 4).r, 40 + 5 * x, 6);
+}
+
+TEST(Diffusion, ASoftShadowInACornerIsShown) {
+  // Darker towards the lower right, too gradually for an edge; only the square has edges.
+  Image<Rgb8> picture(240, 120);
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 240; ++x) {
+      const int shadow = std::max(x + y - 160, 0) / 2;
+      const auto level = static_cast<std::uint8_t>(x > 20 && x < 60 && y > 40 && y < 80 ? 20 : 200 - shadow);
+      picture(x, y) = {level, level, level};
+    }
+  }
+  const StereoPair photographs{picture, picture};
+  const PaintedPair painted =
+      paint(photographs, geometry_from_left(Image<float>(240, 120, 0)), style_by_name("diffusion"));
+  EXPECT_LT(measure_wrong_spots(painted.pictures, photographs).share, 0.01);
 }
 
 TEST(Diffusion, IsBareWithoutLinesAndPaintsPicturesOfAnySize) {
