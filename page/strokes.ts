@@ -137,7 +137,7 @@ function readLayer(streams: NumberStream[], facts: StrokesFacts, isBeside: (view
   const [counts, xs, ys, disparities, greens, reds, blues, radii, opacities, plans] = streams;
   const column = new Places(xs!, facts.stepsAPixel, true);
   const row = new Places(ys!, facts.stepsAPixel, true);
-  const depth = new Places(disparities!, facts.stepsAPixel, false);
+  const depth = new Places(disparities!, 2 * facts.stepsAPixel, false);
   const all = new ChainWriter();
   const beside = new ChainWriter();
   const level = facts.colourStep / 255;

@@ -28,7 +28,7 @@ class Plans {
 
 /// To what a page rounds what it tells of marks.
 struct Rounding {
-  int steps_a_px = 8;   ///< of places and disparities
+  int steps_a_px = 8;   ///< of places; twice as many of the disparities of strokes, which move them
   int colour_step = 1;  ///< in levels of 256
 };
 

@@ -50,7 +50,7 @@ PagePart strokes_part(std::string name, const Layer& layer, const Rounding& roun
   std::array<NumberStream, 10> streams;
   auto& [counts, x, y, disparities, green, red, blue, radii, opacities, numbers] = streams;
   Places column(x, rounding.steps_a_px, true), row(y, rounding.steps_a_px, true),
-      depth(disparities, rounding.steps_a_px, false);
+      depth(disparities, 2 * rounding.steps_a_px, false);
   for (const Stroke& stroke : layer.strokes) {
     counts.add_whole(stroke.point_count);
     numbers.add_whole(plans.number_of({stroke.reference_view, stroke.views}));
