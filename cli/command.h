@@ -6,6 +6,7 @@
 #include <iosfwd>
 
 #include "wheatstone/progress.h"
+#include "wheatstone/ranks/ranks.h"
 
 namespace wheatstone::cli {
 
@@ -18,7 +19,8 @@ struct Session {
   bool quiet = false;  ///< no progress and no remarks, only errors
   int threads = 0;     ///< 0: as many as the machine has
   std::uint64_t seed = 1;
-  Progress progress;                     ///< draws the bar and throws Error{interrupted} after Ctrl-C
+  Ranks ranks;        ///< the processes of mpirun that share the work; their commands run alike, and the first writes
+  Progress progress;  ///< draws the bar and throws Error{interrupted} after Ctrl-C
   std::function<void()> clear_progress;  ///< takes the bar away, before something else is said on `errors`
 };
 

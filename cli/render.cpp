@@ -128,6 +128,7 @@ void tell(const RenderedParticles& result, const std::string& written, const Ses
                                  {"reason", result.rendered.reason},
                                  {"device", result.rendered.device},
                                  {"planes", result.rendered.planes},
+                                 {"ranks", session.ranks.count()},
                                  {"warnings", result.warnings}};
     if (result.rendered.tone.look == Look::thesis) {
       facts["exposure"] = result.rendered.exposure;
@@ -190,10 +191,15 @@ void run(const RenderArguments& given, const CLI::App& command, const Session& s
   const RenderArguments arguments = for_display(given, command);
   if (makes_film(command, arguments)) return run_render_film(arguments, command, session);
   refuse_film_options(command);
-  const RenderParticlesOptions options = render_options_from(arguments);
+  RenderParticlesOptions options = render_options_from(arguments);
+  options.rendering.ranks = session.ranks;
   check_output(arguments, options, command, slices);
+  const bool only_first = slices && !session.ranks.first();  // slices are read and drawn in one place
+  if (only_first) return session.ranks.meet();
   RenderedParticles result = slices ? render_slice_file(arguments.file, command, options, session.progress)
                                     : render_particles(arguments.file, options, session.progress);
+  session.ranks.meet();
+  if (!session.ranks.first()) return;
   if (arguments.annotate) annotate(result, result.rendered.views);
   tell(result, write_output(arguments, result, session), session);
 }

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "display_argument.h"
@@ -31,6 +34,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto film_group = "Film";
+constexpr std::array<std::pair<std::string_view, Distribution>, 2> distributions{
+    {{"particles", Distribution::particles}, {"frames", Distribution::frames}}};
 
 bool reads_slices(const RenderArguments& arguments) { return fs::path(arguments.file).extension() == ".exr"; }
 
@@ -67,7 +72,8 @@ std::string recipe_of(const CLI::App& command) {
   std::istringstream lines(command.config_to_str(true, false));
   std::string recipe = fmt::format("wheatstone {}\n", WHEATSTONE_VERSION);
   for (std::string line; std::getline(lines, line);)
-    if (!line.starts_with("output=") && !line.starts_with("resume=") && !line.starts_with("checkpoint="))
+    if (!line.starts_with("output=") && !line.starts_with("resume=") && !line.starts_with("checkpoint=") &&
+        !line.starts_with("distribute="))
       recipe += line + "\n";
   return recipe;
 }
@@ -109,6 +115,7 @@ void tell(const RenderArguments& arguments, const RenderedFilm& film, const Sess
                  {"reason", film.last.rendered.reason},
                  {"least", film.last.least},
                  {"most", film.last.most},
+                 {"ranks", session.ranks.count()},
                  {"notes", film.notes}},
                 session);
     return;
@@ -145,6 +152,9 @@ void add_render_film_options(CLI::App& command, RenderFilmArguments& arguments) 
   add_film_resume_options(command, arguments.resume, arguments.checkpoint, film_group);
   text("--frame-range", arguments.frame_range,
        "Make these of the frames only, as numbered pictures (frame_%04d.png): 1-240x2,300");
+  add_choice<Distribution>(command, "--distribute", arguments.distribute, distributions,
+                           "What the processes of mpirun share: the particles of each frame, or whole frames")
+      ->group(film_group);
   command.add_flag("--skip-existing", arguments.skip_existing, "Leave numbered pictures alone that are there already")
       ->group(film_group);
 }
@@ -179,6 +189,9 @@ void run_render_film(const RenderArguments& given, const CLI::App& command, cons
   choose_output(arguments, options, command, film);
   check_not_an_input(arguments.output, film.made_from);
   film.writing.frame_rate = parse_frame_rate("--rate", arguments.film.rate);
+  film.ranks = session.ranks;
+  film.whole_frames = reads_slices(arguments) || arguments.film.distribute == Distribution::frames;
+  if (!film.whole_frames) options.rendering.ranks = session.ranks;
   const FrameSource source = reads_slices(arguments)
                                  ? frames_of_slices(arguments, command, options, film.frames)
                                  : frames_of_particles(arguments, options, film.frames, session.progress);
@@ -187,7 +200,8 @@ void run_render_film(const RenderArguments& given, const CLI::App& command, cons
   tell_what_film_keeps(arguments.output);
   const RenderedFilm result =
       make_or_say_how_to_continue([&] { return render_film(source, arguments.output, film, session.progress); });
-  tell(arguments, result, session);
+  session.ranks.meet();
+  if (session.ranks.first()) tell(arguments, result, session);
 }
 
 }  // namespace wheatstone::cli

@@ -9,6 +9,9 @@
 
 namespace wheatstone::cli {
 
+/// What the processes of mpirun share of a film.
+enum class Distribution { particles, frames };
+
 /// What `render` is told of a film, as it is typed.
 struct RenderFilmArguments {
   int frames = 0;  ///< 0: one a snapshot
@@ -19,6 +22,7 @@ struct RenderFilmArguments {
   FilmWriterOptions writing;
   int checkpoint = 48;
   bool resume = false, skip_existing = false;
+  Distribution distribute = Distribution::particles;
 };
 
 /// What `render` is told, as it is typed.

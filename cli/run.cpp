@@ -13,12 +13,14 @@
 #include <ostream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "interrupt.h"
 #include "print_facts.h"
 #include "program.h"
 #include "wheatstone/error.h"
+#include "wheatstone/ranks/launch.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -27,8 +29,12 @@ constexpr int internal_error = 1;
 
 int code_of(ErrorKind kind) { return static_cast<int>(kind); }
 
-/// Says on one line what went wrong, as an object too where JSON is asked for, and hands the exit code on.
+/// Says on one line what went wrong, as an object too where JSON is asked for, and hands the exit code on. Of ranks
+/// that share the run, all end with what one of them says.
 int fail(const Session& session, int code, std::string message) {
+  Ranks::Failure failure = session.ranks.fail({code, std::move(message)});
+  code = failure.exit_code;
+  message = std::move(failure.message);
   run_is_over();
   std::replace(message.begin(), message.end(), '\n', ' ');
   fmt::print(session.errors, "wheatstone: {}\n", message);
@@ -74,12 +80,25 @@ class ThreadLimit {
   int opencv_before_;
 };
 
+/// Where mpirun has started several processes, those of a command that can share its work.
+void share_with_ranks(const CLI::App& program, Session& session) {
+  const std::optional<Launch> launch = mpi_launch();
+  if (!launch || launch->count == 1) return;
+  const std::string command = program.get_subcommands().front()->get_name();
+  if (command != "render")
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("mpirun started {} processes, but '{}' works in one: only 'render' shares its work",
+                            launch->count, command));
+  session.ranks = start_ranks(*launch);
+}
+
 int run_program(std::span<const std::string> arguments, Session& session, ProgressDisplay::Style progress) {
   std::optional<ProgressDisplay> display;
   std::optional<ThreadLimit> thread_limit;
   const std::unique_ptr<CLI::App> program = make_program(session);
   // Runs when the whole line is understood and before the command does.
   program->parse_complete_callback([&] {
+    share_with_ranks(*program, session);
     display.emplace(session.quiet ? ProgressDisplay::Style::none : progress, session.errors);
     session.progress = [&display](std::string_view step, double done) {
       throw_if_interrupted();
@@ -92,6 +111,7 @@ int run_program(std::span<const std::string> arguments, Session& session, Progre
   try {
     // CLI11 takes the last word first.
     program->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    session.ranks.meet();
     // A signal that comes after the last report of progress comes too late: the results have their names.
     run_is_over();
     return 0;

@@ -18,3 +18,6 @@ find_package(CLI11 REQUIRED)
 find_package(FlatBuffers REQUIRED)
 find_program(FLATC_PROGRAM flatc REQUIRED)
 find_program(ESBUILD_PROGRAM esbuild REQUIRED)
+# Optional: without it the program works in one process.
+set(MPI_CXX_SKIP_MPICXX TRUE)
+find_package(MPI QUIET COMPONENTS CXX)

@@ -7,7 +7,7 @@ add_custom_command(OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz
   COMMAND gzip --best --no-name --keep --force changelog DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog VERBATIM)
 add_custom_target(wheatstone_changelog ALL DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
 foreach(named "wheatstone program" "wheatstone-view window" "libwheatstone-dev development"
-  "python3-wheatstone python")
+  "python3-wheatstone python" "wheatstone-mpi mpi")
   string(REPLACE " " ";" named ${named})
   list(GET named 0 package)
   list(GET named 1 component)
@@ -31,6 +31,9 @@ if(WHEATSTONE_VIEWER)
 endif()
 if(WHEATSTONE_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+if(WHEATSTONE_MPI)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
 endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -56,6 +59,12 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), p
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "The package wheatstone for Python matches and paints pairs of pictures and
 renders particles, from and to NumPy's arrays.")
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME wheatstone-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "wheatstone (= ${PROJECT_VERSION}), openmpi-bin")
+set(CPACK_COMPONENT_MPI_DESCRIPTION
+"With this module, processes that mpirun starts on one or on many machines
+share the rendering of a particle data set.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwheatstone-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstring>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -29,6 +32,9 @@ Image<Rgb8> picture_of(std::vector<Image<Rgb8>> views, const RenderFilmOptions& 
   return put_together(views.front(), views.back(), options.writing.layout);
 }
 
+/// Whether this rank has the frames that it makes, and keeps them.
+bool has_frames(const RenderFilmOptions& options) { return options.whole_frames || options.ranks.first(); }
+
 /// Renders one frame and keeps what is to be kept of it beside its picture.
 Image<Rgb8> make_frame(const FrameSource& source, int frame, const RenderFilmOptions& options, RenderedFilm& film,
                        const Progress& progress) {
@@ -37,52 +43,100 @@ Image<Rgb8> make_frame(const FrameSource& source, int frame, const RenderFilmOpt
   };
   report(of_film, {}, 0);
   RenderedParticles rendered = source(frame, of_film);
-  if (!options.slices.empty()) write_slices(frame_pattern(options.slices)->file(frame + 1), rendered.stack);
-  Image<Rgb8> picture = picture_of(std::exchange(rendered.rendered.views, {}), options);
+  if (!options.slices.empty() && has_frames(options))
+    write_slices(frame_pattern(options.slices)->file(frame + 1), rendered.stack);
+  Image<Rgb8> picture;
+  if (has_frames(options)) picture = picture_of(std::move(rendered.rendered.views), options);
+  rendered.rendered.views.clear();
   rendered.stack.slices.clear();
   film.last = std::move(rendered);
   return picture;
 }
 
-RenderedFilm write_pictures(const FrameSource& source, const FramePattern& pattern, const RenderFilmOptions& options,
-                            const Progress& progress) {
+/// The numbers of the frames to be made, as the first of the ranks finds them.
+std::vector<int> frames_to_make(const FramePattern& pattern, const RenderFilmOptions& options, RenderedFilm& film) {
   std::vector<int> numbers = options.only;
   if (numbers.empty()) {
     numbers.resize(static_cast<std::size_t>(options.frames));
     std::iota(numbers.begin(), numbers.end(), 1);
   }
-  RenderedFilm film{.frames = static_cast<int>(numbers.size())};
-  for (const int number : numbers) {
-    const fs::path file = pattern.file(number);
-    if (options.skip_existing && fs::exists(file)) {
-      ++film.skipped_frames;
-      continue;
-    }
-    write_image(file, make_frame(source, number - 1, options, film, progress));
+  film.frames = static_cast<int>(numbers.size());
+  if (!options.skip_existing) return numbers;
+  std::erase_if(numbers, [&](int number) { return fs::exists(pattern.file(number)); });
+  const Ranks::Bytes bytes = options.ranks.from_first(Ranks::bytes_of(std::span<const int>(numbers)));
+  numbers.resize(bytes.size() / sizeof(int));
+  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  film.skipped_frames = film.frames - static_cast<int>(numbers.size());
+  return numbers;
+}
+
+RenderedFilm write_pictures(const FrameSource& source, const FramePattern& pattern, const RenderFilmOptions& options,
+                            const Progress& progress) {
+  RenderedFilm film;
+  const std::vector<int> numbers = frames_to_make(pattern, options, film);
+  const auto step = static_cast<std::size_t>(options.whole_frames ? options.ranks.count() : 1);
+  for (auto i = static_cast<std::size_t>(options.whole_frames ? options.ranks.rank() : 0); i < numbers.size();
+       i += step) {
+    const Image<Rgb8> picture = make_frame(source, numbers[i] - 1, options, film, progress);
+    if (has_frames(options)) write_image(pattern.file(numbers[i]), picture);
   }
   return film;
 }
 
+/// The pictures of frames from `begin` on, as many as are made at once: at the first of the ranks.
+std::vector<Image<Rgb8>> make_frames(const FrameSource& source, int begin, const RenderFilmOptions& options,
+                                     RenderedFilm& film, const Progress& progress) {
+  const Ranks& ranks = options.ranks;
+  std::vector<Image<Rgb8>> pictures;
+  if (!options.whole_frames || ranks.alone()) {
+    pictures.push_back(make_frame(source, begin, options, film, progress));
+    return pictures;
+  }
+  Image<Rgb8> mine;
+  if (begin + ranks.rank() < options.frames) mine = make_frame(source, begin + ranks.rank(), options, film, progress);
+  const std::array<int, 2> size{mine.width(), mine.height()};
+  const std::vector<std::array<int, 2>> sizes = ranks.from_all(size);
+  const std::vector<Ranks::Bytes> all = ranks.to_first(Ranks::bytes_of(std::span<const Rgb8>(mine.pixels())));
+  for (std::size_t rank = 0; ranks.first() && rank < all.size() && !all[rank].empty(); ++rank) {
+    Image<Rgb8>& picture = pictures.emplace_back(sizes[rank][0], sizes[rank][1]);
+    std::memcpy(picture.pixels().data(), all[rank].data(), all[rank].size());
+  }
+  return pictures;
+}
+
+/// Keeps what can be gone on with of a film that was stopped by the error being handled, which is passed on.
+[[noreturn]] void leave(const Error& error, const fs::path& output, SegmentedFilm& out) {
+  const std::int64_t kept = out.frames_done();
+  const bool can_go_on = error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
+  if (kept == 0 || !can_go_on) out.discard();
+  if (error.kind() == ErrorKind::interrupted && kept > 0)
+    throw UnfinishedFilm(error.kind(), "interrupted; " + unfinished_film(output, {}).value_or("nothing is kept"));
+  throw;
+}
+
 RenderedFilm write_film(const FrameSource& source, const fs::path& output, const RenderFilmOptions& options,
                         const Progress& progress) {
-  SegmentedFilm out(output, options.writing,
-                    {options.frames_between_checkpoints, options.made_by, options.made_from, options.resume});
-  RenderedFilm film{.frames = options.frames, .resumed_frames = static_cast<int>(out.frames_done())};
+  std::optional<SegmentedFilm> out;
+  if (options.ranks.first())
+    out.emplace(output, options.writing,
+                SegmentOptions{options.frames_between_checkpoints, options.made_by, options.made_from, options.resume});
+  const int done = options.ranks.from_all(out ? static_cast<int>(out->frames_done()) : 0).front();
+  RenderedFilm film{.frames = options.frames, .resumed_frames = done};
   const Rational rate = options.writing.frame_rate;
+  const int at_once = options.whole_frames ? options.ranks.count() : 1;
   try {
-    for (int frame = film.resumed_frames; frame < options.frames; ++frame)
-      out.write({make_frame(source, frame, options, film, progress), frame, {rate.denominator, rate.numerator}, 1});
+    for (int begin = done; begin < options.frames; begin += at_once) {
+      int frame = begin;
+      for (Image<Rgb8>& picture : make_frames(source, begin, options, film, progress))
+        if (out) out->write({std::move(picture), frame++, {rate.denominator, rate.numerator}, 1});
+    }
     report(progress, "joining", 0);
-    out.finish(progress);
+    if (out) out->finish(progress);
   } catch (const Error& error) {
-    const std::int64_t kept = out.frames_done();
-    const bool can_go_on = error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
-    if (kept == 0 || !can_go_on) out.discard();
-    if (error.kind() == ErrorKind::interrupted && kept > 0)
-      throw UnfinishedFilm(error.kind(), "interrupted; " + unfinished_film(output, {}).value_or("nothing is kept"));
+    if (out) leave(error, output, *out);
     throw;
   }
-  film.notes = out.notes();
+  if (out) film.notes = out->notes();
   return film;
 }
 

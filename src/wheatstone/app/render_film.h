@@ -10,6 +10,7 @@
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/progress.h"
+#include "wheatstone/ranks/ranks.h"
 #include "wheatstone/video/film_writer.h"
 
 namespace wheatstone {
@@ -29,6 +30,10 @@ struct RenderFilmOptions {
   std::vector<std::filesystem::path> made_from;  ///< the sources' files or patterns
   std::vector<int> only;                         ///< numbered pictures: these frames, from 1 on; empty: all
   bool skip_existing = false;                    ///< numbered pictures: not those whose file is there
+  Ranks ranks;
+  /// Each rank makes whole frames, and the source shares no work; else all make each frame, which is whole at the
+  /// first.
+  bool whole_frames = false;
 };
 
 struct RenderedFilm {

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <future>
+#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "wheatstone/app/particle_chunks_internal.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
 #include "wheatstone/multiview/make_slices.h"
@@ -31,39 +32,6 @@ Staged stage(const RenderParticlesOptions& options, const CloudStatistics& stati
           viewing_of(options)};
 }
 
-[[noreturn]] void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts) {
-  if (counts.weightless > 0)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: no particles to draw, {} have no mass or nothing to show",
-                                                  file.string(), counts.weightless));
-  throw Error(ErrorKind::bad_input,
-              counts.dropped > 0
-                  ? fmt::format("{}: no particles to draw, {} have no finite position", file.string(), counts.dropped)
-                  : fmt::format("{}: no particles to draw, no particle is inside the selected region", file.string()));
-}
-
-void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
-  constexpr float largest = Cloud::farthest_drawn;
-  const auto all_near = [](const std::vector<float>& axis) {
-    bool near = true;
-    for (const float value : axis) near &= std::abs(value) <= largest;
-    return near;
-  };
-  if (all_near(cloud.x) && all_near(cloud.y) && all_near(cloud.z)) return;
-  for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z})
-    for (const float value : *axis)
-      if (!(std::abs(value) <= largest))
-        throw Error(ErrorKind::bad_input,
-                    fmt::format("{}: has a particle at {:g}, expected positions of at most {:g}", file.string(),
-                                cloud.farthest != 0 ? cloud.farthest : static_cast<double>(value), largest));
-}
-
-void add(SelectionCounts& sum, const SelectionCounts& more) {
-  sum.dropped += more.dropped;
-  sum.weightless += more.weightless;
-  sum.mended += more.mended;
-  sum.extreme += more.extreme;
-}
-
 /// The middle of a box or sphere; nothing where there is neither.
 template <class Region>
 std::optional<std::array<double, 3>> middle_of(const Region& region) {
@@ -73,45 +41,6 @@ std::optional<std::array<double, 3>> middle_of(const Region& region) {
   std::array<double, 3> middle{};
   for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] = box->lower[axis] / 2 + box->upper[axis] / 2;
   return middle;
-}
-
-/// The quantity's name without "mean:"; nothing where none is shown.
-std::string quantity_name_of(const std::string& quantity) {
-  if (quantity == "column-density") return {};
-  return quantity.starts_with("mean:") ? quantity.substr(5) : quantity;
-}
-
-/// Columns that every cloud may have become the quantity without being read again.
-void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::string& quantity) {
-  const std::string name = quantity_name_of(quantity);
-  if (name != "temperature" && name != "density") return;
-  cloud.quantity = name == "temperature" ? cloud.temperature : cloud.density;
-  if (cloud.quantity.empty() && cloud.size() > 0)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: has no {} to show", file.string(), name));
-}
-
-/// Calls `visit` with every chunk of the file that has something selected in it.
-template <class Visit>
-SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderParticlesOptions& options,
-                               const std::string& step, const Progress& progress, Visit visit) {
-  const CloudSource source = open_cloud(file, choice_of(options));
-  // The next chunk is read while this one is worked on.
-  const auto read_next = [&] { return std::async(std::launch::async, [&] { return source.next(options.chunk); }); };
-  std::future<Cloud> pending = read_next();
-  SelectionCounts counts;
-  std::uint64_t first = 0;
-  while (true) {
-    Cloud chunk = pending.get();
-    const std::size_t read = chunk.size();
-    if (read == 0) return counts;
-    pending = read_next();
-    put_quantity(chunk, file, options.quantity);
-    add(counts, select_particles(chunk, options.selection, first));
-    check_positions(file, chunk);
-    first += read;
-    if (chunk.size() > 0) visit(chunk);
-    if (source.count) report(progress, step, static_cast<double>(first) / static_cast<double>(*source.count));
-  }
 }
 
 /// What a unit of the tone map's limits is, in units of what is shown.
@@ -140,73 +69,6 @@ void show_quantity(const RenderParticlesOptions& options, const CloudStatistics&
   tone.most = options.most / unit;
 }
 
-/// Particles of a file, known as a whole, and as they come in chunks.
-struct SurveyedParticles {
-  CloudStatistics statistics;
-  SelectionCounts counts;
-  std::vector<Cloud> kept;  ///< all chunks, where they are few enough
-  bool all_kept = true;
-  DensitySource density = DensitySource::file;
-};
-
-std::size_t bytes_of(const Cloud& cloud) {
-  std::size_t numbers = 0;
-  for (const std::vector<float>* column : {&cloud.x, &cloud.y, &cloud.z, &cloud.density, &cloud.temperature,
-                                           &cloud.smoothing_length, &cloud.mass, &cloud.quantity})
-    numbers += column->size();
-  return numbers * sizeof(float) + cloud.colour.size() * sizeof(Rgb8);
-}
-
-/// Whether kernels or brightness need a density that the particles do not have.
-bool lacks_density(const Cloud& cloud, const RenderParticlesOptions& options) {
-  const bool sized = options.appearance.look == Look::mass && !cloud.smoothing_length.empty();
-  return cloud.density.empty() && cloud.colour.empty() && !sized;
-}
-
-/// Reads all particles once. Those of a small file stay in memory, so that they need not be read again.
-SurveyedParticles survey(const std::filesystem::path& file, const RenderParticlesOptions& options,
-                         const Progress& progress) {
-  constexpr std::size_t most_bytes_kept = std::size_t{128} << 20;
-  SurveyedParticles surveyed;
-  surveyed.all_kept = !options.stream;
-  std::size_t bytes = 0;
-  surveyed.counts = for_each_chunk(file, options, "reading", progress, [&](Cloud& chunk) {
-    const bool lacks = lacks_density(chunk, options);
-    if (surveyed.statistics.count == 0 && (lacks || options.appearance.shine > 0)) {
-      surveyed.statistics.grid = std::make_shared<DensityGrid>();
-      if (lacks) surveyed.density = options.stream ? DensitySource::grid : DensitySource::neighbours;
-    }
-    surveyed.statistics.add(chunk);
-    bytes += bytes_of(chunk);
-    if (surveyed.all_kept && bytes > most_bytes_kept) {
-      surveyed.all_kept = false;
-      surveyed.kept.clear();
-    }
-    if (surveyed.all_kept) surveyed.kept.push_back(std::move(chunk));
-  });
-  if (surveyed.statistics.count == 0) refuse_nothing(file, surveyed.counts);
-  surveyed.statistics.framed = framed_region(surveyed.statistics, options.fit);
-  if (surveyed.density == DensitySource::neighbours && !surveyed.all_kept) surveyed.density = DensitySource::grid;
-  if (surveyed.statistics.grid != nullptr) surveyed.statistics.grid->finish(options.neighbours);
-  if (surveyed.density == DensitySource::grid) surveyed.statistics.take_densities_of_grid();
-  return surveyed;
-}
-
-/// The particles in chunks: those that were kept, or from the file again.
-Chunks chunks_from(const SurveyedParticles& surveyed, const std::filesystem::path& file,
-                   const RenderParticlesOptions& options, const Progress& progress) {
-  if (surveyed.all_kept)
-    return [&surveyed](const std::function<void(const Cloud&)>& visit) {
-      for (const Cloud& chunk : surveyed.kept) visit(chunk);
-    };
-  return [&](const std::function<void(const Cloud&)>& visit) {
-    for_each_chunk(file, options, "drawing", progress, [&](Cloud& chunk) {
-      if (surveyed.density == DensitySource::grid) surveyed.statistics.grid->put_densities(chunk);
-      visit(chunk);
-    });
-  };
-}
-
 /// The views from the slices that were made.
 void draw_slices(const RenderParticlesOptions& options, RenderedParticles& result, const Progress& progress) {
   result.rendered.method = Method::layered;
@@ -214,7 +76,7 @@ void draw_slices(const RenderParticlesOptions& options, RenderedParticles& resul
   result.rendered.planes = static_cast<int>(result.stack.slices.size());
   result.rendered.exposure = result.stack.tone.exposure;
   result.rendered.tone = result.stack.tone;
-  if (!options.without_views)
+  if (!options.without_views && options.rendering.ranks.first())
     result.rendered.views =
         render_slices(result.stack, result.rig, options.rendering.filter, progress, options.rendering.focus);
 }
@@ -269,7 +131,10 @@ RenderedParticles render_known(const KnownParticles& particles, const RenderPart
   } else {
     result.rendered = render(counted, statistics, staged.scene, staged.rig, rendering, progress);
   }
-  if (options.values) result.values = view_values(chunks, statistics, staged.scene, staged.rig);
+  if (options.values)
+    result.values = view_values(chunks, statistics, staged.scene, staged.rig, options.rendering.ranks);
+  const std::vector<std::uint64_t> outside = options.rendering.ranks.from_all(result.outside);
+  result.outside = std::accumulate(outside.begin(), outside.end(), std::uint64_t{0});
   const float unit = unit_of_tone(staged.scene);
   result.least = result.rendered.tone.least * unit;
   result.most = result.rendered.tone.most * unit;
@@ -328,7 +193,7 @@ ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, c
   if (ready.cloud.size() == 0) refuse_nothing(file, ready.counts);
   check_positions(file, ready.cloud);
   if (ready.cloud.density.empty() && ready.cloud.colour.empty()) {
-    estimate_density(ready.cloud, options.neighbours, progress);
+    estimate_density(ready.cloud, options.neighbours, progress, options.rendering.ranks);
     ready.density = DensitySource::neighbours;
   }
   if (options.appearance.shine > 0) ready.statistics.grid = std::make_shared<DensityGrid>();
@@ -412,7 +277,7 @@ DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float neares
 
 RenderedParticles render_ready(const ReadyParticles& particles, const RenderParticlesOptions& options,
                                const Progress& progress) {
-  const Chunks chunks = chunks_of(particles.cloud);
+  const Chunks chunks = chunks_of(particles.cloud, options.rendering.ranks);
   RenderedParticles result = render_known({chunks, particles.statistics, particles.counts}, options, progress);
   result.density = particles.density;
   note_what_is_missing(particles.statistics, options, result);

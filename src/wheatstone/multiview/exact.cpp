@@ -1,5 +1,3 @@
-#include <tbb/parallel_for.h>
-
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
 #include "wheatstone/multiview/shine_internal.h"
@@ -19,22 +17,24 @@ void deposit_all(const std::vector<SplatBlock>& blocks, const SplatOrders& order
 /// Gathers the light of one view, and finishes it from the smallest picture to the view's own.
 void make_view(const RenderJob& job, ViewPosition view, std::span<const ImageView<Rgb8>> picture, ViewPyramid& pyramid,
                GatheredLight& light) {
-  const SplatOrders orders = orders_for(job.rig, job.scene.splat_style);
+  const SplatOrders orders = orders_for(job);
   const Window window{.left = 0, .right = static_cast<float>(job.rig.width), .height = job.rig.height};
   const Deposit kind = deposit_of(job.scene.splat_style);
   light.darken();
-  for_each_ordered(with_shine(job, view), projection_for(job, orders, view), window, orders,
+  const Chunks chunks = with_shine(job, view);
+  for_each_ordered(of_chunks(job, chunks), projection_for(job, orders, view), window, orders,
                    [&](const std::vector<SplatBlock>& blocks) { deposit_all(blocks, orders, kind, light); });
   for (std::size_t p = orders.size(); p-- > 0;) {
-    const ViewTarget target = pyramid.targets(p, picture).front();
-    tbb::parallel_for(0, orders[p].bands,
-                      [&](int b) { finish_band(light.band(p, b, 0), job.tone, b * orders[p].band_rows, target); });
+    const std::vector<ViewTarget> target = pyramid.targets(p, picture);
+    for_each_band_of(
+        orders[p], [&](int b) { finish_band(light.band(p, b, 0), job.tone, b * orders[p].band_rows, target.front()); });
+    pyramid.share(p, target, job.ranks);
   }
 }
 
 GatheredLight light_for_view(const RenderJob& job) {
   const Window window{.left = 0, .right = static_cast<float>(job.rig.width), .height = job.rig.height};
-  return {orders_for(job.rig, job.scene.splat_style), window, 1};
+  return {orders_for(job), window, 1};
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ void render_exact(const RenderJob& job, std::span<const ViewPosition> views,
                   std::span<const ImageView<Rgb8>> pictures) {
   GatheredLight light = light_for_view(job);
   for (std::size_t v = 0; v < views.size(); ++v) {
-    ViewPyramid pyramid(orders_for(job.rig, job.scene.splat_style), job.rig, 1, job.tone.three_channels());
+    ViewPyramid pyramid(orders_for(job), job.rig, 1, job.tone.three_channels());
     make_view(job, views[v], pictures.subspan(v, 1), pyramid, light);
   }
 }
@@ -56,7 +56,7 @@ ViewLight light_of_view(const RenderJob& job, ViewPosition view) {
     return seen;
   }
   GatheredLight light = light_for_view(job);
-  ViewPyramid pyramid(orders_for(job.rig, job.scene.splat_style), job.rig, 1, job.tone.three_channels());
+  ViewPyramid pyramid(orders_for(job), job.rig, 1, job.tone.three_channels());
   make_view(job, view, {}, pyramid, light);
   return pyramid.light(0);
 }

@@ -1,13 +1,12 @@
 #include "wheatstone/multiview/front_to_back_internal.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <iterator>
 
+#include "wheatstone/multiview/deal_out_internal.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/half_float_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
@@ -77,12 +76,12 @@ std::vector<Splat> nearest_first(const std::vector<SplatBlock>& blocks, const Sp
 
 void render_front_to_back(const RenderJob& job, std::span<const ViewPosition> views,
                           std::span<const ViewTarget> targets) {
-  const SplatOrders orders = orders_for(job.rig, job.scene.splat_style);
+  const SplatOrders orders = orders_for(job);
   const SplatOrder& order = orders.front();
   std::vector<SplatBlock> splats;
-  for_each_ordered(job.chunks, projection_for(job, orders), window_around(job.scene, job.rig), orders,
+  for_each_ordered(job, projection_for(job, orders), window_around(job.scene, job.rig), orders,
                    [&](std::vector<SplatBlock> blocks) { std::ranges::move(blocks, std::back_inserter(splats)); });
-  tbb::parallel_for(0, order.bands, [&](int b) {
+  for_each_band_of(order, [&](int b) {
     const std::vector<Splat> sorted = nearest_first(splats, order, b);
     const int top = b * order.band_rows;
     for (std::size_t v = 0; v < views.size(); ++v) {
@@ -91,6 +90,7 @@ void render_front_to_back(const RenderJob& job, std::span<const ViewPosition> vi
       finish_band(view.band(), job.tone, top, targets[v]);
     }
   });
+  share_bands(order, targets, false, job.ranks);
 }
 
 }  // namespace wheatstone

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "wheatstone/multiview/deal_out_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -32,11 +35,16 @@ void add_smaller(const Rig& rig, SplatOrders& orders) {
   }
 }
 
-void number_bins(SplatOrders& orders) {
+void number_bins(SplatOrders& orders, const Ranks& ranks) {
   std::size_t bins = 0;
+  int bands = 0;
   for (SplatOrder& order : orders) {
     order.first_bin = bins;
     bins += order.bins();
+    order.first_band = bands;
+    bands += order.bands;
+    order.rank = ranks.rank();
+    order.ranks = ranks.count();
   }
 }
 
@@ -45,23 +53,37 @@ int width_of(const SplatOrder& order, const Rig& rig) {
                         : static_cast<int>(std::ceil(static_cast<float>(rig.width) * order.scale)) + 2 * order.pad + 1;
 }
 
+// Splats of so many particles are few beside the particles, and many beside the bands that they go to.
+constexpr std::size_t particles_at_a_time = 1 << 19;
+
+Cloud part_of(const Cloud& cloud, std::size_t first, std::size_t count) {
+  Cloud part;
+  for_each_column(part, cloud, [&](auto& to, const auto& from) {
+    if (from.empty()) return;
+    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
+    to.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+  });
+  part.origin = cloud.origin;
+  part.box_size = cloud.box_size;
+  return part;
+}
+
 }  // namespace
 
-SplatOrders orders_for(const Rig& rig, const SplatStyle& splat_style) {
-  SplatOrders orders{order_of_view(rig)};
-  if (splat_style.look == Look::mass) add_smaller(rig, orders);
+SplatOrders orders_for(const RenderJob& job) {
+  SplatOrders orders{order_of_view(job.rig)};
+  if (job.scene.splat_style.look == Look::mass) add_smaller(job.rig, orders);
   for (SplatOrder& order : orders) {
     order.spacing = 64;
-    order.parts = static_cast<int>(static_cast<float>(width_of(order, rig)) / order.spacing) + 1;
+    order.parts = static_cast<int>(static_cast<float>(width_of(order, job.rig)) / order.spacing) + 1;
   }
-  number_bins(orders);
+  number_bins(orders, job.ranks);
   return orders;
 }
 
-SplatOrders orders_by_plane(const Rig& rig, const SplatStyle& splat_style, const DepthPlanes& planes,
-                            SliceFilter filter) {
-  SplatOrders orders{order_of_view(rig)};
-  if (splat_style.look == Look::mass) add_smaller(rig, orders);
+SplatOrders orders_by_plane(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter) {
+  SplatOrders orders{order_of_view(job.rig)};
+  if (job.scene.splat_style.look == Look::mass) add_smaller(job.rig, orders);
   for (SplatOrder& order : orders) {
     order.within =
         filter == SliceFilter::centroid ? SplatOrder::Within::nearer_plane : SplatOrder::Within::nearest_plane;
@@ -70,7 +92,7 @@ SplatOrders orders_by_plane(const Rig& rig, const SplatStyle& splat_style, const
     order.first = planes.parallaxes.front();
     order.spacing = planes.spacing_px;
   }
-  number_bins(orders);
+  number_bins(orders, job.ranks);
   return orders;
 }
 
@@ -86,15 +108,48 @@ Window window_in(const Window& window, const SplatOrder& order) {
           .height = order.rows};
 }
 
-GatheredLight::GatheredLight(const SplatOrders& orders, const Window& window, int targets) {
+GatheredLight::GatheredLight(const SplatOrders& orders, const Window& window, int targets)
+    : orders_(orders), window_(window) {
   for (const SplatOrder& order : orders) {
     const int count = targets > 0 ? targets : order.parts;
-    const Window here = window_in(window, order);
     targets_.push_back(count);
     std::vector<LightBand>& light = light_.emplace_back();
     for (int b = 0; b < order.bands; ++b)
       for (int target = 0; target < count; ++target)
-        light.emplace_back(static_cast<int>(here.left), static_cast<int>(here.right), order.band_rows, target);
+        light.push_back(order.is_mine(b) ? dark_band(order, target) : LightBand());
+  }
+}
+
+LightBand GatheredLight::dark_band(const SplatOrder& order, int target) const {
+  const Window here = window_in(window_, order);
+  return {static_cast<int>(here.left), static_cast<int>(here.right), order.band_rows, target};
+}
+
+void GatheredLight::move_to_first(const Ranks& ranks) {
+  if (ranks.alone()) return;
+  const auto for_each_of = [&](int owner, auto call) {
+    for (std::size_t picture = 0; picture < orders_.size(); ++picture)
+      for (int b = 0; b < orders_[picture].bands; ++b)
+        for (int target = 0; orders_[picture].owner(b) == owner && target < targets_of(picture); ++target)
+          call(orders_[picture], target, band(picture, b, target));
+  };
+  Ranks::Bytes mine;
+  for_each_of(ranks.first() ? -1 : ranks.rank(), [&](const SplatOrder&, int, LightBand& band) {
+    mine.push_back(std::byte{band.lit()});
+    if (band.lit()) mine.insert(mine.end(), band.bytes().begin(), band.bytes().end());
+    band = {};
+  });
+  const std::vector<Ranks::Bytes> all = ranks.to_first(mine);
+  for (int rank = 1; ranks.first() && rank < ranks.count(); ++rank) {
+    auto from = all[static_cast<std::size_t>(rank)].begin();
+    for_each_of(rank, [&](const SplatOrder& order, int target, LightBand& band) {
+      band = dark_band(order, target);
+      if (*from++ == std::byte{0}) return;
+      const auto end = from + static_cast<std::ptrdiff_t>(band.bytes().size());
+      std::copy(from, end, band.bytes().begin());
+      band.note_light();
+      from = end;
+    });
   }
 }
 
@@ -103,19 +158,45 @@ void GatheredLight::darken() {
     tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) { bands[i].darken(); });
 }
 
-void for_each_ordered(const Chunks& chunks, const Projection& projection, const Window& window,
-                      const SplatOrders& orders, const std::function<void(const std::vector<SplatBlock>&)>& take) {
-  // Splats of so many particles are few beside the particles, and many beside the bands that they go to.
-  constexpr std::size_t at_a_time = 1 << 19;
-  chunks([&](const Cloud& cloud) {
-    for (std::size_t first = 0; first < cloud.size(); first += at_a_time)
-      take(order_splats(cloud, {first, std::min(at_a_time, cloud.size() - first)}, projection, window, orders));
+Chunks chunks_of(const Cloud& cloud, const Ranks& ranks) {
+  if (ranks.alone()) return [&cloud](const std::function<void(const Cloud&)>& visit) { visit(cloud); };
+  return [&cloud, ranks](const std::function<void(const Cloud&)>& visit) {
+    const std::size_t round = particles_at_a_time * static_cast<std::size_t>(ranks.count());
+    for (std::size_t begin = 0; begin < cloud.size(); begin += round) {
+      const std::size_t first =
+          std::min(begin + particles_at_a_time * static_cast<std::size_t>(ranks.rank()), cloud.size());
+      visit(part_of(cloud, first, std::min(particles_at_a_time, cloud.size() - first)));
+    }
+  };
+}
+
+void for_each_ordered(const RenderJob& job, const Projection& projection, const Window& window,
+                      const SplatOrders& orders, const std::function<void(std::vector<SplatBlock>)>& take) {
+  job.chunks([&](const Cloud& cloud) {
+    std::vector<std::vector<SplatBlock>> ordered;
+    for (std::size_t first = 0; first < cloud.size(); first += particles_at_a_time) {
+      const ParticleRange range{first, std::min(particles_at_a_time, cloud.size() - first)};
+      std::vector<SplatBlock> blocks = order_splats(cloud, range, projection, window, orders);
+      if (job.ranks.alone()) {
+        take(std::move(blocks));
+      } else {
+        ordered.push_back(std::move(blocks));
+      }
+    }
+    if (job.ranks.alone()) return;
+    for (std::vector<SplatBlock>& blocks : deal_out(std::move(ordered), orders, job.ranks)) take(std::move(blocks));
+  });
+}
+
+void for_each_band_of(const SplatOrder& order, const std::function<void(int band)>& work) {
+  tbb::parallel_for(0, order.bands, [&](int band) {
+    if (order.is_mine(band)) work(band);
   });
 }
 
 void for_each_band(const SplatOrders& orders, const std::function<void(std::size_t picture, int band)>& work) {
   for (std::size_t picture = 0; picture < orders.size(); ++picture)
-    tbb::parallel_for(0, orders[picture].bands, [&](int band) { work(picture, band); });
+    for_each_band_of(orders[picture], [&](int band) { work(picture, band); });
 }
 
 ViewPyramid::ViewPyramid(const SplatOrders& orders, const Rig& rig, std::size_t views, bool three_channels)
@@ -140,6 +221,10 @@ std::vector<ViewTarget> ViewPyramid::targets(std::size_t picture, std::span<cons
   // What was added to the larger picture is not needed again.
   if (picture + 2 < orders_.size()) light_[picture + 2].clear();
   return targets;
+}
+
+void ViewPyramid::share(std::size_t picture, std::span<const ViewTarget> targets, const Ranks& ranks) const {
+  share_bands(orders_[picture], targets, picture > 0, ranks);
 }
 
 }  // namespace wheatstone

@@ -11,14 +11,14 @@ namespace wheatstone {
 
 /// The pictures that splats are drawn in (SplatOrder): the view's, and for mass as many smaller ones as its widest
 /// splats need. Without planes, splats are ordered by columns.
-SplatOrders orders_for(const Rig& rig, const SplatStyle& splat_style);
-SplatOrders orders_by_plane(const Rig& rig, const SplatStyle& splat_style, const DepthPlanes& planes,
-                            SliceFilter filter);
+SplatOrders orders_for(const RenderJob& job);
+SplatOrders orders_by_plane(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter);
 
 /// The projection for these pictures.
 Projection projection_for(const RenderJob& job, const SplatOrders& orders, ViewPosition view = central_view);
 
-/// Light in all pictures: band by band, and in each as many targets as there are views or depth planes.
+/// Light in all pictures: band by band, and in each as many targets as there are views or depth planes. Only the bands
+/// of this rank are there.
 class GatheredLight {
  public:
   GatheredLight(const SplatOrders& orders, const Window& window, int targets);
@@ -31,8 +31,14 @@ class GatheredLight {
         .subspan(static_cast<std::size_t>(band) * targets_of(picture), targets_of(picture));
   }
   int targets_of(std::size_t picture) const { return targets_[picture]; }
+  /// Moves all ranks' bands to the first of them.
+  void move_to_first(const Ranks& ranks);
 
  private:
+  LightBand dark_band(const SplatOrder& order, int target) const;
+
+  SplatOrders orders_;
+  Window window_;
   std::vector<int> targets_;
   std::vector<std::vector<LightBand>> light_;
 };
@@ -40,11 +46,16 @@ class GatheredLight {
 /// Columns of a picture that a window of the view covers.
 Window window_in(const Window& window, const SplatOrder& order);
 
-/// Orders the splats of every chunk, some ten thousand particles at a time, and calls `take` with them.
-void for_each_ordered(const Chunks& chunks, const Projection& projection, const Window& window,
-                      const SplatOrders& orders, const std::function<void(const std::vector<SplatBlock>&)>& take);
+/// Orders the splats of every chunk, some ten thousand particles at a time, and calls `take` with them. Ranks give each
+/// other what belongs to their bands: each takes the splats of its bands, of all ranks' chunks, in the order in which
+/// one rank alone would.
+void for_each_ordered(const RenderJob& job, const Projection& projection, const Window& window,
+                      const SplatOrders& orders, const std::function<void(std::vector<SplatBlock>)>& take);
 
-/// Calls `work` with every band of every picture, in parallel.
+/// Calls `work` with each of this rank's bands of a picture, in parallel.
+void for_each_band_of(const SplatOrder& order, const std::function<void(int band)>& work);
+
+/// Calls `work` with each of this rank's bands of every picture, in parallel.
 void for_each_band(const SplatOrders& orders, const std::function<void(std::size_t picture, int band)>& work);
 
 /// The light of each picture's views while they are put together, from the smallest picture to the views' own.
@@ -53,6 +64,9 @@ class ViewPyramid {
   ViewPyramid(const SplatOrders& orders, const Rig& rig, std::size_t views, bool three_channels);
   /// The targets of a picture's views. Those of the view's own picture are `pictures`, or light where there are none.
   std::vector<ViewTarget> targets(std::size_t picture, std::span<const ImageView<Rgb8>> pictures);
+  /// Gives the ranks' bands of a picture's targets to the others: those of smaller pictures to all, which need them for
+  /// the next larger one, and those of the view's own to the first.
+  void share(std::size_t picture, std::span<const ViewTarget> targets, const Ranks& ranks) const;
   /// Of the view's own picture, where it stayed light.
   const ViewLight& light(std::size_t view) const { return light_[0][view]; }
 

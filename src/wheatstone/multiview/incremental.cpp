@@ -1,5 +1,3 @@
-#include <tbb/parallel_for.h>
-
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
 #include "wheatstone/multiview/shine_internal.h"
@@ -30,7 +28,7 @@ void deposit_in(const std::vector<SplatBlock>& blocks, std::size_t first, std::s
 }
 
 void render_some(const RenderJob& job, std::span<const ViewPosition> views, std::span<const ImageView<Rgb8>> pictures) {
-  const SplatOrders orders = orders_for(job.rig, job.scene.splat_style);
+  const SplatOrders orders = orders_for(job);
   // One enlarged frustum holds what any view sees (Hassaine 2010, sec. 4.3.1).
   const float around = look_around_px(job.scene, job.rig);
   const auto width = static_cast<float>(job.rig.width);
@@ -38,23 +36,26 @@ void render_some(const RenderJob& job, std::span<const ViewPosition> views, std:
   GatheredLight light(orders, {.left = 0, .right = width, .height = job.rig.height}, static_cast<int>(views.size()));
   const ViewsAtOnce to{views, orders, deposit_of(job.scene.splat_style), light};
   const Projection projection = projection_for(job, orders);
+  const auto take = [&](const Cloud& particles, std::size_t first, std::size_t count) {
+    const Chunks chunks = chunks_of(particles);
+    for_each_ordered(of_chunks(job, chunks), projection, seen, orders,
+                     [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, first, count, to); });
+  };
   job.chunks([&](const Cloud& chunk) {
-    for_each_ordered(chunks_of(chunk), projection, seen, orders,
-                     [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, 0, views.size(), to); });
+    take(chunk, 0, views.size());
     if (!job.scene.shine.lit()) return;
     // Those that shine are few: their light is each view's own, and the rest is not done again.
     ShiningParticles shining(chunk, job.scene, job.rig.positions);
-    for (std::size_t v = 0; v < views.size() && !shining.empty(); ++v)
-      for_each_ordered(chunks_of(shining.seen_from(views[v])), projection, seen, orders,
-                       [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, v, 1, to); });
+    for (std::size_t v = 0; v < views.size() && !shining.empty(); ++v) take(shining.seen_from(views[v]), v, 1);
   });
   ViewPyramid pyramid(orders, job.rig, views.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> targets = pyramid.targets(p, pictures);
-    tbb::parallel_for(0, orders[p].bands, [&](int b) {
+    for_each_band_of(orders[p], [&](int b) {
       for (std::size_t v = 0; v < views.size(); ++v)
         finish_band(light.band(p, b, static_cast<int>(v)), job.tone, b * orders[p].band_rows, targets[v]);
     });
+    pyramid.share(p, targets, job.ranks);
   }
 }
 

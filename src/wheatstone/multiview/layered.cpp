@@ -76,10 +76,18 @@ void deposit_in_planes(const std::vector<SplatBlock>& blocks, const SplatOrders&
                        GatheredLight& light) {
   for_each_band(orders, [&](std::size_t picture, int b) {
     const SplatOrder& order = orders[picture];
-    for (int plane = 0; plane < order.parts; ++plane)
+    const auto fill = [&](int plane) {
       for (const SplatBlock& block : blocks)
         deposit_plane(block, order, kind, {b, plane}, light.band(picture, b, plane),
                       light.band(picture, b, std::min(plane + 1, order.parts - 1)));
+    };
+    // Where no splat lies in two planes, planes do not wait for each other: there are fewer bands than threads where
+    // ranks share them.
+    if (order.within == SplatOrder::Within::nearest_plane) {
+      tbb::parallel_for(0, order.parts, fill);
+    } else {
+      for (int plane = 0; plane < order.parts; ++plane) fill(plane);
+    }
   });
 }
 
@@ -129,7 +137,8 @@ PlanesOfViews keep(const RenderJob& job, const SplatOrders& orders, const Window
   planes.kept.resize(1 + planes.keys.size());
   if (light_is_less(orders, window, job.statistics.count)) planes.kept[0].light.emplace(orders, window, 0);
   const auto take = [&](const Cloud& particles, KeptForPlanes& kept) {
-    for_each_ordered(chunks_of(particles), projection, window, orders, [&](std::vector<SplatBlock> blocks) {
+    const Chunks chunks = chunks_of(particles);
+    for_each_ordered(of_chunks(job, chunks), projection, window, orders, [&](std::vector<SplatBlock> blocks) {
       if (kept.light) {
         deposit_in_planes(blocks, orders, kind, *kept.light);
       } else {
@@ -190,7 +199,7 @@ void composite_picture(const RenderJob& job, const SplatOrders& orders, std::siz
         PlaneFiller(window, order, deposit_of(job.scene.splat_style)),
         SliceBand(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows, sets * order.parts)};
   });
-  tbb::parallel_for(0, order.bands, [&](int b) {
+  for_each_band_of(order, [&](int b) {
     Workplace& work = workplaces.local();
     for (int set = 0; set < sets; ++set) {
       KeptForPlanes& kept = planes.kept[static_cast<std::size_t>(set)];
@@ -207,12 +216,13 @@ void composite_picture(const RenderJob& job, const SplatOrders& orders, std::siz
 
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures) {
-  const SplatOrders orders = orders_by_plane(job.rig, job.scene.splat_style, planes, filter);
+  const SplatOrders orders = orders_by_plane(job, planes, filter);
   PlanesOfViews kept = keep(job, orders, window_of(job));
   ViewPyramid pyramid(orders, job.rig, pictures.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> targets = pyramid.targets(p, pictures);
     composite_picture(job, orders, p, kept, {resampling_of(filter), targets});
+    pyramid.share(p, targets, job.ranks);
   }
 }
 

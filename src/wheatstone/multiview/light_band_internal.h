@@ -40,6 +40,8 @@ class LightBand {
     if (lit_) std::ranges::fill(lines_, Line{});
     lit_ = false;
   }
+  /// All that is stored, for a band of the same shape.
+  std::span<std::byte> bytes() { return std::as_writable_bytes(std::span(lines_)); }
   /// Whether anything was drawn since it was dark; who draws says so.
   bool lit() const { return lit_; }
   void note_light() { lit_ = true; }

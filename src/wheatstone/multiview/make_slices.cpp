@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -32,6 +33,7 @@ struct SliceMaker::State {
   int left() const { return static_cast<int>(window.left); }
   int right() const { return static_cast<int>(window.right); }
   void add(const Cloud& cloud);
+  void move_to_first();
   LinearRgba at(int plane, int x, int y);
   Slice crop(int plane);
 };
@@ -39,21 +41,45 @@ struct SliceMaker::State {
 void SliceMaker::State::add(const Cloud& cloud) {
   const ToneMap none(ToneSettings{.exposure = 1});
   const Chunks chunks = chunks_of(cloud);
-  const RenderJob job{chunks, scene, rig, statistics, none};
+  const RenderJob job{chunks, scene, rig, statistics, none, {}, options.ranks};
   // Slices serve any rig: their highlights are those of the central view.
-  for_each_ordered(with_shine(job, central_view), projection_for(job, orders), window, orders,
+  const Chunks with_highlights = with_shine(job, central_view);
+  for_each_ordered(of_chunks(job, with_highlights), projection_for(job, orders), window, orders,
                    [&](const std::vector<SplatBlock>& blocks) {
                      if (light) {
                        deposit_in_planes(blocks, orders, deposit_of(scene.splat_style), *light);
                        return;
                      }
-                     tbb::parallel_for(0, order().bands, [&](int b) {
+                     for_each_band_of(order(), [&](int b) {
                        for (int plane = 0; plane < order().parts; ++plane)
                          for (const SplatBlock& block : blocks)
                            draw_discs(block.bin(order().bin(b, plane)), b * order().band_rows, central_view,
                                       opaque[order().bin(b, plane)]);
                      });
                    });
+}
+
+/// Moves all ranks' bands to the first of them.
+void SliceMaker::State::move_to_first() {
+  if (light) light->move_to_first(options.ranks);
+  if (opaque.empty() || options.ranks.alone()) return;
+  Ranks::Bytes mine;
+  for (const OpaqueBand& band : opaque) {
+    const auto bytes = std::as_bytes(band.light.pixels());
+    mine.insert(mine.end(), bytes.begin(), bytes.end());
+  }
+  const std::vector<Ranks::Bytes> all = options.ranks.to_first(mine);
+  if (!options.ranks.first()) return;
+  std::vector<std::size_t> at(all.size(), 0);
+  for (int b = 0; b < order().bands; ++b)
+    for (int plane = 0; plane < order().parts; ++plane) {
+      const auto owner = static_cast<std::size_t>(order().owner(b));
+      OpaqueBand& band = opaque[order().bin(b, plane)];
+      if (!order().is_mine(b)) band = OpaqueBand(left(), right(), order().band_rows);
+      const auto to = std::as_writable_bytes(band.light.pixels());
+      std::memcpy(to.data(), all[owner].data() + at[owner], to.size());
+      at[owner] += to.size();
+    }
 }
 
 LinearRgba SliceMaker::State::at(int plane, int x, int y) {
@@ -159,8 +185,10 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
   state.options = options;
   state.planes = planes_of(scene.mapping, options.planes, span_of(rig));
   state.window = window_around(scene, rig, options.focus ? options.focus->largest_gain() : 1.f);
-  state.orders =
-      orders_by_plane(rig, scene.splat_style, state.planes, options.opaque ? SliceFilter::nearest : options.filter);
+  const ToneMap none(ToneSettings{.exposure = 1});
+  const Chunks nothing;
+  state.orders = orders_by_plane({nothing, scene, rig, statistics, none, {}, options.ranks}, state.planes,
+                                 options.opaque ? SliceFilter::nearest : options.filter);
 
   // Sixteen bytes a pixel while they are filled, and again when they are cropped; opaque ones have a depth too.
   const double pixels = static_cast<double>(state.right() - state.left() + 2 * LightBand::margin) *
@@ -172,7 +200,10 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
                                                   state.order().parts, state.right() - state.left(), rig.height,
                                                   bytes / 1e9, static_cast<double>(memory_limit_bytes) / 1e9));
   if (options.opaque) {
-    state.opaque.assign(state.order().bins(), OpaqueBand(state.left(), state.right(), state.order().band_rows));
+    state.opaque.resize(state.order().bins());
+    for (int b = 0; b < state.order().bands; ++b)
+      for (int plane = 0; state.order().is_mine(b) && plane < state.order().parts; ++plane)
+        state.opaque[state.order().bin(b, plane)] = OpaqueBand(state.left(), state.right(), state.order().band_rows);
   } else {
     state.light.emplace(state.orders, state.window, 0);
   }
@@ -186,15 +217,18 @@ void SliceMaker::add(const Cloud& cloud) { state_->add(cloud); }
 
 SliceStack SliceMaker::finish(const ViewingGeometry& viewing) {
   State& state = *state_;
-  if (state.light) join_pictures(*state.light, state.orders);
+  state.move_to_first();
+  const bool whole = state.options.ranks.first();
+  if (state.light && whole) join_pictures(*state.light, state.orders);
   ToneSettings tone = settled(tone_for(state.scene, state.options), state.scene, state.statistics, state.rig);
   SliceStack stack{.width = state.rig.width,
                    .height = state.rig.height,
                    .span = span_of(state.rig),
                    .tone = std::move(tone),
                    .viewing = viewing,
-                   .slices = std::vector<Slice>(state.order().parts)};
-  tbb::parallel_for(0, state.order().parts, [&](int plane) { stack.slices[plane] = state.crop(plane); });
+                   .slices = std::vector<Slice>(whole ? state.order().parts : 0)};
+  tbb::parallel_for(0, static_cast<int>(stack.slices.size()),
+                    [&](int plane) { stack.slices[plane] = state.crop(plane); });
   std::erase_if(stack.slices, [](const Slice& slice) { return slice.pixels.empty(); });
   state_.reset();
   return stack;

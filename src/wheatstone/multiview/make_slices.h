@@ -20,10 +20,11 @@ class SliceMaker {
   SliceMaker(SliceMaker&&) noexcept;
   SliceMaker& operator=(SliceMaker&&) noexcept;
 
+  /// Ranks (RenderOptions::ranks) add chunks in step, as `Chunks` gives them.
   void add(const Cloud& cloud);
 
   /// The slices, cropped to what is not empty; the maker is used up. An exposure that the options leave open is found
-  /// from the central view.
+  /// from the central view. Of several ranks, the first has the slices.
   SliceStack finish(const ViewingGeometry& viewing);
 
  private:

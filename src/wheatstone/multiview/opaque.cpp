@@ -1,10 +1,9 @@
 #include "wheatstone/multiview/opaque_internal.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/multiview/deal_out_internal.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/half_float_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
@@ -53,23 +52,27 @@ void draw_discs(std::span<const Splat> splats, int top, ViewPosition view, Opaqu
 
 void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
                    std::span<const ImageView<Rgb8>> pictures) {
-  const SplatOrders orders = orders_for(job.rig, job.scene.splat_style);
+  const SplatOrders orders = orders_for(job);
   const SplatOrder& order = orders.front();
-  std::vector<std::vector<OpaqueBand>> bands(
-      order.bands, std::vector<OpaqueBand>(views.size(), OpaqueBand(0, job.rig.width, order.band_rows)));
-  for_each_ordered(job.chunks, projection_for(job, orders), window_around(job.scene, job.rig), orders,
+  std::vector<std::vector<OpaqueBand>> bands(static_cast<std::size_t>(order.bands));
+  for (int b = 0; b < order.bands; ++b)
+    if (order.is_mine(b)) bands[b].assign(views.size(), OpaqueBand(0, job.rig.width, order.band_rows));
+  for_each_ordered(job, projection_for(job, orders), window_around(job.scene, job.rig), orders,
                    [&](const std::vector<SplatBlock>& blocks) {
-                     tbb::parallel_for(0, order.bands, [&](int b) {
+                     for_each_band_of(order, [&](int b) {
                        for (std::size_t v = 0; v < views.size(); ++v)
                          for (int part = 0; part < order.parts; ++part)
                            for (const SplatBlock& block : blocks)
                              draw_discs(block.bin(order.bin(b, part)), b * order.band_rows, views[v], bands[b][v]);
                      });
                    });
-  tbb::parallel_for(0, order.bands, [&](int b) {
+  for_each_band_of(order, [&](int b) {
     for (std::size_t v = 0; v < views.size(); ++v)
       tone_map_rows(bands[b][v], job.tone, b * order.band_rows, pictures[v]);
   });
+  std::vector<ViewTarget> targets;
+  for (const ImageView<Rgb8>& picture : pictures) targets.push_back({.picture = picture});
+  share_bands(order, targets, false, job.ranks);
 }
 
 }  // namespace wheatstone

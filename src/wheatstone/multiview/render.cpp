@@ -70,6 +70,8 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
   if (options.focus) check_focus(*options.focus, look_around_px(scene, rig));
   if (options.focus && (options.method == Method::exact || options.method == Method::incremental))
     throw Error(ErrorKind::wrong_usage, "--focus: the depth planes are moved, expected --method auto or layered");
+  if (scene.shine.lit() && !options.ranks.alone())
+    throw Error(ErrorKind::wrong_usage, "--shine works in one process, not under mpirun");
   if (options.planes < 0)
     throw Error(ErrorKind::wrong_usage, fmt::format("there are {} depth planes, expected at least 1", options.planes));
 }
@@ -83,6 +85,8 @@ void check_gpu_can(const Scene& scene, const RenderOptions& options) {
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --kernel cubic-spline, expected --device cpu");
   if (scene.shine.lit())
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --shine, expected --device cpu");
+  if (!options.ranks.alone())
+    throw Error(ErrorKind::wrong_usage, "--device gpu works in one process, expected --device cpu under mpirun");
   if (options.opaque)
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --opaque, expected --device cpu");
   if (options.method == Method::exact)
@@ -96,7 +100,7 @@ void check_gpu_can(const Scene& scene, const RenderOptions& options) {
 bool chooses_gpu(std::uint64_t particles, const Rig& rig, const RenderOptions& options) {
   constexpr std::uint64_t worthwhile = 10'000'000;  // particles × views
   if (options.device != Device::automatic) return options.device == Device::graphics;
-  return particles * rig.positions.size() >= worthwhile && has_real_gpu();
+  return options.ranks.alone() && particles * rig.positions.size() >= worthwhile && has_real_gpu();
 }
 
 /// The diameter, in the picture that it is drawn in, of a splat of mean area.
@@ -174,7 +178,8 @@ void render_hiding_slices(const RenderJob& job, const RenderOptions& options, Re
   with_exposure.exposure = result.exposure;
   SliceMaker maker(job.scene, job.statistics, job.rig, with_exposure);
   job.chunks([&](const Cloud& chunk) { maker.add(chunk); });
-  result.views = render_slices(maker.finish({}), job.rig, options.filter, {}, options.focus);
+  const SliceStack stack = maker.finish({});
+  if (job.ranks.first()) result.views = render_slices(stack, job.rig, options.filter, {}, options.focus);
 }
 
 /// Some of the views by the method that was chosen; the exact one gets them one by one.
@@ -196,7 +201,7 @@ RenderedViews render(const Cloud& cloud, const Scene& scene, const Rig& rig, con
                      const Progress& progress) {
   CloudStatistics statistics;
   statistics.add(cloud);
-  return render(chunks_of(cloud), statistics, scene, rig, options, progress);
+  return render(chunks_of(cloud, options.ranks), statistics, scene, rig, options, progress);
 }
 
 RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene, const Rig& rig,
@@ -211,7 +216,7 @@ RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, co
   result.views.assign(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
   const std::vector<ImageView<Rgb8>> pictures(result.views.begin(), result.views.end());
   const ToneMap tone(result.tone);
-  const RenderJob job{chunks, scene, rig, statistics, tone, options.focus};
+  const RenderJob job{chunks, scene, rig, statistics, tone, options.focus, options.ranks};
 
   report(progress, "views", 0);
   result.device = "cpu";
@@ -241,7 +246,7 @@ RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, co
 }
 
 std::vector<ViewValues> view_values(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene,
-                                    const Rig& rig) {
+                                    const Rig& rig, const Ranks& ranks) {
   ToneSettings as_mass{.look = Look::mass, .least = 0, .most = 1};
   const ToneMap tone(as_mass);
   const float unit = column_of_light(scene);
@@ -250,7 +255,7 @@ std::vector<ViewValues> view_values(const Chunks& chunks, const CloudStatistics&
   const bool with_quantity = scene.splat_style.colour_source == ColourSource::quantity;
   std::vector<ViewValues> values;
   for (const ViewPosition view : rig.positions) {
-    const ViewLight light = light_of_view({chunks, without_shine, rig, statistics, tone}, view);
+    const ViewLight light = light_of_view({chunks, without_shine, rig, statistics, tone, {}, ranks}, view);
     ViewValues& of_view = values.emplace_back();
     of_view.column = Image<float>(rig.width, rig.height);
     if (with_quantity) of_view.mean = Image<float>(rig.width, rig.height);

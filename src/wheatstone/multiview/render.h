@@ -14,6 +14,7 @@
 #include "wheatstone/multiview/tone.h"
 #include "wheatstone/particles/cloud.h"
 #include "wheatstone/progress.h"
+#include "wheatstone/ranks/ranks.h"
 
 namespace wheatstone {
 
@@ -44,6 +45,9 @@ struct RenderOptions {
   /// Of the thesis's look; NaN: found from some of the particles, as are limits that `tone` leaves open.
   float exposure = std::numeric_limits<float>::quiet_NaN();
   ToneSettings tone;  ///< of mass; the look is the scene's
+  /// Those that share the work. All call the same functions with the same options; what is made is whole at the first
+  /// of them only.
+  Ranks ranks;
 };
 
 /// The views, left to right, and how they were made.
@@ -77,7 +81,7 @@ struct ViewValues {
 
 /// The views of a rig as numbers, of particles that are shown as mass, each on its own, in full precision.
 std::vector<ViewValues> view_values(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene,
-                                    const Rig& rig);
+                                    const Rig& rig, const Ranks& ranks = {});
 
 /// The tone that render() would find for this scene, from a small picture of some of the particles.
 ToneSettings tone_found(const CloudStatistics& statistics, const Scene& scene, const Rig& rig,

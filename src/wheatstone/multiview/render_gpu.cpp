@@ -49,7 +49,7 @@ GpuPictures pictures_of_views(const RenderJob& job, const SplatOrders& orders) {
 
 void render_incremental_on_gpu(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures) {
   on_gpu([&](const GpuFacts& facts) {
-    GpuPictures sizes = pictures_of_views(job, orders_for(job.rig, job.scene.splat_style));
+    GpuPictures sizes = pictures_of_views(job, orders_for(job));
     for_some_views(job, pictures, views_that_fit(sizes, sum_bytes, facts.largest_buffer), [&](const SomeViews& views) {
       std::ranges::fill(sizes.targets, static_cast<int>(views.positions.size()));
       const std::vector<TargetGroup> groups = groups_of_targets(sizes, facts.largest_buffer / sum_bytes);
@@ -66,7 +66,7 @@ void render_incremental_on_gpu(const RenderJob& job, std::span<const ImageView<R
 void render_layered_on_gpu(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                            std::span<const ImageView<Rgb8>> pictures) {
   on_gpu([&](const GpuFacts& facts) {
-    const SplatOrders orders = orders_by_plane(job.rig, job.scene.splat_style, planes, filter);
+    const SplatOrders orders = orders_by_plane(job, planes, filter);
     const GpuPictures sizes = pictures_of_views(job, orders);
     const GpuPictures of_planes = gpu_pictures(orders, window_around(job.scene, job.rig), sizes.channels);
     const std::vector<TargetGroup> groups = groups_of_targets(of_planes, facts.largest_buffer / sum_bytes);

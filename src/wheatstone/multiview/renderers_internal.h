@@ -14,7 +14,13 @@ struct RenderJob {
   const CloudStatistics& statistics;
   const ToneMap& tone;
   std::optional<Focus> focus = {};  ///< of the layered method
+  Ranks ranks = {};                 ///< the chunks come to them in step
 };
+
+/// The same job of other chunks, which must stay.
+inline RenderJob of_chunks(const RenderJob& job, const Chunks& chunks) {
+  return {chunks, job.scene, job.rig, job.statistics, job.tone, job.focus, job.ranks};
+}
 
 /// Depth planes between the nearest and the farthest parallax of a mapping.
 struct DepthPlanes {

@@ -88,6 +88,11 @@ struct SplatOrder {
   int pad = 0;
   int rows = 0;               ///< of this picture
   std::size_t first_bin = 0;  ///< of all pictures' bins
+  // Each band belongs to one of the ranks: the bands of all pictures are dealt out in turn.
+  int first_band = 0;  ///< of all pictures' bands
+  int rank = 0, ranks = 1;
+  int owner(int band) const { return (first_band + band) % ranks; }
+  bool is_mine(int band) const { return owner(band) == rank; }
   std::size_t bins() const { return static_cast<std::size_t>(bands) * parts; }
   std::size_t bin(int band, int part) const { return first_bin + static_cast<std::size_t>(band) * parts + part; }
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "wheatstone/image/image.h"
@@ -24,6 +25,8 @@ class ViewLight {
   float* row(int y, int channel) {
     return values_.data() + static_cast<std::size_t>(stride_) * (static_cast<std::size_t>(y) * channels_ + channel);
   }
+  /// All channels, and what lies beside them.
+  std::span<float> whole_row(int y) { return {row(y, 0), static_cast<std::size_t>(stride_) * channels_}; }
   const float* row(int y, int channel) const { return const_cast<ViewLight*>(this)->row(y, channel); }
 
  private:

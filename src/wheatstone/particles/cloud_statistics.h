@@ -9,6 +9,7 @@
 #include "wheatstone/particles/cloud.h"
 #include "wheatstone/particles/density_grid.h"
 #include "wheatstone/particles/framed_region.h"
+#include "wheatstone/ranks/ranks.h"
 
 namespace wheatstone {
 
@@ -16,6 +17,7 @@ namespace wheatstone {
 class LogHistogram {
  public:
   void add(const std::vector<float>& values);
+  void add(const LogHistogram& other);
   std::uint64_t total() const { return total_; }
   /// The value below which the share, 0..1, of all lies, to within a step; 0 where there is none.
   float percentile(double share) const;
@@ -28,17 +30,20 @@ class LogHistogram {
   std::uint64_t total_ = 0;
 };
 
-/// Some of the particles, the same however they come in chunks: all, as long as they are few.
+/// Some of the particles, the same however they come in chunks or to ranks: all, as long as they are few.
 class ParticleSample {
  public:
-  void add(const Cloud& cloud);
+  /// Particles of which so many came before, here or at other ranks.
+  void add(const Cloud& cloud, std::uint64_t before);
   const Cloud& cloud() const { return kept_; }
   Cloud& cloud() { return kept_; }
+  /// That of all ranks' particles, at each of them.
+  void share(const Ranks& ranks);
 
  private:
-  std::vector<std::uint32_t> keys_;
+  void thin_out();
+  std::vector<std::uint64_t> numbers_;  ///< of the kept ones, among all
   Cloud kept_;
-  std::uint64_t seen_ = 0;
   std::uint32_t highest_key_ = 0xFFFFFFFF;
 };
 
@@ -55,9 +60,14 @@ struct CloudStatistics {
   float largest_quantity = 0;  ///< magnitude of what the user names
   bool has_density = false, has_temperature = false, has_colour = false, has_smoothing_length = false, has_mass = false;
 
-  void add(const Cloud& cloud);
   /// Of a grid that is finished: densities and smoothing lengths are those that it tells.
   void take_densities_of_grid();
+  void add(const Cloud& cloud) { add(cloud, count); }
+  /// Particles of which so many came before, here or at other ranks.
+  void add(const Cloud& cloud, std::uint64_t before);
+  /// Makes those of the particles that each rank was given those of all, at each rank. Only the masses are not added
+  /// up: sums depend on their order.
+  void share(const Ranks& ranks);
   /// Of what the views are framed by; the radius is not 0.
   std::array<float, 3> centre() const;
   float radius() const;

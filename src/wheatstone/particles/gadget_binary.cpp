@@ -192,19 +192,31 @@ struct BinaryReading {
   std::uint64_t at = 0;
   std::ifstream file;
 
-  ParticleRows next(std::size_t most) {
+  /// How many of the next particles are in one file, at most so many; 0 at the end.
+  std::size_t ahead(std::size_t most) {
     while (part < parts.size() && at >= parts[part].count[type]) {
       ++part;
       at = 0;
       file.close();
     }
-    if (part == parts.size()) return {};
+    if (part == parts.size()) return 0;
+    return static_cast<std::size_t>(std::min<std::uint64_t>(most, parts[part].count[type] - at));
+  }
+
+  ParticleRows next(std::size_t most) {
+    const std::size_t count = ahead(most);
+    if (count == 0) return {};
     const BinaryPart& here = parts[part];
     if (!file.is_open()) file.open(here.path, std::ios::binary);
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, here.count[type] - at));
     ParticleRows rows = read(here, count);
     at += count;
     return rows;
+  }
+
+  std::size_t skip(std::size_t most) {
+    const std::size_t count = ahead(most);
+    at += count;
+    return count;
   }
 
   ParticleRows read(const BinaryPart& here, std::size_t count) {
@@ -312,6 +324,7 @@ CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudCho
            fmt::format("its header says {} particles, but there are only {}", first.total[reading->type], count));
   source.count = count;
   source.next = cloud_reader([reading](std::size_t most) { return reading->next(most); }, choice.origin);
+  source.skip = [reading](std::size_t most) { return reading->skip(most); };
   return source;
 }
 

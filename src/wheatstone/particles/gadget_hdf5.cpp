@@ -227,18 +227,30 @@ struct Snapshot {
   Part part;
   hsize_t at = 0;
 
-  ParticleRows next(std::size_t most) {
+  /// How many of the next particles are in one file, at most so many; 0 at the end.
+  hsize_t ahead(std::size_t most) {
     while (at >= part.count) {
-      if (next_file == files.size()) return {};
+      if (next_file == files.size()) return 0;
       part = {};  // closes it before the next one is opened
       part = open_part(files[next_file++], type, choice);
       at = 0;
     }
-    const hsize_t count = std::min<hsize_t>(most, part.count - at);
+    return std::min<hsize_t>(most, part.count - at);
+  }
+
+  ParticleRows next(std::size_t most) {
+    const hsize_t count = ahead(most);
+    if (count == 0) return {};
     ParticleRows rows = read_part(part, at, count);
     rows.others.box_size = box_size;
     at += count;
     return rows;
+  }
+
+  std::size_t skip(std::size_t most) {
+    const hsize_t count = ahead(most);
+    at += count;
+    return count;
   }
 };
 
@@ -323,6 +335,7 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
                                                   path.string(), header.total, count));
   source.count = count;
   source.next = cloud_reader([snapshot](std::size_t most) { return snapshot->next(most); }, choice.origin);
+  source.skip = [snapshot](std::size_t most) { return snapshot->skip(most); };
   return source;
 }
 

@@ -24,6 +24,7 @@ struct Datasets {
   Hdf5Column density, temperature, smoothing_length, mass, quantity;
   int component = -1;  // of the quantity, where it is a vector
   hsize_t count = 0;
+  hsize_t at = 0;  // of the next row
 };
 
 herr_t note_path(hid_t /*file*/, const char* name, const H5O_info_t* about, void* names) {
@@ -170,8 +171,9 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
 
   CloudSource source{.format = "HDF5", .count = datasets->count, .fields = all_datasets(datasets->file)};
   source.bytes = std::filesystem::file_size(path);
-  const auto next = [datasets, at = hsize_t{0}](std::size_t most) mutable {
+  const auto next = [datasets](std::size_t most) {
     ParticleRows rows;
+    const hsize_t at = datasets->at;
     const hsize_t count = std::min<hsize_t>(most, datasets->count - at);
     if (count == 0) return rows;
     read_positions(*datasets, at, count, rows);
@@ -181,10 +183,15 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
     cloud.smoothing_length = read_scalars(*datasets, datasets->smoothing_length, at, count);
     cloud.mass = read_scalars(*datasets, datasets->mass, at, count);
     cloud.quantity = read_quantity(*datasets, at, count);
-    at += count;
+    datasets->at += count;
     return rows;
   };
   source.next = cloud_reader(next, choice.origin);
+  source.skip = [datasets](std::size_t most) -> std::size_t {
+    const hsize_t count = std::min<hsize_t>(most, datasets->count - datasets->at);
+    datasets->at += count;
+    return count;
+  };
   return source;
 }
 

@@ -189,6 +189,11 @@ CloudSource open_records(const RecordLayout& layout, const std::string& format, 
   CloudSource source{.format = format, .count = layout.count, .fields = std::move(fields)};
   source.bytes = length;
   source.next = cloud_reader([reading](std::size_t most) { return read_some(*reading, most); }, choice.origin);
+  source.skip = [reading](std::size_t most) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, reading->layout.count - reading->at));
+    reading->at += count;
+    return count;
+  };
   return source;
 }
 

@@ -68,9 +68,20 @@ Points points_of(const Cloud& cloud, std::size_t neighbours) {
   return points;
 }
 
+/// Each rank has made its part of a column: gives all of it to each.
+void share(std::vector<float>& column, const RankPart& mine, const Ranks& ranks) {
+  if (ranks.alone()) return;
+  const auto part = std::span<const float>(column).subspan(mine.first, mine.end - mine.first);
+  std::size_t at = 0;
+  for (const Ranks::Bytes& bytes : ranks.from_all(Ranks::bytes_of(part))) {
+    std::memcpy(column.data() + at, bytes.data(), bytes.size());
+    at += bytes.size() / sizeof(float);
+  }
+}
+
 }  // namespace
 
-void estimate_density(Cloud& cloud, int neighbours, const Progress& progress) {
+void estimate_density(Cloud& cloud, int neighbours, const Progress& progress, const Ranks& ranks) {
   if (cloud.size() == 0) return;
   const std::size_t wanted = std::clamp<std::size_t>(static_cast<std::size_t>(neighbours), 1, cloud.size());
   const Points points = points_of(cloud, wanted);
@@ -85,10 +96,11 @@ void estimate_density(Cloud& cloud, int neighbours, const Progress& progress) {
     return std::max(static_cast<double>(largest) * 1e-6, 1e-12);
   };
 
-  constexpr std::size_t part = 1 << 18;
-  for (std::size_t begin = 0; begin < cloud.size(); begin += part) {
-    report(progress, "density", static_cast<double>(begin) / static_cast<double>(cloud.size()));
-    const std::size_t end = std::min(begin + part, cloud.size());
+  constexpr std::size_t at_a_time = 1 << 18;
+  const RankPart mine = part_of(ranks, cloud.size());
+  for (std::size_t begin = mine.first; begin < mine.end; begin += at_a_time) {
+    report(progress, "density", static_cast<double>(begin - mine.first) / static_cast<double>(mine.end - mine.first));
+    const std::size_t end = std::min(begin + at_a_time, mine.end);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 512), [&](const auto& range) {
       std::vector<std::uint32_t> found(wanted);
       std::vector<float> squares(wanted);
@@ -102,6 +114,7 @@ void estimate_density(Cloud& cloud, int neighbours, const Progress& progress) {
       }
     });
   }
+  for (std::vector<float>* const column : {&cloud.density, &cloud.smoothing_length}) share(*column, mine, ranks);
   report(progress, "density", 1);
 }
 

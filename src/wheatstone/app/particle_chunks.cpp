@@ -1,0 +1,211 @@
+#include "wheatstone/app/particle_chunks_internal.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <future>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "wheatstone/error.h"
+
+namespace wheatstone {
+namespace {
+
+void add(SelectionCounts& sum, const SelectionCounts& more) {
+  sum.dropped += more.dropped;
+  sum.weightless += more.weightless;
+  sum.mended += more.mended;
+  sum.extreme += more.extreme;
+}
+
+std::size_t bytes_of(const Cloud& cloud) {
+  std::size_t numbers = 0;
+  for (const std::vector<float>* column : {&cloud.x, &cloud.y, &cloud.z, &cloud.density, &cloud.temperature,
+                                           &cloud.smoothing_length, &cloud.mass, &cloud.quantity})
+    numbers += column->size();
+  return numbers * sizeof(float) + cloud.colour.size() * sizeof(Rgb8);
+}
+
+/// The chunks of a file that a rank reads: every N-th of N ranks.
+class ChunksInTurn {
+ public:
+  ChunksInTurn(const CloudSource& source, std::size_t chunk, const Ranks& ranks)
+      : source_(source), chunk_(chunk), others_(ranks.count() - 1), to_pass_(ranks.rank()) {}
+
+  struct Chunk {
+    Cloud cloud;              ///< nothing at the end
+    std::uint64_t first = 0;  ///< number of its first particle in the file
+  };
+  Chunk next() {
+    for (; to_pass_ > 0; --to_pass_) at_ += pass();
+    to_pass_ = others_;
+    Chunk chunk{source_.next(chunk_), at_};
+    at_ += chunk.cloud.size();
+    return chunk;
+  }
+
+ private:
+  std::size_t pass() { return source_.skip ? source_.skip(chunk_) : source_.next(chunk_).size(); }
+
+  const CloudSource& source_;
+  std::size_t chunk_;
+  int others_, to_pass_;
+  std::uint64_t at_ = 0;
+};
+
+/// What one rank has read in a round of chunks, and kept of it.
+struct RoundShare {
+  std::uint64_t read, kept;
+};
+
+std::uint64_t sum_of(std::span<const RoundShare> round, std::uint64_t RoundShare::*what) {
+  std::uint64_t sum = 0;
+  for (const RoundShare& share : round) sum += share.*what;
+  return sum;
+}
+
+/// Calls `visit` with every chunk of the file that this rank reads, and with what each rank has in this round. All
+/// ranks take part in every round, the last time perhaps with nothing. Gives the counts of all ranks.
+template <class Visit>
+SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                               const std::string& step, const Progress& progress, Visit visit) {
+  const Ranks& ranks = options.rendering.ranks;
+  CloudChoice choice = choice_of(options);
+  // Whoever does not read the first particles must be told of their origin.
+  if (!ranks.alone() && !choice.origin) choice.origin = open_cloud(file, choice).next(1000).origin;
+  const CloudSource source = open_cloud(file, choice);
+  ChunksInTurn chunks(source, options.chunk, ranks);
+  // The next chunk is read while this one is worked on.
+  const auto read_next = [&] { return std::async(std::launch::async, [&] { return chunks.next(); }); };
+  std::future<ChunksInTurn::Chunk> pending = read_next();
+  SelectionCounts counts;
+  std::uint64_t done = 0;
+  while (true) {
+    auto [chunk, first] = pending.get();
+    const std::size_t read = chunk.size();
+    pending = read > 0 ? read_next() : std::async(std::launch::deferred, [] { return ChunksInTurn::Chunk(); });
+    put_quantity(chunk, file, options.quantity);
+    add(counts, select_particles(chunk, options.selection, first));
+    check_positions(file, chunk);
+    const std::vector<RoundShare> round = ranks.from_all(RoundShare{read, chunk.size()});
+    const std::uint64_t read_by_all = sum_of(round, &RoundShare::read);
+    if (read_by_all == 0) break;
+    done += read_by_all;
+    if (sum_of(round, &RoundShare::kept) > 0) visit(chunk, std::span<const RoundShare>(round));
+    if (source.count) report(progress, step, static_cast<double>(done) / static_cast<double>(*source.count));
+  }
+  SelectionCounts all;
+  for (const SelectionCounts& of_rank : ranks.from_all(counts)) add(all, of_rank);
+  return all;
+}
+
+/// Whether kernels or brightness need a density that the particles do not have.
+bool lacks_density(const Cloud& cloud, const RenderParticlesOptions& options) {
+  const bool sized = options.appearance.look == Look::mass && !cloud.smoothing_length.empty();
+  return cloud.density.empty() && cloud.colour.empty() && !sized;
+}
+
+}  // namespace
+
+std::string quantity_name_of(const std::string& quantity) {
+  if (quantity == "column-density") return {};
+  return quantity.starts_with("mean:") ? quantity.substr(5) : quantity;
+}
+
+void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::string& quantity) {
+  const std::string name = quantity_name_of(quantity);
+  if (name != "temperature" && name != "density") return;
+  cloud.quantity = name == "temperature" ? cloud.temperature : cloud.density;
+  if (cloud.quantity.empty() && cloud.size() > 0)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no {} to show", file.string(), name));
+}
+
+void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
+  constexpr float largest = Cloud::farthest_drawn;
+  const auto all_near = [](const std::vector<float>& axis) {
+    bool near = true;
+    for (const float value : axis) near &= std::abs(value) <= largest;
+    return near;
+  };
+  if (all_near(cloud.x) && all_near(cloud.y) && all_near(cloud.z)) return;
+  for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z})
+    for (const float value : *axis)
+      if (!(std::abs(value) <= largest))
+        throw Error(ErrorKind::bad_input,
+                    fmt::format("{}: has a particle at {:g}, expected positions of at most {:g}", file.string(),
+                                cloud.farthest != 0 ? cloud.farthest : static_cast<double>(value), largest));
+}
+
+void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts) {
+  if (counts.weightless > 0)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: no particles to draw, {} have no mass or nothing to show",
+                                                  file.string(), counts.weightless));
+  throw Error(ErrorKind::bad_input,
+              counts.dropped > 0
+                  ? fmt::format("{}: no particles to draw, {} have no finite position", file.string(), counts.dropped)
+                  : fmt::format("{}: no particles to draw, no particle is inside the selected region", file.string()));
+}
+
+SurveyedParticles survey(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                         const Progress& progress) {
+  constexpr std::size_t most_bytes_kept = std::size_t{128} << 20;
+  const Ranks& ranks = options.rendering.ranks;
+  SurveyedParticles surveyed;
+  surveyed.all_kept = !options.stream;
+  std::uint64_t bytes = 0, before = 0;  // of all ranks
+  double mass = 0;
+  const auto look_at = [&](Cloud& chunk, std::span<const RoundShare> round) {
+    CloudStatistics& statistics = surveyed.statistics;
+    const bool lacks = lacks_density(chunk, options);
+    if (statistics.count == 0 && chunk.size() > 0 && (lacks || options.appearance.shine > 0)) {
+      statistics.grid = std::make_shared<DensityGrid>();
+      if (lacks) surveyed.density = options.stream ? DensitySource::grid : DensitySource::neighbours;
+    }
+    statistics.mass = 0;
+    statistics.add(chunk, before + sum_of(round.first(static_cast<std::size_t>(ranks.rank())), &RoundShare::kept));
+    before += sum_of(round, &RoundShare::kept);
+    // Sums depend on their order: chunk by chunk, as one rank would.
+    for (const double of_chunk : ranks.from_all(statistics.mass)) mass += of_chunk;
+    for (const std::uint64_t of_chunk : ranks.from_all(std::uint64_t{bytes_of(chunk)})) bytes += of_chunk;
+    if (surveyed.all_kept && bytes > most_bytes_kept) {
+      surveyed.all_kept = false;
+      surveyed.kept.clear();
+    }
+    if (surveyed.all_kept) surveyed.kept.push_back(std::move(chunk));
+  };
+  surveyed.counts = for_each_chunk(file, options, "reading", progress, look_at);
+  surveyed.statistics.share(ranks);
+  surveyed.statistics.mass = mass;
+  if (surveyed.statistics.count == 0) refuse_nothing(file, surveyed.counts);
+  surveyed.statistics.framed = framed_region(surveyed.statistics, options.fit);
+  // A rank that was given no particle does not know.
+  for (const DensitySource of_rank : ranks.from_all(surveyed.density))
+    if (of_rank != DensitySource::file) surveyed.density = of_rank;
+  if (surveyed.density == DensitySource::neighbours && !surveyed.all_kept) surveyed.density = DensitySource::grid;
+  if (surveyed.density == DensitySource::grid && !ranks.alone())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: has neither densities nor smoothing lengths, and is too large to be held as a whole, "
+                            "or streamed: it is rendered in one process, not under mpirun",
+                            file.string()));
+  if (surveyed.statistics.grid != nullptr) surveyed.statistics.grid->finish(options.neighbours);
+  if (surveyed.density == DensitySource::grid) surveyed.statistics.take_densities_of_grid();
+  return surveyed;
+}
+
+Chunks chunks_from(const SurveyedParticles& surveyed, const std::filesystem::path& file,
+                   const RenderParticlesOptions& options, const Progress& progress) {
+  if (surveyed.all_kept)
+    return [&surveyed](const std::function<void(const Cloud&)>& visit) {
+      for (const Cloud& chunk : surveyed.kept) visit(chunk);
+    };
+  return [&](const std::function<void(const Cloud&)>& visit) {
+    for_each_chunk(file, options, "drawing", progress, [&](Cloud& chunk, std::span<const RoundShare> /*round*/) {
+      if (surveyed.density == DensitySource::grid) surveyed.statistics.grid->put_densities(chunk);
+      visit(chunk);
+    });
+  };
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# Processes that mpirun starts give the same bytes as one process, end with one error, and leave nothing half-written.
+# Ends with 77 where there is no mpirun.
+#
+#   run.sh WHEATSTONE some|all     with a few numbers of ranks and threads, or with all
+set -euo pipefail
+wheatstone=$(realpath "$1")
+if ! command -v mpirun >/dev/null; then
+  echo "mpi: skipped, mpirun is not installed"
+  exit 77
+fi
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+
+folder=$(mktemp --directory)
+trap 'rm --recursive --force "$folder"' EXIT
+cd "$folder"
+on_ranks() { mpirun --oversubscribe --bind-to none -n "$1" "$wheatstone" "${@:2}"; }
+complain() {
+  echo "mpi: $*" >&2
+  exit 1
+}
+
+"$wheatstone" --quiet synth universe --particles 20000 -o universe.hdf5
+render=(render universe.hdf5 --size 160x120 --views 3 --projection orthographic --stream --chunk 3000)
+pictures=("${render[@]}" --method layered)
+numbers=("${render[@]}" --method exact)
+"$wheatstone" "${pictures[@]}" -o one --save-slices one.exr >/dev/null
+"$wheatstone" "${numbers[@]}" -o exact --values exact.npy >/dev/null
+
+cases=("2 1" "3 2")
+if [[ $2 == all ]]; then cases=("1 1" "1 2" "2 1" "2 2" "3 1" "3 2" "4 1" "4 2"); fi
+for case in "${cases[@]}"; do
+  read -r ranks threads <<<"$case"
+  on_ranks "$ranks" "${pictures[@]}" --threads "$threads" --json -o many --save-slices many.exr >many.json
+  [[ $(grep --count "\"ranks\": $ranks" many.json) == 1 ]] || complain "--json does not tell of $ranks ranks"
+  diff --recursive one many || complain "pictures of $ranks ranks with $threads threads differ"
+  cmp one.exr many.exr || complain "slices of $ranks ranks with $threads threads differ"
+  on_ranks "$ranks" "${numbers[@]}" --threads "$threads" -o many --values many.npy >/dev/null
+  diff --recursive exact many || complain "exact pictures of $ranks ranks with $threads threads differ"
+  for view in 000 001 002; do
+    cmp "exact_$view.npy" "many_$view.npy" || complain "numbers of $ranks ranks with $threads threads differ"
+  done
+  rm --recursive many many*.exr many_*.npy
+done
+
+# What only one of the ranks can know is told once, with the code of a single process.
+{
+  echo "x y z"
+  for ((i = 0; i < 5000; i++)); do echo "1 2 $((i % 7))"; done
+  echo "1 2 here"
+} >damaged.txt
+code=0
+on_ranks 2 render damaged.txt --stream --chunk 3000 -o damaged >said 2>&1 || code=$?
+[[ $code == 3 ]] || complain "a damaged file ends with $code, expected 3"
+[[ $(grep --count "^wheatstone: damaged.txt" said) == 1 ]] || complain "a damaged file is not told of once: $(cat said)"
+[[ ! -e damaged ]] || complain "a damaged file leaves an output"
+
+# Another command works in one process and says so.
+code=0
+on_ranks 2 info universe.hdf5 >said 2>&1 || code=$?
+[[ $code == 2 && $(grep --count "^wheatstone: mpirun started 2 processes" said) == 1 ]] ||
+  complain "info under mpirun ends with $code: $(cat said)"
+
+# A rank that is killed ends all of them, and nothing is left.
+last_rank() {
+  for parent in "$run" $(pgrep --parent "$run"); do pgrep --parent "$parent" --exact wheatstone; done | tail --lines 1
+}
+on_ranks 2 render universe.hdf5 --method exact --views 4096 --size 640x360 -o killed >said 2>&1 &
+run=$!
+killed=no
+for ((i = 0; i < 100; i++)); do
+  sleep 0.1
+  rank=$(last_rank) || true
+  if [[ -n $rank ]] && kill -KILL "$rank" 2>/dev/null; then
+    killed=yes
+    break
+  fi
+done
+[[ $killed == yes ]] || complain "no rank could be killed: $(cat said)"
+code=0
+wait "$run" || code=$?
+[[ $code != 0 ]] || complain "a run of which a rank was killed ends with 0"
+sleep 0.5
+[[ -z $(find . -name '*killed*') ]] || complain "a killed rank leaves $(find . -name '*killed*')"
+echo "mpi: as one process"
