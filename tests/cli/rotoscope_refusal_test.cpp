@@ -29,7 +29,7 @@ TEST(RotoscopeRefusal, OfWhatIsNoFilm) {
   refused(folder, {"empty.mp4"}, 3, "empty.mp4: is empty");
   refused(folder, {"missing.mp4"}, 3, "missing.mp4: no such file");
   refused(folder, {"empty"}, 3, "empty: has no numbered pictures");
-  refused(folder, {"f_%04d.png"}, 3, "f_%04d.png: no picture has such a name");
+  refused(folder, {"f_%04d.png"}, 3, "f_%04d.png: 0 files have such names, expected at least 1");
 }
 
 TEST(RotoscopeRefusal, OfAFilmWithoutPicturesOrOfAnUnknownCodec) {
