@@ -4,7 +4,6 @@
 
 #include <csignal>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "temporary_folder.h"
 #include "throws_error.h"
@@ -18,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::Not;
 
 const StudyDesign& design() {
@@ -57,13 +57,13 @@ std::string broken_bids_rule(const fs::path& root) {
   const std::vector<std::string> participants = lines_of(bytes_of(root / "participants.tsv"));
   if (!participants[0].starts_with("participant_id\t")) return "participants";
   // "sub-<label>[_ses-<label>]_task-<label>[_acq-<label>][_run-<index>]_beh.tsv"; "<label> MUST be alphanumeric".
-  const std::regex name("sub-[0-9a-zA-Z]+_task-[0-9a-zA-Z]+_beh\\.tsv");
+  const auto is_name = MatchesRegex("sub-[0-9a-zA-Z]+_task-[0-9a-zA-Z]+_beh\\.tsv");
   for (std::size_t i = 1; i < participants.size(); ++i) {
     const std::string id = fields_of(participants[i]).front();
-    if (!std::regex_match(id, std::regex("sub-[0-9a-zA-Z]+"))) return "participant " + id;
+    if (!testing::Value(id, MatchesRegex("sub-[0-9a-zA-Z]+"))) return "participant " + id;
     for (const fs::directory_entry& file : fs::directory_iterator(root / id / "beh")) {
       if (file.path().filename().string().starts_with(".")) continue;
-      if (!std::regex_match(file.path().filename().string(), name)) return file.path().string();
+      if (!testing::Value(file.path().filename().string(), is_name)) return file.path().string();
       // "Tabular files MUST be saved as tab delimited values (.tsv) files"; "MUST start with a header line"; "Missing
       // and non-applicable values MUST be coded as n/a".
       const std::vector<std::string> lines = lines_of(bytes_of(file.path()));

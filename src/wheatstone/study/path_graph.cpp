@@ -98,6 +98,68 @@ TwoLinks links_of_second(const TwoLinks& first, int per_group, bool connected, L
   return {one, other_node(per_group, first, lots, one)};
 }
 
+/// Where the central view shows a place on the screen.
+std::array<float, 2> on_screen(const PlaceMm& place, float viewing_distance_mm) {
+  const float scale = viewing_distance_mm / (viewing_distance_mm + place[2]);
+  return {place[0] * scale, place[1] * scale};
+}
+
+/// Whether a link covers a point of the screen in the central view.
+bool covers(const std::array<std::array<float, 2>, 2>& link, const std::array<float, 2>& point, float radius) {
+  const float along_x = link[1][0] - link[0][0], along_y = link[1][1] - link[0][1];
+  const float from_x = point[0] - link[0][0], from_y = point[1] - link[0][1];
+  const float share = std::clamp(
+      (from_x * along_x + from_y * along_y) / std::max(along_x * along_x + along_y * along_y, 1e-6f), 0.f, 1.f);
+  return std::hypot(from_x - share * along_x, from_y - share * along_y) < radius;
+}
+
+/// How much of a leaf's disc no link of another leaf covers in the central view, 0..1. A link counts where its middle
+/// is nearer than the leaf.
+float seen_share(const PathGraph& graph, int leaf, float viewing_distance_mm) {
+  const std::array<float, 2> middle = on_screen(graph.nodes[static_cast<std::size_t>(leaf)], viewing_distance_mm);
+  const float depth_mm = graph.nodes[static_cast<std::size_t>(leaf)][2];
+  constexpr int across = 7;
+  int points = 0, seen = 0;
+  for (int i = 0; i < across * across; ++i) {
+    const float right = static_cast<float>(i % across * 2 + 1) / across - 1;
+    const float down = static_cast<float>(i / across * 2 + 1) / across - 1;
+    if (right * right + down * down > 1) continue;
+    const std::array<float, 2> point{middle[0] + right * graph.node_radius_mm, middle[1] + down * graph.node_radius_mm};
+    ++points;
+    seen += std::ranges::none_of(graph.links, [&](const std::array<int, 2>& link) {
+      const PlaceMm& one = graph.nodes[static_cast<std::size_t>(link[0])];
+      const PlaceMm& other = graph.nodes[static_cast<std::size_t>(link[1])];
+      const bool is_nearer = (one[2] + other[2]) / 2 < depth_mm;
+      return link[0] != leaf && is_nearer &&
+             covers({on_screen(one, viewing_distance_mm), on_screen(other, viewing_distance_mm)}, point,
+                    graph.link_radius_mm);
+    });
+  }
+  return static_cast<float>(seen) / static_cast<float>(points);
+}
+
+/// Highlights a leaf in front and one behind, and links the second so that the answer is right. They are drawn by lot
+/// until both are seen for the most part.
+void highlight(const PathGraphOptions& options, Lots& lots, PathGraph& graph) {
+  constexpr float least_seen = 0.7f;
+  constexpr int most_trials = 200;
+  const int per_group = options.nodes / 3;
+  const auto links_of = [&](int leaf) {
+    // Links stand in the order of their leaves, two for each.
+    return graph.links.begin() + 2 * (leaf < per_group ? leaf : leaf - per_group);
+  };
+  for (int trial = 0; trial < most_trials; ++trial) {
+    const std::array<int, 2> drawn{lots.below(per_group), 2 * per_group + lots.below(per_group)};
+    const TwoLinks of_first{(*links_of(drawn[0]))[1], (*(links_of(drawn[0]) + 1))[1]};
+    const TwoLinks of_second = links_of_second(of_first, per_group, graph.connected, lots);
+    graph.highlighted = drawn;
+    for (int i = 0; i < 2; ++i) (*(links_of(drawn[1]) + i))[1] = of_second[static_cast<std::size_t>(i)];
+    if (std::ranges::all_of(
+            drawn, [&](int leaf) { return seen_share(graph, leaf, options.viewing_distance_mm) >= least_seen; }))
+      return;
+  }
+}
+
 }  // namespace
 
 PathGraph make_path_graph(const PathGraphOptions& options, std::uint64_t seed, bool connected) {
@@ -109,16 +171,13 @@ PathGraph make_path_graph(const PathGraphOptions& options, std::uint64_t seed, b
                   .node_radius_mm = options.node_radius_mm,
                   .link_radius_mm = options.link_radius_mm};
   const int per_group = options.nodes / 3;
-  graph.highlighted = {lots.below(per_group), 2 * per_group + lots.below(per_group)};
-  TwoLinks of_first{};
   for (int leaf = 0; leaf < options.nodes; ++leaf) {
     if (leaf >= per_group && leaf < 2 * per_group) continue;
-    TwoLinks links{per_group + lots.below(per_group), -1};
-    links[1] = other_node(per_group, links, lots);
-    if (leaf == graph.highlighted[1]) links = links_of_second(of_first, per_group, connected, lots);
-    if (leaf == graph.highlighted[0]) of_first = links;
-    for (const int intermediate : links) graph.links.push_back({leaf, intermediate});
+    const int first = per_group + lots.below(per_group);
+    graph.links.push_back({leaf, first});
+    graph.links.push_back({leaf, other_node(per_group, {first, first}, lots)});
   }
+  highlight(options, lots, graph);
   return graph;
 }
 

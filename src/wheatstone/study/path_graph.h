@@ -44,9 +44,9 @@ struct PathGraphOptions {
 /// Makes a graph by the rules of Hassaine 2010, 3.2.1: three groups of equal size; every leaf is linked to two
 /// different intermediate nodes, which are drawn at random; the highlighted nodes are a leaf in front and one behind.
 /// If `connected`, they share exactly one intermediate node, else none. On planes no node hides another, or touches it,
-/// in the central view, which the thesis asks for, and in either eye's of a head in the middle. The same options and
-/// seed give the same graph. Throws Error{bad_input} where the number of nodes is none of these or the nodes do not fit
-/// into the field.
+/// in the central view, which the thesis asks for, and in either eye's of a head in the middle. Links of other leaves
+/// cover less than a third of a highlighted node in the central view. The same options and seed give the same graph.
+/// Throws Error{bad_input} where the number of nodes is none of these or the nodes do not fit into the field.
 PathGraph make_path_graph(const PathGraphOptions& options, std::uint64_t seed, bool connected);
 
 /// Whether there is a path of two links between the highlighted nodes.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -173,6 +174,21 @@ TEST(DrawnGraph, TheNearerNodeHidesTheFarther) {
   graph.nodes[1][2] = -40;
   const Image<Rgb8> hidden = draw_graph(graph, screen, {0, 700});
   EXPECT_LT(hidden(512, 384).r, 2 * hidden(512, 384).g);
+}
+
+TEST(DrawnGraph, LinksLeaveMostOfAHighlightedNodeToBeSeen) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    PathGraph graph = make_path_graph({}, seed, seed % 2 == 0);
+    for (const int node : std::array{graph.highlighted[0], graph.highlighted[1]}) {
+      graph.highlighted = {node, node};
+      const Image<Rgb8> picture = draw_graph(graph, screen, {0, 700});
+      const auto red = std::ranges::count_if(picture.pixels(), [](Rgb8 pixel) { return pixel.r > 2 * pixel.g; });
+      const double depth = graph.nodes[static_cast<std::size_t>(node)][2];
+      const double radius_px = graph.node_radius_mm * 700 / (700 + depth) / screen.pixel_pitch_mm();
+      // Its own two links cover some of it, too.
+      EXPECT_GT(static_cast<double>(red), 0.5 * std::numbers::pi * radius_px * radius_px) << "seed " << seed;
+    }
+  }
 }
 
 TEST(DrawnGraph, ATubeIsThinnerFartherAway) {
