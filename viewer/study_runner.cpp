@@ -100,26 +100,46 @@ std::string StudyRunner::progress() const {
   return fmt::format("{}: {} of {} trials done", subject, counted(), all);
 }
 
-StereoPair StudyRunner::draw() const {
-  const StudyDesign& design = folder_.design();
-  const StudyCondition& condition = conditions_[static_cast<std::size_t>(planned().condition)];
-  const std::vector<std::string> files = stimulus_files(design, planned().item, condition);
-  const auto path = [&](std::size_t i) { return folder_.stimuli() / files[i]; };
-  if (design.items.empty()) {
-    const PathGraph graph = graph_from_json(read_whole_file(path(0), most_bytes), path(0).string());
-    return draw_for_eyes(graph, screen_, condition.shown.display, head_);
+std::vector<std::filesystem::path> StudyRunner::stimulus() const {
+  std::vector<std::filesystem::path> paths;
+  for (const std::string& file : stimulus_files(folder_.design(), planned().item, condition()))
+    paths.push_back(folder_.stimuli() / file);
+  return paths;
+}
+
+const StudyScene& StudyRunner::scene(const std::filesystem::path& path) {
+  if (scene_path_ != path) {
+    scene_.emplace(path);
+    scene_path_ = path;
+  }
+  return *scene_;
+}
+
+StereoPair StudyRunner::draw() {
+  const SimulatedDisplay& display = condition().shown.display;
+  const std::vector<std::filesystem::path> paths = stimulus();
+  if (folder_.design().items.empty()) {
+    const PathGraph graph = graph_from_json(read_whole_file(paths[0], most_bytes), paths[0].string());
+    return draw_for_eyes(graph, screen_, display, head_);
+  }
+  if (StudyScene::is_named(paths[0])) {
+    const StudyScene& shown = scene(paths[0]);
+    const auto draw_eye = [&](const EyePlace& eye) {
+      return in_the_middle(shown.draw(ViewPosition(eye.x_mm / screen_.eye_separation_mm)), screen_);
+    };
+    return draw_for_eyes(draw_eye, screen_, display, head_);
   }
   StereoPair pair;
-  pair.left = in_the_middle(read_image(path(0)), screen_);
-  const bool flat = files.size() < 2 || condition.shown.display.monoscopic;
-  pair.right = flat ? pair.left : in_the_middle(read_image(path(1)), screen_);
+  pair.left = in_the_middle(read_image(paths[0]), screen_);
+  const bool flat = paths.size() < 2 || display.monoscopic;
+  pair.right = flat ? pair.left : in_the_middle(read_image(paths[1]), screen_);
   return pair;
 }
 
 bool StudyRunner::views_changed() {
-  if (page_ != Page::trial || !folder_.design().items.empty()) return false;
-  const SimulatedDisplay& display = conditions_[static_cast<std::size_t>(planned().condition)].shown.display;
-  const auto shown = shown_views(display, screen_, head_);
+  if (page_ != Page::trial) return false;
+  if (!folder_.design().items.empty() && !StudyScene::is_named(stimulus().front())) return false;
+  const auto shown = shown_views(condition().shown.display, screen_, head_);
   const bool changed = shown[0].view != seen_[0].view || shown[1].view != seen_[1].view;
   seen_ = shown;
   return changed;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "study_scene.h"
 #include "wheatstone/stereo/stereo_pair.h"
 #include "wheatstone/study/simulated_display.h"
 #include "wheatstone/study/study_folder.h"
@@ -29,7 +31,7 @@ class StudyRunner {
   std::string progress() const;
 
   /// Both eyes' pictures of the stimulus, for the head's place. Throws Error{bad_input}.
-  StereoPair draw() const;
+  StereoPair draw();
   /// Whether the eyes see other views than when this was last asked.
   bool views_changed();
 
@@ -45,6 +47,10 @@ class StudyRunner {
   enum class Page { instruction, trial, practice_ends, pause, question, thanks, end };
 
   const PlannedTrial& planned() const { return trials_[next_]; }
+  const StudyCondition& condition() const { return conditions_[static_cast<std::size_t>(planned().condition)]; }
+  /// The files of the trial's stimulus.
+  std::vector<std::filesystem::path> stimulus() const;
+  const StudyScene& scene(const std::filesystem::path& path);
   bool answer_trial(const std::string& name, double pressed_s, double noted_s);
   bool answer_question(const std::string& name);
   void record(int response, double pressed_s, double noted_s);
@@ -68,6 +74,8 @@ class StudyRunner {
   TrialRecord now_;        ///< of the trial that is shown
   std::string head_path_;  ///< its lines
   std::array<ShownView, 2> seen_{};
+  std::filesystem::path scene_path_;
+  std::optional<StudyScene> scene_;  ///< that was last shown
 };
 
 }  // namespace wheatstone::viewer

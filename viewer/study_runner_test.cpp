@@ -7,6 +7,7 @@
 
 #include "temporary_folder.h"
 #include "throws_error.h"
+#include "wheatstone/marks/painting_file.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -137,6 +138,44 @@ TEST_F(StudySession, DrawsAgainWhereTheHeadComesToAnotherView) {
   }
   EXPECT_EQ(fixed, 1) << "the condition of no views along the movement";
   EXPECT_EQ(moving, 1);
+}
+
+/// One painting as the stimulus of every trial, on a display of 8 views per 10 cm.
+StudyDesign painting_design() {
+  return parse_study_design(
+      "name = 'painted'\ntask_label = 'comfort'\ntask = 'rating'\nsubjects = 2\nrepetitions = 1\n"
+      "[shown]\nviews_per_10cm = 8\n[pictures]\nitems = ['fruit', 'bowl']\nleft = '{item}.wst'\n"
+      "[[factor]]\nname = 'monoscopic'\nlevels = [false, true]\n",
+      "painted.toml");
+}
+
+TEST(StudySessionOfPaintings, EachEyeSeesItsViewAndTheHeadMovesBoth) {
+  const TemporaryFolder folder;
+  const StudyFolder study(folder / "data", painting_design(), false);
+  std::filesystem::create_directories(study.stimuli());
+  StrokePainting strokes{.width = 80, .height = 60};
+  // The nearer dot lies on the screen; the farther one moves.
+  const Stroke far{.point_count = 1, .radius_px = 8, .colour = {200, 20, 20}, .disparity = 2, .views = all_views};
+  const Stroke near{
+      .first_point = 1, .point_count = 1, .radius_px = 8, .colour = {20, 20, 200}, .disparity = 9, .views = all_views};
+  strokes.layers.push_back({8, {{20, 30, 2}, {60, 30, 9}}, {far, near}});
+  write_painting(study.stimuli() / "fruit.wst", Painting{strokes});
+  write_painting(study.stimuli() / "bowl.wst", Painting{strokes});
+  StudyRunner runner(study, 0, small);
+  runner.shown(0);
+  runner.key("space", 1, 1);
+  ASSERT_TRUE(runner.shows_stimulus());
+  EXPECT_TRUE(runner.views_changed()) << "the first frame";
+  const StereoPair middle = runner.draw();
+  runner.head_at({60, 700}, 2);
+  EXPECT_TRUE(runner.views_changed());
+  EXPECT_NE(runner.draw().left, middle.left);
+  runner.head_at({0, 700}, 3);
+  const bool first_differs = middle.left != middle.right;
+  runner.shown(4);
+  runner.key("3", 5, 5);
+  const StereoPair other = runner.draw();
+  EXPECT_NE(first_differs, other.left != other.right) << "one of the conditions is monoscopic";
 }
 
 TEST_F(StudySession, TheHeadsDistanceChangesTheViews) {

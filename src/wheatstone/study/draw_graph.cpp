@@ -250,9 +250,8 @@ Image<Rgb8> with_crosstalk(const Image<Rgb8>& own, const std::array<Image<Rgb8>,
   return mixed;
 }
 
-StereoPair draw_for_eyes(const PathGraph& graph, const StudyScreen& screen, const SimulatedDisplay& display,
-                         const HeadPlace& head, const GraphLook& look) {
-  const auto draw = [&](const EyePlace& view) { return draw_graph(graph, screen, view, look); };
+StereoPair draw_for_eyes(const DrawForEye& draw, const StudyScreen& screen, const SimulatedDisplay& display,
+                         const HeadPlace& head) {
   const auto draw_eye = [&](const ShownView& shown) {
     Image<Rgb8> own = draw(shown.view);
     if (display.crosstalk <= 0) return own;
@@ -263,6 +262,12 @@ StereoPair draw_for_eyes(const PathGraph& graph, const StudyScreen& screen, cons
   pair.left = draw_eye(shown[0]);
   pair.right = display.monoscopic ? pair.left : draw_eye(shown[1]);
   return pair;
+}
+
+StereoPair draw_for_eyes(const PathGraph& graph, const StudyScreen& screen, const SimulatedDisplay& display,
+                         const HeadPlace& head, const GraphLook& look) {
+  return draw_for_eyes([&](const EyePlace& eye) { return draw_graph(graph, screen, eye, look); }, screen, display,
+                       head);
 }
 
 }  // namespace wheatstone

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "wheatstone/image/image.h"
 #include "wheatstone/stereo/stereo_pair.h"
@@ -22,7 +23,12 @@ struct GraphLook {
 Image<Rgb8> draw_graph(const PathGraph& graph, const StudyScreen& screen, const EyePlace& eye,
                        const GraphLook& look = {});
 
-/// What the two eyes of a head see of the graph on a simulated display.
+/// Draws what an eye at a place sees.
+using DrawForEye = std::function<Image<Rgb8>(const EyePlace& eye)>;
+
+/// What the two eyes of a head see on a simulated display, and of the graph there.
+StereoPair draw_for_eyes(const DrawForEye& draw, const StudyScreen& screen, const SimulatedDisplay& display,
+                         const HeadPlace& head);
 StereoPair draw_for_eyes(const PathGraph& graph, const StudyScreen& screen, const SimulatedDisplay& display,
                          const HeadPlace& head, const GraphLook& look = {});
 
