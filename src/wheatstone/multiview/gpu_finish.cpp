@@ -112,29 +112,31 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
     unpack(std::span(pixels).subspan(v * pictures.pixels(0), pictures.pixels(0)), views[v]);
 }
 
-GpuBuffer composite_on_gpu(const GpuPictures& planes, std::span<const TargetGroup> groups,
-                           std::span<const GpuBuffer> light, std::size_t picture, const GpuPictures& of_views,
-                           std::span<const ViewPosition> views, Resampling resampling) {
-  const GpuProgram composite_planes(composite_planes_source);
-  const SplatOrder& order = planes.orders[picture];
+GpuCompositor::GpuCompositor(const GpuPictures& planes, std::span<const TargetGroup> groups,
+                             std::span<const GpuBuffer> light, Resampling resampling)
+    : planes_(planes), groups_(groups), light_(light), resampling_(resampling), program_(composite_planes_source) {}
+
+GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_views,
+                                   std::span<const ViewPosition> views) const {
+  const SplatOrder& order = planes_.orders[picture];
   GpuBuffer composited(of_views.values(picture) * views.size() * sizeof(float));
   const auto [columns, rows, count] = groups_of_pixels(of_views, picture, views.size());
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const CompositeWork work{.channels = planes.channels,
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const CompositeWork work{.channels = planes_.channels,
                              .width = of_views.width[picture],
                              .rows = order.rows,
-                             .left = planes.left[picture],
-                             .plane_width = planes.width[picture],
-                             .first_plane = groups[g].first[picture],
-                             .end_plane = groups[g].end[picture],
-                             .base = groups[g].base[picture],
-                             .taps = taps_of(resampling),
+                             .left = planes_.left[picture],
+                             .plane_width = planes_.width[picture],
+                             .first_plane = groups_[g].first[picture],
+                             .end_plane = groups_[g].end[picture],
+                             .base = groups_[g].base[picture],
+                             .taps = taps_of(resampling_),
                              .first_parallax = order.first * order.scale,
                              .plane_spacing = order.spacing,
                              .view = gpu_views(views)};
     if (work.first_plane == work.end_plane) continue;
     const GpuBuffer of_work(std::span<const CompositeWork>(&work, 1));
-    composite_planes.run({columns, rows, count}, {&of_work, &light[g], &composited});
+    program_.run({columns, rows, count}, {&of_work, &light_[g], &composited});
   }
   return composited;
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "wheatstone/gpu/buffer.h"
+#include "wheatstone/gpu/program.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/multiview/gpu_splats_internal.h"
 #include "wheatstone/multiview/tone_map_internal.h"
@@ -34,9 +35,20 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
                    const std::function<GpuLight(std::size_t picture)>& light_of,
                    std::span<const ImageView<Rgb8>> views);
 
-/// The light of a picture's views, composited from the light of its depth planes. Within on_gpu().
-GpuBuffer composite_on_gpu(const GpuPictures& planes, std::span<const TargetGroup> groups,
-                           std::span<const GpuBuffer> light, std::size_t picture, const GpuPictures& of_views,
-                           std::span<const ViewPosition> views, Resampling resampling);
+/// Composites views from the light of depth planes, which must stay. Made and used within on_gpu().
+class GpuCompositor {
+ public:
+  GpuCompositor(const GpuPictures& planes, std::span<const TargetGroup> groups, std::span<const GpuBuffer> light,
+                Resampling resampling);
+  /// The light of a picture's views.
+  GpuBuffer composite(std::size_t picture, const GpuPictures& of_views, std::span<const ViewPosition> views) const;
+
+ private:
+  const GpuPictures& planes_;
+  std::span<const TargetGroup> groups_;
+  std::span<const GpuBuffer> light_;
+  Resampling resampling_;
+  GpuProgram program_;
+};
 
 }  // namespace wheatstone

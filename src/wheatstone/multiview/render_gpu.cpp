@@ -72,16 +72,16 @@ void render_layered_on_gpu(const RenderJob& job, const DepthPlanes& planes, Slic
     const std::vector<TargetGroup> groups = groups_of_targets(of_planes, facts.largest_buffer / sum_bytes);
     const GpuTargets targets = filter == SliceFilter::centroid ? GpuTargets::between_planes : GpuTargets::nearest_plane;
     const std::vector<GpuBuffer> light = light_on_gpu(job, of_planes, targets, {}, groups);
-    for_some_views(
-        job, pictures, views_that_fit(sizes, sizeof(float), facts.largest_buffer), [&](const SomeViews& views) {
-          std::optional<GpuBuffer> composited;
-          const auto light_of = [&](std::size_t p) {
-            composited.emplace(
-                composite_on_gpu(of_planes, groups, light, p, sizes, views.positions, resampling_of(filter)));
-            return GpuLight{&*composited, 0};
-          };
-          finish_on_gpu(sizes, job.tone, light_of, views.pictures);
-        });
+    const GpuCompositor compositor(of_planes, groups, light, resampling_of(filter));
+    for_some_views(job, pictures, views_that_fit(sizes, sizeof(float), facts.largest_buffer),
+                   [&](const SomeViews& views) {
+                     std::optional<GpuBuffer> composited;
+                     const auto light_of = [&](std::size_t p) {
+                       composited.emplace(compositor.composite(p, sizes, views.positions));
+                       return GpuLight{&*composited, 0};
+                     };
+                     finish_on_gpu(sizes, job.tone, light_of, views.pictures);
+                   });
   });
 }
 
