@@ -25,12 +25,6 @@ struct Case {
   }
 };
 
-double worst_psnr(const std::vector<Image<Rgb8>>& views, const std::vector<Image<Rgb8>>& reference) {
-  double worst = 1000;
-  for (std::size_t v = 0; v < views.size(); ++v) worst = std::min(worst, psnr_db(views[v], reference[v]));
-  return worst;
-}
-
 class RenderGpu : public testing::Test {
   void SetUp() override {
     try {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "psnr.h"
 #include "throws_error.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/multiview/cost_model.h"
@@ -63,12 +64,6 @@ Rig nine_views() {
   Rig rig{.width = 320, .height = 180, .positions = {}};
   for (int i = 0; i < 9; ++i) rig.positions.emplace_back(static_cast<float>(i) / 8 - 0.5f);
   return rig;
-}
-
-double worst_psnr(const std::vector<Image<Rgb8>>& views, const std::vector<Image<Rgb8>>& reference) {
-  double worst = 1000;
-  for (std::size_t v = 0; v < views.size(); ++v) worst = std::min(worst, measure_view(views[v], reference[v]).psnr_db);
-  return worst;
 }
 
 std::vector<Image<Rgb8>> views_of(const Cloud& cloud, const Scene& scene, const Rig& rig, RenderOptions options) {
