@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -146,6 +147,16 @@ Rational parse_frame_rate(const std::string& option, std::string_view text) {
   const auto numerator = static_cast<int>(std::lround(*above * scale)), denominator = static_cast<int>(*below * scale);
   const int common = std::gcd(numerator, denominator);
   return {numerator / common, denominator / common};
+}
+
+std::size_t parse_bytes(const std::string& option, std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 4> units{{{"", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}}};
+  const auto number = leading_number<double>(text);
+  const auto* const unit =
+      number ? std::ranges::find(units, number->second, &std::pair<std::string_view, double>::first) : units.end();
+  if (unit == units.end() || !in_range(number->first * unit->second, {1e3, 1e12}))
+    refuse(option, text, "a size of at least 1kB, as 8MB, 500kB or 1500000");
+  return static_cast<std::size_t>(number->first * unit->second);
 }
 
 Rgb8 parse_colour(const std::string& option, std::string_view text) {

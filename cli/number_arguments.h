@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,9 @@ double parse_length_mm(const std::string& option, std::string_view text, NumberR
 
 /// A share of something: "3%" or "0.03". The range is in percent.
 float parse_share(const std::string& option, std::string_view text, NumberRange percent);
+
+/// The size of a file: "8MB", "500kB" or a number of bytes, of at least one kilobyte.
+std::size_t parse_bytes(const std::string& option, std::string_view text);
 
 /// COLUMNSxROWS or WIDTHxHEIGHT: two whole numbers.
 struct Size {

@@ -10,21 +10,27 @@
 #include "command.h"
 #include "depth_argument.h"
 #include "disparity_argument.h"
+#include "film_argument.h"
+#include "number_arguments.h"
 #include "option_use.h"
 #include "output_option.h"
 #include "print_facts.h"
 #include "stereo_arguments.h"
 #include "views_argument.h"
 #include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
+#include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/share/page.h"
+#include "wheatstone/share/share_film.h"
 #include "wheatstone/share/share_painting.h"
 #include "wheatstone/share/share_photograph.h"
+#include "wheatstone/share/share_slices.h"
 #include "wheatstone/share/share_views.h"
 #include "wheatstone/video/film_files.h"
 
@@ -39,7 +45,8 @@ struct Arguments {
   std::string disparity;
   std::string output = "page.html";
   PageWords words;
-  std::string element;  ///< file for the element's code; empty: it is not wanted
+  std::string element;   ///< file for the element's code; empty: it is not wanted
+  std::string max_size;  ///< of the page; empty: what is usual for its kind
 };
 
 std::vector<fs::path> files_that_are_read(const Arguments& arguments) {
@@ -47,6 +54,11 @@ std::vector<fs::path> files_that_are_read(const Arguments& arguments) {
   for (const std::string& file : {arguments.depth.file, arguments.depth.model, arguments.disparity})
     files.emplace_back(file);
   return files;
+}
+
+std::optional<std::size_t> most_bytes(const Arguments& arguments) {
+  if (arguments.max_size.empty()) return std::nullopt;
+  return parse_bytes("--max-size", arguments.max_size);
 }
 
 /// Whether the files are views that are shown as they are, and no photograph of two that is looked into.
@@ -58,11 +70,10 @@ bool are_ready_views(const ViewsArguments& views) {
 
 SharedPicture share_ready_views(ViewsArguments views, const std::string& title, const CLI::App& command,
                                 const Session& session) {
-  constexpr int views_of_slices = 33;
   if (views.quilt.empty())
     if (const auto named = quilt_of_name(fs::path(views.files.front()).filename().string()))
       views.quilt = fmt::format("{}x{}", named->layout.columns, named->layout.rows);
-  return share_views(read_views_argument(views, views_of_slices, command, session).views, title);
+  return share_views(read_views_argument(views, 0, command, session).views, title);
 }
 
 SharedPicture share_picture_with_depth(const Arguments& arguments, const Session& session) {
@@ -93,17 +104,38 @@ void refuse_others(const CLI::App& command, std::vector<std::string> kept, std::
   refuse_all_but(command, kept, situation, "it is for other pictures");
 }
 
+SharedPicture share_film_file(const Arguments& arguments, const CLI::App& command) {
+  const ViewsArguments& views = arguments.views;
+  const fs::path film = views.files.front();
+  ShareFilmOptions options{.title = arguments.words.title, .page = arguments.output};
+  if (const auto named = quilt_of_name(film.filename().string())) options.quilt = named->layout;
+  if (!views.quilt.empty()) {
+    const Size size = parse_size("--from-quilt", views.quilt, {1, 1000}, "COLUMNSxROWS");
+    options.quilt = QuiltLayout{size.width, size.height};
+  }
+  refuse_others(command, {options.quilt ? "--from-quilt" : "--layout", "--max-size"}, "on a film");
+  options.layout = film_layout_option("--layout", views.layout);
+  if (const auto most = most_bytes(arguments)) options.most_bytes = *most;
+  return share_film(film, options);
+}
+
+SharedPicture share_slice_file(const Arguments& arguments, const CLI::App& command) {
+  refuse_others(command, {"--max-size"}, "on slices");
+  ShareSlicesOptions options{.title = arguments.words.title};
+  if (const auto most = most_bytes(arguments)) options.most_bytes = *most;
+  return share_slices(read_slices(arguments.views.files.front()), options);
+}
+
 SharedPicture share(const Arguments& arguments, const CLI::App& command, const Session& session) {
   const ViewsArguments& views = arguments.views;
   const std::string& first = views.files.front();
   const bool is_one = views.files.size() == 1;
   if (is_one && first.ends_with(".wst")) {
-    refuse_others(command, {}, "on a painting (.wst)");
-    return share_painting(read_painting(first), {.title = arguments.words.title});
+    refuse_others(command, {"--max-size"}, "on a painting (.wst)");
+    return share_painting(read_painting(first), {.title = arguments.words.title, .most_bytes = most_bytes(arguments)});
   }
-  if (is_film(first))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is a film, expected a painting, a photograph, views or slices", first));
+  if (is_one && is_film(first)) return share_film_file(arguments, command);
+  if (is_one && first.ends_with(".exr") && !is_multiview_exr(first)) return share_slice_file(arguments, command);
   if (are_ready_views(views)) {
     refuse_others(command, {"--swap", "--from-quilt"}, "on views");
     return share_ready_views(views, arguments.words.title, command, session);
@@ -127,9 +159,12 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   write_whole_file(arguments.output, page);
   if (!arguments.element.empty()) write_whole_file(arguments.element, page_element_code());
   if (session.json) {
-    print_facts(nlohmann::ordered_json{{"output", arguments.output}, {"bytes", page.size()}}, session);
+    nlohmann::ordered_json facts{{"output", arguments.output}, {"bytes", page.size()}};
+    if (!picture.note.empty()) facts["note"] = picture.note;
+    print_facts(facts, session);
     return;
   }
+  if (!picture.note.empty()) fmt::print(session.output, "note: {}\n", picture.note);
   fmt::print(session.output, "written to {} ({:.0f} kB)\n", arguments.output, static_cast<double>(page.size()) / 1000);
 }
 
@@ -140,9 +175,10 @@ void add_share_command(CLI::App& program, const Session& session) {
   CLI::App* command =
       program.add_subcommand("share", "Write a page that shows a picture with its depth in any browser");
   command
-      ->add_option("FILE", arguments->views.files,
-                   "Painting (.wst); LEFT and RIGHT photograph, or one file that holds both; one picture with its "
-                   "depth; views from left to right, a folder of them or a quilt; slices (.exr)")
+      ->add_option(
+          "FILE", arguments->views.files,
+          "Painting (.wst); LEFT and RIGHT photograph, or one file that holds both; one picture with its "
+          "depth; views from left to right, a folder of them or a quilt; slices (.exr); film of both eyes or of quilts")
       ->required();
   add_output_option(*command, arguments->output, "Page: one HTML file, which needs nothing else");
   command->add_option("--title", arguments->words.title, "Title of the page; the name of the file by default");
@@ -158,11 +194,18 @@ void add_share_command(CLI::App& program, const Session& session) {
                       "Layout of one file that holds both views, as of 'wheatstone paint'");
   command->add_flag("--swap", arguments->views.swap, "Swap the two views, or reverse the order of all");
   command->add_option("--from-quilt", arguments->views.quilt, "Read the picture as a quilt of COLUMNSxROWS views");
+  command
+      ->add_option("--max-size", arguments->max_size,
+                   "Most bytes of the page, as 8MB: of a painting and of slices, numbers are rounded more and pictures "
+                   "made smaller; a film that is larger stays beside the page")
+      ->type_name("SIZE");
   add_depth_options(*command, arguments->depth);
   command->footer(
       "Examples:\n"
       "  wheatstone share painting.wst -o page.html\n"
       "  wheatstone share painting.wst -o page.html --title Fruit --element wheatstone-picture.js\n"
+      "  wheatstone share painted.mp4 -o page.html\n"
+      "  wheatstone share slices.exr -o page.html --max-size 4MB\n"
       "  wheatstone share left.png right.png -o page.html\n"
       "  wheatstone share photo.jpg --depth depth.png -o page.html");
   command->callback([arguments, command, &session] { run(*arguments, *command, session); });

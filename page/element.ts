@@ -6,9 +6,11 @@
 //   mode          any of the modes of stage.ts: how it begins
 //   controlslist  what is shown of the controls: mode, detail, fullscreen, vr; all of them by default
 
+import { addFilmControls } from "./film";
 import { addHeadsetButton } from "./headset";
 import { openPicture } from "./open_picture";
 import { PageError, sourceAt } from "./parts";
+import { disparityInView } from "./pointing";
 import { contextOf, isSideBySide, Look, Mode, modes, Stage, viewsOf, windowOf } from "./stage";
 import { styles } from "./styles";
 import * as words from "./words";
@@ -59,8 +61,7 @@ export class WheatstonePicture extends HTMLElement {
     if (before !== null && this.isConnected) void this.open();
   }
   disconnectedCallback(): void {
-    ++this.opening;
-    this.stage = undefined;
+    this.close();
   }
 
   // How it is looked at, for scripts.
@@ -95,13 +96,22 @@ export class WheatstonePicture extends HTMLElement {
   }
   set detail(layers: number) {
     this.detailSlider.value = String(layers);
-    this.stage?.picture.setDetail(layers);
-    this.stage?.forget();
+    const { stage } = this;
+    if (!stage?.picture.detail) return;
+    stage.picture.detail.shown = layers;
+    stage.forget();
     this.redraw();
   }
 
+  /** Ends what is shown, and whatever is still being opened. */
+  private close(): number {
+    this.stage?.picture.film?.close();
+    this.stage = undefined;
+    return ++this.opening;
+  }
+
   private async open(): Promise<void> {
-    const opening = ++this.opening;
+    const opening = this.close();
     const address = this.getAttribute("src");
     if (!address) return;
     this.fail("");
@@ -120,7 +130,16 @@ export class WheatstonePicture extends HTMLElement {
         stage.forget();
         this.redraw();
       });
-      if (opening !== this.opening) return;
+      const { film } = stage.picture;
+      if (opening !== this.opening) {
+        film?.close();
+        return;
+      }
+      if (film) {
+        addFilmControls(this.bar, film, facts.kind === "views" && facts.hasSound === true);
+        if (!prefersNoMotion()) void film.video.play();
+        this.change({});
+      }
       if (this.shows("vr")) addHeadsetButton(this.bar, stage, () => this.look, () => this.redraw());
       this.dataset.loaded = "";
       this.dispatchEvent(new Event("load"));
@@ -129,6 +148,7 @@ export class WheatstonePicture extends HTMLElement {
       this.stage = undefined;
       if (!(error instanceof PageError)) console.error(error);
       this.fail(error instanceof PageError ? error.message : words.notShown);
+      if (error instanceof PageError && error.instead) this.replaceChildren(error.instead);
       this.dispatchEvent(new Event("error"));
     }
   }
@@ -136,9 +156,10 @@ export class WheatstonePicture extends HTMLElement {
   private begin(title: string, separation: number, zeroParallax: number): void {
     const picture = this.stage!.picture;
     this.canvas.setAttribute("aria-label", this.querySelector("img")?.alt || title);
-    this.detailSlider.max = String(picture.layers);
-    this.detailSlider.value = String(picture.layers);
-    this.detailSlider.parentElement!.hidden = picture.layers < 2 || !this.shows("detail");
+    const layers = picture.detail?.layers ?? 1;
+    this.detailSlider.max = String(layers);
+    this.detailSlider.value = String(layers);
+    this.detailSlider.parentElement!.hidden = layers < 2 || !this.shows("detail");
     this.modeChoice.hidden = !this.shows("mode");
     const flat = this.getAttribute("flat");
     const [left, right] = viewsOf(picture, { ...this.look, mode: "flat" });
@@ -157,7 +178,8 @@ export class WheatstonePicture extends HTMLElement {
     this.look = { ...this.look, ...change };
     this.modeChoice.value = this.look.mode;
     const byHand = this.look.mode === "wiggle" && prefersNoMotion();
-    this.how.textContent = byHand ? words.wiggleByHand : words.howToLook[this.look.mode];
+    this.how.textContent =
+      (byHand ? words.wiggleByHand : words.howToLook[this.look.mode]) + (this.stage?.picture.film ? words.playKeys : "");
     this.redraw();
   }
 
@@ -182,7 +204,7 @@ export class WheatstonePicture extends HTMLElement {
     canvas.dataset.frames = String(Number(canvas.dataset.frames ?? 0) + 1);
     this.dataset.shown = "";
     const wiggles = look.mode === "wiggle" && !prefersNoMotion();
-    if (wiggles || stage.picture.moves || (moves && this.effort < 1)) this.redraw();
+    if (wiggles || (moves && this.effort < 1)) this.redraw();
   }
 
   private shownLook(now: number, look: Look): Look {
@@ -236,8 +258,7 @@ export class WheatstonePicture extends HTMLElement {
     });
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
-      this.stage = undefined;
-      ++this.opening;
+      this.close();
       this.fail(words.contextLost);
     });
     canvas.addEventListener("webglcontextrestored", () => void this.open());
@@ -272,7 +293,7 @@ export class WheatstonePicture extends HTMLElement {
     const view = look.mode === "flat" ? look.view : isSecond === (look.mode === "parallel") ? right : left;
     const window = windowOf(stage.picture, look);
     const column = window.begin(view) + (beside ? (2 * x) % 1 : x) * window.width;
-    const disparity = stage.picture.disparityAt(column, y * window.height, view);
+    const disparity = disparityInView(stage.picture.surfaces, column, y * window.height, view);
     if (disparity !== undefined) this.change({ zeroParallax: disparity });
   }
 
@@ -292,7 +313,8 @@ export class WheatstonePicture extends HTMLElement {
     else if (key === "Home") this.view = (left + right) / 2;
     else if (key === "f" || key === "F") this.toggleFullScreen();
     else if (key === "+" || key === "-") this.detail += key === "+" ? 1 : -1;
-    else if (key === " " && this.look.mode === "wiggle") this.otherEye();
+    else if (key === " " && this.look.mode === "wiggle" && prefersNoMotion()) this.otherEye();
+    else if (this.stage.picture.film?.press(key)) return true;
     else if (number >= 1 && number <= modes.length) this.mode = modes[number - 1]!;
     else return false;
     return true;

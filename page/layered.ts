@@ -6,7 +6,6 @@ import { gapRule, hidingRule } from "./hiding";
 import { LayeredFacts } from "./manifest";
 import { Source } from "./parts";
 import { Picture } from "./picture";
-import { disparityInView } from "./pointing";
 import { decodedImage } from "./images";
 import { Surfaces } from "./surfaces";
 
@@ -35,14 +34,12 @@ ${gapRule}
 void main() { finished = vec4(continued(painted, ivec2(gl_FragCoord.xy)), 1.0); }`;
 
 export class LayeredPicture implements Picture {
-  readonly moves = false;
-  readonly layers = 1;
   private readonly program: Program;
   private readonly finish: Program;
   private readonly seen: WebGLTexture;
   private readonly pictures: WebGLTexture;
   private readonly targets = new TargetKeeper();
-  private surfaces: Surfaces | undefined;
+  surfaces: Surfaces | undefined;
   /** The same with the view at the other end of what photographs show as the reference. */
   private others: Surfaces | undefined;
 
@@ -56,8 +53,6 @@ export class LayeredPicture implements Picture {
     this.seen = makeTexture(gl);
     this.pictures = makeTexture(gl, gl.LINEAR, gl.TEXTURE_2D_ARRAY);
   }
-
-  setDetail(): void {}
 
   async load(changed: () => void): Promise<void> {
     const { gl, facts, source } = this;
@@ -74,10 +69,6 @@ export class LayeredPicture implements Picture {
     if (own > 0) this.others = surfaces.seenFirstFrom(own, facts.width, facts.height);
     this.surfaces = surfaces;
     changed();
-  }
-
-  disparityAt(x: number, y: number, view: number): number | undefined {
-    return disparityInView(this.surfaces, x, y, view);
   }
 
   draw(view: number, target: Target): void {

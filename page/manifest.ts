@@ -64,11 +64,24 @@ export interface LayeredFacts extends Common {
   surfaces: SurfacesFacts;
 }
 
-/** Depth planes of particles, the nearest first. */
+/** How sums of light become colours: src/wheatstone/multiview/tone.h. */
+export type ToneFacts = { stretch: "asinh" | "log" | "linear" } & (
+  | { shown: "light"; exposure: number }
+  | { shown: "ramp" | "colours" | "column" | "mean"; least: number; most: number }
+);
+
+/**
+ * Depth planes of particles, the nearest first; the part "slice-0" and so on is a plane's light. The part "colours" is
+ * a PNG file: brightness to the right, hue upwards.
+ */
 export interface SlicesFacts extends Common {
   kind: "slices";
   planes: { parallax: number; left: number; top: number; width: number; height: number }[];
-  exposure: number;
+  /** Added up, or with an alpha laid over one another; sharply: what hides, hides all. */
+  hides: "nothing" | "sharply" | "softly";
+  /** The light of a byte: 0 is dark, and 1 to `steps` are even steps of a logarithm. */
+  light: { least: number; most: number; steps: number };
+  tone: ToneFacts;
 }
 
 /** Ready views in one picture or film: `columns` × `rows` of them, the leftmost view first. */
@@ -78,8 +91,14 @@ export interface ViewsFacts extends Common {
   rows: number;
   /** The first view lies bottom left and rows go upwards, as in a quilt; else top left and downwards. */
   upwards: boolean;
+  /** The first view lies on the right, and rows go to the left. */
+  leftwards?: boolean;
+  /** A picture's, or a film's if it begins with "video/". */
   type: string;
-  /** Of a film that stands beside the page; else the bytes are the part "views". */
+  /** Of a film: how its frames are coded, for people. */
+  codec?: string;
+  hasSound?: boolean;
+  /** Of a film that stands beside the page: its address from there; else the bytes are the part "views". */
   file?: string;
 }
 

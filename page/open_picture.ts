@@ -3,6 +3,7 @@ import { PageError, Source } from "./parts";
 import { Picture } from "./picture";
 import { LayeredPicture } from "./layered";
 import { RegionsPicture } from "./regions";
+import { SlicesPicture } from "./slices";
 import { StrokesPicture } from "./strokes";
 import { ViewsPicture } from "./views";
 
@@ -16,6 +17,8 @@ export function openPicture(gl: Gl, source: Source): Picture {
       return new RegionsPicture(gl, facts, source);
     case "layered":
       return new LayeredPicture(gl, facts, source);
+    case "slices":
+      return new SlicesPicture(gl, facts, source);
     case "views":
       return new ViewsPicture(gl, facts, source);
     default:

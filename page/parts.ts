@@ -5,12 +5,21 @@ import { Facts } from "./manifest";
 /** Where the bytes of a picture come from. */
 export interface Source {
   facts: Facts;
+  /** Of the page that it stands in: what lies beside the page is named from there. */
+  address: string;
   /** The bytes of a part as they stand in the page. Throws where they are missing or cut off. */
   bytes(name: string): Promise<Uint8Array>;
 }
 
-/** A page that cannot be shown, said in a sentence. */
-export class PageError extends Error {}
+/** A page that cannot be shown, said in a sentence, and what there is to see in its place besides the still picture. */
+export class PageError extends Error {
+  constructor(
+    sentence: string,
+    readonly instead?: HTMLElement,
+  ) {
+    super(sentence);
+  }
+}
 
 const incomplete = "The data of this picture is incomplete. Please load or copy the page again.";
 
@@ -37,7 +46,7 @@ export async function inflated(bytes: Uint8Array): Promise<ArrayBuffer> {
 }
 
 /** The element with the facts, and behind it those with the parts, in a document that may still be loading. */
-export async function sourceIn(root: Document, id: string): Promise<Source> {
+export async function sourceIn(root: Document, id: string, address: string): Promise<Source> {
   // An element is whole once another one follows it, or all is loaded.
   const whole = async (selector: string): Promise<string> => {
     for (;;) {
@@ -56,6 +65,7 @@ export async function sourceIn(root: Document, id: string): Promise<Source> {
   }
   return {
     facts,
+    address,
     bytes: async (name) => {
       const [type, length, text] = (await whole(`[data-part="${CSS.escape(id)}/${CSS.escape(name)}"]`)).split(":");
       const bytes = decodedBase64(text ?? "");
@@ -67,10 +77,10 @@ export async function sourceIn(root: Document, id: string): Promise<Source> {
 
 /** The picture that an address tells: "#id" in this document, or else a page that `wheatstone share` wrote. */
 export async function sourceAt(address: string, document: Document): Promise<Source> {
-  if (address.startsWith("#")) return sourceIn(document, address.slice(1));
+  if (address.startsWith("#")) return sourceIn(document, address.slice(1), document.baseURI);
   const answer = await fetch(address);
   if (!answer.ok) throw new PageError(`The picture ${address} cannot be loaded (${answer.status}).`);
-  return sourceIn(new DOMParser().parseFromString(await answer.text(), "text/html"), "picture");
+  return sourceIn(new DOMParser().parseFromString(await answer.text(), "text/html"), "picture", answer.url);
 }
 
 /** Numbers as the part's streams of bytes hold them: seven bits a byte, the lowest first. */

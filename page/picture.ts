@@ -1,21 +1,21 @@
 // A picture of any kind, as the stage knows it.
 
+import { Film } from "./film";
 import { Facts } from "./manifest";
 import { Target } from "./gl";
+import { Surfaces } from "./surfaces";
 
-/** Draws the views of one picture. */
+/** Draws the views of one picture. What only some kinds have, the others leave out. */
 export interface Picture {
   readonly facts: Facts;
-  /** Decodes the rest, a part at a time; after each part `changed` is called. */
+  /** Decodes the rest, a part at a time; calls `changed` after each part, and of a film at each moment. */
   load(changed: () => void): Promise<void>;
   /** The picture as the view at this position sees it; the target has the picture's shape, in any size. */
   draw(view: number, target: Target): void;
-  /** How many layers of detail there are; 1: there is no choice. */
-  readonly layers: number;
-  /** The last layer that is drawn, from 1. */
-  setDetail(layers: number): void;
-  /** The disparity that lies at a place of the view at this position, in the picture's pixels. */
-  disparityAt(x: number, y: number, view: number): number | undefined;
-  /** Whether a film runs, so that each moment has another picture. */
-  readonly moves: boolean;
+  /** Layers of detail, and how many of them are drawn. */
+  readonly detail?: { readonly layers: number; shown: number };
+  /** What tells how deep the scene is, once it is loaded. */
+  readonly surfaces?: Surfaces | undefined;
+  /** What plays, once it is loaded. */
+  readonly film?: Film | undefined;
 }

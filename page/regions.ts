@@ -6,7 +6,6 @@ import { Gl, Target } from "./gl";
 import { RegionsFacts } from "./manifest";
 import { NumberStream, Source, streamsOf } from "./parts";
 import { Picture } from "./picture";
-import { disparityInView } from "./pointing";
 import { Surfaces, unknown } from "./surfaces";
 
 const rowsABand = 8;
@@ -164,9 +163,7 @@ class SeenSurfaces {
 }
 
 export class RegionsPicture implements Picture {
-  readonly moves = false;
-  readonly layers = 1;
-  private surfaces: Surfaces | undefined;
+  surfaces: Surfaces | undefined;
   private outlines: Outlines | undefined;
 
   constructor(
@@ -175,16 +172,10 @@ export class RegionsPicture implements Picture {
     private readonly source: Source,
   ) {}
 
-  setDetail(): void {}
-
   async load(changed: () => void): Promise<void> {
     this.surfaces = await Surfaces.from(this.source, this.facts.surfaces);
     this.outlines = readOutlines(await streamsOf(this.source, "regions"), this.facts);
     changed();
-  }
-
-  disparityAt(x: number, y: number, view: number): number | undefined {
-    return disparityInView(this.surfaces, x, y, view);
   }
 
   draw(view: number, target: Target): void {

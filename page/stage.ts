@@ -124,7 +124,7 @@ export class Stage {
     if (kept?.target !== target) kept = this.kept[slot] = { keeper, target, view, isCurrent: false };
     if (!kept.isCurrent || kept.view !== view) this.picture.draw(view, kept.target);
     kept.view = view;
-    kept.isCurrent = !this.picture.moves;
+    kept.isCurrent = true;
     return kept.target;
   }
 

@@ -6,7 +6,6 @@ import { gapRule, hidingRule, PlannedIn } from "./hiding";
 import { StrokesFacts } from "./manifest";
 import { NumberStream, Source, streamsOf } from "./parts";
 import { Picture } from "./picture";
-import { disparityInView } from "./pointing";
 import { Surfaces } from "./surfaces";
 
 const texelsAStroke = 2;
@@ -317,33 +316,26 @@ class DeviceChains {
 }
 
 export class StrokesPicture implements Picture {
-  readonly moves = false;
   private readonly program: Program;
   private readonly finish: Program;
   private readonly seen: WebGLTexture;
   private seenView: number | undefined;
-  private surfaces: Surfaces | undefined;
+  surfaces: Surfaces | undefined;
+  readonly detail: { readonly layers: number; shown: number };
   private readonly targets = new TargetKeeper();
   private readonly loaded: { all: DeviceChains; beside: DeviceChains }[] = [];
   private readonly indices: SegmentIndices;
-  private detail = Infinity;
 
   constructor(
     private readonly gl: Gl,
     readonly facts: StrokesFacts,
     private readonly source: Source,
   ) {
+    this.detail = { layers: facts.layers.length, shown: facts.layers.length };
     this.program = makeProgram(gl, vertexShader, fragmentShader);
     this.finish = makeProgram(gl, wholePicture, finishShader);
     this.seen = makeTexture(gl);
     this.indices = new SegmentIndices(gl);
-  }
-
-  get layers(): number {
-    return this.facts.layers.length;
-  }
-  setDetail(layers: number): void {
-    this.detail = layers;
   }
 
   async load(changed: () => void): Promise<void> {
@@ -355,10 +347,6 @@ export class StrokesPicture implements Picture {
       this.loaded.push({ all: new DeviceChains(this.gl, this.indices, all), beside: new DeviceChains(this.gl, this.indices, beside) });
       changed();
     }
-  }
-
-  disparityAt(x: number, y: number, view: number): number | undefined {
-    return disparityInView(this.surfaces, x, y, view);
   }
 
   draw(view: number, target: Target): void {
@@ -390,7 +378,7 @@ export class StrokesPicture implements Picture {
 
   private drawStrokes(view: number, scale: number): void {
     const { gl, program, facts } = this;
-    const shown = this.loaded.slice(0, this.detail);
+    const shown = this.loaded.slice(0, this.detail.shown);
     const count = shown.reduce((sum, layer) => sum + layer.all.strokeCount + layer.beside.strokeCount, 0);
     gl.useProgram(program.program);
     this.useSeen(program, scale);

@@ -12,7 +12,9 @@ canvas { display: none; aspect-ratio: var(--aspect, 1.33); width: min(100%, var(
 :host(:fullscreen) canvas { --height: 100vh; }
 .bar { display: flex; flex-wrap: wrap; gap: .8em; align-items: center; justify-content: center; margin: .6em 0 0; }
 :host(:not([data-shown])) .bar { visibility: hidden; }
-.bar > * { font: inherit; }
+.bar button, .bar select, .bar label { font: inherit; }
+.film { display: flex; gap: .8em; align-items: center; }
+::slotted(video) { display: block; margin: 0 auto; max-width: 100%; max-height: 80vh; }
 .how, .alarm { margin: .5em auto; max-width: 40em; text-align: center; min-height: 1.4em; }
 .alarm:empty { display: none; }
 .alarm { padding: .6em 1em; background: #fff3d6; color: #402c00; border-radius: .3em; }

@@ -20,6 +20,15 @@ export const howToLook: Record<Mode, string> = {
 };
 
 export const wiggleByHand = "Press the space bar or click the picture to change between the views of the two eyes.";
+/** Of how its frames are coded; undefined: the film is not there. */
+export const noFilm = (codec: string | undefined): string =>
+  codec
+    ? `This browser cannot play the film, whose frames are coded as ${codec}, so that a still picture is shown.`
+    : "The film that belongs beside this page cannot be loaded, so that a still picture is shown.";
+export const filmNeedsServer =
+  "Browsers let a page use a film that lies beside it only where a server sends both, so that the film plays here as it is.";
+export const playKeys = " The space bar plays and pauses the film; J and L go five seconds back and on.";
+
 export const noWebgl = "This browser has no WebGL 2, which the picture needs for its depth, so that it is shown still.";
 export const contextLost = "The graphics device was lost, so that the picture is shown still until it comes back.";
 export const notShown = "This picture cannot be shown with its depth, so that it is shown still.";

@@ -1,14 +1,16 @@
 // Shared pages in a browser: their pixels against those that the program draws, and what they say where something is
 // wrong. One browser and few programs for all of it.
+//
+//   browser_test.mjs WHEATSTONE FOLDER some|all    all: also what takes long
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { once } from "node:events";
-import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { alarmOf, fakeHeadset, openPage, picturesAlike, pngAt, psnr, shotOf, sizeOf, startBrowser } from "./browser.mjs";
 
-const [wheatstone, folder] = process.argv.slice(2);
+const [wheatstone, folder, which] = process.argv.slice(2);
 const run = (...words) => execFileSync(wheatstone, ["--quiet", ...words], { cwd: folder, stdio: ["ignore", "ignore", "inherit"] });
 const at = (name) => `${folder}/${name}`;
 const leastPsnr = 35;
@@ -27,6 +29,11 @@ async function test(name, body) {
   }
 }
 
+/** Of what takes long, and differs little from what the others show. */
+const longTest = async (name, body) => {
+  if (which === "all") await test(name, body);
+};
+
 /** Each look with the file that it has to be like. */
 async function comparePictures(page, folderOfViews, looks) {
   const told = [];
@@ -38,6 +45,20 @@ async function comparePictures(page, folderOfViews, looks) {
     told.push(`${look.mode ?? "as it begins"} ${found.toFixed(1)} dB`);
   }
   return told.join(", ");
+}
+
+/** Sends the files of the folder. */
+async function serve() {
+  const server = createServer((request, answer) => answer.end(readFileSync(at(request.url.slice(1))))).listen(0, "127.0.0.1");
+  await once(server, "listening");
+  return { address: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
+}
+
+/** The sentence that is said, beside the still picture. */
+async function expectStill(page, sentence) {
+  assert.match(await alarmOf(page), sentence);
+  assert.ok(await page.locator("wheatstone-picture img").isVisible(), "the still picture is not seen");
+  assert.ok(!(await page.locator("wheatstone-picture canvas").isVisible()), "the canvas is seen");
 }
 
 const leftAndRight = [
@@ -131,7 +152,7 @@ await test("a headset shows each eye its view, on a wall two metres away", async
 });
 
 for (const [name, ...options] of [["posterise"], ["diffusion"], ["relief", "--style", "impressionist", "--texture"]]) {
-  await test(`a painting of ${name} is that of the command line`, async () => {
+  await (name === "relief" ? longTest : test)(`a painting of ${name} is that of the command line`, async () => {
     paint(name, ...(options.length > 0 ? options : ["--style", name]));
     const { page } = await openPage(browser, at(`${name}.html`));
     const told = await comparePictures(page, `${name}-drawn`, leftAndRight);
@@ -162,28 +183,97 @@ await test("a quilt is its views", async () => {
   return told;
 });
 
+const threeViews = [-0.5, 0, 0.5].map((view, i) => [{ mode: "flat", view }, `view_00${i}.png`]);
+
+/** Renders particles to slices, shares these, and renders their views. */
+function renderSlices(name, ...options) {
+  run("render", "universe.hdf5", "--size", "240x180", ...options, "--save-slices", `${name}.exr`, "-o", `${name}-particles`);
+  run("render", `${name}.exr`, "--views", "3", "-o", name);
+  run("share", `${name}.exr`, "-o", `${name}.html`);
+}
+
+run("synth", "universe", "--particles", "8000", "-o", "universe.hdf5");
+for (const [name, ...options] of [
+  ["mass"],
+  ["means", "--quantity", "temperature"],
+  ["column", "--quantity", "column-density", "--stretch", "log"],
+  ["light", "--look", "thesis"],
+  ["absorbing", "--look", "thesis", "--blend", "over"],
+]) {
+  await (name === "mass" || name === "absorbing" ? test : longTest)(`slices of ${name} are moved and added as by the command line`, async () => {
+    renderSlices(name, ...options);
+    const { page } = await openPage(browser, at(`${name}.html`));
+    const told = await comparePictures(page, name, threeViews);
+    await page.close();
+    return told;
+  });
+}
+
+run("synth", "film", "--size", "160x120", "--frames", "6", "--samples", "1", "-o", "film");
+mkdirSync(at("film-drawn"));
+run("rotoscope", "film", "--style", "posterise", "--pixel-format", "yuv444p", "--crf", "8", "-o", "film.mp4");
+run("rotoscope", "film", "--style", "posterise", "--output-layout", "left-right", "-o", "film-drawn/frame_%04d.png");
+const isPaused = (page) => page.evaluate(() => document.querySelector("wheatstone-picture").shadowRoot.querySelector(".film button").textContent === "Play");
+
+await test("a film is its frames, is gone through by keys, and does not play by itself where motion is not wanted", async () => {
+  run("share", "film.mp4", "-o", "film.html");
+  const { page, troubles } = await openPage(browser, at("film.html"), { reducedMotion: "reduce" });
+  const canvas = page.locator("wheatstone-picture canvas");
+  const told = await comparePictures(page, "film-drawn", [[{ mode: "parallel" }, "frame_0001.png"]]);
+  await page.waitForTimeout(200);
+  assert.ok(await isPaused(page), "it plays by itself");
+  await canvas.press("l");
+  await page.waitForTimeout(200);
+  const end = await comparePictures(page, "film-drawn", [[{ mode: "parallel" }, "frame_0006.png"]]);
+  await canvas.press(" ");
+  await page.waitForFunction(() => document.querySelector("wheatstone-picture").shadowRoot.querySelector(".film button").textContent === "Pause");
+  assert.deepEqual(troubles, []);
+  await page.close();
+  const moving = await openPage(browser, at("film.html"));
+  assert.ok(!(await isPaused(moving.page)), "it does not play");
+  await moving.page.close();
+  return `${told}, at its end ${end}`;
+});
+
+await test("a film that lies beside a page without a server plays as it is", async () => {
+  run("share", "film.mp4", "-o", "beside.html", "--max-size", "20kB");
+  const { page } = await openPage(browser, at("beside.html"));
+  assert.match(await alarmOf(page), /only where a server sends both/);
+  assert.ok(await page.locator("wheatstone-picture video").isVisible(), "the film is not seen");
+  await page.close();
+});
+
+await longTest("a film that a browser cannot play is told of", async () => {
+  run("rotoscope", "film", "--style", "posterise", "--codec", "hevc", "-o", "hevc.mp4");
+  run("share", "hevc.mp4", "-o", "hevc.html");
+  const { page } = await openPage(browser, at("hevc.html"));
+  await expectStill(page, /cannot play the film, whose frames are coded as H.265/);
+  await page.close();
+});
+
+await longTest("a server delivers a film beside its page", async () => {
+  const { address, close } = await serve();
+  const { page } = await openPage(browser, `${address}/beside.html`, { reducedMotion: "reduce" });
+  const told = await comparePictures(page, "film-drawn", [[{ mode: "parallel" }, "frame_0001.png"]]);
+  await page.close();
+  close();
+  return told;
+});
+
 await test("another site shows a page in its element, with the controls that it wants", async () => {
   run("share", "impressionist/painting.wst", "-o", "shared.html", "--element", "wheatstone-picture.js");
   writeFileSync(at("site.html"), `<script src="wheatstone-picture.js"></script>
     <wheatstone-picture src="shared.html" flat="right" controlslist="mode"><img src="still/left.png" alt="Fruit"></wheatstone-picture>`);
-  const server = createServer((request, answer) => answer.end(readFileSync(at(request.url.slice(1))))).listen(0, "127.0.0.1");
-  await once(server, "listening");
-  const { page } = await openPage(browser, `http://127.0.0.1:${server.address().port}/site.html`);
+  const { address, close } = await serve();
+  const { page } = await openPage(browser, `${address}/site.html`);
   const told = await comparePictures(page, "impressionist-drawn", [[{ zeroParallax: 0 }, "right.png"]]);
   assert.equal(await page.locator("wheatstone-picture canvas").getAttribute("aria-label"), "Fruit");
   assert.ok(await page.locator("wheatstone-picture select").isVisible());
   assert.ok(!(await page.locator("wheatstone-picture input").isVisible()), "the slider was not asked for");
   await page.close();
-  server.close();
+  close();
   return told;
 });
-
-/** The sentence that is said, beside the still picture. */
-async function expectStill(page, sentence) {
-  assert.match(await alarmOf(page), sentence);
-  assert.ok(await page.locator("wheatstone-picture img").isVisible(), "the still picture is not seen");
-  assert.ok(!(await page.locator("wheatstone-picture canvas").isVisible()), "the canvas is seen");
-}
 
 await test("a page whose data were cut says so, and shows the still picture", async () => {
   const whole = readFileSync(at("impressionist.html"), "utf8");

@@ -156,11 +156,17 @@ const std::map<std::string, Maker>& makers() {
       {"tour.txt", [](const fs::path& path) { put_bytes(path, "wait\nmode right\nwait\n"); }},
       {"rig", make_rig},
       {"film.mp4", make_film},
+      {"painted.mp4", make_film},
       {"walk.mp4", [](const fs::path& path) { make_walk(path, false); }},
       {"depth.mp4", [](const fs::path& path) { make_walk(path, true); }},
       {"universe.hdf5", make_universe},
       {"gas.hdf5", make_universe},
       {"snapshot.hdf5", make_universe},
+      {"slices.exr",
+       [](const fs::path& path) {
+         make_with_program({"render", example_input("gas.hdf5"), "--size", "32x24", "--save-slices", path, "-o",
+                            path.parent_path() / "views of its slices"});
+       }},
       {"views",
        [](const fs::path& path) {
          make_with_program({"render", example_input("gas.hdf5"), "--views", "48", "--size", "32x24", "-o", path});

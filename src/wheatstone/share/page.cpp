@@ -52,9 +52,9 @@ std::string html_page(const SharedPicture& picture, const PageWords& words) {
   fmt::format_to(to,
                  "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
                  "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {}; style-src "
-                 "{}; img-src data: blob:; media-src data: blob:; base-uri 'none'; form-action 'none'\">\n"
+                 "{}; img-src data: blob:; media-src {}blob:; base-uri 'none'; form-action 'none'\">\n"
                  "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n",
-                 source_of(page_code), source_of(page_style), title);
+                 source_of(page_code), source_of(page_style), picture.has_file_beside ? "'self' " : "", title);
   // The code stands before the data: it can say that they were cut off.
   fmt::format_to(to, "<style>{}</style>\n<script>{}</script>\n</head><body>\n", page_style.text, page_code.text);
   fmt::format_to(to,
@@ -70,6 +70,15 @@ std::string html_page(const SharedPicture& picture, const PageWords& words) {
                    part.bytes.size(), base64(as_text(part.bytes)));
   page += "</body></html>\n";
   return page;
+}
+
+std::size_t page_bytes(const SharedPicture& picture) {
+  const auto in_base64 = [](std::size_t bytes) { return (bytes + 2) / 3 * 4; };
+  constexpr std::size_t around = 1000, around_part = 80;
+  std::size_t bytes = around + page_code.text.size() + page_style.text.size() + picture.facts.size() +
+                      in_base64(picture.still_jpeg.size());
+  for (const PagePart& part : picture.parts) bytes += around_part + in_base64(part.bytes.size());
+  return bytes;
 }
 
 std::string_view page_element_code() { return page_code.text; }

@@ -76,11 +76,10 @@ std::vector<Image<Rgb8>> pictures_on_surfaces(const Painting& painting) {
 void add_marks(const DiffusionPainting& /*painting*/, const Rounding& /*rounding*/, Json& /*facts*/,
                std::vector<PagePart>& /*parts*/) {}
 
-/// Bytes of the page, but for its code.
-std::size_t size_of(const SharedPicture& picture) {
-  std::size_t bytes = picture.facts.size() + picture.still_jpeg.size() * 4 / 3;
-  for (const PagePart& part : picture.parts) bytes += part.bytes.size() * 4 / 3;
-  return bytes;
+/// Bytes of a page of so many pixels where nothing else is wanted.
+std::size_t usual_bytes(int width, int height) {
+  constexpr double usual_pixels = 640 * 480, bytes = 1'500'000;
+  return static_cast<std::size_t>(bytes * std::max(static_cast<double>(width) * height / usual_pixels, 1.));
 }
 
 }  // namespace
@@ -109,17 +108,14 @@ SharedPicture share_painting(const Painting& painting, const SharePaintingOption
     ground.facts = text_of(common);
     return ground;
   }
-  constexpr double usual_pixels = 640 * 480;
-  const double most_bytes = std::max(static_cast<double>(ground.width) * ground.height / usual_pixels, 1.) *
-                                static_cast<double>(options.most_bytes) -
-                            static_cast<double>(page_element_code().size());
+  const std::size_t most_bytes = options.most_bytes.value_or(usual_bytes(ground.width, ground.height));
   SharedPicture shared;
   for (const Rounding& rounding : {Rounding{8, 1}, Rounding{4, 2}, Rounding{2, 4}}) {
     shared = ground;
     Json facts = common;
     std::visit([&](const auto& marks) { add_marks(marks, rounding, facts, shared.parts); }, painting.marks);
     shared.facts = text_of(facts);
-    if (static_cast<double>(size_of(shared)) <= most_bytes) break;
+    if (page_bytes(shared) <= most_bytes) break;
   }
   return shared;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "wheatstone/marks/painting.h"
@@ -10,7 +11,7 @@ namespace wheatstone {
 
 struct SharePaintingOptions {
   std::string title;
-  std::size_t most_bytes = 1'500'000;  ///< of a page with 640 × 480 pixels, and more for more pixels
+  std::optional<std::size_t> most_bytes;  ///< of the page; by default 1.5 MB for 640 × 480 pixels, more for more pixels
 };
 
 /// A painting for a page, which draws its marks for any view. Places of marks are rounded to an eighth of a pixel, or
