@@ -156,13 +156,16 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   surveyed.all_kept = !options.stream;
   std::uint64_t bytes = 0, before = 0;  // of all ranks
   double mass = 0;
+  std::shared_ptr<DensityGrid> grid;
   const auto look_at = [&](Cloud& chunk, std::span<const RoundShare> round) {
     CloudStatistics& statistics = surveyed.statistics;
-    const bool lacks = lacks_density(chunk, options);
-    if (statistics.count == 0 && chunk.size() > 0 && (lacks || options.appearance.shine > 0)) {
-      statistics.grid = std::make_shared<DensityGrid>();
+    if (before == 0) {
+      // Of a rank that was given no particle in this round, the chunk does not tell.
+      const bool lacks = anywhere(chunk.size() > 0 && lacks_density(chunk, options), ranks);
+      if (lacks || options.appearance.shine > 0) grid = std::make_shared<DensityGrid>();
       if (lacks) surveyed.density = options.stream ? DensitySource::grid : DensitySource::neighbours;
     }
+    if (grid) grid->add(chunk, ranks);
     statistics.mass = 0;
     statistics.add(chunk, before + sum_of(round.first(static_cast<std::size_t>(ranks.rank())), &RoundShare::kept));
     before += sum_of(round, &RoundShare::kept);
@@ -180,16 +183,12 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   surveyed.statistics.mass = mass;
   if (surveyed.statistics.count == 0) refuse_nothing(file, surveyed.counts);
   surveyed.statistics.framed = framed_region(surveyed.statistics, options.fit);
-  // A rank that was given no particle does not know.
-  for (const DensitySource of_rank : ranks.from_all(surveyed.density))
-    if (of_rank != DensitySource::file) surveyed.density = of_rank;
   if (surveyed.density == DensitySource::neighbours && !surveyed.all_kept) surveyed.density = DensitySource::grid;
-  if (surveyed.density == DensitySource::grid && !ranks.alone())
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: has neither densities nor smoothing lengths, and is too large to be held as a whole, "
-                            "or streamed: it is rendered in one process, not under mpirun",
-                            file.string()));
-  if (surveyed.statistics.grid != nullptr) surveyed.statistics.grid->finish(options.neighbours);
+  if (grid) {
+    grid->share(ranks);
+    grid->finish(options.neighbours);
+    surveyed.statistics.grid = std::move(grid);
+  }
   if (surveyed.density == DensitySource::grid) surveyed.statistics.take_densities_of_grid();
   return surveyed;
 }

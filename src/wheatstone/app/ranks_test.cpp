@@ -138,6 +138,39 @@ TEST_F(RanksRender, GivesTheSameBytesWhereNeighboursTellTheDensity) {
   expect_same_of_any_number(file("points.txt"), small(), {2, 3});
 }
 
+TEST_F(RanksRender, GivesTheSameBytesWhereAGridTellsTheDensity) {
+  std::string text = "x y z\n";
+  // The cells grow while chunks come: the cloud becomes wider, and a few lie far out.
+  for (std::uint64_t i = 0; i < 6000; ++i) {
+    const double wide = i % 2000 == 1999 ? 900 : 1 + static_cast<double>(i) / 500;
+    text += fmt::format("{} {} {}\n", 7e5 + wide * unit_float(hash_keys({i, 1})), wide * unit_float(hash_keys({i, 2})),
+                        unit_float(hash_keys({i, 3})));
+  }
+  write_whole_file(file("cloud.txt"), text);
+  RenderParticlesOptions options = small();
+  options.stream = true;
+  options.chunk = 500;
+  expect_same_of_any_number(file("cloud.txt"), options, {2});
+  options.chunk = 5000;  // the last rank has nothing
+  const RenderedParticles by_three = rendered_by(3, file("cloud.txt"), options);
+  EXPECT_EQ(by_three.density, DensitySource::grid);
+  expect_same(render_particles(file("cloud.txt"), options), by_three);
+}
+
+TEST_F(RanksRender, GivesTheSameHighlights) {
+  RenderParticlesOptions options = small();
+  const RenderedParticles dull = render_particles(snapshot(), options);
+  options.appearance.shine = 20;
+  options.slices = true;
+  EXPECT_NE(render_particles(snapshot(), options).rendered.views, dull.rendered.views);
+  expect_same_of_any_number(snapshot(), options, {3});
+  options.slices = false;
+  for (const Method method : {Method::exact, Method::incremental}) {
+    options.rendering.method = method;
+    expect_same_of_any_number(snapshot(), options, {2});
+  }
+}
+
 TEST_F(RanksRender, EndsWithOneErrorOfADamagedFile) {
   std::string text = "1 2 3\n";
   for (int i = 0; i < 4000; ++i) text += "1 2 3\n";

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
 #include "wheatstone/multiview/shine_internal.h"
@@ -20,10 +22,19 @@ void make_view(const RenderJob& job, ViewPosition view, std::span<const ImageVie
   const SplatOrders orders = orders_for(job);
   const Window window{.left = 0, .right = static_cast<float>(job.rig.width), .height = job.rig.height};
   const Deposit kind = deposit_of(job.scene.splat_style);
+  const Projection projection = projection_for(job, orders, view);
+  const auto take = [&](const Cloud& particles, GatheredLight& to) {
+    const Chunks chunks = chunks_of(particles);
+    for_each_ordered(of_chunks(job, chunks), projection, window, orders,
+                     [&](const std::vector<SplatBlock>& blocks) { deposit_all(blocks, orders, kind, to); });
+  };
   light.darken();
-  const Chunks chunks = with_shine(job, view);
-  for_each_ordered(of_chunks(job, chunks), projection_for(job, orders, view), window, orders,
-                   [&](const std::vector<SplatBlock>& blocks) { deposit_all(blocks, orders, kind, light); });
+  std::optional<GatheredLight> highlights;
+  if (job.scene.shine.lit()) highlights.emplace(orders, window, 1);
+  for_each_chunk_and_highlights(
+      job, {&view, 1}, [&](const Cloud& chunk) { take(chunk, light); },
+      [&](const Cloud& shining, std::size_t /*view*/) { take(shining, *highlights); });
+  if (highlights) light.add(*highlights);
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> target = pyramid.targets(p, picture);
     for_each_band_of(

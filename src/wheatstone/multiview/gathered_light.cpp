@@ -158,6 +158,12 @@ void GatheredLight::darken() {
     tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) { bands[i].darken(); });
 }
 
+void GatheredLight::add(const GatheredLight& light) {
+  for (std::size_t picture = 0; picture < light_.size(); ++picture)
+    tbb::parallel_for(std::size_t{0}, light_[picture].size(),
+                      [&](std::size_t i) { light_[picture][i].add(light.light_[picture][i]); });
+}
+
 Chunks chunks_of(const Cloud& cloud, const Ranks& ranks) {
   if (ranks.alone()) return [&cloud](const std::function<void(const Cloud&)>& visit) { visit(cloud); };
   return [&cloud, ranks](const std::function<void(const Cloud&)>& visit) {

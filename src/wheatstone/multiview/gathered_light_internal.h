@@ -23,6 +23,8 @@ class GatheredLight {
  public:
   GatheredLight(const SplatOrders& orders, const Window& window, int targets);
   void darken();
+  /// Light of the same pictures and targets.
+  void add(const GatheredLight& light);
   LightBand& band(std::size_t picture, int band, int target) {
     return light_[picture][static_cast<std::size_t>(band) * targets_of(picture) + target];
   }

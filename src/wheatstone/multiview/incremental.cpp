@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
 #include "wheatstone/multiview/shine_internal.h"
@@ -13,17 +15,17 @@ struct ViewsAtOnce {
   std::span<const ViewPosition> views;
   const SplatOrders& orders;
   Deposit kind;
-  GatheredLight& light;
 };
 
 /// Adds splats of the central view to some of the views, `count` of them from the first on.
-void deposit_in(const std::vector<SplatBlock>& blocks, std::size_t first, std::size_t count, const ViewsAtOnce& to) {
+void deposit_in(const std::vector<SplatBlock>& blocks, std::size_t first, std::size_t count, const ViewsAtOnce& to,
+                GatheredLight& light) {
   for_each_band(to.orders, [&](std::size_t picture, int b) {
     const SplatOrder& order = to.orders[picture];
     for (int part = 0; part < order.parts; ++part)
       for (const SplatBlock& block : blocks)
         deposit_in_views(to.kind, block.bin(order.bin(b, part)), b * order.band_rows, to.views.subspan(first, count),
-                         to.light.band_in_targets(picture, b).subspan(first, count));
+                         light.band_in_targets(picture, b).subspan(first, count));
   });
 }
 
@@ -33,21 +35,22 @@ void render_some(const RenderJob& job, std::span<const ViewPosition> views, std:
   const float around = look_around_px(job.scene, job.rig);
   const auto width = static_cast<float>(job.rig.width);
   const Window seen{.left = -around, .right = width + around, .height = job.rig.height};
-  GatheredLight light(orders, {.left = 0, .right = width, .height = job.rig.height}, static_cast<int>(views.size()));
-  const ViewsAtOnce to{views, orders, deposit_of(job.scene.splat_style), light};
+  const Window shown{.left = 0, .right = width, .height = job.rig.height};
+  GatheredLight light(orders, shown, static_cast<int>(views.size()));
+  std::optional<GatheredLight> highlights;
+  if (job.scene.shine.lit()) highlights.emplace(orders, shown, static_cast<int>(views.size()));
+  const ViewsAtOnce to{views, orders, deposit_of(job.scene.splat_style)};
   const Projection projection = projection_for(job, orders);
-  const auto take = [&](const Cloud& particles, std::size_t first, std::size_t count) {
+  const auto take = [&](const Cloud& particles, std::size_t first, std::size_t count, GatheredLight& to_light) {
     const Chunks chunks = chunks_of(particles);
     for_each_ordered(of_chunks(job, chunks), projection, seen, orders,
-                     [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, first, count, to); });
+                     [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, first, count, to, to_light); });
   };
-  job.chunks([&](const Cloud& chunk) {
-    take(chunk, 0, views.size());
-    if (!job.scene.shine.lit()) return;
-    // Those that shine are few: their light is each view's own, and the rest is not done again.
-    ShiningParticles shining(chunk, job.scene, job.rig.positions);
-    for (std::size_t v = 0; v < views.size() && !shining.empty(); ++v) take(shining.seen_from(views[v]), v, 1);
-  });
+  // Those that shine are few: their light is each view's own, and the rest is not done again.
+  for_each_chunk_and_highlights(
+      job, views, [&](const Cloud& chunk) { take(chunk, 0, views.size(), light); },
+      [&](const Cloud& shining, std::size_t view) { take(shining, view, 1, *highlights); });
+  if (highlights) light.add(*highlights);
   ViewPyramid pyramid(orders, job.rig, views.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> targets = pyramid.targets(p, pictures);

@@ -146,13 +146,9 @@ PlanesOfViews keep(const RenderJob& job, const SplatOrders& orders, const Window
       }
     });
   };
-  job.chunks([&](const Cloud& chunk) {
-    take(chunk, planes.kept[0]);
-    if (!shine.lit()) return;
-    ShiningParticles shining(chunk, job.scene, job.rig.positions);
-    for (std::size_t key = 0; key < planes.keys.size() && !shining.empty(); ++key)
-      take(shining.seen_from(planes.keys[key]), planes.kept[key + 1]);
-  });
+  for_each_chunk_and_highlights(
+      job, planes.keys, [&](const Cloud& chunk) { take(chunk, planes.kept[0]); },
+      [&](const Cloud& shining, std::size_t key) { take(shining, planes.kept[key + 1]); });
   return planes;
 }
 

@@ -40,6 +40,13 @@ class LightBand {
     if (lit_) std::ranges::fill(lines_, Line{});
     lit_ = false;
   }
+  /// The light of a band of the same shape.
+  void add(const LightBand& band) {
+    if (!band.lit_) return;
+    for (std::size_t line = 0; line < lines_.size(); ++line)
+      for (int i = 0; i < 16; ++i) lines_[line].values[i] += band.lines_[line].values[i];
+    lit_ = true;
+  }
   /// All that is stored, for a band of the same shape.
   std::span<std::byte> bytes() { return std::as_writable_bytes(std::span(lines_)); }
   /// Whether anything was drawn since it was dark; who draws says so.

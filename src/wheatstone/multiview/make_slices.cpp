@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -26,13 +27,15 @@ struct SliceMaker::State {
   DepthPlanes planes;
   Window window;
   SplatOrders orders;
-  std::optional<GatheredLight> light;  // glowing particles
-  std::vector<OpaqueBand> opaque;      // [band][plane], opaque ones
+  std::optional<GatheredLight> light;       // glowing particles
+  std::optional<GatheredLight> highlights;  // of those that shine
+  std::vector<OpaqueBand> opaque;           // [band][plane], opaque ones
 
   const SplatOrder& order() const { return orders.front(); }
   int left() const { return static_cast<int>(window.left); }
   int right() const { return static_cast<int>(window.right); }
   void add(const Cloud& cloud);
+  void draw_opaque(const std::vector<SplatBlock>& blocks);
   void move_to_first();
   LinearRgba at(int plane, int x, int y);
   Slice crop(int plane);
@@ -42,21 +45,29 @@ void SliceMaker::State::add(const Cloud& cloud) {
   const ToneMap none(ToneSettings{.exposure = 1});
   const Chunks chunks = chunks_of(cloud);
   const RenderJob job{chunks, scene, rig, statistics, none, {}, options.ranks};
+  const auto take = [&](const Cloud& particles, const std::function<void(const std::vector<SplatBlock>&)>& draw) {
+    const Chunks some = chunks_of(particles);
+    for_each_ordered(of_chunks(job, some), projection_for(job, orders), window, orders, draw);
+  };
+  if (!light) return take(cloud, [&](const std::vector<SplatBlock>& blocks) { draw_opaque(blocks); });
+  const auto deposit_in = [&](std::optional<GatheredLight>& to) {
+    return [&](const std::vector<SplatBlock>& blocks) {
+      deposit_in_planes(blocks, orders, deposit_of(scene.splat_style), *to);
+    };
+  };
   // Slices serve any rig: their highlights are those of the central view.
-  const Chunks with_highlights = with_shine(job, central_view);
-  for_each_ordered(of_chunks(job, with_highlights), projection_for(job, orders), window, orders,
-                   [&](const std::vector<SplatBlock>& blocks) {
-                     if (light) {
-                       deposit_in_planes(blocks, orders, deposit_of(scene.splat_style), *light);
-                       return;
-                     }
-                     for_each_band_of(order(), [&](int b) {
-                       for (int plane = 0; plane < order().parts; ++plane)
-                         for (const SplatBlock& block : blocks)
-                           draw_discs(block.bin(order().bin(b, plane)), b * order().band_rows, central_view,
-                                      opaque[order().bin(b, plane)]);
-                     });
-                   });
+  for_each_chunk_and_highlights(
+      job, {&central_view, 1}, [&](const Cloud& chunk) { take(chunk, deposit_in(light)); },
+      [&](const Cloud& shining, std::size_t /*view*/) { take(shining, deposit_in(highlights)); });
+}
+
+void SliceMaker::State::draw_opaque(const std::vector<SplatBlock>& blocks) {
+  for_each_band_of(order(), [&](int b) {
+    for (int plane = 0; plane < order().parts; ++plane)
+      for (const SplatBlock& block : blocks)
+        draw_discs(block.bin(order().bin(b, plane)), b * order().band_rows, central_view,
+                   opaque[order().bin(b, plane)]);
+  });
 }
 
 /// Moves all ranks' bands to the first of them.
@@ -190,10 +201,12 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
   state.orders = orders_by_plane({nothing, scene, rig, statistics, none, {}, options.ranks}, state.planes,
                                  options.opaque ? SliceFilter::nearest : options.filter);
 
-  // Sixteen bytes a pixel while they are filled, and again when they are cropped; opaque ones have a depth too.
+  // Sixteen bytes a pixel while they are filled, and again when they are cropped; opaque ones have a depth too, and
+  // highlights are added to the rest when all are there.
   const double pixels = static_cast<double>(state.right() - state.left() + 2 * LightBand::margin) *
                         state.order().band_rows * static_cast<double>(state.order().bins());
-  const double bytes = pixels * (options.opaque ? 36 : 32);
+  const bool shines = scene.shine.lit() && !options.opaque;
+  const double bytes = pixels * (options.opaque ? 36 : shines ? 48 : 32);
   if (bytes > static_cast<double>(memory_limit_bytes))
     throw Error(ErrorKind::bad_input, fmt::format("{} slices of {}x{} pixels need {:.1f} GB, expected at most "
                                                   "{:.1f} GB; give fewer planes or smaller views",
@@ -206,6 +219,7 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
         state.opaque[state.order().bin(b, plane)] = OpaqueBand(state.left(), state.right(), state.order().band_rows);
   } else {
     state.light.emplace(state.orders, state.window, 0);
+    if (shines) state.highlights.emplace(state.orders, state.window, 0);
   }
 }
 
@@ -217,6 +231,8 @@ void SliceMaker::add(const Cloud& cloud) { state_->add(cloud); }
 
 SliceStack SliceMaker::finish(const ViewingGeometry& viewing) {
   State& state = *state_;
+  if (state.highlights) state.light->add(*state.highlights);
+  state.highlights.reset();
   state.move_to_first();
   const bool whole = state.options.ranks.first();
   if (state.light && whole) join_pictures(*state.light, state.orders);

@@ -70,8 +70,6 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
   if (options.focus) check_focus(*options.focus, look_around_px(scene, rig));
   if (options.focus && (options.method == Method::exact || options.method == Method::incremental))
     throw Error(ErrorKind::wrong_usage, "--focus: the depth planes are moved, expected --method auto or layered");
-  if (scene.shine.lit() && !options.ranks.alone())
-    throw Error(ErrorKind::wrong_usage, "--shine works in one process, not under mpirun");
   if (options.planes < 0)
     throw Error(ErrorKind::wrong_usage, fmt::format("there are {} depth planes, expected at least 1", options.planes));
 }

@@ -93,15 +93,16 @@ const Cloud& ShiningParticles::seen_from(ViewPosition view) {
   return cloud_;
 }
 
-Chunks with_shine(const RenderJob& job, ViewPosition view) {
-  if (!job.scene.shine.lit()) return job.chunks;
-  return [&job, view](const std::function<void(const Cloud&)>& visit) {
-    job.chunks([&](const Cloud& chunk) {
-      visit(chunk);
-      ShiningParticles shining(chunk, job.scene, job.rig.positions);
-      if (!shining.empty()) visit(shining.seen_from(view));
-    });
-  };
+void for_each_chunk_and_highlights(const RenderJob& job, std::span<const ViewPosition> views,
+                                   const std::function<void(const Cloud& chunk)>& common,
+                                   const std::function<void(const Cloud& shining, std::size_t view)>& highlights) {
+  job.chunks([&](const Cloud& chunk) {
+    common(chunk);
+    if (!job.scene.shine.lit()) return;
+    ShiningParticles shining(chunk, job.scene, job.rig.positions);
+    if (!anywhere(!shining.empty(), job.ranks)) return;
+    for (std::size_t v = 0; v < views.size(); ++v) highlights(shining.seen_from(views[v]), v);
+  });
 }
 
 std::vector<ViewPosition> shine_keys(const Shine& shine, std::span<const ViewPosition> views) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,12 @@ class ShiningParticles {
   std::vector<Facing> facing_;
 };
 
-/// A job's chunks, each followed by its highlights as one view sees them.
-Chunks with_shine(const RenderJob& job, ViewPosition view);
+/// Calls `common` with every chunk of a job, and `highlights` with those of its particles that shine, as each of the
+/// views sees them: none where nothing shines. The light of both is gathered apart: its sums depend on their order, and
+/// chunks differ from rank to rank.
+void for_each_chunk_and_highlights(const RenderJob& job, std::span<const ViewPosition> views,
+                                   const std::function<void(const Cloud& chunk)>& common,
+                                   const std::function<void(const Cloud& shining, std::size_t view)>& highlights);
 
 /// Views between which highlights may be interpolated: no farther apart than a highlight's width allows.
 std::vector<ViewPosition> shine_keys(const Shine& shine, std::span<const ViewPosition> views);

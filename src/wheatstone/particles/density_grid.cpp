@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace wheatstone {
@@ -80,13 +83,20 @@ void DensityGrid::cover(const Region& region) {
           counts_[index(moved(x, 0), moved(y, 1), moved(z, 2))] += count;
 }
 
-void DensityGrid::add(const Cloud& cloud) {
-  if (cloud.size() == 0) return;
-  origin_ = cloud.origin;
+DensityGrid::Extent DensityGrid::extent_of(const Cloud& cloud) {
+  if (cloud.size() == 0) return {};
+  return {cloud.size(), cloud.origin, region_of(cloud)};
+}
+
+void DensityGrid::take(const Extent& extent) {
+  origin_ = extent.origin;
   // A few beside all that were seen do not decide how large the cells are.
   constexpr std::uint64_t few = 1000;
-  if (cloud.size() * few > seen_) cover(region_of(cloud));
-  seen_ += cloud.size();
+  if (extent.particles * few > seen_) cover(extent.region);
+  seen_ += extent.particles;
+}
+
+void DensityGrid::count(const Cloud& cloud) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Place place = cell_of({cloud.x[i], cloud.y[i], cloud.z[i]});
     const std::int64_t x = place[0] - first_[0];
@@ -95,6 +105,38 @@ void DensityGrid::add(const Cloud& cloud) {
     const bool inside = std::min({x, y, z}) >= 0 && std::max({x, y, z}) < side;
     if (inside) ++counts_[index(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z))];
   }
+}
+
+// The grid of each rank grows with all chunks, and holds the counts of its own.
+void DensityGrid::add(const Cloud& cloud, const Ranks& ranks) {
+  const std::vector<Extent> extents = ranks.from_all(extent_of(cloud));
+  for (int rank = 0; rank < ranks.count(); ++rank) {
+    const Extent& extent = extents[static_cast<std::size_t>(rank)];
+    if (extent.particles == 0) continue;
+    take(extent);
+    if (rank == ranks.rank()) count(cloud);
+  }
+}
+
+void DensityGrid::share(const Ranks& ranks) {
+  if (ranks.alone() || cell_ == 0) return;
+  // Each rank adds up its part of the cells: no one holds the counts of all.
+  const auto all = static_cast<std::size_t>(ranks.count());
+  std::vector<Ranks::Bytes> parts(all);
+  for (std::size_t rank = 0; rank < all; ++rank) {
+    const std::size_t first = counts_.size() * rank / all;
+    parts[rank] = Ranks::bytes_of(
+        std::span<const std::uint32_t>(counts_).subspan(first, counts_.size() * (rank + 1) / all - first));
+  }
+  const RankPart mine = part_of(ranks, counts_.size());
+  std::vector<std::uint32_t> sums(mine.end - mine.first), counted(sums.size());
+  for (const Ranks::Bytes& of_rank : ranks.exchange(parts)) {
+    std::memcpy(counted.data(), of_rank.data(), of_rank.size());
+    std::ranges::transform(sums, counted, sums.begin(), std::plus<>());
+  }
+  std::byte* to = std::as_writable_bytes(std::span(counts_)).data();
+  for (const Ranks::Bytes& of_rank : ranks.from_all(Ranks::bytes_of(std::span<const std::uint32_t>(sums))))
+    to = std::ranges::copy(of_rank, to).out;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wheatstone/particles/cloud.h"
+#include "wheatstone/ranks/ranks.h"
 
 namespace wheatstone {
 
@@ -16,7 +17,11 @@ class DensityGrid {
  public:
   static constexpr int side = 128;
 
-  void add(const Cloud& cloud);
+  void add(const Cloud& cloud) { add(cloud, {}); }
+  /// Ranks add their chunks in step: the same cells come of it as where one adds the chunks of rank 0, 1, …
+  void add(const Cloud& cloud, const Ranks& ranks);
+  /// Adds up what the ranks have counted, at each of them.
+  void share(const Ranks& ranks);
   /// To be called when all particles were added. Where a cell holds fewer than `particles_a_kernel`, its density
   /// follows from larger blocks of cells too.
   void finish(int particles_a_kernel = 32);
@@ -35,9 +40,18 @@ class DensityGrid {
   struct Region {
     std::array<float, 3> lower, upper;
   };
+  /// What of a chunk decides the cells.
+  struct Extent {
+    std::uint64_t particles;
+    std::array<double, 3> origin;
+    Region region;
+  };
+  static Extent extent_of(const Cloud& cloud);
   static Region region_of(const Cloud& cloud);
   Place cell_of(const std::array<float, 3>& point) const;
+  void take(const Extent& extent);
   void cover(const Region& region);
+  void count(const Cloud& cloud);
   void fill_densities();
   /// Of the ball that holds the particles of a kernel where there is one in a unit of volume.
   double kernel_volume() const { return particles_a_kernel_ / (4 * std::numbers::pi / 3); }

@@ -107,6 +107,10 @@ Ranks::Failure Ranks::fail(const Failure& failure) const {
   return state_->learn(from, &failure);
 }
 
+bool anywhere(bool here, const Ranks& ranks) {
+  return std::ranges::count(ranks.from_all(static_cast<char>(here)), 1) > 0;
+}
+
 RankPart part_of(const Ranks& ranks, std::size_t count) {
   const auto all = static_cast<std::size_t>(ranks.count());
   const auto rank = static_cast<std::size_t>(ranks.rank());

@@ -72,6 +72,9 @@ class Ranks {
   std::shared_ptr<State> state_;
 };
 
+/// Whether it is so at one of the ranks at least.
+bool anywhere(bool here, const Ranks& ranks);
+
 /// Which part of a list of so many belongs to this rank: parts of equal length, one after the other.
 struct RankPart {
   std::size_t first, end;

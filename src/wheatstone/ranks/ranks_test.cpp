@@ -34,6 +34,8 @@ TEST(Ranks, GiveEachOtherWhatIsForEach) {
     EXPECT_EQ(from, (std::vector<Ranks::Bytes>{text("a" + me), text("b" + me), text("c" + me)}));
     EXPECT_EQ(ranks.from_all(10 * ranks.rank()), (std::vector<int>{0, 10, 20}));
     EXPECT_EQ(ranks.from_first(text(std::string(1, mine))), text("a"));
+    EXPECT_TRUE(anywhere(ranks.rank() == 1, ranks));
+    EXPECT_FALSE(anywhere(false, ranks));
     EXPECT_EQ(ranks.to_first(text("x"))[2].size(), ranks.first() ? 1u : 0u);
   });
 }
