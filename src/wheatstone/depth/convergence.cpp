@@ -15,8 +15,11 @@ float depth_from_disparity(float disparity_px, float scale) {
   return disparity_px > 0 ? scale / disparity_px : std::numeric_limits<float>::quiet_NaN();
 }
 
-float disparity_percentile(ImageView<const float> disparity, double share) {
-  constexpr double enough_px = 1 << 20;
+namespace {
+
+/// The known disparities of enough pixels.
+std::vector<float> known_disparities(ImageView<const float> disparity) {
+  constexpr double enough_px = 1 << 18;
   const double pixels = static_cast<double>(disparity.width()) * disparity.height();
   const int step = std::max(static_cast<int>(std::sqrt(pixels / enough_px)), 1);
   std::vector<float> known;
@@ -26,13 +29,24 @@ float disparity_percentile(ImageView<const float> disparity, double share) {
     for (int x = step / 2; x < disparity.width(); x += step)
       if (std::isfinite(row[x])) known.push_back(row[x]);
   }
-  if (known.empty()) return std::numeric_limits<float>::quiet_NaN();
-  return percentile(std::move(known), share);
+  return known;
+}
+
+float percentile_of(std::vector<float> known, double share) {
+  return known.empty() ? std::numeric_limits<float>::quiet_NaN() : percentile(std::move(known), share);
+}
+
+}  // namespace
+
+float disparity_percentile(ImageView<const float> disparity, double share) {
+  return percentile_of(known_disparities(disparity), share);
 }
 
 DepthEnds depth_ends(ImageView<const float> disparity) {
   constexpr double outliers = 0.02;
-  return {disparity_percentile(disparity, outliers), disparity_percentile(disparity, 1 - outliers)};
+  std::vector<float> known = known_disparities(disparity);
+  const float farthest = percentile_of(known, outliers);
+  return {farthest, percentile_of(std::move(known), 1 - outliers)};
 }
 
 }  // namespace wheatstone

@@ -1,7 +1,9 @@
+#include <tbb/concurrent_queue.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <span>
@@ -122,6 +124,29 @@ struct alignas(64) Piece {
   }
 };
 
+/// The rows of a piece in which some column is open and shown, a bit each; of what few columns show, most are culled
+/// so.
+std::uint32_t rows_to_draw(const Piece& piece, const ColumnRun& columns, const HiddenBelow& below,
+                           const FrontToBackAccumulator& accumulator) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
+  std::uint32_t rows = 0;
+  for (int number = columns.begin / block_px; number * block_px < columns.end; ++number) {
+    std::uint32_t candidates =
+        piece.rows & accumulator.open_rows(number) & below.shown_rows[static_cast<std::size_t>(number)] & ~rows;
+    const auto below_column = [=](int column) {
+      return (std::uint32_t{1} << std::clamp(column - number * block_px, 0, block_px)) - 1;
+    };
+    const std::uint32_t within = below_column(columns.end) & ~below_column(columns.begin);
+    for (; candidates != 0; candidates &= candidates - 1) {
+      const int row = std::countr_zero(candidates);
+      if ((accumulator.open_columns(row, number) & below.shown_columns_in(row, number, accumulator.rows()) & within) !=
+          0)
+        rows |= std::uint32_t{1} << row;
+    }
+  }
+  return rows;
+}
+
 PlannedIn kind_of(ViewPosition planned_in, const PreparedSurfaces& surfaces) {
   if (surfaces.seen.empty() || planned_in == surfaces.seen.front().view) return PlannedIn::reference_view;
   return surfaces.photographed.contains(planned_in) ? PlannedIn::photographed_view : PlannedIn::other_view;
@@ -167,11 +192,15 @@ struct PiecesOfLayer {
 /// them.
 class BandOfViews {
  public:
-  BandOfViews(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, int number)
+  /// `accumulators` are some of another band, or none.
+  BandOfViews(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, int number,
+              std::vector<FrontToBackAccumulator>& accumulators)
       : painting_(painting),
         surfaces_(surfaces),
         band_(number * band_rows, painting.width, painting.height),
-        scratch_(band_.top, 0, painting.height) {
+        scratch_(band_.top, 0, painting.height),
+        accumulators_(accumulators) {
+    if (!accumulators_.empty() && accumulators_.front().rows() != band_.row_count) accumulators_.clear();
     for (const BandedLayer& layer : painting.layers) {
       PiecesOfLayer& of_layer = layers_.emplace_back();
       for (const std::uint32_t index : layer.bands[static_cast<std::size_t>(number)]) {
@@ -237,6 +266,9 @@ class BandOfViews {
     const bool may_be_hidden = !below.pixels.empty() && piece.may_be_hidden(columns, below);
     if (may_be_hidden) rows &= below.shown_rows_within(columns.begin, columns.end);
     if (rows == 0 || (may_be_hidden && piece.is_hidden(columns, below))) return;
+    const bool is_of_other = piece.planned_in != PlannedIn::reference_view && !below.pixels.empty();
+    const std::uint32_t wanted = is_of_other ? rows_to_draw(piece, columns, below, accumulator) : rows;
+    if (wanted == 0) return;
     const FlatLayer& layer = painting_.layers[above].flat;
     if (!piece.is_rigid) {
       draw_stroke_under({SeenLayer(layer, view), layer.strokes[piece.stroke], below}, band_, accumulator);
@@ -244,9 +276,9 @@ class BandOfViews {
     }
     const bool between = piece.lies_between(shift);
     Stamp& stamp = (between ? of_layer.stamps_between : of_layer.stamps)[number];
-    const std::uint32_t missing = rows & ~stamp.made;
-    if (missing != 0) make(layer, layer.strokes[piece.stroke], between, missing, stamp);
-    lay_stamp_under({stamp, stamps_, piece.paint, below, band_, shift, columns, rows, may_be_hidden}, accumulator);
+    // Other views want other rows: they are made at once.
+    if ((wanted & ~stamp.made) != 0) make(layer, layer.strokes[piece.stroke], between, rows & ~stamp.made, stamp);
+    lay_stamp_under({stamp, stamps_, piece.paint, below, band_, shift, columns, wanted, may_be_hidden}, accumulator);
   }
 
   void make(const FlatLayer& layer, const FlatStroke& stroke, bool between, std::uint32_t rows, Stamp& stamp) {
@@ -286,7 +318,7 @@ class BandOfViews {
   HiddenBelow nothing_hides_;
   std::vector<PiecesOfLayer> layers_;
   Stamps stamps_;
-  std::vector<FrontToBackAccumulator> accumulators_;
+  std::vector<FrontToBackAccumulator>& accumulators_;
 };
 
 /// How many views of a band are drawn stroke by stroke: more, and they would not stay in the second-level cache.
@@ -328,12 +360,16 @@ void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surface
   const int bands = (painting.height + band_rows - 1) / band_rows;
   const std::size_t at_once = views_at_once(painting.width);
   std::vector<std::vector<std::size_t>> bare(static_cast<std::size_t>(bands), std::vector<std::size_t>(views.size()));
+  tbb::concurrent_queue<std::vector<FrontToBackAccumulator>> kept;  // memory that is new is slow
   tbb::parallel_for(0, bands, [&](int i) {
-    BandOfViews band(painting, surfaces, i);
+    std::vector<FrontToBackAccumulator> accumulators;
+    kept.try_pop(accumulators);
+    BandOfViews band(painting, surfaces, i, accumulators);
     for (std::size_t first = 0; first < views.size(); first += at_once) {
       const std::size_t count = std::min(at_once, views.size() - first);
       band.draw(views.subspan(first, count), std::span(bare[static_cast<std::size_t>(i)]).subspan(first, count));
     }
+    kept.push(std::move(accumulators));
   });
   for (std::size_t v = 0; v < views.size(); ++v) {
     std::size_t bare_pixels = 0;

@@ -1,5 +1,6 @@
 #include "wheatstone/drawing/rasterise.h"
 
+#include <tbb/concurrent_queue.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -69,17 +70,24 @@ void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canv
   const FlatLayer flat = flatten(layer);
   const SeenLayer seen(flat, view);
   const auto bands = strokes_by_band(flat, canvas.height);
+  tbb::concurrent_queue<FrontToBackAccumulator> kept;  // memory that is new is slow
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {
     if (bands[i].empty()) return;
     DistanceBand band(i * band_rows, canvas.width, canvas.height);
     const BandHiding hides(hiding, band, canvas.width);
-    FrontToBackAccumulator drawn(band.row_count, canvas.width, true);
+    FrontToBackAccumulator drawn;
+    if (kept.try_pop(drawn) && drawn.rows() == band.row_count) {
+      drawn.clear();
+    } else {
+      drawn = FrontToBackAccumulator(band.row_count, canvas.width, true);
+    }
     for (const std::uint32_t place : bands[i] | std::views::reverse) {
       const FlatStroke& stroke = flat.strokes[place];
       if (stroke.views.contains(view) && may_be_seen(seen, stroke, band, drawn))
         draw_stroke_under({seen, stroke, hides.own}, band, drawn);
     }
     lay_over(drawn, band.top, canvas);
+    kept.push(std::move(drawn));
   });
 }
 

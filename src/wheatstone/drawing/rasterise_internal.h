@@ -137,6 +137,7 @@ class FrontToBackAccumulator {
   /// The columns of a block in one row: how much of each one stroke covers, whatever light it lets through.
   using Cover = std::array<float, block_px>;
 
+  FrontToBackAccumulator() = default;
   FrontToBackAccumulator(int row_count, int canvas_width, bool keeps_cover = false);
 
   /// Nothing is drawn.
@@ -187,7 +188,7 @@ class FrontToBackAccumulator {
   void clamp(int row, int& begin, int& end) const;
 
  private:
-  int width_, rows_;
+  int width_ = 0, rows_ = 0;
   std::vector<Block> blocks_;
   std::vector<Cover> covers_;
   std::vector<std::uint16_t> open_columns_;

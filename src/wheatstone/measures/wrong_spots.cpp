@@ -13,23 +13,6 @@
 namespace wheatstone {
 namespace {
 
-bool differ(const Rgb8& a, const Rgb8& b) {
-  constexpr int most = static_cast<int>(unlike_colours);
-  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
-  return red * red + green * green + blue * blue > most * most;
-}
-
-/// The pixels of a disc, the nearest first: nearly always one of the first ones answers.
-std::vector<cv::Point> disc(double radius_px) {
-  const int reach = static_cast<int>(radius_px);
-  std::vector<cv::Point> pixels;
-  for (int y = -reach; y <= reach; ++y)
-    for (int x = -reach; x <= reach; ++x)
-      if (x * x + y * y <= radius_px * radius_px) pixels.emplace_back(x, y);
-  std::ranges::stable_sort(pixels, {}, [](const cv::Point& p) { return p.dot(p); });
-  return pixels;
-}
-
 struct Count {
   double spots = 0, wrong = 0, pixels = 0;
 };
@@ -61,19 +44,10 @@ Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const 
     throw Error(ErrorKind::bad_input,
                 fmt::format("the painting is {}x{} pixels, expected the photograph's {}x{}", painted.width(),
                             painted.height(), photograph.width(), photograph.height()));
-  const std::vector<cv::Point> near = disc(4.0 * painted.width() / 640);
+  const ColoursAround near(photograph);
   Image<std::uint8_t> wrong(painted.width(), painted.height());
   tbb::parallel_for(0, painted.height(), [&](int y) {
-    for (int x = 0; x < painted.width(); ++x) {
-      const Rgb8 colour = painted(x, y);
-      wrong(x, y) = std::ranges::all_of(near,
-                                        [&](const cv::Point& p) {
-                                          return !photograph.contains(x + p.x, y + p.y) ||
-                                                 differ(colour, photograph(x + p.x, y + p.y));
-                                        })
-                        ? 255
-                        : 0;
-    }
+    for (int x = 0; x < painted.width(); ++x) wrong(x, y) = near.has(painted(x, y), x, y) ? 0 : 255;
   });
   return wrong;
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
@@ -11,6 +14,20 @@ inline constexpr float unlike_colours = 60;
 struct WrongSpots {
   double spots_per_100000_px = 0;
   double share = 0;  ///< of the pixels, 0..1, that lie in a spot
+};
+
+/// The colours of a photograph around its pixels: those within 4 pixels of a picture 640 wide, in proportion otherwise.
+class ColoursAround {
+ public:
+  explicit ColoursAround(ImageView<const Rgb8> photograph);
+
+  /// Whether any of those around a pixel is like this one.
+  bool has(Rgb8 colour, int x, int y) const;
+
+  // What the kernel reads. Planes go on beside the picture, where its border is repeated: a border pixel is nearer to
+  // the middle of a disc than what lies outside.
+  Image<std::uint8_t> red, green, blue;
+  std::vector<int> half_widths;  ///< of the disc's rows, from its middle one down
 };
 
 /// 255 where every pixel of the photograph within 4 pixels (of a picture 640 wide, in proportion otherwise) has an

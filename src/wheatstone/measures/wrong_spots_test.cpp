@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "throws_error.h"
+#include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {
@@ -48,6 +50,39 @@ TEST(WrongSpots, OfAPairAreThoseOfBothEyes) {
   const Image<Rgb8> photograph(640, 100, grey);
   const StereoPair painted{with_square(300, 40, 10, white), photograph}, photographs{photograph, photograph};
   EXPECT_DOUBLE_EQ(measure_wrong_spots(painted, photographs).spots_per_100000_px, 1e5 / 128000);
+}
+
+/// As it is told, pixel by pixel.
+bool is_wrong_by_definition(Rgb8 colour, const Image<Rgb8>& photograph, int x, int y) {
+  const double radius_px = 4.0 * photograph.width() / 640;
+  for (int row = 0; row < photograph.height(); ++row) {
+    for (int column = 0; column < photograph.width(); ++column) {
+      if (std::hypot(column - x, row - y) > radius_px) continue;
+      const Rgb8 there = photograph(column, row);
+      if (std::hypot(there.r - colour.r, there.g - colour.g, there.b - colour.b) <= unlike_colours) return false;
+    }
+  }
+  return true;
+}
+
+TEST(WrongPixels, AreThoseOfTheDefinitionUpToTheBorders) {
+  constexpr int height = 9;
+  for (const int width : {1, 33, 161, 401}) {
+    Image<Rgb8> painted(width, height), photograph(width, height);
+    std::uint64_t number = 0;
+    const auto level = [&] { return static_cast<std::uint8_t>(hash_keys({++number}) % 140); };
+    for (Image<Rgb8>* picture : {&painted, &photograph})
+      for (Rgb8& pixel : picture->pixels()) pixel = {level(), level(), level()};
+    const Image<std::uint8_t> wrong = wrong_pixels(painted, photograph);
+    int count = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        ASSERT_EQ(wrong(x, y) != 0, is_wrong_by_definition(painted(x, y), photograph, x, y)) << x << ' ' << y;
+        count += wrong(x, y) != 0 ? 1 : 0;
+      }
+    }
+    EXPECT_TRUE(width == 1 || (count > 0 && count < width * height)) << width;
+  }
 }
 
 TEST(WrongSpots, NeedOneSize) {

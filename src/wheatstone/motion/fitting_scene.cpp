@@ -1,6 +1,5 @@
 #include "wheatstone/motion/fitting_scene.h"
 
-#include <cmath>
 #include <string_view>
 
 #include "wheatstone/error.h"
@@ -19,11 +18,7 @@ void check_fits(std::span<const SceneView> views) {
     check(view.picture, "a view's picture");
     check(view.disparity, "a view's disparity");
     if (!view.only_here.empty()) check(view.only_here, "a view's mask");
-    for (int y = 0; y < view.disparity.height(); ++y) {
-      int unknown = 0;  // without a way out of the loop, which would make it slow
-      for (const float value : view.disparity.row(y)) unknown |= std::isfinite(value) ? 0 : 1;
-      if (unknown != 0) throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
-    }
+    check_has_no_unknowns(view.disparity);
   }
 }
 

@@ -62,7 +62,8 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
   if (apart) return plan_eyes_apart(photographs, geometry, style, progress);
   const StillScene scene = make_still_scene(photographs, geometry, wanted);
   PaintingMemory nothing_before;
-  return plan_painting(FilmFrame{.views = scene.views}, style, CarryOptions{}, nothing_before, progress).painting;
+  return plan_painting(FilmFrame{.views = scene.views}, style, CarryOptions{.goes_on = false}, nothing_before, progress)
+      .painting;
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "wheatstone/error.h"
@@ -29,9 +30,17 @@ void check_fits(const StereoPairView& photographs, const StereoGeometryView& geo
   check(geometry.left_occlusion, "the left occlusion mask");
   check(geometry.right_occlusion, "the right occlusion mask");
   for (const ImageView<const float>& disparity : {geometry.left_disparity, geometry.right_disparity})
-    for (int y = 0; y < disparity.height(); ++y)
-      if (!std::ranges::all_of(disparity.row(y), [](float value) { return std::isfinite(value); }))
-        throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
+    check_has_no_unknowns(disparity);
+}
+
+void check_has_no_unknowns(ImageView<const float> disparity) {
+  std::atomic<bool> has_unknowns = false;
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    int unknown = 0;  // without a way out of the loop, which would make it slow
+    for (const float value : disparity.row(y)) unknown |= std::isfinite(value) ? 0 : 1;
+    if (unknown != 0) has_unknowns = true;
+  });
+  if (has_unknowns) throw Error(ErrorKind::bad_input, "the disparity has unknown pixels, expected none");
 }
 
 }  // namespace wheatstone

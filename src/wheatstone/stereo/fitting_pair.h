@@ -26,4 +26,7 @@ void check_fits(const StereoPairView& pair);
 /// Throws Error{bad_input} unless photographs and geometry are of one size, not empty, and every disparity is known.
 void check_fits(const StereoPairView& photographs, const StereoGeometryView& geometry);
 
+/// Throws Error{bad_input} where a disparity is unknown.
+void check_has_no_unknowns(ImageView<const float> disparity);
+
 }  // namespace wheatstone

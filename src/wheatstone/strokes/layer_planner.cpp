@@ -11,6 +11,7 @@
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/layer_planner.h"
 #include "wheatstone/strokes/plan_layer_internal.h"
+#include "wheatstone/strokes/seed_internal.h"
 
 namespace wheatstone {
 
@@ -50,13 +51,19 @@ LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, c
 Image<std::uint8_t> misplaced_paint(const LayerPlanner& planner, const Style& style) {
   if (style.jitter != ColourJitter{}) return {};
   const Canvas& canvas = planner.canvas;
-  const auto level = [](float value) { return static_cast<std::uint8_t>(std::lround(value)); };
-  Image<Rgb8> painted(canvas.width, canvas.height);
+  const auto level = [](float value) { return static_cast<std::uint8_t>(value + 0.5f); };
+  const ColoursAround wanted(planner.photograph);
+  Image<std::uint8_t> misplaced(canvas.width, canvas.height);
   tbb::parallel_for(0, canvas.height, [&](int y) {
-    for (int x = 0; x < canvas.width; ++x)
-      painted(x, y) = {level(canvas.red(x, y)), level(canvas.green(x, y)), level(canvas.blue(x, y))};
+    const auto row = misplaced.row(y);
+    mark_unlike(planner.photograph, canvas, y, row);
+    for (int x = 0; x < canvas.width; ++x) {
+      if (row[x] == 0) continue;
+      const Rgb8 painted{level(canvas.red(x, y)), level(canvas.green(x, y)), level(canvas.blue(x, y))};
+      if (wanted.has(painted, x, y)) row[x] = 0;
+    }
   });
-  return wrong_pixels(painted, planner.photograph);
+  return misplaced;
 }
 
 Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Style& style, const ScaledStyle& scaled,

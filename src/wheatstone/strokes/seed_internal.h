@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "wheatstone/strokes/plan_layer_internal.h"
 
 namespace wheatstone {
@@ -34,5 +37,9 @@ struct RowPart {
 /// Squared RGB distances between reference and canvas, `bare_error` where the canvas is bare; `errors` has the canvas's
 /// width, and only the part's columns are written.
 void squared_errors(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors);
+
+/// 255 in the columns of a row in which the canvas has a colour unlike the photograph's (measures/wrong_spots.h), 0 in
+/// the others.
+void mark_unlike(ImageView<const Rgb8> photograph, const Canvas& canvas, int row, std::span<std::uint8_t> unlike);
 
 }  // namespace wheatstone

@@ -55,6 +55,7 @@ class ViewAtWork {
         style_(style),
         motion_(motion),
         left_px_(static_cast<float>(view.left_px)),
+        uncovered_(view.continued ? view.only_here : ImageView<const std::uint8_t>()),
         numbers_(numbers),
         planner_(part_ ? part_->photograph.view() : view.picture, part_ ? part_->disparity.view() : view.disparity,
                  view.position, style) {
@@ -68,7 +69,8 @@ class ViewAtWork {
     const LayerInputs inputs = make_layer_inputs(planner_, style_, scaled_, layer);
     const ImageView<const std::uint8_t> part = part_ ? part_->seeds.view() : ImageView<const std::uint8_t>();
     Image<std::uint8_t> seeds;
-    const Image<float> before = errors_left(inputs);
+    const bool compares = options.goes_on || !tracked.tracks.empty();
+    const Image<float> before = compares ? errors_left(inputs) : Image<float>();
     if (!tracked.tracks.empty()) {
       end_wrong_colours(inputs, before, options, tracked);
       draw_on_canvas(shown(tracked, [](const StrokeTrack& track) { return track.ends == 0; }));
@@ -266,11 +268,13 @@ class ViewAtWork {
     return seeds;
   }
 
-  /// Dots for the thin edges of near surfaces that the smaller picture does not show.
+  /// Dots for the thin edges of near surfaces that the smaller picture does not show. Around what no photograph shows,
+  /// those surfaces have strokes of their own.
   Layer dots_left_out() const {
     const auto reduction = static_cast<float>(reduction_);
     Layer dots{scaled_.radii_px.back(), {}, {}};
     for (const ReducedView::LeftOut& pixels : part_->left_out) {
+      if (!uncovered_.empty() && uncovered_(static_cast<int>(pixels.x), static_cast<int>(pixels.y)) == 0) continue;
       const ControlPoint point{pixels.x / reduction, pixels.y / reduction, pixels.disparity / reduction};
       dots.strokes.push_back({.first_point = static_cast<std::uint32_t>(dots.points.size()),
                               .point_count = 1,
@@ -290,13 +294,13 @@ class ViewAtWork {
     if (part_) resize_strokes(begun, static_cast<float>(reduction_));
     tracked.layer.radius_px = begun.radius_px;
     for (const Stroke& stroke : begun.strokes) {
-      StrokeTrack track;
+      StrokeTrack& track = tracked.tracks.emplace_back();
       track.shown = first_shown(motion_ == nullptr, options);
+      if (!options.goes_on) continue;
       track.first_length_px = length_px(begun.points_of(stroke));
       const ColourFit first = fit(inputs, before, begun, stroke);
       track.first_colour_difference = first.difference;
       track.first_gain = first.gain;
-      tracked.tracks.push_back(track);
     }
     append_strokes(begun, tracked.layer);
   }
@@ -307,6 +311,7 @@ class ViewAtWork {
   const Style& style_;
   const Flow* motion_;
   float left_px_;
+  ImageView<const std::uint8_t> uncovered_;  ///< what no photograph shows, of a view that goes on there
   StrokeNumbers& numbers_;
   LayerPlanner planner_;
 };
@@ -461,10 +466,12 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
   });
   result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;
-  const ImageView<const float> disparity = frame.views.front().disparity;
-  memory.reference_disparity = Image<float>(disparity.width(), disparity.height());
-  for (int y = 0; y < disparity.height(); ++y)
-    std::ranges::copy(disparity.row(y), memory.reference_disparity.row(y).begin());
+  if (options.goes_on) {
+    const ImageView<const float> disparity = frame.views.front().disparity;
+    memory.reference_disparity = Image<float>(disparity.width(), disparity.height());
+    for (int y = 0; y < disparity.height(); ++y)
+      std::ranges::copy(disparity.row(y), memory.reference_disparity.row(y).begin());
+  }
   result.painting = shown_painting(frame, style, memory);
   return result;
 }

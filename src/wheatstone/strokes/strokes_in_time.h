@@ -18,6 +18,7 @@ struct CarryOptions {
   float colour_tolerance = 48;     ///< RGB distance, 0..441, by which its colour may fit worse than when it was made
   float gain_tolerance = 20;       ///< RGB distance by which it may be worse than the coarser layers' paint under it
   float length_tolerance = 0.25f;  ///< by which its length may change, as a share of what it was made with
+  bool goes_on = true;             ///< a frame follows, for which the memory is kept
 };
 
 /// What a stroke's number stands for beside the stroke itself.

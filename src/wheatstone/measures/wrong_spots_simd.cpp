@@ -1,0 +1,80 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wheatstone/measures/wrong_spots.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "wheatstone/measures/wrong_spots_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace wheatstone::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Whether any of `count` colours of a row, from a column of the planes on, is like this one.
+bool row_has(const ColoursAround& colours, Rgb8 colour, int row, int column, int count) {
+  const hn::CappedTag<std::uint16_t, 32> words;
+  const hn::Rebind<std::uint8_t, decltype(words)> bytes;
+  const int lanes = static_cast<int>(hn::Lanes(words));
+  constexpr auto most = static_cast<std::uint16_t>(unlike_colours * unlike_colours);
+  for (int i = 0; i < count; i += lanes) {
+    const auto squared = [&](const Image<std::uint8_t>& plane, std::uint8_t level) {
+      const auto there = hn::PromoteTo(words, hn::LoadU(bytes, plane.row(row).data() + column + i));
+      const auto own = hn::Set(words, level);
+      const auto difference = hn::Sub(hn::Max(there, own), hn::Min(there, own));
+      return hn::Mul(difference, difference);  // at most 255 squared, which a word holds
+    };
+    const auto sum =
+        hn::SaturatedAdd(hn::SaturatedAdd(squared(colours.red, colour.r), squared(colours.green, colour.g)),
+                         squared(colours.blue, colour.b));
+    const auto is_like = hn::Eq(sum, hn::Min(sum, hn::Set(words, most)));
+    if (!hn::AllFalse(words, hn::And(is_like, hn::FirstN(words, static_cast<std::size_t>(count - i))))) return true;
+  }
+  return false;
+}
+
+bool disc_has(const ColoursAround& colours, Rgb8 colour, int x, int y) {
+  const int height = colours.red.height(), reach = static_cast<int>(colours.half_widths.size()) - 1;
+  for (int away = 0; away <= reach; ++away) {
+    const int half = colours.half_widths[static_cast<std::size_t>(away)], column = x + reach - half;
+    for (const int row : {y - away, y + away})
+      if (row >= 0 && row < height && row_has(colours, colour, row, column, 2 * half + 1)) return true;
+  }
+  return false;
+}
+
+}  // namespace wheatstone::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace wheatstone {
+
+HWY_EXPORT(disc_has);
+
+ColoursAround::ColoursAround(ImageView<const Rgb8> photograph) {
+  constexpr int widest_vector = 32;
+  const double radius_px = 4.0 * photograph.width() / 640;
+  const int reach = static_cast<int>(radius_px), width = photograph.width();
+  for (int y = 0; y <= reach; ++y)
+    half_widths.push_back(static_cast<int>(std::sqrt(radius_px * radius_px - static_cast<double>(y) * y)));
+  for (Image<std::uint8_t>* plane : {&red, &green, &blue})
+    *plane = Image<std::uint8_t>(width + 2 * reach + widest_vector, photograph.height());
+  tbb::parallel_for(0, photograph.height(), [&](int y) {
+    const auto from = photograph.row(y);
+    const auto to_red = red.row(y), to_green = green.row(y), to_blue = blue.row(y);
+    for (int x = 0; x < red.width(); ++x) {
+      const Rgb8 colour = from[static_cast<std::size_t>(std::clamp(x - reach, 0, width - 1))];
+      to_red[x] = colour.r;
+      to_green[x] = colour.g;
+      to_blue[x] = colour.b;
+    }
+  });
+}
+
+bool ColoursAround::has(Rgb8 colour, int x, int y) const { return HWY_DYNAMIC_DISPATCH(disc_has)(*this, colour, x, y); }
+
+}  // namespace wheatstone
+#endif  // HWY_ONCE
