@@ -98,7 +98,7 @@ FilmWriterOptions writing_options(const Arguments& arguments, const FilmFiles& f
   return writing;
 }
 
-nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm& film) {
+nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm& film, const Session& session) {
   const RotoscopeTotals& totals = film.totals;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
   nlohmann::ordered_json facts{{"output", arguments.output},
@@ -125,6 +125,7 @@ nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm&
     facts["moved_frames"] = totals.moved_frames;
     facts["presented_separation"] = totals.least_separation;
   }
+  facts["ranks"] = session.ranks.count();
   facts["notes"] = film.notes;
   if (film.loss) facts["loss"] = *film.loss;
   return facts;
@@ -231,8 +232,9 @@ void take_display(const CLI::App& command, Arguments& arguments) {
 }
 
 /// The exact geometry and flow of a film of 'synth film'.
-void take_truth(const Arguments& arguments, RotoscopeFilmOptions& options) {
+void take_truth(const Arguments& arguments, const Session& session, RotoscopeFilmOptions& options) {
   if (arguments.truth.empty()) return;
+  if (!session.ranks.alone()) throw Error(ErrorKind::wrong_usage, "--truth works in one process, not under mpirun");
   if (!arguments.from.empty() || arguments.frame_step != 1)
     throw Error(ErrorKind::wrong_usage, "--truth counts all frames from the first: leave out --from and --frame-step");
   options.known = [folder = arguments.truth](std::int64_t frame, const Image<Rgb8>& /*left*/) {
@@ -292,7 +294,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   refuse_options_without_effect(command, arguments);
   tell_what_film_keeps(arguments.output, arguments.options.marks);
   RotoscopeFilmOptions options = arguments.options;
-  take_truth(arguments, options);
+  take_truth(arguments, session, options);
   const FilmFiles film = films_from(arguments);
   options.reading = reading_options(arguments, film, session);
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
@@ -311,10 +313,17 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   if (!film.right.empty()) options.made_from.push_back(film.right);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
   if (!left_out.empty() && !session.quiet) fmt::print(session.errors, "wheatstone: {}\n", fmt::join(left_out, "; "));
+  if (!session.ranks.alone()) {
+    options.ranks = session.ranks;
+    StereoFilmReader looked_at = open_film(film, options.reading);
+    options.scenes = find_scenes(looked_at, session.ranks, session.progress);
+  }
   const RotoscopedFilm result =
       make_or_say_how_to_continue([&] { return rotoscope_film(source, arguments.output, options, session.progress); });
+  session.ranks.meet();
+  if (!session.ranks.first()) return;
   if (session.json) {
-    print_facts(to_json(arguments, result), session);
+    print_facts(to_json(arguments, result, session), session);
   } else {
     print_summary(arguments, result, session);
   }

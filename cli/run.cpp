@@ -85,9 +85,10 @@ void share_with_ranks(const CLI::App& program, Session& session) {
   const std::optional<Launch> launch = mpi_launch();
   if (!launch || launch->count == 1) return;
   const std::string command = program.get_subcommands().front()->get_name();
-  if (command != "render")
+  if (command != "render" && command != "rotoscope")
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("mpirun started {} processes, but '{}' works in one: only 'render' shares its work",
+                fmt::format("mpirun started {} processes, but '{}' works in one: only 'render' and 'rotoscope' share "
+                            "their work",
                             launch->count, command));
   session.ranks = start_ranks(*launch);
 }

@@ -27,6 +27,22 @@ numbers=("${render[@]}" --method exact)
 "$wheatstone" "${pictures[@]}" -o one --save-slices one.exr >/dev/null
 "$wheatstone" "${numbers[@]}" -o exact --values exact.npy >/dev/null
 
+# A film of three scenes, from cut to cut, of three frames each.
+mkdir film
+for scene in still-life beams; do
+  "$wheatstone" --quiet synth film --scene "$scene" --size 96x64 --frames 3 --cut 0 --samples 1 -o "$scene"
+done
+for eye in left right; do
+  for i in 0 1 2; do
+    cp "still-life/${eye}_000$i.png" "film/${eye}_000$i.png"
+    cp "beams/${eye}_000$i.png" "film/${eye}_000$((3 + i)).png"
+    cp "still-life/${eye}_000$i.png" "film/${eye}_000$((6 + i)).png"
+  done
+done
+film=(rotoscope film --preset ultrafast --checkpoint 4)
+"$wheatstone" "${film[@]}" --json -o one.mp4 --save-marks one_%d.wst >one.json
+grep --quiet '"scenes": 3' one.json || complain "the film of three scenes has others: $(cat one.json)"
+
 cases=("2 1" "3 2")
 if [[ $2 == all ]]; then cases=("1 1" "1 2" "2 1" "2 2" "3 1" "3 2" "4 1" "4 2"); fi
 for case in "${cases[@]}"; do
@@ -41,6 +57,14 @@ for case in "${cases[@]}"; do
     cmp "exact_$view.npy" "many_$view.npy" || complain "numbers of $ranks ranks with $threads threads differ"
   done
   rm --recursive many many*.exr many_*.npy
+  on_ranks "$ranks" "${film[@]}" --threads "$threads" --json -o many.mp4 --save-marks many_%d.wst >many.json
+  cmp one.mp4 many.mp4 || complain "the film of $ranks ranks with $threads threads differs"
+  for frame in {1..9}; do cmp "one_$frame.wst" "many_$frame.wst" || complain "marks of $ranks ranks differ"; done
+  for fact in scenes strokes_a_frame worst_bare_share survival moved_frames notes; do
+    [[ $(grep "\"$fact\"" one.json) == "$(grep "\"$fact\"" many.json)" ]] || complain "$ranks ranks tell another $fact"
+  done
+  [[ $(grep --count "\"ranks\": $ranks" many.json) == 1 ]] || complain "--json does not tell of $ranks ranks"
+  rm many.mp4 many_*.wst
 done
 
 # What only one of the ranks can know is told once, with the code of a single process.

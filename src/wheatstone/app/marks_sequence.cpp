@@ -10,9 +10,22 @@ namespace wheatstone {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The same pattern in the work folder.
+FramePattern hidden(FramePattern pattern, const fs::path& path) {
+  pattern.folder = work_folder_of(path);
+  return pattern;
+}
+
+}  // namespace
+
+fs::path unfinished_marks(const fs::path& path, std::int64_t frame) {
+  return hidden(frame_pattern(path).value(), path).file(frame);
+}
+
 MarksSequence::MarksSequence(const fs::path& path, std::int64_t kept)
-    : pattern_(frame_pattern(path).value()), hidden_(pattern_), held_(path) {
-  hidden_.folder = work_folder_of(path);
+    : pattern_(frame_pattern(path).value()), hidden_(hidden(pattern_, path)), held_(path) {
   held_.keep(kept > 0);
   std::error_code ignored;
   for (const std::int64_t number : numbers_of(hidden_))

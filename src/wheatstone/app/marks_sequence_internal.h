@@ -9,6 +9,9 @@
 
 namespace wheatstone {
 
+/// Where the marks of a frame lie until those of all have their names: `path` is the pattern of the names.
+std::filesystem::path unfinished_marks(const std::filesystem::path& path, std::int64_t frame);
+
 /// The marks of a film's frames, in numbered files from 1 on, which get their names together when all are there. Until
 /// then they lie in a work folder beside them, "marks_%04d.wst.part", where they stay when a run ends before.
 class MarksSequence {

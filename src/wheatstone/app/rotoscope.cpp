@@ -118,35 +118,49 @@ struct FirstLook {
   Flow to_before;  ///< as in FrameTask
 };
 
-/// Tells a cut, and the flow to the frame before where it had to be found for that.
-bool scene_begins(const RotoscopeState& state, const KnownFrame* known, FirstLook& frame) {
+/// Tells a cut from the frames as they come, and the flow to the frame before where it had to be found for that.
+bool tells_cut_of(const FrameTask& photographed, const RotoscopeState& state, Flow& to_before) {
   if (state.left_before.empty()) return true;
+  const KnownFrame* known = photographed.known;
   if (known != nullptr && known->flow) return tells_cut(*known->flow);
-  FrameChange change = find_cut(state.left_before, frame.eyes.left);
-  frame.to_before = std::move(change.flow.backward);
+  FrameChange change = find_cut(state.left_before, photographed.eyes.left);
+  to_before = std::move(change.flow.backward);
   return change.cut;
+}
+
+/// Nothing goes over to a new scene but the film's sums: scenes may be painted apart.
+void begin_scene(RotoscopeState& state) {
+  RotoscopeState begun;
+  begun.frames = state.frames;
+  begun.left_before = std::move(state.left_before);
+  begun.totals = state.totals;
+  state = std::move(begun);
 }
 
 /// The frame as its scene is rectified. Until a scene has shown whether its rows fit, later frames are measured too.
 FirstLook rectify_frame(const FrameTask& photographed, RotoscopeState& state, RotoscopedFrame& result) {
   const StereoPair& eyes = photographed.eyes;
-  const KnownFrame* known = photographed.known;
-  const bool as_it_is = eyes.right.empty() || known != nullptr;
-  FirstLook frame{as_it_is ? eyes : rectified(eyes, state.rectification), {}};
-  result.scene_begins = scene_begins(state, known, frame);
-  if (as_it_is) return frame;
-  const bool look_again = !state.rectification.measured && looks_again(state.frames_of_scene);
-  if (!result.scene_begins && !look_again) return frame;
-  MeasuredScene scene = measure_scene(eyes, photographed.options.rectify, photographed.progress);
-  // A scene that says nothing is taken as the one before was: it is the same rig.
-  if (!scene.rectification.measured) {
-    state.rectification.measured = false;
-    return frame;
+  FirstLook frame;
+  result.scene_begins = tells_cut_of(photographed, state, frame.to_before);
+  if (result.scene_begins) begin_scene(state);
+  frame.eyes = eyes;
+  if (eyes.right.empty() || photographed.known != nullptr) return frame;
+  if (!state.rectification.measured && looks_again(state.frames_of_scene)) {
+    MeasuredScene scene = measure_scene(eyes, photographed.options.rectify, photographed.progress);
+    if (!scene.rectification.measured) return frame;
+    result.rows_note = std::move(scene.note);
+    if (scene.rectification.how && !result.scene_begins) {
+      begin_scene(state);
+      result.scene_begins = true;
+    }
+    state.rectification = std::move(scene.rectification);
   }
-  result.rows_note = std::move(scene.note);
-  result.scene_begins = result.scene_begins || scene.rectification.how;
-  state.rectification = scene.rectification;
+  if (!state.rectification.how) return frame;
   frame.eyes = rectified(eyes, state.rectification);
+  if (!result.scene_begins) {
+    const Image<Rgb8> before = rectified({state.left_before, state.left_before}, state.rectification).left;
+    frame.to_before = find_cut(before, frame.eyes.left).flow.backward;
+  }
   return frame;
 }
 
@@ -255,10 +269,6 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   RotoscopedFrame result;
   FirstLook first = rectify_frame({photographed, options, known, progress}, state, result);
   StereoPair eyes = std::move(first.eyes);
-  if (result.scene_begins) {
-    state.frames_of_scene = 0;
-    state.flow_before = {};
-  }
   KnownFrame made;
   if (has_depth) {
     MadePair pair = make_film_pair(eyes.left, *known->depth, options.depth, result.scene_begins, state.depth_range);
@@ -289,7 +299,7 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
 
   ++state.frames;
   ++state.frames_of_scene;
-  state.left_before = eyes.left;
+  state.left_before = photographed.left;
   state.left_disparity_before = std::move(frame.geometry.left_disparity);
   state.central_before = std::move(frame.centre.picture);
   state.central_disparity_before = std::move(frame.centre.disparity);

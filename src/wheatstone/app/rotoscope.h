@@ -63,12 +63,13 @@ struct RotoscopeTotals {
   friend bool operator==(const RotoscopeTotals&, const RotoscopeTotals&) = default;
 };
 
-/// All that the next frame of a film depends on. Empty before the first.
+/// All that the next frame of a film depends on. Empty before the first; a frame with which a scene begins depends on
+/// nothing of it but the sums and the picture before, which tells the cut.
 struct RotoscopeState {
   std::int64_t frames = 0;
   std::int64_t frames_of_scene = 0;
-  Image<Rgb8> left_before;     ///< the left eye's picture, as all of these of the rectified frame
-  Image<Rgb8> central_before;  ///< the central view's
+  Image<Rgb8> left_before;     ///< the left eye's picture as it came
+  Image<Rgb8> central_before;  ///< the central view's, as all that follows of the rectified frame
   Image<float> left_disparity_before, central_disparity_before;
   FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
   std::optional<DisparityRange> range;

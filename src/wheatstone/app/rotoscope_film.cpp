@@ -9,9 +9,11 @@
 #include <system_error>
 
 #include "wheatstone/app/marks_sequence_internal.h"
+#include "wheatstone/app/passed_frames_internal.h"
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
+#include "wheatstone/marks/painting_file.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/struct_fields_internal.h"
 #include "wheatstone/video/frame_sequence.h"
@@ -38,15 +40,31 @@ std::vector<fs::path> sources_of(const RotoscopeFilmOptions& options) {
   return sources;
 }
 
+/// The pattern of the names of the files of marks; empty where none are written.
+fs::path marks_of(const fs::path& output, const RotoscopeFilmOptions& options) {
+  return output.extension() == ".wst" ? output : options.marks;
+}
+
+fs::path state_file(const fs::path& output, std::int64_t frames) {
+  return work_folder_of(output) / fmt::format("state_{:09}", frames);
+}
+
+/// The eyes of a painted frame in one picture, and when it is shown.
+Frame frame_of(PaintedPair& painted, const StereoFrame& source, StereoLayout layout) {
+  Image<Rgb8>&left = painted.pictures.left, &right = painted.pictures.right;
+  return {right.empty() ? std::move(left) : put_together(left, right, layout), source.pts, source.time_base,
+          source.duration};
+}
+
 /// Where frames go: a film that is being made, or only files of marks.
 class Output {
  public:
   Output(const fs::path& path, const RotoscopeFilmOptions& options)
-      : path_(path), layout_(options.writing.layout), frames_between_checkpoints_(options.frames_between_checkpoints) {
+      : path_(path), frames_between_checkpoints_(options.frames_between_checkpoints) {
     const bool only_marks = path.extension() == ".wst";
     if (only_marks && options.resume)
       throw Error(ErrorKind::wrong_usage, "a run that writes only marks cannot be resumed: write a film too");
-    const fs::path marks = only_marks ? path : options.marks;
+    const fs::path marks = marks_of(path, options);
     if (!marks.empty()) check_marks(marks);
     if (!only_marks)
       film_.emplace(
@@ -60,26 +78,26 @@ class Output {
 
   /// After the frames that are done.
   RotoscopeState state() const {
-    return frames_done() > 0 ? read_rotoscope_state(state_file(frames_done())) : RotoscopeState();
+    return frames_done() > 0 ? read_rotoscope_state(state_file(path_, frames_done())) : RotoscopeState();
   }
 
-  void write(const RotoscopedFrame& frame, const StereoFrame& source, const RotoscopeState& state) {
-    const PaintedPair& painted = frame.painted;
-    if (marks_) marks_->write(state.frames, painted.painting);
+  void write_marks(const Painting& painting, const RotoscopeState& state) {
+    if (marks_) marks_->write(state.frames, painting);
+  }
+
+  void write(const Frame& frame, const RotoscopeState& state) {
     if (!film_) return;
     const bool at_checkpoint = state.frames % frames_between_checkpoints_ == 0;
     // Before the segment of these frames is closed: each closed segment has its state.
-    if (at_checkpoint) write_rotoscope_state(state_file(state.frames), state);
+    if (at_checkpoint) write_rotoscope_state(state_file(path_, state.frames), state);
     // The film's frames and their marks are kept together.
     std::unique_lock<std::recursive_mutex> hold;
     if (at_checkpoint) hold = hold_outputs();
-    const Image<Rgb8>&left = painted.pictures.left, &right = painted.pictures.right;
-    film_->write(
-        {right.empty() ? left : put_together(left, right, layout_), source.pts, source.time_base, source.duration});
+    film_->write(frame);
     if (!at_checkpoint) return;
     if (marks_) marks_->keep();
     std::error_code ignored;
-    fs::remove(state_file(state.frames - frames_between_checkpoints_), ignored);
+    fs::remove(state_file(path_, state.frames - frames_between_checkpoints_), ignored);
   }
 
   std::vector<std::string> finish(const RotoscopeState& state, const Progress& progress) {
@@ -87,7 +105,7 @@ class Output {
     const auto hold = hold_outputs();
     if (film_) {
       // Joining closes the last segment, and may be stopped, too.
-      if (state.frames > frames_done()) write_rotoscope_state(state_file(state.frames), state);
+      if (state.frames > frames_done()) write_rotoscope_state(state_file(path_, state.frames), state);
       if (marks_) marks_->check(state.frames);
       const RotoscopeTotals& totals = state.totals;
       if (totals.moved_frames > 0) film_->set_comment(moved_eyes_note(totals.moved_frames, totals.least_separation));
@@ -126,10 +144,7 @@ class Output {
                               path.string(), pattern->file(existing.front()).filename().string()));
   }
 
-  fs::path state_file(std::int64_t frames) const { return work_folder_of(path_) / fmt::format("state_{:09}", frames); }
-
   fs::path path_;
-  StereoLayout layout_;
   int frames_between_checkpoints_;
   std::optional<SegmentedFilm> film_;
   std::optional<MarksSequence> marks_;
@@ -144,12 +159,32 @@ std::string step_text(std::int64_t frame, std::int64_t expected, std::int64_t do
   return text;
 }
 
-void add(const RotoscopedFrame& frame, RotoscopedFilm& film) {
-  film.times.matching_s += frame.times.matching_s;
-  film.times.central_s += frame.times.central_s;
-  film.times.flow_s += frame.times.flow_s;
-  film.painting_times.planning_s += frame.painted.times.planning_s;
-  film.painting_times.rasterising_s += frame.painted.times.rasterising_s;
+void add(const RotoscopeTimes& times, const PaintingTimes& painting, RotoscopedFilm& film) {
+  film.times.matching_s += times.matching_s;
+  film.times.central_s += times.central_s;
+  film.times.flow_s += times.flow_s;
+  film.painting_times.planning_s += painting.planning_s;
+  film.painting_times.rasterising_s += painting.rasterising_s;
+}
+
+void add(const RotoscopedFrame& frame, RotoscopedFilm& film) { add(frame.times, frame.painted.times, film); }
+
+/// Paints a frame that was read; its pictures are for reading the next one into.
+RotoscopedFrame paint_frame_of(StereoFrame& frame, const RotoscopeFilmOptions& options, RotoscopeState& state,
+                               const Progress& progress) {
+  StereoPair eyes{std::move(frame.left), std::move(frame.right)};
+  std::optional<KnownFrame> known;
+  if (options.known) known = options.known(state.frames, eyes.left);
+  if (known && known->flow && !options.ranks.alone())
+    throw Error(ErrorKind::wrong_usage, "frames whose flow is known are painted in one process, not under mpirun");
+  RotoscopedFrame painted = rotoscope_frame(eyes, options.frames, state, known ? &*known : nullptr, progress);
+  frame.left = std::move(eyes.left);
+  frame.right = std::move(eyes.right);
+  return painted;
+}
+
+std::string note_of(std::int64_t frame, const std::string& rows_note) {
+  return fmt::format("from frame {} on, {}", frame, rows_note);
 }
 
 RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmOptions& options,
@@ -168,16 +203,11 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const Roto
     // The steps within a frame are asked only whether to go on.
     const Progress within = [&](std::string_view, double) { report(progress, text, share); };
     within("", 0);
-    StereoPair eyes{std::move(frame.left), std::move(frame.right)};
-    std::optional<KnownFrame> known;
-    if (options.known) known = options.known(film.frames, eyes.left);
-    const RotoscopedFrame painted = rotoscope_frame(eyes, options.frames, state, known ? &*known : nullptr, within);
-    output.write(painted, frame, state);
+    RotoscopedFrame painted = paint_frame_of(frame, options, state, within);
+    output.write_marks(painted.painted.painting, state);
+    output.write(frame_of(painted.painted, frame, options.writing.layout), state);
     add(painted, film);
-    if (!painted.rows_note.empty())
-      film.notes.push_back(fmt::format("from frame {} on, {}", film.frames, painted.rows_note));
-    frame.left = std::move(eyes.left);
-    frame.right = std::move(eyes.right);
+    if (!painted.rows_note.empty()) film.notes.push_back(note_of(film.frames, painted.rows_note));
   }
   if (film.frames == 0) throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
   film.totals = state.totals;
@@ -186,13 +216,192 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const Roto
   return film;
 }
 
+/// Of the frames of two parts of a film.
+RotoscopeTotals together(const RotoscopeTotals& a, const RotoscopeTotals& b) {
+  static_assert(field_count<RotoscopeTotals>() == 8);
+  return {.scenes = a.scenes + b.scenes,
+          .whole_strokes = a.whole_strokes + b.whole_strokes,
+          .survived_strokes = a.survived_strokes + b.survived_strokes,
+          .popped_strokes = a.popped_strokes + b.popped_strokes,
+          .strokes = a.strokes + b.strokes,
+          .worst_bare_share = std::max(a.worst_bare_share, b.worst_bare_share),
+          .moved_frames = a.moved_frames + b.moved_frames,
+          .least_separation = std::min(a.least_separation, b.least_separation)};
+}
+
+/// The work of ranks on one film: each paints whole scenes and passes the frames to the first, which paints as well,
+/// and writes them in order as they come.
+class SharedWork {
+ public:
+  /// `output` is at the first of the ranks only.
+  SharedWork(StereoFilmReader& source, Output* output, const fs::path& path, const RotoscopeFilmOptions& options,
+             const Progress& progress)
+      : source_(source),
+        output_(output),
+        path_(path),
+        options_(options),
+        progress_(progress),
+        // Nobody looks into the folder before the first has made it.
+        done_(options.ranks.from_all(output != nullptr ? output->frames_done() : 0).front()),
+        parts_(deal_out_scenes(options.scenes, done_, options.ranks.count())),
+        passed_(work_folder_of(path), output != nullptr) {}
+
+  /// `state` is, at the first, that after the frames that are done; it becomes that after the last.
+  RotoscopedFilm paint(RotoscopeState& state) {
+    if (options_.scenes.frames == 0)
+      throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
+    const double processor_start = processor_seconds();
+    before_ = state.totals;
+    for (const ScenePart& part : parts_)
+      if (part.rank == options_.ranks.rank()) paint_part(part, state);
+    // Until the last rank has painted its last frame.
+    while (anywhere(false, options_.ranks)) write_what_came(state);
+    write_what_came(state);
+    if (output_ != nullptr) read_to_the_end();
+    film_.frames = options_.scenes.frames;
+    film_.resumed_frames = done_;
+    film_.totals = state.totals;
+    film_.seconds = seconds_since(start_);
+    film_.core_seconds = processor_seconds() - processor_start;
+    add_up_times();
+    return std::move(film_);
+  }
+
+ private:
+  void paint_part(const ScenePart& part, RotoscopeState& written) {
+    read_ += source_.skip(part.begin - read_);
+    RotoscopeState state;
+    const bool goes_on = part.begin == done_ && !std::ranges::binary_search(options_.scenes.begins, done_);
+    if (goes_on) state = read_rotoscope_state(state_file(path_, done_));
+    state.frames = part.begin;
+    state.totals = {};
+    for (StereoFrame frame; read_ < part.end; ++read_) {
+      if (!source_.read(frame))
+        throw Error(ErrorKind::bad_input, fmt::format("the film ended after {} frames, expected {} as at first", read_,
+                                                      options_.scenes.frames));
+      const Progress within = [&](std::string_view, double) { tell(written.frames); };
+      within("", 0);
+      pass(paint_frame_of(frame, options_, state, within), frame, state);
+      write_what_came(written);
+      meet_now_and_then();
+    }
+  }
+
+  void pass(RotoscopedFrame painted, const StereoFrame& source, const RotoscopeState& state) {
+    add(painted, film_);
+    if (const fs::path marks = marks_of(path_, options_); !marks.empty())
+      write_painting(unfinished_marks(marks, state.frames), painted.painted.painting);
+    PassedFrame passed{frame_of(painted.painted, source, options_.writing.layout), state.totals, painted.rows_note};
+    if (!makes_film()) passed.frame.picture = {};
+    if (has_state(state.frames)) write_rotoscope_state(passed_.state_file(state.frames), state);
+    passed_.put(state.frames, passed);
+  }
+
+  /// At the first of the ranks: brings the film as far as frames have come.
+  void write_what_came(RotoscopeState& state) {
+    if (output_ == nullptr) return;
+    while (const std::optional<PassedFrame> passed = passed_.take(state.frames + 1)) {
+      const std::int64_t number = state.frames + 1;
+      if (number > parts_[part_].end) {
+        before_ = state.totals;
+        ++part_;
+      }
+      if (has_state(number)) {
+        state = read_rotoscope_state(passed_.state_file(number));
+        std::error_code ignored;
+        fs::remove(passed_.state_file(number), ignored);
+      }
+      state.frames = number;
+      state.totals = together(before_, passed->totals);
+      if (!passed->rows_note.empty()) film_.notes.push_back(note_of(number - 1, passed->rows_note));
+      output_->write(passed->frame, state);
+      tell(number);
+    }
+  }
+
+  /// Learns whether another rank has failed: not after every frame, since ranks wait for each other.
+  void meet_now_and_then() {
+    constexpr double seconds_between = 10;
+    if (seconds_since(met_) < seconds_between) return;
+    anywhere(true, options_.ranks);
+    met_ = std::chrono::steady_clock::now();
+  }
+
+  void tell(std::int64_t written) const {
+    const std::int64_t all = options_.scenes.frames;
+    report(progress_, step_text(written, all, done_, seconds_since(start_)),
+           static_cast<double>(written) / static_cast<double>(all));
+  }
+
+  /// Only then the source knows what is missing of it.
+  void read_to_the_end() {
+    read_ += source_.skip(options_.scenes.frames - read_);
+    StereoFrame none;
+    source_.read(none);
+  }
+
+  void add_up_times() {
+    struct Times {
+      double core_s;
+      RotoscopeTimes times;
+      PaintingTimes painting;
+    };
+    const Times mine{film_.core_seconds, film_.times, film_.painting_times};
+    film_.core_seconds = 0;
+    film_.times = {};
+    film_.painting_times = {};
+    for (const Times& of_rank : options_.ranks.from_all(mine)) {
+      film_.core_seconds += of_rank.core_s;
+      add(of_rank.times, of_rank.painting, film_);
+    }
+  }
+
+  bool makes_film() const { return path_.extension() != ".wst"; }
+  /// Whether the film can be gone on with after so many frames.
+  bool has_state(std::int64_t frames) const {
+    return makes_film() && (frames % options_.frames_between_checkpoints == 0 || frames == options_.scenes.frames);
+  }
+
+  StereoFilmReader& source_;
+  Output* output_;
+  const fs::path& path_;
+  const RotoscopeFilmOptions& options_;
+  const Progress& progress_;
+  std::int64_t done_;  ///< frames that an earlier run has left
+  std::vector<ScenePart> parts_;
+  PassedFrames passed_;
+  RotoscopedFilm film_;
+  std::int64_t read_ = 0;   ///< frames of the source
+  std::size_t part_ = 0;    ///< that is being written
+  RotoscopeTotals before_;  ///< of all parts before it
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), met_ = start_;
+};
+
+/// Keeps what can be gone on with of a film that was stopped by an error, and throws it, or what to do about it.
+[[noreturn]] void leave(const Error& error, bool painted, Output& out, const fs::path& output, const fs::path& marks) {
+  const bool can_go_on =
+      painted || error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
+  const std::int64_t kept = out.frames_done();
+  if (!can_go_on || kept == 0) out.discard();
+  if (error.kind() == ErrorKind::interrupted && kept > 0)
+    throw UnfinishedFilm(ErrorKind::interrupted,
+                         fmt::format("interrupted; {}", unfinished_film(output, marks).value_or("nothing is kept")));
+  throw error;
+}
+
+/// What all ranks end with, where one of them throws: after this, none paints any more.
+Error agreed(const Error& error, const Ranks& ranks) {
+  const Ranks::Failure failure = ranks.fail({static_cast<int>(error.kind()), error.what()});
+  return {static_cast<ErrorKind>(failure.exit_code), failure.message};
+}
+
 }  // namespace
 
 std::string recipe_of(const RotoscopeFilmOptions& options) {
   // Whoever adds a member says here whether it decides a byte. Not in the text: `writing` and the interval, which the
   // film's segments compare themselves, the sources, which are compared by what is in them, and what only says how
-  // the run goes: resume, keep_going, expected_frames.
-  static_assert(field_count<RotoscopeFilmOptions>() == 11);
+  // the run goes: resume, keep_going, expected_frames, ranks and their scenes.
+  static_assert(field_count<RotoscopeFilmOptions>() == 13);
   RotoscopeOptions frames = options.frames;
   frames.matching.model.clear();  // their content is compared
   frames.flow_model.clear();
@@ -212,26 +421,24 @@ std::optional<std::string> unfinished_film(const fs::path& output, const fs::pat
 
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
                               const Progress& progress) {
-  Output out(output, options);
+  std::optional<Output> out;
+  if (options.ranks.first()) out.emplace(output, options);
   // A rest that is damaged is named and not removed: what it was worth is for the user to say.
-  RotoscopeState state = out.state();
+  RotoscopeState state = out ? out->state() : RotoscopeState();
   RotoscopedFilm film;
   bool painted = false;
   try {
-    film = paint_frames(source, out, options, progress, state);
+    film = options.ranks.alone() ? paint_frames(source, *out, options, progress, state)
+                                 : SharedWork(source, out ? &*out : nullptr, output, options, progress).paint(state);
     painted = true;
     report(progress, "joining", 0);
-    for (std::string& note : out.finish(state, progress)) film.notes.push_back(std::move(note));
-  } catch (const Error& error) {
-    const bool can_go_on =
-        painted || error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
-    const std::int64_t kept = out.frames_done();
-    if (!can_go_on || kept == 0) out.discard();
-    if (error.kind() == ErrorKind::interrupted && kept > 0)
-      throw UnfinishedFilm(
-          ErrorKind::interrupted,
-          fmt::format("interrupted; {}", unfinished_film(output, options.marks).value_or("nothing is kept")));
-    throw;
+    if (!out) return film;
+    for (std::string& note : out->finish(state, progress)) film.notes.push_back(std::move(note));
+  } catch (const Error& thrown) {
+    const Error error = agreed(thrown, options.ranks);
+    if (!out) throw error;
+    if (!options.ranks.alone()) remove_passed_frames(work_folder_of(output));
+    leave(error, painted, *out, output, options.marks);
   }
   film.loss = source.loss();
   if (film.loss && !options.keep_going)

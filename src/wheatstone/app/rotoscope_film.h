@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/app/film_scenes.h"
 #include "wheatstone/app/rotoscope.h"
 #include "wheatstone/progress.h"
+#include "wheatstone/ranks/ranks.h"
 #include "wheatstone/video/film_writer.h"
 #include "wheatstone/video/stereo_film.h"
 
@@ -26,6 +28,10 @@ struct RotoscopeFilmOptions {
   std::int64_t expected_frames = 0;              ///< of all, for telling how long it takes; 0: not known
   /// What is known of a frame, counted from 0; empty: nothing is.
   std::function<KnownFrame(std::int64_t frame, const Image<Rgb8>& left)> known;
+  /// Several paint the film together, each whole scenes, and the first writes it: the same bytes. Then `scenes` are
+  /// the film's, as find_scenes tells them, and what is known of frames holds no flow.
+  Ranks ranks;
+  FilmScenes scenes;
 };
 
 struct RotoscopedFilm {
@@ -55,7 +61,8 @@ std::optional<std::string> unfinished_film(const std::filesystem::path& output, 
 /// output of the form "marks_%04d.wst" keeps marks and no pictures, and cannot be resumed: stopped, it leaves nothing.
 /// Throws as the reader, the writer and rotoscope_frame do, Error{wrong_usage} where marks of such names exist, and
 /// Error{bad_input} after the film is written where the source is damaged, unless `keep_going`.
-/// A program that must end at once leaves as little (remove_unfinished_outputs).
+/// A program that must end at once leaves as little (remove_unfinished_outputs). Of several ranks, all throw the same,
+/// and the result is whole at the first.
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const std::filesystem::path& output,
                               const RotoscopeFilmOptions& options, const Progress& progress = {});
 

@@ -49,8 +49,9 @@ PaintedFilm paint_film(double right_turn_degrees, int frames, RectifyPolicy poli
     const RotoscopedFrame frame = rotoscope_frame(film_frame(i, right_turn_degrees), options, state);
     if (!frame.rows_note.empty()) film.note = frame.rows_note;
     EXPECT_EQ(frame.scene_begins, i == 0) << i;
-    if (i > 0) error.add(painted, frame.painted.pictures.left, relate_frames(source, state.left_before));
-    source = state.left_before;
+    const Image<Rgb8> rectified_source = rectified(film_frame(i, right_turn_degrees), state.rectification).left;
+    if (i > 0) error.add(painted, frame.painted.pictures.left, relate_frames(source, rectified_source));
+    source = rectified_source;
     painted = frame.painted.pictures.left;
   }
   film.rectified = state.rectification.how.has_value();

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wheatstone/progress.h"
+#include "wheatstone/ranks/ranks.h"
+#include "wheatstone/video/stereo_film.h"
+
+namespace wheatstone {
+
+/// A film from cut to cut. Frames are counted from 0.
+struct FilmScenes {
+  std::vector<std::int64_t> begins;  ///< the first frame of each scene
+  std::int64_t frames = 0;           ///< of the film
+};
+
+/// Reads a film to its end and tells its cuts, as rotoscope_frame does. Ranks share the looking: each decodes all
+/// frames and compares some of them. Throws as the reader does.
+FilmScenes find_scenes(StereoFilmReader& film, const Ranks& ranks = {}, const Progress& progress = {});
+
+/// Frames of one scene, which one rank paints.
+struct ScenePart {
+  std::int64_t begin = 0, end = 0;
+  int rank = 0;
+};
+
+/// What is left of a film after its first `done` frames, scene by scene in order. Each goes to the rank that has the
+/// fewest frames before it, so that all come to about the same place at a time.
+std::vector<ScenePart> deal_out_scenes(const FilmScenes& film, std::int64_t done, int ranks);
+
+}  // namespace wheatstone
