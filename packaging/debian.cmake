@@ -41,6 +41,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 
+# With the modules that the library loads: the other packages depend on this one.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wheatstone)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
@@ -55,7 +56,8 @@ set(CPACK_COMPONENT_WINDOW_DESCRIPTION
 any stereo layout and from any place, and paints what it shows.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wheatstone)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  "wheatstone (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "The package wheatstone for Python matches and paints pairs of pictures and
 renders particles, from and to NumPy's arrays.")
@@ -68,8 +70,8 @@ share the rendering of a particle data set.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwheatstone-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libopencv-dev, libopencv-contrib-dev, libopenimageio-dev, openimageio-tools, liblcms2-dev, libheif-dev, \
-libwebp-dev, libepoxy-dev, libtbb-dev, libhwy-dev, zlib1g-dev, libhdf5-dev, libcfitsio-dev, libzip-dev, libnanoflann-dev, \
+  "wheatstone (= ${PROJECT_VERSION}), libopencv-dev, liblcms2-dev, libheif-dev, \
+libwebp-dev, libpng-dev, libepoxy-dev, libtbb-dev, libhwy-dev, zlib1g-dev, libhdf5-dev, libcfitsio-dev, libzip-dev, libnanoflann-dev, \
 libfftw3-dev, libavformat-dev, libavcodec-dev, libavutil-dev, libswscale-dev, libtomlplusplus-dev, libfmt-dev, \
 libboost-dev, libeigen3-dev, nlohmann-json3-dev, libflatbuffers-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION

@@ -11,6 +11,34 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
+
+/// What the dynamic linker says of the libraries that a run loads.
+std::string libraries_of(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+  const TemporaryFolder told;
+  ::setenv("LD_DEBUG", "files", 1);
+  ::setenv("LD_DEBUG_OUTPUT", (told / "by").c_str(), 1);
+  const ProgramResult result = run_program(arguments, {.folder = folder / ".", .own_process = true});
+  ::unsetenv("LD_DEBUG");
+  ::unsetenv("LD_DEBUG_OUTPUT");
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  std::string libraries;
+  for (const auto& file : std::filesystem::directory_iterator(told / ".")) libraries += bytes_of(file.path());
+  return libraries;
+}
+
+TEST(CommandLine, LoadsTheManyLibrariesOfRareFormatsForTheseOnly) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "particles.txt", "x y z\n1 2 3\n4 5 7\n8 1 2\n");
+  const std::string rendering =
+      libraries_of(folder, {"render", "particles.txt", "--size", "32x24", "--views", "1", "-o", "views"});
+  EXPECT_THAT(rendering, HasSubstr("libhdf5"));
+  EXPECT_THAT(rendering, Not(HasSubstr("libOpenImageIO")));
+  EXPECT_THAT(rendering, Not(HasSubstr("libgdal")));
+  EXPECT_THAT(libraries_of(folder, {"info", "views/view_000.png"}), Not(HasSubstr("libOpenImageIO")));
+  write_image(folder / "a.tif", Image<Rgb8>(4, 4));
+  EXPECT_THAT(libraries_of(folder, {"info", "a.tif"}), HasSubstr("libOpenImageIO"));
+}
 
 TEST(CommandLine, ListsItsCommands) { EXPECT_THAT(commands(), Contains("info")); }
 

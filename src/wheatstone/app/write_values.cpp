@@ -1,6 +1,5 @@
 #include "wheatstone/app/write_values.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fitsio.h>
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/temporary_file.h"
+#include "wheatstone/pictures/picture_file.h"
 
 namespace wheatstone {
 namespace {
@@ -75,18 +75,17 @@ void write_fits(const TemporaryFile& file, ImageView<const float> values, const 
 }
 
 void write_exr(const TemporaryFile& file, ImageView<const float> values, const ValueAxes& axes) {
-  OIIO::ImageSpec spec(values.width(), values.height(), 1, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = {"Y"};
+  StoredPicture picture{values.width(), values.height(), 1};
+  picture.kind = floats_kind;
+  picture.channel_names = {"Y"};
   // Otherwise the time of writing: the same numbers are to be the same bytes.
-  spec.attribute("DateTime", "1970:01:01 00:00:00");
+  picture.put("DateTime", "1970:01:01 00:00:00");
   const Keywords keywords = keywords_of(axes, values.height());
-  for (const auto& [name, number] : keywords.numbers) spec.attribute(name, static_cast<float>(number));
-  for (const auto& [name, word] : keywords.words) spec.attribute(name, word);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("exr");
-  bool written = output && output->open(file.path().string(), spec);
-  for (int y = 0; written && y < values.height(); ++y)
-    written = output->write_scanline(y, 0, OIIO::TypeDesc::FLOAT, values.row(y).data());
-  if (!written || !output->close()) refuse_to_write(file.name(), output ? output->geterror() : OIIO::geterror());
+  for (const auto& [name, number] : keywords.numbers) picture.put(name, static_cast<float>(number));
+  for (const auto& [name, word] : keywords.words) picture.put(name, word);
+  const std::unique_ptr<PictureWriter> writer = picture_writer(".exr", file.path());
+  if (!writer->begin({&picture, 1}) || !writer->write(rows_of(values)) || !writer->end())
+    refuse_to_write(file.name(), writer->complaint());
 }
 
 void write_npy(const TemporaryFile& file, ImageView<const float> values) {

@@ -1,6 +1,5 @@
 #include "wheatstone/display/wiggle.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -17,6 +16,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/picture_file.h"
 
 namespace wheatstone {
 namespace {
@@ -58,20 +58,16 @@ class MemoryFile {
 void write_gif(const std::filesystem::path& path, std::span<const Image<Rgb8>* const> frames, double seconds) {
   const MemoryFile memory;
   const std::string name = memory.name();
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("gif");
-  if (!output) refuse_writing(path, "the installed OpenImageIO cannot write GIF");
-  const Image<Rgb8>& first = *frames.front();
-  OIIO::ImageSpec spec(first.width(), first.height(), 3, OIIO::TypeDesc::UINT8);
+  const std::unique_ptr<PictureWriter> writer = picture_writer(".gif", name);
+  StoredPicture picture{frames.front()->width(), frames.front()->height(), 3};
   const int frames_a_second = std::max(1, static_cast<int>(std::lround(static_cast<double>(frames.size()) / seconds)));
-  const int rate[2] = {frames_a_second, 1};
-  spec.attribute("FramesPerSecond", OIIO::TypeRational, rate);
-  spec.attribute("gif:LoopCount", 0);
+  picture.put("FramesPerSecond", Rational{frames_a_second, 1});
+  picture.put("gif:LoopCount", 0);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const auto mode = i == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage;
-    if (!output->open(name, spec, mode) || !output->write_image(OIIO::TypeDesc::UINT8, frames[i]->pixels().data()))
-      refuse_writing(path, output->geterror());
+    const bool begun = i == 0 ? writer->begin({&picture, 1}) : writer->begin_next(picture);
+    if (!begun || !writer->write(rows_of(*frames[i]))) refuse_writing(path, writer->complaint());
   }
-  if (!output->close()) refuse_writing(path, output->geterror());
+  if (!writer->end()) refuse_writing(path, writer->complaint());
   const std::string bytes = read_whole_file(name, most_bytes);
   if (!bytes.ends_with(end_of_gif)) refuse_writing(path, "not enough memory");
   write_whole_file(path, bytes);

@@ -9,17 +9,18 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/ximgproc/disparity_filter.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/module.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/coarse_to_fine_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/match_reliability_internal.h"
+#include "wheatstone/matching/refine_wls_internal.h"
 #include "wheatstone/matching/weighted_median_internal.h"
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
@@ -89,13 +90,16 @@ Image<float> match_right(const cv::Mat& left, const cv::Mat& right, const Dispar
 /// far and wide the filter returns numbers without meaning; there the disparity stays as it was.
 Image<float> refined(const Image<float>& left, const Image<float>& right, const cv::Mat& left_picture,
                      const DisparityRange& range, const MatchOptions& options) {
-  const auto filter = cv::ximgproc::createDisparityWLSFilterGeneric(true);
-  filter->setLambda(options.wls_lambda);
-  filter->setSigmaColor(options.wls_sigma);
-  filter->setLRCthresh(static_cast<int>(options.check_tolerance_px * sixteenths_a_px));
-  filter->setDepthDiscontinuityRadius(options.block_px);
+  static auto* const refine = reinterpret_cast<RefineWls*>(function_of_module(wls_module_name, refine_wls_name));
   cv::Mat result;
-  filter->filter(in_sixteenths(left, 1), left_picture, result, in_sixteenths(right, -1));
+  refine({.left_disparity = in_sixteenths(left, 1),
+          .right_disparity = in_sixteenths(right, -1),
+          .left_picture = left_picture,
+          .lambda = options.wls_lambda,
+          .sigma = options.wls_sigma,
+          .check_tolerance = static_cast<int>(options.check_tolerance_px * sixteenths_a_px),
+          .radius_px = options.block_px},
+         result);
   Image<float> disparity = left;
   for (int y = 0; y < left.height(); ++y) {
     for (int x = 0; x < left.width(); ++x) {

@@ -126,7 +126,7 @@ std::optional<CarriedDepth> find_carried_depth(const fs::path& path) {
   auto found = jpeg_depth(path, bytes);
   if (!found) return {};
   // The map lies as the picture is stored.
-  const int orientation = open_picture(path).decoder->spec().get_int_attribute("Orientation", 1);
+  const int orientation = open_picture(path).reader->picture().value_of("Orientation", 1);
   return CarriedDepth{read_image(path), upright(std::move(found->first), orientation), found->second,
                       "the depth map of its XMP"};
 }

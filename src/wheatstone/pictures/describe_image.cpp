@@ -6,16 +6,16 @@ namespace wheatstone {
 
 ImageDescription describe_image(const std::filesystem::path& path) {
   const OpenPicture open = open_picture(path);
-  const OIIO::ImageSpec& spec = open.decoder->spec();
+  const StoredPicture& picture = open.reader->picture();
   ImageDescription description;
-  description.format = open.decoder->format_name();
-  description.width = spec.width;
-  description.height = spec.height;
-  description.channels = spec.nchannels;
-  description.has_alpha = spec.alpha_channel >= 0;
-  description.bits = spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(8 * spec.format.size()));
-  description.is_float = spec.format.is_floating_point();
-  description.orientation = spec.get_int_attribute("Orientation", 1);
+  description.format = open.reader->format();
+  description.width = picture.width;
+  description.height = picture.height;
+  description.channels = picture.channels;
+  description.has_alpha = picture.alpha_channel >= 0;
+  description.bits = picture.value_of("oiio:BitsPerSample", picture.kind.bits);
+  description.is_float = picture.kind.is_float;
+  description.orientation = picture.value_of("Orientation", 1);
   return description;
 }
 

@@ -1,7 +1,5 @@
 #include "wheatstone/pictures/disparity_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/pictures/portable_float_map.h"
 #include "wheatstone/pictures/stored_channel_internal.h"
 
@@ -27,12 +26,6 @@ constexpr float largest_disparity_px = 65535;
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), complaint));
 }
 
-std::string ending(const std::filesystem::path& path) {
-  std::string text = path.extension().string();
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 void invalidate(Image<float>& disparity, float scale, bool zero_is_unknown) {
   for (float& value : disparity.pixels()) {
     const bool known = std::isfinite(value) && !(zero_is_unknown && value == 0);
@@ -47,21 +40,6 @@ void check_scale(const std::filesystem::path& path, std::optional<float> scale) 
                 fmt::format("{}: the scale is {}, expected a number above 0", path.string(), *scale));
 }
 
-/// Encoded in memory and written by us: the encoders do not all notice that a disk is full.
-void write_encoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec, const void* pixels,
-                   OIIO::stride_t row_bytes) {
-  const std::string name = "disparity" + ending(path);
-  const auto encoder = OIIO::ImageOutput::create(name);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const bool encoded = encoder && encoder->set_ioproxy(&memory) && encoder->open(name, spec) &&
-                       encoder->write_image(spec.format, pixels, OIIO::AutoStride, row_bytes) && encoder->close();
-  if (!encoded)
-    throw Error(ErrorKind::cannot_read_write,
-                fmt::format("{}: cannot write: {}", path.string(), encoder ? encoder->geterror() : OIIO::geterror()));
-  write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
-
 void write_png(const std::filesystem::path& path, ImageView<const float> disparity) {
   std::vector<std::uint16_t> values;
   for (int y = 0; y < disparity.height(); ++y) {
@@ -72,17 +50,19 @@ void write_png(const std::filesystem::path& path, ImageView<const float> dispari
       values.push_back(std::isfinite(d) ? static_cast<std::uint16_t>(std::max(std::lround(d * kitti_scale), 1L)) : 0);
     }
   }
-  const OIIO::ImageSpec spec(disparity.width(), disparity.height(), 1, OIIO::TypeDesc::UINT16);
-  write_encoded(path, spec, values.data(), OIIO::AutoStride);
+  StoredPicture picture{disparity.width(), disparity.height(), 1};
+  picture.kind = words_kind;
+  const PixelRows rows{values.data(), words_kind, 0, picture.height, picture.width * 2};
+  write_whole_file(path, encode_picture(path, picture, rows));
 }
 
 void write_exr(const std::filesystem::path& path, ImageView<const float> disparity) {
-  OIIO::ImageSpec spec(disparity.width(), disparity.height(), 1, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = {"disparity"};
+  StoredPicture picture{disparity.width(), disparity.height(), 1};
+  picture.kind = floats_kind;
+  picture.channel_names = {"disparity"};
   // Otherwise the time of writing: the same disparity is to be the same bytes.
-  spec.attribute("DateTime", "1970:01:01 00:00:00");
-  write_encoded(path, spec, disparity.data(),
-                static_cast<OIIO::stride_t>(disparity.stride() * static_cast<std::ptrdiff_t>(sizeof(float))));
+  picture.put("DateTime", "1970:01:01 00:00:00");
+  write_whole_file(path, encode_picture(path, picture, rows_of(disparity)));
 }
 
 }  // namespace
@@ -95,15 +75,15 @@ Image<float> read_disparity(const std::filesystem::path& path, std::optional<flo
     invalidate(disparity, scale.value_or(1), false);
     return disparity;
   }
-  StoredChannel stored = read_stored_channel(path, "a disparity map", GreyInColours::refused);
-  const bool integer = stored.type == OIIO::TypeDesc::UINT8 || stored.type == OIIO::TypeDesc::UINT16;
-  const float usual_scale = stored.type == OIIO::TypeDesc::UINT16 ? kitti_scale : 1.f;
+  StoredChannel stored = read_stored_channel(bytes, path, "a disparity map", GreyInColours::refused);
+  const bool integer = stored.kind == bytes_kind || stored.kind == words_kind;
+  const float usual_scale = stored.kind == words_kind ? kitti_scale : 1.f;
   invalidate(stored.values, scale.value_or(usual_scale), integer);
   return std::move(stored.values);
 }
 
 void write_disparity(const std::filesystem::path& path, ImageView<const float> disparity) {
-  const std::string kind = ending(path);
+  const std::string kind = ending_of(path);
   if (kind == ".pfm") return write_whole_file(path, encode_pfm(disparity));
   if (kind == ".png") return write_png(path, disparity);
   if (kind == ".exr") return write_exr(path, disparity);

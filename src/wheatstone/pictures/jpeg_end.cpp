@@ -4,9 +4,11 @@
 
 namespace wheatstone {
 
+bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8"); }
+
 bool jpeg_is_whole(std::string_view bytes) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
-  if (bytes.size() < 4 || byte(0) != 0xFF || byte(1) != 0xD8) return true;
+  if (bytes.size() < 4 || !is_jpeg(bytes)) return true;
   constexpr std::uint8_t start_of_scan = 0xDA;
 
   // Segments with a length come first; a thumbnail with an end marker of its own may hide in them.

@@ -18,6 +18,7 @@
 #include "wheatstone/pictures/jpeg_end_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/plain_png_internal.h"
+#include "wheatstone/pictures/png_reader_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -47,57 +48,56 @@ bool is_picture_format(std::string_view name) {
   return std::find(std::begin(formats), std::end(formats), name) != std::end(formats);
 }
 
-bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
-
-void check_size(const fs::path& path, const OIIO::ImageSpec& spec) {
-  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) {
-    refuse(path, fmt::format("{}x{} pixels, expected a two-dimensional picture", spec.width, spec.height));
-  }
-  const std::uint64_t bytes = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
-                              std::max<std::uint64_t>(sizeof(Rgb8), static_cast<std::uint64_t>(spec.pixel_bytes()));
-  if (bytes > most_picture_bytes)
-    refuse(path, fmt::format("{}x{} pixels, expected at most 2 GiB", spec.width, spec.height));
+void check_size(const fs::path& path, const StoredPicture& picture) {
+  const auto [width, height] = std::pair(picture.width, picture.height);
+  if (width <= 0 || height <= 0 || picture.channels <= 0 || picture.depth > 1)
+    refuse(path, fmt::format("{}x{} pixels, expected a two-dimensional picture", width, height));
+  const auto pixel_bytes = static_cast<std::uint64_t>(picture.channels * picture.kind.bits / 8);
+  const std::uint64_t bytes = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
+                              std::max<std::uint64_t>(sizeof(Rgb8), pixel_bytes);
+  if (bytes > most_picture_bytes) refuse(path, fmt::format("{}x{} pixels, expected at most 2 GiB", width, height));
 }
 
 /// A BMP is at best run-length encoded: two bytes stand for up to 255 pixels. Its decoder believes any header.
-void check_bmp_length(const fs::path& path, const OIIO::ImageInput& decoder) {
-  if (decoder.format_name() != std::string_view("bmp")) return;
-  const auto pixels =
-      static_cast<std::uint64_t>(decoder.spec().width) * static_cast<std::uint64_t>(decoder.spec().height);
+void check_bmp_length(const fs::path& path, const PictureReader& reader) {
+  if (reader.format() != "bmp") return;
+  const auto [width, height] = std::pair(reader.picture().width, reader.picture().height);
+  const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   std::error_code error;
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (!error && pixels / 128 > bytes)
     refuse(path, fmt::format("damaged or truncated picture: its header says {}x{} pixels, but the file has {} bytes",
-                             decoder.spec().width, decoder.spec().height, bytes));
+                             width, height, bytes));
 }
 
 // We composite over white ourselves, in sRGB, as viewers do.
-OIIO::ImageSpec colour_as_it_stands() {
-  OIIO::ImageSpec wish;
-  wish.attribute("oiio:UnassociatedAlpha", 1);
-  return wish;
-}
+constexpr StoredAlpha alpha = StoredAlpha::kept_apart;
 
-void open_in_memory(const fs::path& path, const std::string& format, OpenPicture& open) {
-  open.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(open.bytes.data(), open.bytes.size());
-  open.decoder = OIIO::ImageInput::create(format);
-  OIIO::ImageSpec found;
-  if (open.decoder &&
-      !(open.decoder->set_ioproxy(open.memory.get()) && open.decoder->open("", found, colour_as_it_stands()))) {
-    refuse_damaged(path, open.decoder->geterror());
-  }
+void take(const fs::path& path, OpenedPicture opened, OpenPicture& open) {
+  if (!opened.reader) refuse_damaged(path, std::move(opened.complaint));
+  open.reader = std::move(opened.reader);
 }
 
 void check_opened(const fs::path& path, OpenPicture& open) {
-  OIIO::geterror();  // what is not asked for is printed when the program ends
-  if (!open.decoder || !is_picture_format(open.decoder->format_name())) {
+  if (!open.reader || !is_picture_format(open.reader->format()))
     refuse(path, "not a picture, or a damaged one; expected PNG, JPEG, TIFF, WebP, HEIC, EXR, PPM or BMP");
-  }
-  check_size(path, open.decoder->spec());
-  check_bmp_length(path, *open.decoder);
+  const StoredPicture& picture = open.reader->picture();
+  check_size(path, picture);
+  check_bmp_length(path, *open.reader);
   if (!open.colour_profile.empty()) return;
-  const OIIO::ParamValue* profile = open.decoder->spec().find_attribute("ICCProfile");
-  if (profile != nullptr) open.colour_profile.assign(static_cast<const char*>(profile->data()), profile->datasize());
+  if (const auto* const profile = picture.find<std::vector<std::uint8_t>>("ICCProfile"))
+    open.colour_profile.assign(profile->begin(), profile->end());
+}
+
+/// A file that its decoder reads itself; it may believe a damaged header.
+std::unique_ptr<PictureReader> opened_file(const fs::path& path) {
+  try {
+    return open_picture_file(path, alpha).reader;
+  } catch (const std::bad_alloc&) {
+    refuse_damaged(path, "its header asks for more memory than there is");
+  } catch (const std::length_error&) {
+    refuse_damaged(path, "its header asks for more memory than can be");
+  }
 }
 
 }  // namespace
@@ -122,17 +122,10 @@ OpenPicture open_picture(const fs::path& path) {
     std::optional<std::string> plain = plain_png(open.bytes);
     if (!plain) refuse_damaged(path, "it ends too early, or its checksums are wrong");
     open.bytes = std::move(*plain);
-    open_in_memory(path, "png", open);
+    take(path, open_picture_bytes("png", open.bytes, alpha), open);
   } else {
     open.bytes = {};
-    const OIIO::ImageSpec wish = colour_as_it_stands();
-    try {
-      open.decoder = OIIO::ImageInput::open(path.string(), &wish);
-    } catch (const std::bad_alloc&) {  // a decoder that believes a damaged header
-      refuse_damaged(path, "its header asks for more memory than there is");
-    } catch (const std::length_error&) {
-      refuse_damaged(path, "its header asks for more memory than can be");
-    }
+    open.reader = opened_file(path);
   }
   check_opened(path, open);
   return open;
@@ -142,17 +135,16 @@ OpenPicture open_png(std::string_view bytes, std::string_view colour_profile, co
   OpenPicture open;
   open.bytes = bytes;
   open.colour_profile = colour_profile;
-  open_in_memory(path, "png", open);
+  take(path, open_picture_bytes("png", open.bytes, alpha), open);
   check_opened(path, open);
   return open;
 }
 
 OpenPicture open_jpeg(std::string_view bytes, const fs::path& path) {
-  if (!bytes.starts_with("\xFF\xD8") || !jpeg_is_whole(bytes))
-    refuse_damaged(path, "one of its pictures is no whole JPEG");
+  if (!is_jpeg(bytes) || !jpeg_is_whole(bytes)) refuse_damaged(path, "one of its pictures is no whole JPEG");
   OpenPicture open;
   open.bytes = bytes;
-  open_in_memory(path, "jpeg", open);
+  take(path, open_picture_bytes("jpeg", open.bytes, alpha), open);
   check_opened(path, open);
   return open;
 }

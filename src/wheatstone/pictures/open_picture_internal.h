@@ -1,8 +1,5 @@
 #pragma once
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,14 +8,15 @@
 #include <string>
 #include <string_view>
 
+#include "wheatstone/pictures/picture_file.h"
+
 namespace wheatstone {
 
-/// A decoder and, where it does not read the file itself, the bytes that it reads.
+/// A reader and, where it does not read the file itself, the bytes that it reads.
 struct OpenPicture {
   std::string bytes;
   std::string colour_profile;  ///< ICC, as it stands in the file; empty where there is none
-  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
-  std::unique_ptr<OIIO::ImageInput> decoder;
+  std::unique_ptr<PictureReader> reader;
 };
 
 /// A picture of a sensible size, opened: its header is read, its pixels are not. Alpha stays unassociated where the

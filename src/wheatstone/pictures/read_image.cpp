@@ -1,7 +1,5 @@
 #include "wheatstone/pictures/read_image.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,14 +27,18 @@ struct ShownChannels {
   int r = 0, g = 0, b = 0, alpha = -1;
 };
 
-ShownChannels shown_channels(const OIIO::ImageSpec& spec) {
+ShownChannels shown_channels(const StoredPicture& picture) {
   ShownChannels shown;
-  // Of GIFs, OpenImageIO 2.4 gives the number of a channel that they do not have.
-  shown.alpha = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : spec.channelindex("A");
-  if (spec.nchannels < 3) return shown;
+  shown.alpha = picture.alpha_channel;
+  if (picture.channels < 3) return shown;
   // EXR may hold its channels in any order.
-  const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
-  const bool all_named = std::all_of(named.begin(), named.end(), [](int channel) { return channel >= 0; });
+  const auto channel_named = [&](std::string_view name) {
+    const auto& names = picture.channel_names;
+    const auto found = std::ranges::find(names, name);
+    return found != names.end() ? static_cast<int>(found - names.begin()) : -1;
+  };
+  const std::array<int, 3> named = {channel_named("R"), channel_named("G"), channel_named("B")};
+  const bool all_named = std::ranges::all_of(named, [](int channel) { return channel >= 0; });
   shown.r = all_named ? named[0] : 0;
   shown.g = all_named ? named[1] : 1;
   shown.b = all_named ? named[2] : 2;
@@ -58,13 +60,13 @@ struct Conversion {
   bool premultiplied = false;  ///< colour is already multiplied by alpha
 };
 
-Conversion conversion_of(const OIIO::ImageSpec& spec) {
+Conversion conversion_of(const StoredPicture& picture) {
   Conversion conversion;
-  conversion.shown = shown_channels(spec);
-  const bool is_float = spec.format.is_floating_point();
-  const std::string encoding = spec.get_string_attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
+  conversion.shown = shown_channels(picture);
+  const bool is_float = picture.kind.is_float;
+  const std::string encoding = picture.value_of<std::string>("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
   conversion.linear = is_float && encoding != "sRGB";
-  conversion.premultiplied = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
+  conversion.premultiplied = picture.value_of("oiio:UnassociatedAlpha", 0) == 0;
   return conversion;
 }
 
@@ -82,35 +84,31 @@ void convert_row(std::span<const float> values, int channels, const Conversion& 
   }
 }
 
-Image<Rgb8> read_converted(const fs::path& path, OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
-  Image<Rgb8> picture(spec.width, spec.height);
-  const std::size_t row_values = static_cast<std::size_t>(spec.width) * spec.nchannels;
-  const bool plain = spec.nchannels == 3 && spec.format == OIIO::TypeDesc::UINT8 && spec.alpha_channel < 0;
-  if (plain) {
-    if (!input.read_image(input.current_subimage(), 0, 0, 3, OIIO::TypeDesc::UINT8, picture.pixels().data())) {
-      refuse_damaged(path, input.geterror());
-    }
+Image<Rgb8> read_converted(const fs::path& path, PictureReader& reader) {
+  const StoredPicture& stored = reader.picture();
+  Image<Rgb8> picture(stored.width, stored.height);
+  if (stored.channels == 3 && stored.kind == bytes_kind && stored.alpha_channel < 0) {
+    if (!reader.read(&picture.pixels().data()->r)) refuse_damaged(path, reader.complaint());
     return picture;
   }
-  const auto values = std::make_unique_for_overwrite<float[]>(row_values * spec.height);
-  if (!input.read_image(input.current_subimage(), 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.get())) {
-    refuse_damaged(path, input.geterror());
-  }
-  const Conversion how = conversion_of(spec);
-  for (int y = 0; y < spec.height; ++y) {
-    convert_row({values.get() + y * row_values, row_values}, spec.nchannels, how, picture.row(y));
-  }
+  const std::size_t row_values = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.channels);
+  const auto values = std::make_unique_for_overwrite<float[]>(row_values * static_cast<std::size_t>(stored.height));
+  if (!reader.read(0, stored.height, stored.channels, values.get())) refuse_damaged(path, reader.complaint());
+  const Conversion how = conversion_of(stored);
+  for (int y = 0; y < stored.height; ++y)
+    convert_row({values.get() + static_cast<std::size_t>(y) * row_values, row_values}, stored.channels, how,
+                picture.row(y));
   return picture;
 }
 
 Image<Rgb8> read_opened(const fs::path& path, const OpenPicture& open) {
-  const OIIO::ImageSpec spec = open.decoder->spec();
-  Image<Rgb8> picture = read_converted(path, *open.decoder, spec);
+  const StoredPicture& stored = open.reader->picture();
+  Image<Rgb8> picture = read_converted(path, *open.reader);
   // JPEG's decoder complains of stray bytes between the markers: they come from cameras and are harmless.
-  const std::string complaint = open.decoder->geterror();
-  if (!complaint.empty() && open.decoder->format_name() != std::string_view("jpeg")) refuse_damaged(path, complaint);
-  if (!conversion_of(spec).linear) bring_to_srgb(picture, open.colour_profile, spec.nchannels < 3);
-  return upright(std::move(picture), spec.get_int_attribute("Orientation", 1));
+  const std::string complaint = open.reader->complaint();
+  if (!complaint.empty() && open.reader->format() != "jpeg") refuse_damaged(path, complaint);
+  if (!conversion_of(stored).linear) bring_to_srgb(picture, open.colour_profile, stored.channels < 3);
+  return upright(std::move(picture), stored.value_of("Orientation", 1));
 }
 
 std::vector<Image<Rgb8>> read_png_frames(std::string_view bytes, const fs::path& path, int most_frames) {
@@ -140,8 +138,7 @@ std::vector<Image<Rgb8>> read_picture_frames(const fs::path& path, int most_fram
   if (is_animated_png(bytes)) return read_png_frames(bytes, path, most_frames);
   const OpenPicture open = open_picture(path);
   std::vector<Image<Rgb8>> frames;
-  while (static_cast<int>(frames.size()) < most_frames &&
-         open.decoder->seek_subimage(static_cast<int>(frames.size()), 0))
+  while (static_cast<int>(frames.size()) < most_frames && open.reader->go_to(static_cast<int>(frames.size())))
     frames.push_back(read_opened(path, open));
   return frames;
 }

@@ -2,9 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/jpeg_end_internal.h"
+#include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/plain_png_internal.h"
+#include "wheatstone/pictures/png_reader_internal.h"
 #include "wheatstone/pictures/stored_channel_internal.h"
 
 namespace wheatstone {
@@ -21,9 +29,9 @@ constexpr std::size_t most_bytes = std::size_t{1} << 31;
 /// Lossy pictures keep equal colours equal to within this share of white.
 constexpr float grey_tolerance = 0.03f;
 
-void read_grey(const fs::path& path, OIIO::ImageInput& input, std::string_view what, Image<float>& values) {
+void read_grey(const fs::path& path, PictureReader& reader, std::string_view what, Image<float>& values) {
   std::vector<float> colours(values.pixels().size() * 3);
-  if (!input.read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, colours.data())) refuse(path, "is damaged or truncated");
+  if (!reader.read(0, values.height(), 3, colours.data())) refuse(path, "is damaged or truncated");
   for (std::size_t i = 0; i < values.pixels().size(); ++i) {
     const auto [least, most] = std::minmax({colours[3 * i], colours[3 * i + 1], colours[3 * i + 2]});
     if (most - least > grey_tolerance * std::max(1.f, std::abs(most)))
@@ -32,40 +40,52 @@ void read_grey(const fs::path& path, OIIO::ImageInput& input, std::string_view w
   }
 }
 
-}  // namespace
-
-float full_scale(OIIO::TypeDesc type) {
-  if (type == OIIO::TypeDesc::UINT8) return 255;
-  return type == OIIO::TypeDesc::UINT16 ? 65535.f : 1.f;
-}
-
-StoredChannel read_stored_channel(const fs::path& path, std::string_view what, GreyInColours colours) {
-  const auto input = OIIO::ImageInput::open(path.string());
-  if (!input) {
-    OIIO::geterror();
-    refuse(path, fmt::format("is not {}, expected PNG, PFM or EXR", what));
-  }
-  return read_stored_channel(*input, path, what, colours);
-}
-
-StoredChannel read_stored_channel(OIIO::ImageInput& input, const fs::path& path, std::string_view what,
-                                  GreyInColours colours) {
-  const OIIO::ImageSpec& spec = input.spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.image_bytes() > most_bytes)
-    refuse(path, fmt::format("is {}x{} pixels, which is not a valid size for {}", spec.width, spec.height, what));
-  if (spec.nchannels >= 3 && colours == GreyInColours::refused)
-    refuse(path, fmt::format("has {} channels, expected one", spec.nchannels));
-  StoredChannel stored{Image<float>(spec.width, spec.height), spec.format};
-  if (spec.nchannels >= 3) {
-    read_grey(path, input, what, stored.values);
-  } else if (!input.read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, stored.values.pixels().data())) {
+StoredChannel first_channel(PictureReader& reader, const fs::path& path, std::string_view what, GreyInColours colours) {
+  const StoredPicture& picture = reader.picture();
+  const auto [width, height] = std::pair(picture.width, picture.height);
+  const std::size_t bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                            static_cast<std::size_t>(picture.channels * picture.kind.bits / 8);
+  if (width < 1 || height < 1 || picture.depth > 1 || bytes > most_bytes)
+    refuse(path, fmt::format("is {}x{} pixels, which is not a valid size for {}", width, height, what));
+  if (picture.channels >= 3 && colours == GreyInColours::refused)
+    refuse(path, fmt::format("has {} channels, expected one", picture.channels));
+  StoredChannel stored{Image<float>(width, height), picture.kind};
+  if (picture.channels >= 3) {
+    read_grey(path, reader, what, stored.values);
+  } else if (!reader.read(0, height, 1, stored.values.pixels().data())) {
     refuse(path, "is damaged or truncated");
   }
-  // OpenImageIO brings integers to 0..1.
-  const float full = full_scale(spec.format);
+  const float full = full_scale(picture.kind);
   if (full > 1)
     for (float& value : stored.values.pixels()) value = std::round(value * full);
   return stored;
+}
+
+}  // namespace
+
+float full_scale(NumberKind kind) {
+  if (kind == bytes_kind) return 255;
+  return kind == words_kind ? 65535.f : 1.f;
+}
+
+StoredChannel read_stored_channel(std::string_view bytes, const fs::path& path, std::string_view what,
+                                  GreyInColours colours) {
+  OpenedPicture opened;
+  std::string plain;
+  if (is_png(bytes)) {
+    std::optional<std::string> whole = plain_png(bytes);
+    if (!whole) refuse_damaged(path, "it ends too early, or its checksums are wrong");
+    plain = std::move(*whole);
+    opened = open_picture_bytes("png", plain);
+  } else if (is_jpeg(bytes)) {
+    if (!jpeg_is_whole(bytes)) refuse_damaged(path, "it ends too early");
+    opened = open_picture_bytes("jpeg", bytes);
+  } else {
+    opened = open_picture_file(path);
+    if (!opened.reader) refuse(path, fmt::format("is not {}, expected PNG, PFM or EXR", what));
+  }
+  if (!opened.reader) refuse_damaged(path, std::move(opened.complaint));
+  return first_channel(*opened.reader, path, what, colours);
 }
 
 }  // namespace wheatstone

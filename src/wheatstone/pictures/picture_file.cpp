@@ -1,0 +1,88 @@
+#include "wheatstone/pictures/picture_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "wheatstone/error.h"
+#include "wheatstone/files/module.h"
+#include "wheatstone/pictures/encode_png_internal.h"
+#include "wheatstone/pictures/picture_module_internal.h"
+#include "wheatstone/pictures/png_reader_internal.h"
+
+namespace wheatstone {
+namespace {
+
+const PictureModule& module() {
+  static const PictureModule* const loaded =
+      reinterpret_cast<GivePictureModule*>(function_of_module(picture_module_name, give_picture_module_name))();
+  return *loaded;
+}
+
+std::unique_ptr<PictureWriter> writer_of(const std::string& ending, const std::filesystem::path& path,
+                                         std::vector<unsigned char>* bytes) {
+  std::unique_ptr<PictureWriter> writer = module().writer(ending, path, bytes);
+  if (!writer)
+    throw Error(ErrorKind::cannot_read_write, fmt::format("the installed OpenImageIO cannot write {} files", ending));
+  return writer;
+}
+
+[[noreturn]] void fail_to_encode(const std::filesystem::path& path, std::string reason) {
+  std::ranges::replace(reason, '\n', ' ');
+  throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write the picture: {}", path.string(), reason));
+}
+
+template <class Pixel>
+PixelRows all_rows(ImageView<const Pixel> image, NumberKind kind) {
+  return {image.data(), kind, 0, image.height(), image.stride() * static_cast<std::ptrdiff_t>(sizeof(Pixel))};
+}
+
+}  // namespace
+
+void StoredPicture::put(const std::string& name, PictureAttribute attribute) {
+  attributes.insert_or_assign(name, std::move(attribute));
+}
+
+OpenedPicture open_picture_file(const std::filesystem::path& path, StoredAlpha alpha) {
+  return module().open_file(path, alpha);
+}
+
+OpenedPicture open_picture_bytes(const std::string& format, std::string_view bytes, StoredAlpha alpha) {
+  return format == "png" ? open_png_bytes(bytes, alpha) : module().open_bytes(format, bytes, alpha);
+}
+
+std::unique_ptr<PictureWriter> picture_writer(const std::string& ending, const std::filesystem::path& path) {
+  return writer_of(ending, path, nullptr);
+}
+
+std::unique_ptr<PictureWriter> picture_writer(const std::string& ending, std::vector<unsigned char>& bytes) {
+  return writer_of(ending, {}, &bytes);
+}
+
+std::string encode_picture(const std::filesystem::path& path, const StoredPicture& picture, const PixelRows& rows) {
+  if (picture.width < 1 || picture.height < 1) fail_to_encode(path, "it has no pixels");
+  if (ending_of(path) == ".png") {
+    EncodedPng png = encode_png(picture, rows);
+    if (!png.complaint.empty()) fail_to_encode(path, png.complaint);
+    return std::move(png.bytes);
+  }
+  std::vector<unsigned char> bytes;
+  const std::unique_ptr<PictureWriter> writer = picture_writer(ending_of(path), bytes);
+  if (!writer->begin({&picture, 1}) || !writer->write(rows) || !writer->end())
+    fail_to_encode(path, writer->complaint());
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+PixelRows rows_of(ImageView<const Rgb8> image) { return all_rows(image, bytes_kind); }
+PixelRows rows_of(ImageView<const std::uint8_t> image) { return all_rows(image, bytes_kind); }
+PixelRows rows_of(ImageView<const float> image) { return all_rows(image, floats_kind); }
+
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+}  // namespace wheatstone

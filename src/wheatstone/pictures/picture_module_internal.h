@@ -1,0 +1,22 @@
+#pragma once
+
+#include "wheatstone/pictures/picture_file.h"
+
+namespace wheatstone {
+
+/// What the module with OpenImageIO does: the functions of picture_file.h for all formats but PNG. It is apart because
+/// the libraries behind OpenImageIO take five times as long to load as all others, and most runs need none of them.
+struct PictureModule {
+  OpenedPicture (*open_file)(const std::filesystem::path& path, StoredAlpha alpha);
+  OpenedPicture (*open_bytes)(const std::string& format, std::string_view bytes, StoredAlpha alpha);
+  /// To `bytes`, or where there are none to the file; none where there is no such format.
+  std::unique_ptr<PictureWriter> (*writer)(const std::string& ending, const std::filesystem::path& path,
+                                           std::vector<unsigned char>* bytes);
+};
+
+/// The module's function that gives the others.
+using GivePictureModule = const PictureModule*();
+inline constexpr auto picture_module_name = "wheatstone_openimageio";
+inline constexpr auto give_picture_module_name = "wheatstone_picture_module";
+
+}  // namespace wheatstone
