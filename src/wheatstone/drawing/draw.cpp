@@ -1,8 +1,10 @@
 #include "wheatstone/drawing/draw.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "wheatstone/drawing/prepared_painting_internal.h"
@@ -23,14 +25,14 @@ void leave_out_detail(const DrawOptions& options, Painting& painting) {
 }
 
 PreparedPainting prepared(const Painting& painting) {
+  using Marks = decltype(PreparedPainting::Contents::marks);
+  std::optional<Marks> marks;
+  std::optional<PreparedSurfaces> surfaces;
+  tbb::parallel_invoke(
+      [&] { marks = std::visit([](const auto& kind) -> Marks { return prepare_marks(kind); }, painting.marks); },
+      [&] { surfaces.emplace(painting.surfaces); });
   auto contents = std::make_unique<PreparedPainting::Contents>(PreparedPainting::Contents{
-      width_of(painting),
-      height_of(painting),
-      std::visit([](const auto& marks) -> decltype(PreparedPainting::Contents::marks) { return prepare_marks(marks); },
-                 painting.marks),
-      PreparedSurfaces(painting.surfaces),
-      painting.relief,
-  });
+      width_of(painting), height_of(painting), *std::move(marks), *std::move(surfaces), painting.relief});
   return PreparedPainting(std::move(contents));
 }
 

@@ -220,8 +220,13 @@ class BandOfViews {
     for (std::size_t i = 0; i < views.size(); ++i) at_work.push_back(begin(views[i], accumulators_[i]));
     for (std::size_t above = layers_.size(); above-- > 0;) {
       const std::vector<Piece>& pieces = layers_[above].pieces;
-      for (std::size_t nearer = pieces.size(); nearer-- > 0;)
+      const FlatLayer& layer = painting_.layers[above].flat;
+      for (std::size_t nearer = pieces.size(); nearer-- > 0;) {
+        if (nearer >= FlatLayer::strokes_ahead) layer.ask_for_stroke(pieces[nearer - FlatLayer::strokes_ahead].stroke);
+        if (nearer >= FlatLayer::vertices_ahead)
+          layer.ask_for_vertices(pieces[nearer - FlatLayer::vertices_ahead].stroke);
         for (const ViewAtWork& view : at_work) draw_piece(above, nearer, view, view.hides_at_first(pieces[nearer]));
+      }
     }
     for (std::size_t above = layers_.size(); above-- > 0;) {
       const std::vector<std::uint32_t>& others = layers_[above].of_other_views;

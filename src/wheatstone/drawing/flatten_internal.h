@@ -1,5 +1,7 @@
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +33,18 @@ struct FlatLayer {
   static constexpr std::size_t values_after = 2 * Canvas::widest_vector;  ///< the last vertex: vectors may be loaded
   std::vector<float> x, y, disparity;
   std::vector<FlatStroke> strokes;
+
+  // Strokes of one place lie far apart in memory: what is drawn soon is asked for in good time.
+  static constexpr std::size_t strokes_ahead = 8, vertices_ahead = 4;
+
+  void ask_for_stroke(std::size_t stroke) const {
+    hwy::Prefetch(&strokes[stroke]);
+    hwy::Prefetch(&strokes[stroke].disparity);
+  }
+  void ask_for_vertices(std::size_t stroke) const {
+    for (const std::vector<float>* values : {&x, &y, &disparity})
+      hwy::Prefetch(values->data() + strokes[stroke].first_vertex);
+  }
 };
 
 /// Bends every stroke's cubic B-spline (clamped: it begins and ends at its outer control points) into segments that

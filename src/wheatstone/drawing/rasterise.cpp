@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 
@@ -81,8 +80,10 @@ void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canv
     } else {
       drawn = FrontToBackAccumulator(band.row_count, canvas.width, true);
     }
-    for (const std::uint32_t place : bands[i] | std::views::reverse) {
-      const FlatStroke& stroke = flat.strokes[place];
+    for (std::size_t nearer = bands[i].size(); nearer-- > 0;) {
+      if (nearer >= FlatLayer::strokes_ahead) flat.ask_for_stroke(bands[i][nearer - FlatLayer::strokes_ahead]);
+      if (nearer >= FlatLayer::vertices_ahead) flat.ask_for_vertices(bands[i][nearer - FlatLayer::vertices_ahead]);
+      const FlatStroke& stroke = flat.strokes[bands[i][nearer]];
       if (stroke.views.contains(view) && may_be_seen(seen, stroke, band, drawn))
         draw_stroke_under({seen, stroke, hides.own}, band, drawn);
     }

@@ -1,3 +1,5 @@
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -63,12 +65,14 @@ Rgb8 colour_of_surface(const LayerPlanner& planner, ImageView<const std::uint8_t
 }  // namespace
 
 Layer strokes_near_bare(const Layer& layer, const Canvas& canvas) {
-  constexpr int block_px = 16;
+  constexpr int block_px = 8;
   const int columns = canvas.width / block_px + 1, rows = canvas.height / block_px + 1;
   Image<std::uint8_t> has_bare(columns, rows);
-  for (int y = 0; y < canvas.height; ++y)
-    for (int x = 0; x < canvas.width; ++x)
-      if (canvas.coverage(x, y) < 0.5f) has_bare(x / block_px, y / block_px) = 1;
+  tbb::parallel_for(0, rows, [&](int row) {
+    for (int y = row * block_px; y < std::min((row + 1) * block_px, canvas.height); ++y)
+      for (int x = 0; x < canvas.width; ++x)
+        if (canvas.coverage(x, y) < 0.5f) has_bare(x / block_px, row) = 1;
+  });
   const auto block = [](float place, int count) {
     return std::clamp(static_cast<int>(std::floor(place / block_px)), 0, count - 1);
   };
@@ -158,9 +162,10 @@ Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const S
                  ImageView<const std::uint8_t> wanted) {
   const int width = planner.photograph.width(), height = planner.photograph.height();
   Image<std::uint8_t> bare(width, height);
-  for (int y = 0; y < height; ++y)
+  tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x)
       bare(x, y) = planner.canvas.coverage(x, y) < 0.5f && (wanted.empty() || wanted(x, y) != 0) ? 255 : 0;
+  });
   BareThread thread(planner, inputs, scaled, style, bare);
   Layer cover{scaled.radii_px.back(), {}, {}};
   for (int y = 0; y < height; ++y) {

@@ -23,4 +23,26 @@ Image<float> distance_to_depth_edge(ImageView<const std::int16_t> steps, float t
 /// carry a rim of the near object away with the far one.
 Image<std::uint8_t> behind_depth_edge(ImageView<const std::int16_t> steps, float reach_px, float threshold_px);
 
+// Their kernels.
+
+/// What of a picture near_depth_edge or behind_depth_edge marks.
+struct DepthEdgeMarks {
+  ImageView<const std::int16_t> steps;
+  int reach_px;
+  std::int16_t threshold;  ///< in steps
+  bool only_behind;
+};
+void mark_depth_edges(const DepthEdgeMarks& wanted, int first_row, int end_row, Image<std::uint8_t>& marks);
+
+/// Lengths of the steps of a distance transform with a mask of three by three pixels, by which its largest error is
+/// least (Borgefors 1986): a path has as many steps aslant as it can.
+struct ChamferSteps {
+  static constexpr int one_px = 1 << 16;
+  static constexpr int straight = 62587, diagonal = 89738;  // 0.955 px and 1.3693 px
+};
+
+/// Distances to the pixels of a mask that are 255, and half a pixel more: at most `most_px`, itself at most 240.
+void measure_edge_distances(ImageView<const std::uint8_t> edges, float most_px, int first_row, int end_row,
+                            Image<float>& distances);
+
 }  // namespace wheatstone

@@ -74,11 +74,14 @@ static_assert(2 * misplaced_error < bare_error / 2);
 
 /// Looks through one row of one cell for a better pixel than the seed's. `errors` is by column of the picture.
 void improve_seed(const Pass& pass, const RowPart& part, const float* errors, const Target& target, Seed& seed) {
+  // Nothing in a row is wanted more than a bare pixel right above or below the target.
+  const float rows_away = static_cast<float>(part.row) - target.y;
+  if (seed.error >= bare_error - rows_away * rows_away && rows_away * rows_away < bare_error / 2) return;
   for (int x = part.begin; x < part.end; ++x) {
-    if (!may_begin(pass.plan, pass.place, x, part.row)) continue;
     const bool misplaced = !pass.plan.misplaced.empty() && pass.plan.misplaced(x, part.row) != 0;
     const bool is_bare = errors[x] >= bare_error;
     const float own_error = errors[x] + (misplaced && !is_bare ? misplaced_error : 0);
+    if (own_error <= seed.error || !may_begin(pass.plan, pass.place, x, part.row)) continue;
     const float error = desire(pass, own_error, x, part.row, target);
     if (error > seed.error) seed = {error, x, part.row};
   }

@@ -80,6 +80,27 @@ TEST(DepthEdges, DistanceIsHalfAPixelBesideAnEdge) {
   EXPECT_NEAR(distance(14, 1), 4.5f, 0.3f);
 }
 
+TEST(DepthEdges, DistancesAreThoseToTheNearestOneUpToTheBorders) {
+  constexpr float most_px = 7, chamfer_error = 0.07f;
+  for (const int width : {5, 64, 131}) {
+    Image<float> disparity(width, 83, 1);
+    for (const auto& [x, y] : {std::pair{3, 2}, {width - 1, 40}, {width / 2, 79}}) disparity(x, y) = 9;
+    const Image<std::int16_t> steps = disparity_in_steps(disparity);
+    const Image<std::uint8_t> edges = near_depth_edge(steps, 1, 2);
+    const Image<float> distance = distance_to_depth_edge(steps, 2, most_px);
+    for (int y = 0; y < disparity.height(); ++y) {
+      for (int x = 0; x < width; ++x) {
+        float nearest = most_px;
+        for (int v = 0; v < disparity.height(); ++v)
+          for (int u = 0; u < width; ++u)
+            if (edges(u, v) != 0)
+              nearest = std::min(nearest, std::hypot(static_cast<float>(u - x), static_cast<float>(v - y)) + 0.5f);
+        ASSERT_NEAR(distance(x, y), nearest, chamfer_error * nearest) << x << ' ' << y;
+      }
+    }
+  }
+}
+
 TEST(DepthEdges, OnlyTheFarSideLiesBehindOne) {
   Image<float> disparity(20, 3, 1);
   for (int y = 0; y < 3; ++y)
