@@ -1,5 +1,5 @@
 # The most common tasks. Each target first installs missing packages and builds what it needs.
-.PHONY: build test test-long demo view package bench bench-gpu format lint fuzz configured
+.PHONY: build test test-long demo view package bench bench-gpu bench-page format lint fuzz configured
 
 build: configured
 	@cmake --build --preset release
@@ -29,6 +29,10 @@ bench: build
 bench-gpu: configured
 	@cmake --build --preset release --target bench_gpu
 	@build/release/bin/bench_gpu
+
+bench-page: configured
+	@cmake --build --preset release --target wheatstone_cli
+	@page/test/bench.sh build/release/bin/wheatstone build/release/bench-page
 
 format:
 	@scripts/install-deps lint

@@ -7,6 +7,7 @@
 //   controlslist  what is shown of the controls: mode, detail, fullscreen, vr; all of them by default
 
 import { addFilmControls } from "./film";
+import { Gl } from "./gl";
 import { addHeadsetButton } from "./headset";
 import { openPicture } from "./open_picture";
 import { PageError, sourceAt } from "./parts";
@@ -16,7 +17,8 @@ import { styles } from "./styles";
 import * as words from "./words";
 
 const wiggleMilliseconds = 160;
-const slowMilliseconds = 90;
+const slowMilliseconds = 60;
+const leastEffort = 0.25;
 const restMilliseconds = 250;
 
 export class WheatstonePicture extends HTMLElement {
@@ -31,9 +33,11 @@ export class WheatstonePicture extends HTMLElement {
   private stage: Stage | undefined;
   private look: Look = { mode: "flat", view: 0, separation: 1, zeroParallax: 0 };
   private isWanted = false;
+  private hasContent = false;
+  /** What a picture that moves gets, of the effort that one at rest gets. */
   private effort = 1;
   private movedAt = -Infinity;
-  private frameAt = 0;
+  private rest = 0;
   private opening = 0;
 
   constructor() {
@@ -124,9 +128,11 @@ export class WheatstonePicture extends HTMLElement {
       const { facts } = source;
       const stage = new Stage(gl, openPicture(gl, source));
       this.stage = stage;
+      this.hasContent = false;
       this.begin(facts.title, facts.separation, facts.zeroParallax);
       await stage.picture.load(() => {
         if (opening !== this.opening) return;
+        this.hasContent = true;
         stage.forget();
         this.redraw();
       });
@@ -192,19 +198,39 @@ export class WheatstonePicture extends HTMLElement {
   private frame(now: number): void {
     this.isWanted = false;
     const { stage, canvas, look } = this;
-    if (!stage || stage.isElsewhere || stage.gl.isContextLost()) return;
+    if (!stage || !this.hasContent || stage.isElsewhere || stage.gl.isContextLost()) return;
     this.fit();
-    // A device that is too slow for the picture's size draws it smaller while it moves.
-    const moves = now - this.movedAt < restMilliseconds;
-    const took = now - this.frameAt;
-    this.frameAt = now;
-    if (!moves) this.effort = 1;
-    else if (took > slowMilliseconds && took < restMilliseconds * 8) this.effort = Math.max(this.effort / 2, 0.25);
-    stage.draw(this.shownLook(now, look), this.effort);
+    const moves = now - this.movedAt < this.restTime;
+    const effort = moves ? this.effort : 1;
+    const begin = performance.now();
+    const isNew = stage.draw(this.shownLook(now, look), effort);
+    if (isNew && effort === 1) this.measure(stage.gl, begin);
     canvas.dataset.frames = String(Number(canvas.dataset.frames ?? 0) + 1);
     this.dataset.shown = "";
     const wiggles = look.mode === "wiggle" && !prefersNoMotion();
-    if (wiggles || (moves && this.effort < 1)) this.redraw();
+    if (wiggles) this.redraw();
+  }
+
+  /** After so many milliseconds without a movement the exact picture is drawn, which stops a slow device for a while. */
+  private get restTime(): number {
+    return restMilliseconds / this.effort;
+  }
+
+  /** How long the device takes for what it was told to draw: one that is slow is asked for less while the view moves. */
+  private measure(gl: Gl, begin: number): void {
+    const drawn = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = (): void => {
+      if (!drawn || gl.isContextLost()) return;
+      const took = performance.now() - begin;
+      if (gl.clientWaitSync(drawn, 0, 0) === gl.TIMEOUT_EXPIRED) {
+        setTimeout(look, 5);
+        return;
+      }
+      gl.deleteSync(drawn);
+      this.effort = Math.min(Math.max(Math.sqrt(slowMilliseconds / took), leastEffort), 1);
+    };
+    setTimeout(look, 0);
   }
 
   private shownLook(now: number, look: Look): Look {
@@ -276,7 +302,8 @@ export class WheatstonePicture extends HTMLElement {
     const [left, right] = viewsOf(stage.picture, look);
     this.movedAt = performance.now();
     this.change({ view: left + Math.min(Math.max(place, 0), 1) * (right - left) });
-    setTimeout(() => this.redraw(), restMilliseconds);
+    clearTimeout(this.rest);
+    this.rest = window.setTimeout(() => this.redraw(), this.restTime + 10);
   }
 
   /** What lies there comes onto the screen. */

@@ -33,12 +33,53 @@ ${hidingRule}
 ${gapRule}
 void main() { finished = vec4(continued(painted, ivec2(gl_FragCoord.xy)), 1.0); }`;
 
-export class LayeredPicture implements Picture {
+/** Draws views of pictures that lie on surfaces. */
+export class PicturesOnSurfaces {
   private readonly program: Program;
   private readonly finish: Program;
   private readonly seen: WebGLTexture;
-  private readonly pictures: WebGLTexture;
   private readonly targets = new TargetKeeper();
+
+  /** The pictures are the layers of a texture, in the order of all surfaces; the views have this size. */
+  constructor(
+    private readonly gl: Gl,
+    private readonly pictures: WebGLTexture,
+    private readonly size: { width: number; height: number },
+  ) {
+    this.program = makeProgram(gl, wholePicture, pictureShader);
+    this.finish = makeProgram(gl, wholePicture, finishShader);
+    this.seen = makeTexture(gl);
+  }
+
+  /** Draws the view at this position; blended with what is there, where `isBlended`. */
+  draw(surfaces: Surfaces, view: number, target: Target, isBlended = false): void {
+    const { gl } = this;
+    const { width, height } = this.size;
+    fillWithFloats(gl, this.seen, width, height, surfaces.seenFrom(view, width, height));
+    const drawn = this.targets.like(gl, target, {});
+    drawTo(gl, drawn);
+    this.use(this.program, target, surfaces);
+    useTexture(gl, this.program, "pictures", 1, this.pictures, gl.TEXTURE_2D_ARRAY);
+    drawWholePicture(gl);
+    drawTo(gl, target);
+    this.use(this.finish, target, surfaces);
+    useTexture(gl, this.finish, "painted", 1, drawn.texture);
+    if (isBlended) gl.enable(gl.BLEND);
+    drawWholePicture(gl);
+  }
+
+  private use(program: Program, target: Target, surfaces: Surfaces): void {
+    const { gl, size } = this;
+    gl.useProgram(program.program);
+    useTexture(gl, program, "seen", 0, this.seen);
+    gl.uniform2f(program.at("seenScale"), size.width / target.width, size.height / target.height);
+    gl.uniform1f(program.at("tolerance"), surfaces.tolerance);
+  }
+}
+
+export class LayeredPicture implements Picture {
+  private readonly pictures: WebGLTexture;
+  private readonly views: PicturesOnSurfaces;
   surfaces: Surfaces | undefined;
   /** The same with the view at the other end of what photographs show as the reference. */
   private others: Surfaces | undefined;
@@ -48,10 +89,8 @@ export class LayeredPicture implements Picture {
     readonly facts: LayeredFacts,
     private readonly source: Source,
   ) {
-    this.program = makeProgram(gl, wholePicture, pictureShader);
-    this.finish = makeProgram(gl, wholePicture, finishShader);
-    this.seen = makeTexture(gl);
     this.pictures = makeTexture(gl, gl.LINEAR, gl.TEXTURE_2D_ARRAY);
+    this.views = new PicturesOnSurfaces(gl, this.pictures, facts);
   }
 
   async load(changed: () => void): Promise<void> {
@@ -76,34 +115,11 @@ export class LayeredPicture implements Picture {
     if (!surfaces) return;
     // Each of two views is shown with its own colours, and what lies between them with those of both.
     const share = others ? Math.min(Math.max((view - surfaces.reference) / (others.reference - surfaces.reference), 0), 1) : 0;
-    if (share < 1) this.drawFrom(surfaces, view, target);
+    if (share < 1) this.views.draw(surfaces, view, target);
     if (!others || share === 0) return;
     gl.blendColor(0, 0, 0, share);
     gl.blendFunc(gl.CONSTANT_ALPHA, gl.ONE_MINUS_CONSTANT_ALPHA);
-    this.drawFrom(others, view, target, share < 1);
+    this.views.draw(others, view, target, share < 1);
     gl.disable(gl.BLEND);
-  }
-
-  private drawFrom(surfaces: Surfaces, view: number, target: Target, isBlended = false): void {
-    const { gl, facts } = this;
-    fillWithFloats(gl, this.seen, facts.width, facts.height, surfaces.seenFrom(view, facts.width, facts.height));
-    const drawn = this.targets.like(gl, target, {});
-    drawTo(gl, drawn);
-    this.use(this.program, target, surfaces);
-    useTexture(gl, this.program, "pictures", 1, this.pictures, gl.TEXTURE_2D_ARRAY);
-    drawWholePicture(gl);
-    drawTo(gl, target);
-    this.use(this.finish, target, surfaces);
-    useTexture(gl, this.finish, "painted", 1, drawn.texture);
-    if (isBlended) gl.enable(gl.BLEND);
-    drawWholePicture(gl);
-  }
-
-  private use(program: Program, target: Target, surfaces: Surfaces): void {
-    const { gl, facts } = this;
-    gl.useProgram(program.program);
-    useTexture(gl, program, "seen", 0, this.seen);
-    gl.uniform2f(program.at("seenScale"), facts.width / target.width, facts.height / target.height);
-    gl.uniform1f(program.at("tolerance"), surfaces.tolerance);
   }
 }

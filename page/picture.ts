@@ -12,6 +12,8 @@ export interface Picture {
   load(changed: () => void): Promise<void>;
   /** The picture as the view at this position sees it; the target has the picture's shape, in any size. */
   draw(view: number, target: Target): void;
+  /** The same sooner and less exactly, for while the view moves. */
+  drawQuickly?(view: number, target: Target): void;
   /** Layers of detail, and how many of them are drawn. */
   readonly detail?: { readonly layers: number; shown: number };
   /** What tells how deep the scene is, once it is loaded. */

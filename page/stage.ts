@@ -97,6 +97,7 @@ export class Stage {
   private readonly compose: Program;
   /** A headset shows the picture, and has the canvas. */
   isElsewhere = false;
+  private viewsDrawn = 0;
   private readonly kept: (KeptView | undefined)[] = [];
 
   constructor(
@@ -111,35 +112,45 @@ export class Stage {
     for (const kept of this.kept) if (kept) kept.isCurrent = false;
   }
 
-  /** A view's picture at so many drawn pixels for one of the picture; `slot` tells views of one frame apart. */
-  viewAt(view: number, scale: number, slot: number): Target {
-    const { facts } = this.picture;
+  /**
+   * A view's picture at so many drawn pixels for one of the picture; `slot` tells views of one frame apart. `effort` is
+   * less than 1 where what is drawn sooner has to do.
+   */
+  viewAt(view: number, scale: number, slot: number, effort = 1): Target {
+    const { picture } = this;
+    const { facts } = picture;
+    const isQuick = effort < 1 && picture.drawQuickly !== undefined;
     const most = this.gl.getParameter(this.gl.MAX_TEXTURE_SIZE) as number;
-    const used = Math.min(scale, most / facts.width, most / facts.height);
+    const used = Math.min(isQuick ? scale : scale * effort, most / facts.width, most / facts.height);
     const width = Math.max(Math.round(facts.width * used), 1);
     const height = Math.max(Math.round(facts.height * used), 1);
     const keeper = this.kept[slot]?.keeper ?? new TargetKeeper();
     const target = keeper.like(this.gl, { width, height }, { filter: this.gl.LINEAR });
     let kept = this.kept[slot];
     if (kept?.target !== target) kept = this.kept[slot] = { keeper, target, view, isCurrent: false };
-    if (!kept.isCurrent || kept.view !== view) this.picture.draw(view, kept.target);
+    if (kept.isCurrent && kept.view === view) return kept.target;
+    ++this.viewsDrawn;
+    if (isQuick) picture.drawQuickly!(view, kept.target);
+    else picture.draw(view, kept.target);
     kept.view = view;
-    kept.isCurrent = true;
+    kept.isCurrent = !isQuick;
     return kept.target;
   }
 
-  /** Draws to the canvas. `effort` is less than 1 where a smaller picture has to do. */
-  draw(look: Look, effort = 1): void {
+  /** Draws to the canvas; `effort` as of `viewAt`. Returns whether a view had to be drawn for it. */
+  draw(look: Look, effort = 1): boolean {
     const { gl, picture, compose } = this;
     const window = windowOf(picture, look);
     const { width, height } = gl.canvas;
+    const viewsBefore = this.viewsDrawn;
     const beside = isSideBySide(look.mode);
-    const scale = (width / (window.width * (beside ? 2 : 1))) * effort;
+    const scale = width / (window.width * (beside ? 2 : 1));
     const [leftmost, rightmost] = viewsOf(picture, look);
     const single = Math.min(Math.max(look.view, leftmost), rightmost);
     const pair: [number, number] = !isPair(look.mode) ? [single, single] : look.mode === "cross-eyed" ? [rightmost, leftmost] : [leftmost, rightmost];
-    const left = this.viewAt(pair[0], scale, 0);
-    const right = pair[1] === pair[0] ? left : this.viewAt(pair[1], scale, 1);
+    // While a picture wiggles both its views are kept.
+    const left = this.viewAt(pair[0], scale, look.mode === "wiggle" && single === rightmost ? 1 : 0, effort);
+    const right = pair[1] === pair[0] ? left : this.viewAt(pair[1], scale, 1, effort);
 
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, width, height);
@@ -150,5 +161,6 @@ export class Stage {
     gl.uniform4f(compose.at("window"), window.begin(pair[0]), window.begin(pair[1]), window.width, window.height);
     gl.uniform1i(compose.at("mode"), beside ? 2 : look.mode === "anaglyph" ? 1 : 0);
     drawWholePicture(gl);
+    return this.viewsDrawn > viewsBefore;
   }
 }

@@ -1,8 +1,9 @@
 // Strokes of a brush, drawn for any view: each is a chain of segments, laid over what is behind it as far as no surface
 // hides it. The same picture as src/wheatstone/drawing/draw_strokes.cpp, from back to front.
 
-import { drawTo, drawWholePicture, fillWithFloats, Gl, makeProgram, makeTexture, Program, Target, TargetKeeper, useTexture, wholePicture } from "./gl";
+import { deleteTarget, drawTo, drawWholePicture, fillWithFloats, Gl, makeProgram, makeTarget, makeTexture, Program, Target, TargetKeeper, useTexture, wholePicture } from "./gl";
 import { gapRule, hidingRule, PlannedIn } from "./hiding";
+import { PicturesOnSurfaces } from "./layered";
 import { StrokesFacts } from "./manifest";
 import { NumberStream, Source, streamsOf } from "./parts";
 import { Picture } from "./picture";
@@ -325,6 +326,8 @@ export class StrokesPicture implements Picture {
   private readonly targets = new TargetKeeper();
   private readonly loaded: { all: DeviceChains; beside: DeviceChains }[] = [];
   private readonly indices: SegmentIndices;
+  /** Pictures of the views that photographs show, which the surfaces carry to the others while the view moves. */
+  private quick: { pictures: WebGLTexture; views: PicturesOnSurfaces; surfaces: Surfaces; strokes: number } | undefined;
 
   constructor(
     private readonly gl: Gl,
@@ -376,16 +379,52 @@ export class StrokesPicture implements Picture {
     drawWholePicture(gl);
   }
 
+  drawQuickly(view: number, target: Target): void {
+    const { gl, surfaces } = this;
+    if (!surfaces || surfaces.isEmpty) return this.draw(view, target);
+    const { strokes, views, surfaces: seen } = (this.quick ??= this.quickWith(surfaces));
+    if (strokes !== this.strokeCount) this.keepPictures(surfaces);
+    gl.disable(gl.BLEND);
+    views.draw(seen, view, target);
+  }
+
+  private quickWith(surfaces: Surfaces): NonNullable<StrokesPicture["quick"]> {
+    const { gl, facts } = this;
+    const pictures = makeTexture(gl, gl.LINEAR, gl.TEXTURE_2D_ARRAY);
+    gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 1, gl.RGBA8, facts.width, facts.height, surfaces.facts.length);
+    return { pictures, views: new PicturesOnSurfaces(gl, pictures, facts), surfaces: surfaces.ofPhotographs(), strokes: 0 };
+  }
+
+  private keepPictures(surfaces: Surfaces): void {
+    const { gl, facts } = this;
+    const target = makeTarget(gl, facts.width, facts.height);
+    surfaces.facts.forEach(({ view, continued }, i) => {
+      if (continued) return;
+      this.draw(view, target);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
+      gl.bindTexture(gl.TEXTURE_2D_ARRAY, this.quick!.pictures);
+      gl.copyTexSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, i, 0, 0, facts.width, facts.height);
+    });
+    deleteTarget(gl, target);
+    this.quick!.strokes = this.strokeCount;
+  }
+
+  /** Of the layers that are drawn. */
+  private get strokeCount(): number {
+    return this.shown.reduce((sum, layer) => sum + layer.all.strokeCount + layer.beside.strokeCount, 0);
+  }
+  private get shown(): { all: DeviceChains; beside: DeviceChains }[] {
+    return this.loaded.slice(0, this.detail.shown);
+  }
+
   private drawStrokes(view: number, scale: number): void {
-    const { gl, program, facts } = this;
-    const shown = this.loaded.slice(0, this.detail.shown);
-    const count = shown.reduce((sum, layer) => sum + layer.all.strokeCount + layer.beside.strokeCount, 0);
+    const { gl, program, facts, shown } = this;
     gl.useProgram(program.program);
     this.useSeen(program, scale);
     gl.uniform2f(program.at("size"), facts.width, facts.height);
     gl.uniform1f(program.at("scale"), scale);
     gl.uniform1f(program.at("view"), view);
-    gl.uniform1f(program.at("orderStep"), 2 / (count + 2));
+    gl.uniform1f(program.at("orderStep"), 2 / (this.strokeCount + 2));
     gl.uniform4fv(program.at("plans[0]"), this.plans());
     // Behind everything, what other views planned fills the gaps that the reference view's strokes leave.
     let order = 0;

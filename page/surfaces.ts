@@ -176,6 +176,11 @@ export class Surfaces {
     return new Surfaces(this.tolerance, [knownPart(facts, disparities, own), ...this.parts]);
   }
 
+  /** Only what the views see that are as large as the picture: those that photographs show. */
+  ofPhotographs(): Surfaces {
+    return new Surfaces(this.tolerance, this.parts.filter((part) => !part.continued));
+  }
+
   get isEmpty(): boolean {
     return this.parts.length === 0;
   }

@@ -13,8 +13,8 @@ export async function startBrowser() {
 const pngAddress = (bytes) => `data:image/png;base64,${bytes.toString("base64")}`;
 
 /** Opens a page and waits until its picture is whole, or says why it is not. Returns the page and what it asked for. */
-export async function openPage(browser, file, { before, reducedMotion = "no-preference" } = {}) {
-  const page = await browser.newPage({ viewport: { width: 360, height: 400 }, reducedMotion });
+export async function openPage(browser, file, { before, reducedMotion = "no-preference", width = 360 } = {}) {
+  const page = await browser.newPage({ viewport: { width, height: width }, reducedMotion });
   const requests = [];
   const troubles = [];
   page.on("request", (request) => requests.push(request.url()));

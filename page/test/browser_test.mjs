@@ -66,12 +66,14 @@ const leftAndRight = [
   [{ mode: "flat", view: 0.5, zeroParallax: 0 }, "right.png"],
 ];
 
-run("synth", "still", "--size", "240x180", "--samples", "1", "-o", "still");
-const photographs = ["still/left.png", "still/right.png", "--disparity", "still/left_disparity.pfm", "--absolute-radii"];
+run("synth", "still", "--size", "160x120", "--samples", "1", "-o", "still");
 
 /** Paints the still life, shares it, and draws it again over its canvas. */
 function paint(name, ...options) {
-  run("paint", ...photographs, ...options, "-o", name);
+  // The light on paint needs more pixels than its smallest pictures have.
+  const still = name === "relief" ? "larger" : "still";
+  if (name === "relief") run("synth", "still", "--size", "240x180", "--samples", "1", "-o", still);
+  run("paint", `${still}/left.png`, `${still}/right.png`, "--disparity", `${still}/left_disparity.pfm`, "--absolute-radii", ...options, "-o", name);
   run("paint", `${name}/painting.wst`, "-o", `${name}-drawn`);
   run("share", `${name}/painting.wst`, "-o", `${name}.html`, "--title", `Painting ${hostile}`, "--description", "Fruit", "--caption", hostile);
 }
@@ -119,6 +121,25 @@ await test("pointer, keys and clicks change what is seen; less detail is another
   await page.close();
 });
 
+await test("on a slow device a picture that is nearly right stands in while the view moves", async () => {
+  const { page } = await openPage(browser, at("impressionist.html"));
+  await shotOf(page, 160, { mode: "flat", view: 0 });
+  const moving = await page.evaluate(async () => {
+    const picture = document.querySelector("wheatstone-picture");
+    const canvas = picture.shadowRoot.querySelector("canvas");
+    picture.effort = 0.25; // as a slow device gets
+    const { left, width } = canvas.getBoundingClientRect();
+    canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: left + 0.8 * width }));
+    await new Promise(requestAnimationFrame);
+    return { view: picture.view, png: canvas.toDataURL() };
+  });
+  const exact = await shotOf(page, 160, { view: moving.view, effort: 1 });
+  const found = await psnr(page, Buffer.from(moving.png.split(",")[1], "base64"), exact);
+  assert.ok(found > 25 && found < 60, `${found} dB`);
+  await page.close();
+  return `${found.toFixed(1)} dB`;
+});
+
 await test("who wants no motion gets none", async () => {
   const { page } = await openPage(browser, at("impressionist.html"), { reducedMotion: "reduce" });
   const first = await shotOf(page, 320, { mode: "wiggle" });
@@ -152,7 +173,7 @@ await test("a headset shows each eye its view, on a wall two metres away", async
 });
 
 for (const [name, ...options] of [["posterise"], ["diffusion"], ["relief", "--style", "impressionist", "--texture"]]) {
-  await (name === "relief" ? longTest : test)(`a painting of ${name} is that of the command line`, async () => {
+  await (name === "posterise" ? test : longTest)(`a painting of ${name} is that of the command line`, async () => {
     paint(name, ...(options.length > 0 ? options : ["--style", name]));
     const { page } = await openPage(browser, at(`${name}.html`));
     const told = await comparePictures(page, `${name}-drawn`, leftAndRight);
@@ -187,7 +208,7 @@ const threeViews = [-0.5, 0, 0.5].map((view, i) => [{ mode: "flat", view }, `vie
 
 /** Renders particles to slices, shares these, and renders their views. */
 function renderSlices(name, ...options) {
-  run("render", "universe.hdf5", "--size", "240x180", ...options, "--save-slices", `${name}.exr`, "-o", `${name}-particles`);
+  run("render", "universe.hdf5", "--size", "160x120", ...options, "--save-slices", `${name}.exr`, "-o", `${name}-particles`);
   run("render", `${name}.exr`, "--views", "3", "-o", name);
   run("share", `${name}.exr`, "-o", `${name}.html`);
 }
@@ -200,7 +221,7 @@ for (const [name, ...options] of [
   ["light", "--look", "thesis"],
   ["absorbing", "--look", "thesis", "--blend", "over"],
 ]) {
-  await (name === "mass" || name === "absorbing" ? test : longTest)(`slices of ${name} are moved and added as by the command line`, async () => {
+  await (name === "mass" ? test : longTest)(`slices of ${name} are moved and added as by the command line`, async () => {
     renderSlices(name, ...options);
     const { page } = await openPage(browser, at(`${name}.html`));
     const told = await comparePictures(page, name, threeViews);
@@ -260,7 +281,7 @@ await longTest("a server delivers a film beside its page", async () => {
   return told;
 });
 
-await test("another site shows a page in its element, with the controls that it wants", async () => {
+await longTest("another site shows a page in its element, with the controls that it wants", async () => {
   run("share", "impressionist/painting.wst", "-o", "shared.html", "--element", "wheatstone-picture.js");
   writeFileSync(at("site.html"), `<script src="wheatstone-picture.js"></script>
     <wheatstone-picture src="shared.html" flat="right" controlslist="mode"><img src="still/left.png" alt="Fruit"></wheatstone-picture>`);
@@ -277,8 +298,8 @@ await test("another site shows a page in its element, with the controls that it 
 
 await test("a page whose data were cut says so, and shows the still picture", async () => {
   const whole = readFileSync(at("impressionist.html"), "utf8");
-  for (const [name, share] of [["cut-late", 0.8], ["cut-early", 0.3]]) {
-    writeFileSync(at(`${name}.html`), whole.slice(0, Math.round(whole.length * share)));
+  for (const [name, part] of [["cut-late", "layer-1"], ["cut-early", "surface-0"]]) {
+    writeFileSync(at(`${name}.html`), whole.slice(0, whole.indexOf(`data-part="picture/${part}"`) + 500));
     const { page } = await openPage(browser, at(`${name}.html`));
     await expectStill(page, /incomplete/);
     await page.close();

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 
+#include "wheatstone/drawing/hidden_strokes.h"
+#include "wheatstone/drawing/prepared_painting_internal.h"
 #include "wheatstone/drawing/rasterise_internal.h"
+#include "wheatstone/drawing/seen_surface_internal.h"
 #include "wheatstone/drawing/visible_strokes_internal.h"
 
 namespace wheatstone {
@@ -88,6 +92,28 @@ std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& pa
           [&](const FlatStroke& stroke) { return hiding.is_own(stroke.reference_view) ? nullptr : &hides.gaps; });
   });
   return visible;
+}
+
+StrokePainting without_hidden_strokes(const StrokePainting& painting, const Surfaces& surfaces,
+                                      std::span<const ViewPosition> views, float least_share) {
+  const PreparedSurfaces prepared_surfaces(surfaces);
+  StrokePainting kept = painting;
+  std::vector<std::vector<std::uint8_t>> shown;
+  for (const Layer& layer : painting.layers) shown.emplace_back(layer.strokes.size(), std::uint8_t{0});
+  for (const ViewPosition view : views) {
+    const SeenSurfaces seen = seen_surfaces(prepared_surfaces, view, {painting.width, 0, painting.height});
+    for (std::size_t i = 0; i < painting.layers.size(); ++i) {
+      kept.layers = {painting.layers[i]};
+      const auto visible = visible_strokes(prepare_marks(kept), view, seen.hiding, least_share);
+      std::ranges::transform(shown[i], visible.front(), shown[i].begin(), std::bit_or<>());
+    }
+  }
+  kept.layers = painting.layers;
+  for (std::size_t i = 0; i < kept.layers.size(); ++i) {
+    std::size_t number = 0;
+    std::erase_if(kept.layers[i].strokes, [&](const Stroke&) { return shown[i][number++] == 0; });
+  }
+  return kept;
 }
 
 }  // namespace wheatstone

@@ -92,7 +92,7 @@ SharedPicture share_film(const fs::path& film, const ShareFilmOptions& options) 
   constexpr int eye_share = 8;
   const int steps = std::max(count - 1, 1), apart = std::max(steps / eye_share, 1);
   SharedPicture shared{.width = views.still.width(), .height = views.still.height()};
-  shared.still_jpeg = encode_jpeg(views.still, still_quality);
+  shared.still_jpeg = still_of(views.still);
   Json facts{{"kind", "views"},
              {"title", options.title},
              {"width", shared.width},

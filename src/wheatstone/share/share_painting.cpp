@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "wheatstone/app/present_pair.h"
 #include "wheatstone/app/redraw.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/drawing/draw.h"
+#include "wheatstone/drawing/hidden_strokes.h"
 #include "wheatstone/error.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/share/mark_parts_internal.h"
@@ -76,46 +78,93 @@ std::vector<Image<Rgb8>> pictures_on_surfaces(const Painting& painting) {
 void add_marks(const DiffusionPainting& /*painting*/, const Rounding& /*rounding*/, Json& /*facts*/,
                std::vector<PagePart>& /*parts*/) {}
 
+/// The strokes that some view shows.
+StrokePainting strokes_that_show(const Painting& painting) {
+  constexpr float least_share = 1.f / 32;
+  std::vector<ViewPosition> views{central_view, left_eye, right_eye};
+  for (const Surface& surface : painting.surfaces.seen)
+    if (surface.continued) views.push_back(surface.view);
+  return without_hidden_strokes(std::get<StrokePainting>(painting.marks), painting.surfaces, views, least_share);
+}
+
 /// Bytes of a page of so many pixels where nothing else is wanted.
 std::size_t usual_bytes(int width, int height) {
   constexpr double usual_pixels = 640 * 480, bytes = 1'500'000;
   return static_cast<std::size_t>(bytes * std::max(static_cast<double>(width) * height / usual_pixels, 1.));
 }
 
+/// All of the page but the marks.
+struct Ground {
+  SharedPicture shared;
+  Json facts;
+};
+
+Ground ground_of(const Painting& painting, const std::string& title) {
+  Ground ground{.shared = {.width = width_of(painting), .height = height_of(painting)}, .facts = {}};
+  const bool is_of_two_eyes = painting.surfaces.seen.empty();
+  const ViewRange known = is_of_two_eyes ? ViewRange{} : known_views(painting.surfaces);
+  ground.facts = {{"title", title},
+                  {"width", ground.shared.width},
+                  {"height", ground.shared.height},
+                  {"separation", comfortable_separation(painting, comfortable_parallax_share)},
+                  {"zeroParallax", nearest_disparity(painting)},
+                  {"first", known.first.eye_separations()},
+                  {"last", known.last.eye_separations()}};
+  ground.facts["surfaces"] = add_surfaces(painting.surfaces, ground.shared.parts);
+  ground.shared.still_jpeg = still_of(draw(painting, is_of_two_eyes ? left_eye : central_view).picture);
+  return ground;
+}
+
+/// Lines of colour, and relief.
+SharedPicture share_as_pictures(const Painting& painting, const std::string& title) {
+  if (painting.surfaces.seen.empty())
+    throw Error(ErrorKind::bad_input,
+                "the painting has no surfaces, which pages of lines of colour and of relief need; paint its "
+                "photographs again, with strokes that are propagated");
+  Ground ground = ground_of(painting, title);
+  ground.facts["kind"] = "layered";
+  add_pictures(pictures_on_surfaces(painting), painting.surfaces, ground.shared.parts);
+  ground.shared.facts = text_of(ground.facts);
+  return ground.shared;
+}
+
+/// With as little rounding as leads to so few bytes, else with the most.
+SharedPicture share_marks(const Painting& painting, const std::string& title, std::size_t most_bytes) {
+  constexpr std::array roundings{Rounding{8, 1}, Rounding{4, 2}, Rounding{2, 4}};
+  const Ground ground = ground_of(painting, title);
+  SharedPicture shared;
+  for (const Rounding& rounding : roundings) {
+    shared = ground.shared;
+    Json facts = ground.facts;
+    std::visit([&](const auto& marks) { add_marks(marks, rounding, facts, shared.parts); }, painting.marks);
+    shared.facts = text_of(facts);
+    if (rounding.colour_step > 1)
+      shared.note = fmt::format("places of marks are rounded to 1/{} of a pixel, and colours to {} levels of 256",
+                                rounding.steps_a_px, rounding.colour_step);
+    if (page_bytes(shared) <= most_bytes) break;
+  }
+  return shared;
+}
+
 }  // namespace
 
 SharedPicture share_painting(const Painting& painting, const SharePaintingOptions& options) {
-  SharedPicture ground{.width = width_of(painting), .height = height_of(painting)};
-  const bool is_of_two_eyes = painting.surfaces.seen.empty();
-  const ViewRange known = is_of_two_eyes ? ViewRange{} : known_views(painting.surfaces);
-  Json common{{"title", options.title},
-              {"width", ground.width},
-              {"height", ground.height},
-              {"separation", comfortable_separation(painting, comfortable_parallax_share)},
-              {"zeroParallax", nearest_disparity(painting)},
-              {"first", known.first.eye_separations()},
-              {"last", known.last.eye_separations()}};
-  common["surfaces"] = add_surfaces(painting.surfaces, ground.parts);
-  ground.still_jpeg = encode_jpeg(draw(painting, is_of_two_eyes ? left_eye : central_view).picture, still_quality);
-
-  if (needs_pictures(painting)) {
-    if (is_of_two_eyes)
-      throw Error(ErrorKind::bad_input,
-                  "the painting has no surfaces, which pages of lines of colour and of relief need; paint its "
-                  "photographs again, with strokes that are propagated");
-    common["kind"] = "layered";
-    add_pictures(pictures_on_surfaces(painting), painting.surfaces, ground.parts);
-    ground.facts = text_of(common);
-    return ground;
-  }
-  const std::size_t most_bytes = options.most_bytes.value_or(usual_bytes(ground.width, ground.height));
-  SharedPicture shared;
-  for (const Rounding& rounding : {Rounding{8, 1}, Rounding{4, 2}, Rounding{2, 4}}) {
-    shared = ground;
-    Json facts = common;
-    std::visit([&](const auto& marks) { add_marks(marks, rounding, facts, shared.parts); }, painting.marks);
-    shared.facts = text_of(facts);
-    if (page_bytes(shared) <= most_bytes) break;
+  const std::size_t most_bytes = options.most_bytes.value_or(usual_bytes(width_of(painting), height_of(painting)));
+  const bool as_pictures = needs_pictures(painting);
+  const auto share = [&](const Painting& one) {
+    return as_pictures ? share_as_pictures(one, options.title) : share_marks(one, options.title, most_bytes);
+  };
+  Painting needed = painting;
+  if (auto* const strokes = std::get_if<StrokePainting>(&needed.marks); strokes && !as_pictures)
+    *strokes = strokes_that_show(painting);
+  SharedPicture shared = share(needed);
+  constexpr int smallest_px = 64;
+  while (options.most_bytes && page_bytes(shared) > most_bytes &&
+         std::min(shared.width, shared.height) >= 2 * smallest_px) {
+    needed = placed(std::move(needed), {.scale = 0.5});
+    shared = share(needed);
+    shared.note +=
+        fmt::format("{}the picture is {}x{} pixels", shared.note.empty() ? "" : "; ", shared.width, shared.height);
   }
   return shared;
 }

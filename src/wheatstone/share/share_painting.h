@@ -16,8 +16,9 @@ struct SharePaintingOptions {
 
 /// A painting for a page, which draws its marks for any view. Places of marks are rounded to an eighth of a pixel, or
 /// where the page would be larger than is wanted, to a quarter or half of one, and colours to
-/// two or four levels; what hides them is rounded to a quarter
-/// of a pixel of disparity. Throws Error{bad_input} where the page cannot draw it.
+/// two or four levels; where `most_bytes` are still too few, the picture becomes smaller. What hides marks is rounded
+/// to a quarter of a pixel of disparity, and strokes that no view shows are left out. Throws Error{bad_input} where the
+/// page cannot draw it.
 SharedPicture share_painting(const Painting& painting, const SharePaintingOptions& options);
 
 }  // namespace wheatstone

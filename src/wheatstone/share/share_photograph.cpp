@@ -59,7 +59,7 @@ SharedPicture share_photograph(const StereoPair& photographs, const StereoGeomet
   facts["surfaces"] = add_surfaces(surfaces, shared.parts);
   add_pictures(pictures, surfaces, shared.parts);
   shared.facts = text_of(facts);
-  shared.still_jpeg = encode_jpeg(photographs.left, still_quality);
+  shared.still_jpeg = still_of(photographs.left);
   return shared;
 }
 

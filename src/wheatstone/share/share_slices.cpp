@@ -124,7 +124,7 @@ SharedPicture share_slices(SliceStack stack, const ShareSlicesOptions& options) 
       const LightCode code = light_code_of(stack, steps);
       const Rig middle{stack.width, stack.height, {central_view}};
       shared = {.parts = parts_of(stack, code, hiding != Hiding::nothing),
-                .still_jpeg = encode_jpeg(render_slices(stack, middle).front(), still_quality),
+                .still_jpeg = still_of(render_slices(stack, middle).front()),
                 .width = stack.width,
                 .height = stack.height};
       shared.facts = text_of(facts_of(stack, code, hiding, options.title));

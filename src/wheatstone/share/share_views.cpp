@@ -39,7 +39,7 @@ SharedPicture share_views(std::span<const Image<Rgb8>> views, const std::string&
 
   SharedPicture shared{.width = size.width, .height = size.height};
   shared.parts.push_back({"views", {quilt.begin(), quilt.end()}});
-  shared.still_jpeg = encode_jpeg(scale < 1 ? smaller[smaller.size() / 2] : views[views.size() / 2], still_quality);
+  shared.still_jpeg = still_of(scale < 1 ? smaller[smaller.size() / 2] : views[views.size() / 2]);
   // Two eyes look at views that are an eighth of all apart.
   constexpr int eye_share = 8;
   const int steps = std::max(count - 1, 1), apart = std::max(steps / eye_share, 1);

@@ -39,6 +39,16 @@ Image<Rgb8> without_unknown_squares(const Image<Rgb8>& picture, const Image<floa
 
 }  // namespace
 
+std::string still_of(ImageView<const Rgb8> picture) {
+  constexpr std::size_t most_bytes = 60'000;
+  std::string jpeg;
+  for (const int quality : {60, 40, 25, 15}) {
+    jpeg = encode_jpeg(picture, quality);
+    if (jpeg.size() <= most_bytes) break;
+  }
+  return jpeg;
+}
+
 Json add_surfaces(const Surfaces& surfaces, std::vector<PagePart>& parts) {
   Json seen = Json::array();
   for (const Surface& surface : surfaces.seen) {

@@ -12,7 +12,8 @@ namespace wheatstone {
 
 using Json = nlohmann::ordered_json;
 
-inline constexpr int still_quality = 60;  ///< of the still picture as a JPEG file
+/// The still picture of a page as a JPEG file, of about 60 kB at most: it stands there until there is something better.
+std::string still_of(ImageView<const Rgb8> picture);
 
 /// Surfaces as parts, and what is told of them.
 Json add_surfaces(const Surfaces& surfaces, std::vector<PagePart>& parts);
