@@ -117,14 +117,14 @@ void tell_what_is_kept(std::function<std::string()> kept) {
   what_is_kept() = std::move(kept);
 }
 
-void run_is_over() {
+void run_is_over(bool with_others) {
   Ending before = Ending::none;
   if (!ending.compare_exchange_strong(before, Ending::by_itself) && before == Ending::from_outside)
     while (true) ::pause();
   for (const int signal : ending_signals) {
     struct sigaction now = {};
     sigaction(signal, nullptr, &now);
-    if (now.sa_handler == note) std::signal(signal, SIG_DFL);
+    if (now.sa_handler == note) std::signal(signal, with_others ? SIG_IGN : SIG_DFL);
   }
 }
 

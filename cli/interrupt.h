@@ -19,7 +19,8 @@ void throw_if_interrupted();
 void tell_what_is_kept(std::function<std::string()> kept);
 
 /// The run is over, one way or the other, and only says so now: from here on a signal ends the program at once. Does
-/// not return where another thread already ends the run.
-void run_is_over();
+/// not return where another thread already ends the run. `with_others`: mpirun tells a process to end as soon as
+/// another one has; signals change nothing any more.
+void run_is_over(bool with_others = false);
 
 }  // namespace wheatstone::cli

@@ -35,7 +35,7 @@ int fail(const Session& session, int code, std::string message) {
   Ranks::Failure failure = session.ranks.fail({code, std::move(message)});
   code = failure.exit_code;
   message = std::move(failure.message);
-  run_is_over();
+  run_is_over(!session.ranks.alone());
   std::replace(message.begin(), message.end(), '\n', ' ');
   fmt::print(session.errors, "wheatstone: {}\n", message);
   session.errors.flush();

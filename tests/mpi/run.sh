@@ -85,25 +85,51 @@ on_ranks 2 info universe.hdf5 >said 2>&1 || code=$?
 [[ $code == 2 && $(grep --count "^wheatstone: mpirun started 2 processes" said) == 1 ]] ||
   complain "info under mpirun ends with $code: $(cat said)"
 
-# A rank that is killed ends all of them, and nothing is left.
-last_rank() {
-  for parent in "$run" $(pgrep --parent "$run"); do pgrep --parent "$parent" --exact wheatstone; done | tail --lines 1
+# Whether a process has come so far that it ends itself when it is told to.
+catches_term() {
+  local caught
+  caught=$(sed --quiet 's/^SigCgt:\s*//p' "/proc/$1/status" 2>/dev/null) && ((16#$caught & 1 << 14))
 }
-on_ranks 2 render universe.hdf5 --method exact --views 4096 --size 640x360 -o killed >said 2>&1 &
-run=$!
-killed=no
-for ((i = 0; i < 100; i++)); do
-  sleep 0.1
-  rank=$(last_rank) || true
-  if [[ -n $rank ]] && kill -KILL "$rank" 2>/dev/null; then
-    killed=yes
-    break
-  fi
-done
-[[ $killed == yes ]] || complain "no rank could be killed: $(cat said)"
-code=0
-wait "$run" || code=$?
-[[ $code != 0 ]] || complain "a run of which a rank was killed ends with 0"
-sleep 0.5
-[[ -z $(find . -name '*killed*') ]] || complain "a killed rank leaves $(find . -name '*killed*')"
+
+# A run that is told to end does, says so once, and leaves nothing.
+#   stop WHOM SIGNAL ARGUMENTS...     WHOM: mpirun, or the first or the last rank; the exit code is left in `code`
+stop() {
+  mpirun --oversubscribe --bind-to none -n 2 "$wheatstone" "${@:3}" -o killed.mp4 >said 2>&1 &
+  local run=$! ranks=()
+  for ((i = 0; i < 300 && ${#ranks[@]} < 2; i++)); do
+    sleep 0.1
+    mapfile -t ranks < <(pgrep --parent "$run" --exact wheatstone | while read -r rank; do
+      catches_term "$rank" && echo "$rank"
+    done)
+  done
+  [[ ${#ranks[@]} == 2 ]] || complain "no two ranks were started: $(cat said)"
+  sleep 0.2
+  case $1 in
+    mpirun) kill "-$2" "$run" ;;
+    first) kill "-$2" "${ranks[0]}" ;;
+    last) kill "-$2" "${ranks[1]}" ;;
+  esac || complain "the run had ended: $(cat said)"
+  code=0
+  wait "$run" || code=$?
+  [[ $code != 0 ]] || complain "a run that was stopped ($1, $2) ends with 0"
+  [[ $(grep --count "^wheatstone: interrupted; nothing half-written is left" said) == 1 ]] ||
+    complain "a run that was stopped ($1, $2) does not say so once: $(cat said)"
+  sleep 0.5
+  [[ -z $(find . -name '*killed*') ]] || complain "a run that was stopped ($1, $2) leaves $(find . -name '*killed*')"
+}
+slow_views=(render universe.hdf5 --method exact --views 900 --size 640x360)
+stop last KILL "${slow_views[@]}"
+if [[ $2 == all ]]; then
+  for i in {9..40}; do for eye in left right; do cp "film/${eye}_0000.png" "film/$(printf '%s_%04d' "$eye" "$i").png"; done; done
+  for run in "${slow_views[*]}" "rotoscope film --save-marks killed_%d.wst"; do
+    read -ra words <<<"$run"
+    stop last KILL "${words[@]}"
+    for rank in first last; do
+      stop "$rank" TERM "${words[@]}"
+      [[ $code == 5 ]] || complain "a run whose $rank rank is told to end ends with $code, expected 5"
+    done
+    stop mpirun INT "${words[@]}"
+    stop mpirun TERM "${words[@]}"
+  done
+fi
 echo "mpi: as one process"
