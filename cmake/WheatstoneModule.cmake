@@ -18,6 +18,7 @@ function(wheatstone_module name)
   target_compile_features(${target} PRIVATE cxx_std_20)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${target} PRIVATE wheatstone_warnings ${ARG_LIBRARIES})
+  set_property(GLOBAL APPEND PROPERTY WHEATSTONE_MODULES ${target})
   install(TARGETS ${target} LIBRARY DESTINATION ${WHEATSTONE_MODULE_FOLDER} COMPONENT program)
   # What links the room finds the module beside it.
   add_dependencies(wheatstone_${ARG_ROOM} ${target})

@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+
+#include "wheatstone/error.h"
 
 namespace wheatstone::python {
 namespace {
@@ -51,6 +54,21 @@ ImageView<const float> disparities_in(const py::object& given, const std::string
   return {array.data(), width, static_cast<int>(array.shape(0)), width};
 }
 
+StereoPair pair_in(const py::object& left, const py::object& right) {
+  return {copy_of(picture_in(left, "left")), copy_of(picture_in(right, "right"))};
+}
+
+std::vector<Image<Rgb8>> views_in(const py::object& given, const std::string& name) {
+  const std::string expected = "an array of uint8 and shape (number, height, width, 3), without gaps in memory";
+  if (!py::isinstance<Array<std::uint8_t>>(given)) refuse(given, name, expected);
+  const auto array = py::cast<Array<std::uint8_t>>(given);
+  if (array.ndim() != 4 || array.shape(3) != 3) refuse(given, name, expected);
+  std::vector<Image<Rgb8>> views;
+  for (const py::handle view : array)
+    views.push_back(copy_of(picture_in(py::reinterpret_borrow<py::object>(view), name)));
+  return views;
+}
+
 std::vector<float> column_of(const py::object& given, std::size_t count, const std::string& name) {
   if (given.is_none()) return {};
   const std::string expected = fmt::format("{} numbers, one a particle", count);
@@ -60,7 +78,10 @@ std::vector<float> column_of(const py::object& given, std::size_t count, const s
     refuse(given, name, expected);
   }
   if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != count) refuse(given, name, expected);
-  return {array.data(), array.data() + count};
+  std::vector<float> column(array.data(), array.data() + count);
+  if (std::ranges::any_of(column, [](float number) { return std::isinf(number); }))
+    throw py::value_error(name + " has numbers beyond single precision, expected them in a larger unit");
+  return column;
 }
 
 py::array array_of(Image<Rgb8> picture) {
@@ -88,10 +109,11 @@ py::array array_of(const std::vector<Image<Rgb8>>& views) {
   return array;
 }
 
-Progress with_signals() {
-  return [](std::string_view /*step*/, double /*done*/) {
+Progress with_signals(py::handle told) {
+  return [told](std::string_view step, double done) {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (told && told(step, done).is(py::handle(Py_False))) throw Error(ErrorKind::interrupted, "the job was cancelled");
   };
 }
 

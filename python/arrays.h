@@ -3,11 +3,13 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "wheatstone/image/image.h"
 #include "wheatstone/progress.h"
+#include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone::python {
 
@@ -22,6 +24,20 @@ ImageView<const Rgb8> picture_in(const pybind11::object& array, const std::strin
 /// The same for disparities, height × width numbers of single precision.
 ImageView<const float> disparities_in(const pybind11::object& array, const std::string& name);
 
+/// A picture that outlives the array it came from.
+template <class Pixel>
+Image<Pixel> copy_of(ImageView<const Pixel> view) {
+  Image<Pixel> image(view.width(), view.height());
+  for (int y = 0; y < view.height(); ++y) std::ranges::copy(view.row(y), image.row(y).begin());
+  return image;
+}
+
+/// Two pictures, copied.
+StereoPair pair_in(const pybind11::object& left, const pybind11::object& right);
+
+/// Pictures of one size, from left to right, copied: an array of number × height × width × 3 bytes.
+std::vector<Image<Rgb8>> views_in(const pybind11::object& array, const std::string& name);
+
 /// One number a particle; empty for None. Throws ValueError where there are not `count`.
 std::vector<float> column_of(const pybind11::object& array, std::size_t count, const std::string& name);
 
@@ -33,6 +49,8 @@ pybind11::array array_of(Image<std::uint8_t> mask);
 pybind11::array array_of(const std::vector<Image<Rgb8>>& views);
 
 /// Lets Python's signals end a long call: Ctrl-C becomes KeyboardInterrupt. For calls without the interpreter's lock.
-Progress with_signals();
+/// `told`, which must live as long, is called with each step and how much of it is done; False from it ends the call
+/// with Error{interrupted}.
+Progress with_signals(pybind11::handle told = {});
 
 }  // namespace wheatstone::python

@@ -2,9 +2,33 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
+#include "wheatstone/marks/painting.h"
+#include "wheatstone/matching/match.h"
+#include "wheatstone/multiview/slice_stack.h"
+
 namespace wheatstone::python {
 
+/// A painting, and the pictures of its eyes: None for an eye that it was not painted for.
+struct PyPainting {
+  Painting painting;
+  pybind11::object left, right;
+};
+
+/// Slices of particles.
+struct PySlices {
+  SliceStack stack;
+};
+
+void add_displays(pybind11::module_& module);
+void add_films(pybind11::module_& module);
+void add_pages(pybind11::module_& module);
 void add_painting(pybind11::module_& module);
 void add_particles(pybind11::module_& module);
+void add_photographs(pybind11::module_& module);
+
+/// How pictures are matched at a quality's name. Throws ValueError that lists the names.
+MatchOptions matching_for(const std::string& quality);
 
 }  // namespace wheatstone::python

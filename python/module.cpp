@@ -32,4 +32,8 @@ PYBIND11_MODULE(_wheatstone, module) {
   py::register_exception_translator(translate);
   wheatstone::python::add_painting(module);
   wheatstone::python::add_particles(module);
+  wheatstone::python::add_photographs(module);
+  wheatstone::python::add_films(module);
+  wheatstone::python::add_displays(module);
+  wheatstone::python::add_pages(module);
 }

@@ -26,32 +26,13 @@ namespace {
 
 namespace py = pybind11;
 
-/// A painting, and the pictures of its eyes.
-struct PyPainting {
-  Painting painting;
-  py::array left, right;
-};
-
-template <class Pixel>
-Image<Pixel> copy_of(ImageView<const Pixel> view) {
-  Image<Pixel> image(view.width(), view.height());
-  for (int y = 0; y < view.height(); ++y) std::ranges::copy(view.row(y), image.row(y).begin());
-  return image;
-}
-
-MatchOptions matching_for(const std::string& quality) {
-  const std::optional<MatchQuality> found = match_quality_by_name(quality);
-  if (!found) throw py::value_error("quality is '" + quality + "', expected fast, good or best");
-  return match_options_for(*found);
-}
-
 py::dict match_pictures(const py::object& left, const py::object& right, const std::string& quality) {
   const MatchOptions options = matching_for(quality);
-  const ImageView<const Rgb8> first = picture_in(left, "left"), second = picture_in(right, "right");
+  const StereoPair pictures = pair_in(left, right);
   MatchedPair matched;
   {
     const py::gil_scoped_release unlocked;
-    matched = match({copy_of(first), copy_of(second)}, options, with_signals());
+    matched = match(pictures, options, with_signals());
   }
   py::dict result;
   result["left_disparity"] = array_of(std::move(matched.geometry.left_disparity));
@@ -77,12 +58,12 @@ Style style_of(const std::string& preset, const std::map<std::string, std::strin
 std::unique_ptr<PyPainting> paint_pictures(const py::object& left, const py::object& right, const Style& style,
                                            const std::string& quality, const py::object& disparity) {
   PaintPhotographOptions options{.style = style, .matching = matching_for(quality)};
-  const ImageView<const Rgb8> first = picture_in(left, "left"), second = picture_in(right, "right");
+  const StereoPair photographs = pair_in(left, right);
   if (!disparity.is_none()) options.left_disparity = copy_of(disparities_in(disparity, "disparity"));
   std::optional<PaintedPhotograph> made;
   {
     const py::gil_scoped_release unlocked;
-    made = paint_photograph({copy_of(first), copy_of(second)}, options, with_signals());
+    made = paint_photograph(photographs, options, with_signals());
   }
   StereoPair& pictures = made->painted.pictures;
   return std::make_unique<PyPainting>(PyPainting{std::move(made->painted.painting), array_of(std::move(pictures.left)),
@@ -113,6 +94,12 @@ std::unique_ptr<PyPainting> load_painting(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+MatchOptions matching_for(const std::string& quality) {
+  const std::optional<MatchQuality> found = match_quality_by_name(quality);
+  if (!found) throw py::value_error("quality is '" + quality + "', expected fast, good or best");
+  return match_options_for(*found);
+}
 
 void add_painting(py::module_& module) {
   py::class_<Style>(module, "Style").def("toml", &style_to_toml);

@@ -3,11 +3,16 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "arrays.h"
 #include "bindings.h"
 #include "wheatstone/app/render_particles.h"
+#include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/particles/cloud_source.h"
 
 namespace wheatstone::python {
@@ -34,13 +39,52 @@ void put_positions(const py::object& given, Cloud& cloud) {
   }
 }
 
-py::array views_of(const ReadyParticles& particles, const RenderParticlesOptions& options) {
-  RenderedParticles rendered;
-  {
-    const py::gil_scoped_release unlocked;
-    rendered = render_ready(particles, options, with_signals());
+/// Particles, and what messages call them.
+struct PyParticles {
+  Cloud cloud;
+  std::string name, format;
+  std::vector<std::pair<std::string, std::string>> units;
+};
+
+std::unique_ptr<PyParticles> particles_at(const py::object& positions, const py::dict& columns) {
+  auto particles = std::make_unique<PyParticles>(PyParticles{.name = "positions", .format = "arrays"});
+  Cloud& cloud = particles->cloud;
+  put_positions(positions, cloud);
+  const auto column = [&](const char* name) { return column_of(columns[name], cloud.size(), name); };
+  cloud.density = column("density");
+  cloud.temperature = column("temperature");
+  cloud.smoothing_length = column("smoothing_length");
+  cloud.mass = column("mass");
+  return particles;
+}
+
+std::unique_ptr<PyParticles> load_particles(const std::filesystem::path& path) {
+  const py::gil_scoped_release unlocked;
+  const CloudSource source = open_cloud(path);
+  Cloud cloud = read_cloud(source, path, with_signals());
+  return std::make_unique<PyParticles>(PyParticles{std::move(cloud), path.string(), source.format, source.units});
+}
+
+py::array positions_of(const PyParticles& particles) {
+  const Cloud& cloud = particles.cloud;
+  py::array_t<double> array({static_cast<py::ssize_t>(cloud.size()), py::ssize_t{3}});
+  auto to = array.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    to(row, 0) = cloud.origin[0] + cloud.x[i];
+    to(row, 1) = cloud.origin[1] + cloud.y[i];
+    to(row, 2) = cloud.origin[2] + cloud.z[i];
   }
-  return array_of(rendered.rendered.views);
+  return array;
+}
+
+/// A column in place, which keeps the particles alive; None where they do not have it.
+py::object column_in(const py::object& particles, std::vector<float> Cloud::*column) {
+  const std::vector<float>& numbers = particles.cast<const PyParticles&>().cloud.*column;
+  if (numbers.empty()) return py::none();
+  py::array_t<float> array(static_cast<py::ssize_t>(numbers.size()), numbers.data(), particles);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
 }
 
 RenderParticlesOptions options_for(int views, std::pair<int, int> size, float span) {
@@ -52,51 +96,58 @@ RenderParticlesOptions options_for(int views, std::pair<int, int> size, float sp
   return options;
 }
 
-/// Positions and what else is known of the particles, ready to be rendered.
-ReadyParticles ready(const py::object& positions, const py::dict& columns, const RenderParticlesOptions& options) {
-  Cloud cloud;
-  put_positions(positions, cloud);
-  const auto column = [&](const char* name) { return column_of(columns[name], cloud.size(), name); };
-  cloud.density = column("density");
-  cloud.temperature = column("temperature");
-  cloud.smoothing_length = column("smoothing_length");
-  cloud.mass = column("mass");
+RenderedParticles rendered(const PyParticles& particles, const RenderParticlesOptions& options) {
   const py::gil_scoped_release unlocked;
-  return ready_particles(std::move(cloud), "positions", options, with_signals());
+  return render_ready(ready_particles(particles.cloud, particles.name, options, with_signals()), options,
+                      with_signals());
 }
 
-py::array render_positions(const py::object& positions, const py::dict& columns,
-                           const RenderParticlesOptions& options) {
-  return views_of(ready(positions, columns, options), options);
+py::array views_of(const PyParticles& particles, const RenderParticlesOptions& options) {
+  return array_of(rendered(particles, options).rendered.views);
 }
 
 /// The central view's column densities, and how large a pixel is in the scene.
-py::tuple column_density(const py::object& positions, const py::dict& columns, RenderParticlesOptions options) {
+py::tuple column_density(const PyParticles& particles, RenderParticlesOptions options) {
   options.framing.orthographic = true;
   options.values = true;
-  const ReadyParticles particles = ready(positions, columns, options);
-  RenderedParticles rendered;
-  {
-    const py::gil_scoped_release unlocked;
-    rendered = render_ready(particles, options, with_signals());
-  }
-  const Camera& camera = rendered.scene.camera;
-  return py::make_tuple(array_of(std::move(rendered.values.front().column)),
-                        camera.orthographic_depth / camera.focal_px);
+  RenderedParticles made = rendered(particles, options);
+  const Camera& camera = made.scene.camera;
+  return py::make_tuple(array_of(std::move(made.values.front().column)), camera.orthographic_depth / camera.focal_px);
 }
 
-py::array render_file(const std::filesystem::path& path, const RenderParticlesOptions& options) {
-  ReadyParticles ready;
-  {
-    const py::gil_scoped_release unlocked;
-    ready = read_particles(path, options, with_signals());
-  }
-  return views_of(ready, options);
+PySlices slices_of(const PyParticles& particles, RenderParticlesOptions options) {
+  options.slices = options.without_views = true;
+  return {rendered(particles, options).stack};
 }
 
-}  // namespace
+PySlices load_slices(const std::filesystem::path& path) {
+  const py::gil_scoped_release unlocked;
+  return {read_slices(path)};
+}
 
-void add_particles(py::module_& module) {
+py::array views_of_slices(const PySlices& slices, int count, float span) {
+  if (count < 1) throw py::value_error("the number of views is " + std::to_string(count) + ", expected at least 1");
+  std::vector<Image<Rgb8>> views;
+  {
+    const py::gil_scoped_release unlocked;
+    const Rig rig = evenly_spaced(slices.stack.width, slices.stack.height, count, span);
+    views = render_slices(slices.stack, rig, RenderOptions{}.filter, with_signals());
+  }
+  return array_of(views);
+}
+
+void add_slices(py::module_& module) {
+  py::class_<PySlices>(module, "Slices")
+      .def_property_readonly("width", [](const PySlices& s) { return s.stack.width; })
+      .def_property_readonly("height", [](const PySlices& s) { return s.stack.height; })
+      .def_property_readonly("span", [](const PySlices& s) { return s.stack.span; })
+      .def("__len__", [](const PySlices& s) { return s.stack.slices.size(); })
+      .def("views", &views_of_slices)
+      .def("save", [](const PySlices& s, const std::filesystem::path& path) { write_slices(path, s.stack); });
+  module.def("load_slices", &load_slices);
+}
+
+void add_options(py::module_& module) {
   py::class_<RenderParticlesOptions>(module, "RenderOptions")
       .def(py::init(&options_for))
       .def_property(
@@ -114,9 +165,30 @@ void add_particles(py::module_& module) {
             o.rendering.exposure = value;
             o.appearance.look = Look::thesis;  // the only one that has an exposure
           });
-  module.def("render_positions", &render_positions);
+}
+
+}  // namespace
+
+void add_particles(py::module_& module) {
+  add_options(module);
+  py::class_<PyParticles>(module, "Particles")
+      .def(py::init(&particles_at))
+      .def("__len__", [](const PyParticles& p) { return p.cloud.size(); })
+      .def("positions", &positions_of)
+      .def_readonly("format", &PyParticles::format)
+      .def_readonly("units", &PyParticles::units)
+      .def_property_readonly("box_size", [](const PyParticles& p) { return p.cloud.box_size; })
+      .def_property_readonly("density", [](const py::object& p) { return column_in(p, &Cloud::density); })
+      .def_property_readonly("temperature", [](const py::object& p) { return column_in(p, &Cloud::temperature); })
+      .def_property_readonly("mass", [](const py::object& p) { return column_in(p, &Cloud::mass); })
+      .def_property_readonly("smoothing_length",
+                             [](const py::object& p) { return column_in(p, &Cloud::smoothing_length); });
+  module.def("load_particles", &load_particles);
+  module.def("holds_particles", [](const std::filesystem::path& path) { return holds_particles(path); });
+  module.def("render", &views_of);
   module.def("column_density", &column_density);
-  module.def("render_file", &render_file);
+  module.def("slices", &slices_of);
+  add_slices(module);
 }
 
 }  // namespace wheatstone::python

@@ -1,5 +1,6 @@
 """What the Python package promises. Run with PYTHONPATH at the built package, and the program's path as WHEATSTONE."""
 
+import dataclasses
 import os
 import pathlib
 import re
@@ -13,8 +14,10 @@ import unittest
 
 import numpy as np
 import wheatstone
+from wheatstone import _wheatstone
 
 PROGRAM = os.environ["WHEATSTONE"]
+SOURCES = pathlib.Path(__file__).parents[2]
 
 
 class Package(unittest.TestCase):
@@ -34,6 +37,14 @@ class Package(unittest.TestCase):
     def run_program(cls, *words):
         subprocess.run([PROGRAM, *words, "--quiet"], check=True, cwd=cls.folder, stdout=subprocess.DEVNULL)
 
+    @classmethod
+    def painted(cls):
+        """A file of a small painting."""
+        path = cls.folder / "small.wst"
+        if not path.exists():
+            wheatstone.still((96, 72)).paint("pointillist").save(path)
+        return path
+
     def test_paintings_are_those_of_the_command_line(self):
         self.run_program("paint", "still/left.png", "still/right.png", "--rectify", "never", "-o", "painted")
         painting = wheatstone.paint(self.left, self.right)
@@ -41,7 +52,7 @@ class Package(unittest.TestCase):
         np.testing.assert_array_equal(painting.right, wheatstone.load(self.folder / "painted/right.png"))
 
     def test_views_have_the_shape_and_bytes_of_the_command_line(self):
-        painting = wheatstone.paint(self.left, self.right, wheatstone.Style("impressionist", {"texture": False}))
+        painting = wheatstone.paint(self.left, self.right, wheatstone.Style("impressionist", texture=False))
         views = painting.views(5, span=2)
         self.assertEqual(views.shape, (5, 180, 240, 3))
         path = self.folder / "saved.wst"
@@ -94,8 +105,14 @@ class Package(unittest.TestCase):
             (lambda: wheatstone.paint(self.left, "right.png"), "right is str, expected an array of uint8"),
             (lambda: wheatstone.paint(self.left, self.right[::2, ::2].copy()), "expected"),
             (lambda: wheatstone.paint(self.left, self.right, "cubist"), "cubist"),
-            (lambda: wheatstone.paint(self.left, self.right, wheatstone.Style(parameters={"colour": 3})), "colour"),
+            (lambda: wheatstone.paint(self.left, self.right, wheatstone.Style(marks="dots")), "marks"),
             (lambda: wheatstone.match(self.left, self.right, "perfect"), "fast, good or best"),
+            (lambda: wheatstone.pack([self.left, self.right], "braille"), "expected one of: quilt, lenticular"),
+            (lambda: wheatstone.pack([self.left, self.left[1:]]), "expected arrays of one shape"),
+            (lambda: wheatstone.measure(self.left, self.right, self.left), r"disparity is .* shape \(height, width\)"),
+            (lambda: wheatstone.rectify(self.left, None), "right is NoneType"),
+            (lambda: wheatstone.share(self.left, "page.html"), "shown is ndarray, expected a painting"),
+            (lambda: wheatstone.load(self.folder / "still/left.png", layout="round"), "round"),
             (lambda: wheatstone.render(np.zeros((4, 2))), r"shape \(number, 3\)"),
             (lambda: wheatstone.render(np.zeros((4, 3)), density=[1, 2]), "4 numbers, one a particle"),
         ]:
@@ -103,6 +120,8 @@ class Package(unittest.TestCase):
                 call()
         with self.assertRaises(OSError):
             wheatstone.paint(self.left, self.right).save("/nowhere/painting.wst")
+        with self.assertRaises(FileNotFoundError):
+            wheatstone.load("/nowhere/painting.wst")
 
     def test_other_threads_run_while_it_paints(self):
         beats = []
@@ -133,19 +152,26 @@ class Package(unittest.TestCase):
         errors = run.communicate(timeout=60)[1]
         self.assertIn("KeyboardInterrupt", errors)
 
+    def test_styles_have_every_parameter_of_the_command_line(self):
+        names = [field.name.replace("_", "-") for field in dataclasses.fields(wheatstone.Style)]
+        self.assertEqual(names, ["preset", *_wheatstone.style_names(), "seed"])
+
     def test_examples_of_the_documentation_run(self):
-        page = (pathlib.Path(__file__).parents[2] / "docs/python.md").read_text()
+        page = (SOURCES / "docs/python.md").read_text()
         blocks = re.findall(r"^```python\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
-        self.assertEqual(len(blocks), 2)
+        self.assertEqual(len(blocks), 3)
+        self.run_program("synth", "film", "--size", "96x72", "--frames", "3", "-o", "film")
         run = subprocess.run([sys.executable, "-c", "".join(blocks)], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(run.stderr, "")
         self.assertIn("radii = [6, 3]", run.stdout)
 
-    def test_notebooks_show_paintings(self):
-        png = wheatstone.paint(self.left, self.right)._repr_png_()
-        path = self.folder / "shown.png"
-        path.write_bytes(png)
-        self.assertEqual(wheatstone.load(path).shape, (180, 480, 3))
+    def test_show_opens_a_page_in_the_browser(self):
+        browser = self.folder / "browser"
+        browser.write_text(f"#!/bin/sh\ncp \"${{1#file://}}\" {self.folder}/opened.html\n")
+        browser.chmod(0o755)
+        code = f"import wheatstone; wheatstone.load({str(self.painted())!r}).show()"
+        subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "BROWSER": f"{browser} %s"})
+        self.assertIn("<!doctype html>", (self.folder / "opened.html").read_text().lower())
 
 
 if __name__ == "__main__":

@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/display/anaglyph.h"
+#include "wheatstone/display/arrange.h"
+#include "wheatstone/display/lenticular.h"
+#include "wheatstone/display/multiview_exr.h"
+#include "wheatstone/display/quilt.h"
+#include "wheatstone/display/wiggle.h"
+#include "wheatstone/photograph/write_views.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/packed_pair.h"
+
+namespace wheatstone::python {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+using Views = std::vector<Image<Rgb8>>;
+
+std::optional<AnaglyphKind> anaglyph_named(const std::string& name) {
+  const auto kinds = anaglyph_kinds();
+  if (name == "anaglyph") return kinds.front();
+  const auto found = std::ranges::find(kinds, name, &AnaglyphKind::name);
+  return found == kinds.end() ? std::nullopt : std::optional(*found);
+}
+
+[[noreturn]] void refuse_format(const std::string& name) {
+  std::string names = "quilt, lenticular, anaglyph";
+  for (const AnaglyphKind& kind : anaglyph_kinds()) names += fmt::format(", {}", kind.name);
+  for (const std::string_view layout : layout_names()) names += fmt::format(", {}", layout);
+  throw py::value_error(fmt::format("to is '{}', expected one of: {}", name, names));
+}
+
+/// One picture of two views.
+Image<Rgb8> packed_pair(const Views& views, const std::string& to) {
+  const std::optional<AnaglyphKind> kind = anaglyph_named(to);
+  const std::optional<StereoLayout> layout = find_stereo_layout(to);
+  if (!kind && !(layout && is_packed(*layout))) refuse_format(to);
+  if (views.size() != 2) throw py::value_error(fmt::format("there are {} views, expected 2 for {}", views.size(), to));
+  if (kind) return anaglyph(StereoPairView{views[0], views[1]}, *kind);
+  return put_together(views[0], views[1], *layout);
+}
+
+py::array pack(const py::object& given, const std::string& to, std::pair<int, int> quilt, const std::string& screen,
+               float screen_disparity) {
+  Views views = views_in(given, "views");
+  Image<Rgb8> picture;
+  {
+    const py::gil_scoped_release unlocked;
+    if (screen_disparity != 0) views = shifted_views(std::move(views), screen_disparity);
+    if (to == "quilt") {
+      picture = make_quilt(views, {quilt.first, quilt.second});
+    } else if (to == "lenticular") {
+      picture = interleave(views, find_lenticular(screen));
+    } else {
+      picture = packed_pair(views, to);
+    }
+  }
+  return array_of(std::move(picture));
+}
+
+/// Writes views to one file, by its ending.
+void write_views(const fs::path& path, const py::object& given) {
+  const Views views = views_in(given, "views");
+  const py::gil_scoped_release unlocked;
+  const std::string ending = path.extension().string();
+  if (ending == ".mpo") {
+    write_mpo(path, std::vector<ImageView<const Rgb8>>(views.begin(), views.end()));
+  } else if (ending == ".exr") {
+    write_multiview_exr(path, views);
+  } else if (ending == ".gif" || ending == ".webp") {
+    write_wiggle(path, views);
+  } else if (ending == ".jps" && views.size() == 2) {
+    write_jps(path, views[0], views[1]);
+  } else {
+    throw py::value_error(
+        fmt::format("{}: {} views, expected a name that ends in .mpo, .exr, .gif or .webp; .jps holds "
+                    "2 views; other pictures are made by pack()",
+                    path.string(), views.size()));
+  }
+}
+
+py::dict measure(const py::object& left, const py::object& right, const py::object& disparity) {
+  const StereoPair pair = pair_in(left, right);
+  const Image<float> truth = copy_of(disparities_in(disparity, "disparity"));
+  PairMeasures measured;
+  {
+    const py::gil_scoped_release unlocked;
+    measured = measure_pair(pair, truth);
+  }
+  py::dict result;
+  result["mean_absolute_difference"] = measured.difference.mean_absolute;
+  result["rmse"] = measured.difference.rmse;
+  result["compared_share"] = measured.difference.compared_share;
+  result["density"] = measured.survival.density;
+  result["end_point_error"] = measured.survival.end_point_error;
+  result["bad_1"] = measured.survival.bad_1;
+  result["bad_2"] = measured.survival.bad_2;
+  result["left_gradient_energy"] = measured.left_gradient_energy;
+  result["right_gradient_energy"] = measured.right_gradient_energy;
+  return result;
+}
+
+}  // namespace
+
+void add_displays(py::module_& module) {
+  module.def("pack", &pack);
+  module.def("write_views", &write_views);
+  module.def("write_picture", [](const fs::path& path, const py::object& picture) {
+    write_image(path, picture_in(picture, "picture"));
+  });
+  module.def("measure", &measure);
+}
+
+}  // namespace wheatstone::python

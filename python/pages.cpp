@@ -1,0 +1,84 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/share/page.h"
+#include "wheatstone/share/share_film.h"
+#include "wheatstone/share/share_painting.h"
+#include "wheatstone/share/share_photograph.h"
+#include "wheatstone/share/share_slices.h"
+#include "wheatstone/share/share_views.h"
+
+namespace wheatstone::python {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+/// A page of what `share` makes; for calls with the interpreter's lock.
+std::string page_of(const PageWords& words, const std::function<SharedPicture()>& share) {
+  const py::gil_scoped_release unlocked;
+  return html_page(share(), words);
+}
+
+std::string page_of_painting(const PyPainting& painting, const PageWords& words) {
+  return page_of(words, [&] { return share_painting(painting.painting, {.title = words.title}); });
+}
+
+std::string page_of_slices(const PySlices& slices, const PageWords& words) {
+  return page_of(words, [&] { return share_slices(slices.stack, {.title = words.title}); });
+}
+
+std::string page_of_views(const py::object& given, const PageWords& words) {
+  const std::vector<Image<Rgb8>> views = views_in(given, "views");
+  return page_of(words, [&] { return share_views(views, words.title); });
+}
+
+/// Matched where no disparity is given.
+std::string page_of_photograph(const py::object& left, const py::object& right, const py::object& disparity,
+                               const PageWords& words) {
+  const StereoPair pair = pair_in(left, right);
+  PaintPhotographOptions options;
+  if (!disparity.is_none()) options.left_disparity = copy_of(disparities_in(disparity, "disparity"));
+  return page_of(words, [&] {
+    return share_photograph(pair, find_geometry(pair, options, with_signals()).geometry, words.title);
+  });
+}
+
+/// A film stays beside the page where it is large; ValueError where the page has no place in a folder (empty).
+std::string page_of_film(const fs::path& film, const std::string& layout, const fs::path& page,
+                         const PageWords& words) {
+  ShareFilmOptions options{.title = words.title, .page = page};
+  if (!layout.empty()) options.layout = find_stereo_layout(layout);
+  return page_of(words, [&] {
+    SharedPicture shared = share_film(film, options);
+    if (shared.has_file_beside && page.empty())
+      throw py::value_error(film.string() + " is too large for the page itself");
+    return shared;
+  });
+}
+
+}  // namespace
+
+void add_pages(py::module_& module) {
+  py::class_<PageWords>(module, "PageWords")
+      .def(py::init([](std::string title, std::string caption, std::string description) {
+        return PageWords{std::move(title), std::move(description), std::move(caption)};
+      }));
+  module.def("page_of_painting", &page_of_painting);
+  module.def("page_of_slices", &page_of_slices);
+  module.def("page_of_views", &page_of_views);
+  module.def("page_of_photograph", &page_of_photograph);
+  module.def("page_of_film", &page_of_film);
+  module.def("write_page", [](const fs::path& path, const std::string& page) { write_whole_file(path, page); });
+}
+
+}  // namespace wheatstone::python

@@ -1,0 +1,102 @@
+"""Views, and what displays, files and pages take of them."""
+
+import dataclasses
+import os
+
+import numpy as np
+
+from . import _wheatstone
+from ._notebook import Shown, words_for
+
+
+class Views(np.ndarray, Shown):
+    """Views of one scene: an array of uint8 and shape (number, height, width, 3), which notebooks show."""
+
+    @classmethod
+    def of(cls, array):
+        """The same array, not copied."""
+        return array.view(cls)
+
+    def _page(self, words):
+        return _wheatstone.page_of_views(np.ascontiguousarray(self), words)
+
+    def _still(self):
+        return np.asarray(self[len(self) // 2])
+
+    def _is_whole(self):
+        return self.ndim == 4 and self.dtype == np.uint8
+
+    def _repr_png_(self):
+        return super()._repr_png_() if self._is_whole() else None
+
+    def _repr_html_(self):
+        return super()._repr_html_() if self._is_whole() else None
+
+
+def _views_of(given):
+    """The array of what has views: an array, a pair of pictures, a photograph, or a painting's eyes."""
+    if isinstance(given, np.ndarray):
+        return np.ascontiguousarray(given)
+    if isinstance(given, (tuple, list)):
+        shapes = {getattr(view, "shape", None) for view in given}
+        if len(shapes) != 1 or None in shapes:
+            raise ValueError(f"views have the shapes {sorted(map(str, shapes))}, expected arrays of one shape")
+        return np.stack(given)
+    views = getattr(given, "views", None)
+    if isinstance(views, np.ndarray):
+        return views
+    if getattr(given, "right", None) is not None:
+        return np.stack([given.left, given.right])
+    raise ValueError(f"views is {type(given).__name__}, expected an array of shape (number, height, width, 3), two "
+                     "pictures, a photograph or a painting")
+
+
+def pack(views, to="anaglyph", *, quilt=(8, 6), screen="", screen_disparity=0.0):
+    """One picture of views in the format of a display.
+
+    `to` is anaglyph or a kind of it, a layout ("left-right", "top-bottom-half", …), "quilt", of `quilt` columns and
+    rows, or "lenticular" for `screen`, the name of a display or its calibration (.json). Of a painting the two eyes are
+    taken; `painting.views(48)` makes more. `screen_disparity` lies on the screen, in pixels from view to view.
+    """
+    return _wheatstone.pack(_views_of(views), to, tuple(quilt), os.fspath(screen), screen_disparity)
+
+
+def save(path, picture):
+    """Writes a picture, or views to one file (.mpo, .jps, .exr, .gif, .webp), by the name's ending."""
+    if isinstance(picture, np.ndarray) and picture.ndim == 3:
+        _wheatstone.write_picture(path, picture)
+    else:
+        _wheatstone.write_views(path, _views_of(picture))
+
+
+@dataclasses.dataclass
+class Measures:
+    """How consistent two eyes' pictures are."""
+
+    mean_absolute_difference: float
+    """Between the eyes' pictures of the same points, 0..255."""
+    rmse: float
+    """Of the same, 0..1."""
+    compared_share: float
+    """Of the left picture's pixels."""
+    density: float
+    """Share of the pixels that can be matched again."""
+    end_point_error: float
+    """Of what was matched again, in pixels."""
+    bad_1: float
+    """Share that is unmatched or off by more than 1 pixel."""
+    bad_2: float
+    left_gradient_energy: float
+    right_gradient_energy: float
+
+
+def measure(left, right, disparity):
+    """Measures a pair against the disparity of its left picture, NaN where it is not known."""
+    return Measures(**_wheatstone.measure(left, right, disparity))
+
+
+def share(shown, path, *, title="Wheatstone", caption="", description=""):
+    """Writes a page that any browser shows: of a painting, photograph, views, slices or a film."""
+    if not isinstance(shown, Shown):
+        raise ValueError(f"shown is {type(shown).__name__}, expected a painting, photograph, views, slices or a film")
+    _wheatstone.write_page(path, shown._page_at(words_for(title, caption, description), path))
