@@ -27,8 +27,9 @@ bench: build
 	@scripts/bench
 
 bench-gpu: configured
-	@cmake --build --preset release --target bench_gpu
+	@cmake --build --preset release --target bench_gpu bench_gpu_painting
 	@build/release/bin/bench_gpu
+	@build/release/bin/bench_gpu_painting
 
 bench-page: configured
 	@cmake --build --preset release --target wheatstone_cli

@@ -7,10 +7,12 @@
 #include <optional>
 #include <utility>
 
+#include "wheatstone/drawing/painting_gpu_internal.h"
 #include "wheatstone/drawing/prepared_painting_internal.h"
 #include "wheatstone/drawing/relief_internal.h"
 #include "wheatstone/drawing/seen_surface_internal.h"
 #include "wheatstone/error.h"
+#include "wheatstone/gpu/gpu.h"
 
 namespace wheatstone {
 namespace {
@@ -24,7 +26,33 @@ void leave_out_detail(const DrawOptions& options, Painting& painting) {
   if (strokes->layers.size() > wanted) strokes->layers.resize(wanted);
 }
 
-PreparedPainting prepared(const Painting& painting) {
+/// Whether a painting is to be drawn by the graphics processor. On its own it is chosen where it is a real one, and
+/// where the work is more than handing it over.
+bool chooses_gpu(const PreparedPainting::Contents& contents, Device device) {
+  constexpr int worthwhile = 1 << 16;  // pixels
+  if (device != Device::automatic) return device == Device::graphics;
+  return contents.width * contents.height >= worthwhile && has_real_gpu();
+}
+
+/// Refuses what the graphics processor does not do here.
+void check_gpu_can(const PreparedPainting::Contents& contents) {
+  if (contents.relief.depth_px > 0)
+    throw Error(ErrorKind::wrong_usage, "--device gpu does not light relief (--texture), expected --device cpu");
+}
+
+/// Hands a painting to the graphics processor, or not.
+void hand_over(PreparedPainting::Contents& contents, Device device) {
+  if (!chooses_gpu(contents, device)) return;
+  contents.gpu_was_chosen = device == Device::automatic;
+  try {
+    check_gpu_can(contents);
+    contents.on_gpu = std::make_shared<PaintingOnGpu>(contents);
+  } catch (const Error& error) {
+    if (!contents.gpu_was_chosen || error.kind() != ErrorKind::wrong_usage) throw;
+  }
+}
+
+PreparedPainting prepared(const Painting& painting, Device device) {
   using Marks = decltype(PreparedPainting::Contents::marks);
   std::optional<Marks> marks;
   std::optional<PreparedSurfaces> surfaces;
@@ -33,7 +61,29 @@ PreparedPainting prepared(const Painting& painting) {
       [&] { surfaces.emplace(painting.surfaces); });
   auto contents = std::make_unique<PreparedPainting::Contents>(PreparedPainting::Contents{
       width_of(painting), height_of(painting), *std::move(marks), *std::move(surfaces), painting.relief});
+  hand_over(*contents, device);
   return PreparedPainting(std::move(contents));
+}
+
+/// Draws the marks of some views, and lights their paint.
+void draw_on_processor(const PreparedPainting::Contents& contents, std::span<const ViewToDraw> views) {
+  std::visit([&](const auto& marks) { draw_marks(marks, contents.surfaces, views); }, contents.marks);
+  const auto* const strokes = std::get_if<PreparedStrokes>(&contents.marks);
+  if (strokes == nullptr || contents.relief.depth_px <= 0) return;
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    const SeenSurfaces seen = seen_surfaces(contents.surfaces, views[i].position, {contents.width, 0, contents.height});
+    light_paint(*strokes, views[i].position, seen.hiding, contents.relief, views[i].drawn.picture);
+  });
+}
+
+void draw_some(const PreparedPainting::Contents& contents, std::span<const ViewToDraw> views) {
+  if (contents.on_gpu == nullptr) return draw_on_processor(contents, views);
+  try {
+    contents.on_gpu->draw(views);
+  } catch (const Error& error) {
+    if (!contents.gpu_was_chosen || error.kind() != ErrorKind::wrong_usage) throw;
+    draw_on_processor(contents, views);
+  }
 }
 
 }  // namespace
@@ -46,15 +96,13 @@ int PreparedPainting::width() const { return contents_->width; }
 int PreparedPainting::height() const { return contents_->height; }
 
 PreparedPainting prepare(const Painting& painting, const DrawOptions& options, Device device) {
-  if (device == Device::graphics)
-    throw Error(ErrorKind::wrong_usage, "paintings are drawn by the processor, expected --device cpu");
   const DrawOptions everything;
   if (is_as_planned(options.placement) && options.finest_layer == everything.finest_layer && options.relief)
-    return prepared(painting);
+    return prepared(painting, device);
   Painting part = is_as_planned(options.placement) ? painting : placed(painting, options.placement);
   leave_out_detail(options, part);
   if (!options.relief) part.relief = {};
-  return prepared(part);
+  return prepared(part, device);
 }
 
 void draw(const PreparedPainting& painting, std::span<const ViewPosition> views, const ViewSink& take,
@@ -71,14 +119,7 @@ void draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
     for (std::size_t i = 0; i < count; ++i)
       to_draw.push_back(
           {views[first + i], backgrounds.empty() ? ImageView<const Rgb8>() : backgrounds[first + i], drawn[i]});
-    std::visit([&](const auto& marks) { draw_marks(marks, contents.surfaces, to_draw); }, contents.marks);
-    const auto* const strokes = std::get_if<PreparedStrokes>(&contents.marks);
-    if (strokes != nullptr && contents.relief.depth_px > 0)
-      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        const SeenSurfaces seen =
-            seen_surfaces(contents.surfaces, to_draw[i].position, {contents.width, 0, contents.height});
-        light_paint(*strokes, to_draw[i].position, seen.hiding, contents.relief, to_draw[i].drawn.picture);
-      });
+    draw_some(contents, to_draw);
     for (std::size_t i = 0; i < count; ++i) take(first + i, std::move(drawn[i]));
   }
 }

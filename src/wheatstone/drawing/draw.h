@@ -43,8 +43,10 @@ class PreparedPainting {
   std::unique_ptr<const Contents> contents_;
 };
 
-/// Does once what all views of a painting share. Throws Error{wrong_usage} for the graphics processor, which draws no
-/// paintings.
+/// Does once what all views of a painting share. The graphics processor keeps it until the prepared painting is gone;
+/// where it was asked for (Device::graphics) and there is none, or it fails, Error{wrong_usage} is thrown, then or when
+/// a view is drawn. Its pictures are those of the processor but for the last bits of a few pixels, and the same bytes
+/// each time.
 PreparedPainting prepare(const Painting& painting, const DrawOptions& options = {}, Device device = Device::processor);
 
 /// Draws a painting for one view, at any place on the line through the eyes: every point of a mark is moved by its own

@@ -80,9 +80,6 @@ void continue_paint(const FrontToBackAccumulator& accumulator, int band_row, std
   }
 }
 
-/// By what the surfaces may hide a stroke.
-enum class PlannedIn : std::uint8_t { reference_view, photographed_view, other_view };
-
 /// What of a stroke lies in a band, with all that its stamps need: the strokes themselves are far apart in memory.
 struct alignas(64) Piece {
   std::uint32_t stroke;
@@ -145,11 +142,6 @@ std::uint32_t rows_to_draw(const Piece& piece, const ColumnRun& columns, const H
     }
   }
   return rows;
-}
-
-PlannedIn kind_of(ViewPosition planned_in, const PreparedSurfaces& surfaces) {
-  if (surfaces.seen.empty() || planned_in == surfaces.seen.front().view) return PlannedIn::reference_view;
-  return surfaces.photographed.contains(planned_in) ? PlannedIn::photographed_view : PlannedIn::other_view;
 }
 
 Piece piece_of(const FlatStroke& stroke, std::uint32_t index, const PreparedSurfaces& surfaces,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
@@ -11,11 +12,15 @@
 
 namespace wheatstone {
 
+class PaintingOnGpu;
+
 struct PreparedPainting::Contents {
   int width, height;
   std::variant<PreparedStrokes, RegionPainting, DiffusionPainting> marks;
   PreparedSurfaces surfaces;
   Relief relief;
+  std::shared_ptr<PaintingOnGpu> on_gpu = {};  ///< what draws it, where the processor does not
+  bool gpu_was_chosen = false;                 ///< where it fails, the processor draws
 };
 
 // How each kind of marks is made ready and drawn.

@@ -39,6 +39,11 @@ PreparedSurfaces::PreparedSurfaces(const Surfaces& surfaces)
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) { seen[i] = known_part(surfaces.seen[i]); });
 }
 
+PlannedIn kind_of(ViewPosition planned_in, const PreparedSurfaces& surfaces) {
+  if (surfaces.seen.empty() || planned_in == surfaces.seen.front().view) return PlannedIn::reference_view;
+  return surfaces.photographed.contains(planned_in) ? PlannedIn::photographed_view : PlannedIn::other_view;
+}
+
 SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, const RowsOfView& rows) {
   constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
   SeenSurfaces seen;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,10 @@ class PreparedSurfaces {
   float tolerance_px;
   ViewRange photographed;
 };
+
+/// By what the surfaces may hide a mark.
+enum class PlannedIn : std::uint8_t { reference_view, photographed_view, other_view };
+PlannedIn kind_of(ViewPosition planned_in, const PreparedSurfaces& surfaces);
 
 /// What hides a painting's marks in some rows of one view.
 struct SeenSurfaces {

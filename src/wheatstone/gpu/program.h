@@ -21,8 +21,10 @@ class GpuProgram {
   /// Throws Error{wrong_usage} with the driver's first line where it refuses the source.
   explicit GpuProgram(const GpuSource& source);
   ~GpuProgram();
+  GpuProgram(GpuProgram&& other) noexcept : name_(other.name_) { other.name_ = 0; }
   GpuProgram(const GpuProgram&) = delete;
   GpuProgram& operator=(const GpuProgram&) = delete;
+  GpuProgram& operator=(GpuProgram&&) = delete;
 
   /// Runs groups × as many invocations as a group of the source has, in x, y and z. Buffer i is bound to binding i.
   /// What runs next sees what this wrote.

@@ -77,15 +77,6 @@ std::array<std::uint32_t, 3> groups_of_pixels(const GpuPictures& pictures, std::
           static_cast<std::uint32_t>(views)};
 }
 
-void unpack(std::span<const std::uint32_t> pixels, ImageView<Rgb8> picture) {
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) {
-      const std::uint32_t colour = pixels[static_cast<std::size_t>(y) * picture.width() + x];
-      picture.row(y)[x] = {static_cast<std::uint8_t>(colour), static_cast<std::uint8_t>(colour >> 8),
-                           static_cast<std::uint8_t>(colour >> 16)};
-    }
-}
-
 }  // namespace
 
 void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,

@@ -7,21 +7,12 @@
 
 #include "wheatstone/gpu/buffer.h"
 #include "wheatstone/gpu/program.h"
+#include "wheatstone/gpu/views.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/multiview/gpu_splats_internal.h"
 #include "wheatstone/multiview/tone_map_internal.h"
 
 namespace wheatstone {
-
-/// Views that the programs treat at a time.
-constexpr int most_gpu_views = 64;
-
-/// Their distances from the central view.
-inline std::array<float, most_gpu_views> gpu_views(std::span<const ViewPosition> views) {
-  std::array<float, most_gpu_views> distances{};
-  std::ranges::transform(views, distances.begin(), [](ViewPosition view) { return view - central_view; });
-  return distances;
-}
 
 /// The light of a picture's views on the graphics processor, from a place in a buffer on.
 struct GpuLight {

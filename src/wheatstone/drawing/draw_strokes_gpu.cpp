@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "continue_paint_source.h"
+#include "draw_strokes_source.h"
+#include "wheatstone/drawing/painting_gpu_internal.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int tile_px = 8, cell_px = 16;
+constexpr std::uint32_t highest_bit = std::uint32_t{1} << 31;
+
+/// What draw_strokes.comp reads of its work: numbers of four bytes, without gaps.
+struct StrokeWork {
+  std::int32_t width = 0, height = 0;
+  std::int32_t has_surfaces = 0, shows_behind = 0, has_background = 0;
+  std::uint32_t canvas = 0;
+  float bare_light = 0, tolerance_px = 0;
+  float still_depth = 0;
+  std::int32_t first_cell = 0;
+  std::uint32_t cells_a_band = 0;
+  std::array<float, most_gpu_views> view{};
+};
+
+using Segment = StrokesForGpu::Segment;
+
+StrokesForGpu::Stroke stroke_for_gpu(const FlatStroke& stroke, PlannedIn planned_in) {
+  const BrushProfile brush(stroke.radius_px);
+  return {stroke.red,
+          stroke.green,
+          stroke.blue,
+          stroke.opacity,
+          brush.middle_px,
+          brush.rim_px,
+          stroke.views.first - central_view,
+          stroke.views.last - central_view,
+          static_cast<std::int32_t>(planned_in)};
+}
+
+/// The segment from one vertex to another. `number`: the stroke's.
+Segment segment_of(const FlatLayer& layer, const FlatStroke& stroke, std::uint32_t from, std::uint32_t to,
+                   std::uint32_t number) {
+  Segment segment{layer.x[from],
+                  layer.y[from],
+                  layer.x[to] - layer.x[from],
+                  layer.y[to] - layer.y[from],
+                  layer.disparity[from],
+                  layer.disparity[to] - layer.disparity[from],
+                  BrushProfile(stroke.radius_px).reach_px,
+                  number};
+  if (!stroke.is_rigid) return segment;
+  segment.depth = stroke.disparity;
+  segment.depth_slope = stroke.depth_slope;
+  segment.stroke |= highest_bit;
+  return segment;
+}
+
+struct Depths {
+  float farthest, nearest;
+};
+
+/// Of all that a segment paints.
+Depths depths_of(const Segment& segment) {
+  if ((segment.stroke & highest_bit) == 0) {
+    const auto [farthest, nearest] = std::minmax({segment.depth, segment.depth + segment.depth_slope});
+    return {farthest, nearest};
+  }
+  const auto [top, bottom] = std::minmax({segment.y, segment.y + segment.dy});
+  const auto [farthest, nearest] = std::minmax({segment.depth + segment.depth_slope * (top - segment.reach),
+                                                segment.depth + segment.depth_slope * (bottom + segment.reach)});
+  return {farthest, nearest};
+}
+
+/// The middle of all depths.
+float still_depth_of(std::span<const Segment> segments) {
+  Depths all{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+  for (const Segment& segment : segments) {
+    const Depths depths = depths_of(segment);
+    all = {std::min(all.farthest, depths.farthest), std::max(all.nearest, depths.nearest)};
+  }
+  return segments.empty() ? 0 : (all.farthest + all.nearest) / 2;
+}
+
+}  // namespace
+
+StrokesForGpu::StrokesForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces) {
+  for (auto layer = painting.layers.rbegin(); layer != painting.layers.rend(); ++layer)
+    for (auto stroke = layer->flat.strokes.rbegin(); stroke != layer->flat.strokes.rend(); ++stroke) {
+      const auto number = static_cast<std::uint32_t>(strokes.size());
+      strokes.push_back(stroke_for_gpu(*stroke, kind_of(stroke->reference_view, surfaces)));
+      const std::uint32_t last = stroke->first_vertex + stroke->vertex_count - 1;
+      for (std::uint32_t from = stroke->first_vertex; from < std::max(last, stroke->first_vertex + 1); ++from)
+        segments.push_back(segment_of(layer->flat, *stroke, from, std::min(from + 1, last), number));
+    }
+  still_depth = still_depth_of(segments);
+}
+
+CellsForGpu::CellsForGpu(const StrokesForGpu& of, int width, int height, float farthest_view)
+    : first_cell(static_cast<std::int32_t>(std::floor(-farthest_view * std::abs(of.still_depth) / cell_px))) {
+  const auto last_cell = static_cast<std::int32_t>(
+      std::floor((static_cast<float>(width) + farthest_view * std::abs(of.still_depth)) / cell_px));
+  cells_a_band = static_cast<std::uint32_t>(last_cell - first_cell + 1);
+  const int bands = (height + tile_px - 1) / tile_px;
+  const auto clamped = [](float place, int size, int least, int most) {
+    return static_cast<int>(
+        std::clamp(std::floor(place / static_cast<float>(size)), static_cast<float>(least), static_cast<float>(most)));
+  };
+  // Calls `use` with each cell in which a segment may be seen.
+  const auto for_cells = [&](const Segment& segment, auto use) {
+    const auto [top, bottom] = std::minmax({segment.y, segment.y + segment.dy});
+    if (bottom + segment.reach < 0) return;
+    const int first_band = clamped(top - segment.reach, tile_px, 0, bands),
+              end_band = clamped(bottom + segment.reach, tile_px, -1, bands - 1) + 1;
+    const Depths depths = depths_of(segment);
+    const float moves =
+        farthest_view * std::max(std::abs(depths.farthest - of.still_depth), std::abs(depths.nearest - of.still_depth));
+    const auto [left, right] = std::minmax({segment.x, segment.x + segment.dx});
+    // A tile's list is that of the cell in which it begins.
+    const int first = clamped(left - segment.reach - moves - tile_px, cell_px, first_cell, last_cell),
+              end = clamped(right + segment.reach + moves, cell_px, first_cell - 1, last_cell) + 1;
+    for (int band = first_band; band < end_band; ++band)
+      for (int cell = first; cell < end; ++cell)
+        use(static_cast<std::size_t>(band) * cells_a_band + static_cast<std::size_t>(cell - first_cell));
+  };
+  const auto is_of_reference = [&](const Segment& segment) {
+    return of.strokes[segment.stroke & ~highest_bit].planned_in == static_cast<std::int32_t>(PlannedIn::reference_view);
+  };
+  cell_first.assign(static_cast<std::size_t>(bands) * cells_a_band + 1, 0);
+  for (const Segment& segment : of.segments)
+    for_cells(segment, [&](std::size_t cell) { cell_first[cell + 1] += is_of_reference(segment) ? 1 : 2; });
+  std::partial_sum(cell_first.begin(), cell_first.end(), cell_first.begin());
+  in_cells.resize(cell_first.back());
+  std::vector<std::uint32_t> next(cell_first.begin(), cell_first.end() - 1);
+  for (const bool again : {false, true})
+    for (std::uint32_t i = 0; i < of.segments.size(); ++i)
+      if (!again || !is_of_reference(of.segments[i]))
+        for_cells(of.segments[i], [&](std::size_t cell) { in_cells[next[cell]++] = again ? i | highest_bit : i; });
+}
+
+GpuStrokes::GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& surfaces)
+    : painting_(painting),
+      flat_(painting, surfaces),
+      draw_strokes_(draw_strokes_source),
+      continue_paint_(continue_paint_source),
+      strokes_(std::span<const StrokesForGpu::Stroke>(flat_.strokes)),
+      segments_(std::span<const Segment>(flat_.segments)) {}
+
+void GpuStrokes::fill_cells(std::span<const ViewPosition> views) {
+  float farthest = 0;
+  for (const ViewPosition view : views) farthest = std::max(farthest, std::abs(view - central_view));
+  if (cells_ && farthest <= cells_->farthest_view) return;
+  const CellsForGpu cells(flat_, painting_.width, painting_.height, farthest);
+  cells_.emplace(CellsOnGpu{farthest, cells.first_cell, cells.cells_a_band,
+                            GpuBuffer(std::span<const std::uint32_t>(cells.cell_first)),
+                            GpuBuffer(std::span<const std::uint32_t>(cells.in_cells))});
+}
+
+GpuBuffer GpuStrokes::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) {
+  fill_cells(views.positions);
+  const auto size = static_cast<std::size_t>(painting_.width) * static_cast<std::size_t>(painting_.height);
+  const bool has_background = !views.backgrounds.empty();
+  const StrokeWork work{
+      .width = painting_.width,
+      .height = painting_.height,
+      .has_surfaces = surfaces.empty() ? 0 : 1,
+      .shows_behind = has_background || painting_.canvas_shows ? 1 : 0,
+      .has_background = has_background ? 1 : 0,
+      .canvas = packed(painting_.canvas_colour),
+      .bare_light = painting_.bare_light,
+      .tolerance_px = surfaces.tolerance_px(),
+      .still_depth = flat_.still_depth,
+      .first_cell = cells_->first_cell,
+      .cells_a_band = cells_->cells_a_band,
+      .view = gpu_views(views.positions),
+  };
+  const GpuBuffer of_work(std::span<const StrokeWork>(&work, 1));
+  const GpuBuffer behind{std::span<const std::uint32_t>(views.backgrounds)};
+  GpuBuffer pixels(size * views.positions.size() * sizeof(std::uint32_t));
+  const auto count = static_cast<std::uint32_t>(views.positions.size());
+  draw_strokes_.run(
+      {groups_of(painting_.width, tile_px), groups_of(painting_.height, tile_px), count},
+      {&of_work, &strokes_, &segments_, &cells_->cell_first, &cells_->in_cells, &planes, &behind, &pixels});
+  if (work.shows_behind == 0)
+    continue_paint_.run({groups_of(painting_.height, 64), count}, {&of_work, &planes, &pixels});
+  return pixels;
+}
+
+}  // namespace wheatstone
