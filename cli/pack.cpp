@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command.h"
+#include "device_option.h"
 #include "number_arguments.h"
 #include "output_option.h"
 #include "packing.h"
@@ -89,6 +90,7 @@ void add_pack_command(CLI::App& program, const Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand("pack", "Convert views to the format of a display");
   add_views_arguments(*command, arguments->input);
+  add_device_option(*command, arguments->input.device, "What draws the views of a painting");
   add_output_option(*command, arguments->output, "File; a folder for views; the stem of the file for a quilt")
       ->required();
   add_packing_options(*command, arguments->packing);

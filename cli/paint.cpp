@@ -101,6 +101,7 @@ DisplayViewsOptions views_options(const Arguments& arguments, const DisplayPrese
   DisplayViewsOptions options =
       display_views_options(display, {arguments.display, arguments.size, arguments.views, arguments.span});
   options.depth = depth_placing_from(arguments);
+  options.device = arguments.device;
   return options;
 }
 
@@ -195,6 +196,7 @@ PaintPhotographOptions options_from(const Arguments& arguments, const Session& s
   options.style = style_from(arguments.style, session.seed);
   options.matching = match_options_from(arguments.matching);
   options.zero_parallax = parse_zero_parallax(arguments);
+  options.device = arguments.device;
   if (arguments.disparity.empty() && !arguments.right_disparity.empty())
     throw Error(ErrorKind::wrong_usage, "--right-disparity: needs --disparity, that of the left view");
   depth_budget_from(arguments);
@@ -319,7 +321,8 @@ void draw_painting_again(const Arguments& arguments, const CLI::App& command, co
                               .format = arguments.format,
                               .zero_parallax_px = parse_zero_parallax(arguments).disparity_px,
                               .depth_budget = depth_budget_from(arguments),
-                              .depth = depth_placing_from(arguments)};
+                              .depth = depth_placing_from(arguments),
+                              .device = arguments.device};
   OutputFolder folder(arguments.folder, output_of(arguments, arguments.folder).inputs);
   draw_again(read_painting(arguments.files.front()), folder, options, session.progress);
   if (session.json) {

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <map>
 
+#include "device_option.h"
 #include "option_use.h"
 #include "output_option.h"
 #include "picture_format.h"
@@ -106,6 +107,7 @@ void add_paint_options(CLI::App& command, PaintArguments& arguments) {
   add_depth_mapping_options(command, arguments);
   add_number(command, "--scale", arguments.scale, {0.01, 32}, "Scale factor of a painting.wst that is drawn again");
   add_display_options(command, arguments);
+  add_device_option(command, arguments.device, "What draws the planned pictures");
   command.add_flag("--report", arguments.measure, "Measure the consistency of the two painted views");
   command.add_flag("--svg", arguments.svg, "Also write left.svg and right.svg, the marks as vector graphics");
   command.add_flag("--html", arguments.html, "Also write index.html, which shows the pictures");
@@ -125,15 +127,15 @@ void refuse_for_printing(const CLI::App& command) {
 void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments) {
   if (arguments.display.empty()) {
     refuse_all_but(command,
-                   {"--output", "--format", "--scale", "--svg", "--zero-parallax", "--depth-budget", "--depth-mapping",
-                    "--distance", "--screen-width"},
+                   {"--output", "--format", "--scale", "--svg", "--device", "--zero-parallax", "--depth-budget",
+                    "--depth-mapping", "--distance", "--screen-width"},
                    "on a painting (.wst)", "it works on photographs");
     return;
   }
   refuse_options(command, {"--scale", "--svg", "--depth-budget"}, "with --display",
                  "it works where two eyes are drawn");
   refuse_all_but(command,
-                 {"--output", "--format", "--display", "--views", "--size", "--span", "--zero-parallax",
+                 {"--output", "--format", "--device", "--display", "--views", "--size", "--span", "--zero-parallax",
                   "--depth-mapping", "--distance", "--screen-width"},
                  "on a painting (.wst)", "it works on photographs");
   if (arguments.zero_parallax == "nearest")

@@ -10,6 +10,7 @@
 #include "stereo_arguments.h"
 #include "style_options.h"
 #include "wheatstone/app/place_depth.h"
+#include "wheatstone/gpu/device.h"
 
 namespace wheatstone::cli {
 
@@ -31,6 +32,7 @@ struct PaintArguments {
   std::string display, size;
   int views = 0;
   float span = 0;
+  Device device = Device::processor;
   bool measure = false;
   bool html = false;
   bool svg = false;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "device_option.h"
 #include "number_arguments.h"
 #include "option_use.h"
 #include "output_option.h"
@@ -19,8 +20,6 @@
 namespace wheatstone::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Device>, 3> devices{
-    {{"cpu", Device::processor}, {"gpu", Device::graphics}, {"auto", Device::automatic}}};
 constexpr std::array<std::pair<std::string_view, Method>, 4> methods{{{"auto", Method::automatic},
                                                                       {"exact", Method::exact},
                                                                       {"incremental", Method::incremental},
@@ -253,10 +252,7 @@ void add_method_options(CLI::App& command, RenderArguments& arguments) {
   RenderOptions& rendering = arguments.options.rendering;
   add_choice<Method>(command, "--method", rendering.method, methods, "Rendering method; --verbose tells which was used")
       ->group(method_group);
-  add_choice<Device>(command, "--device", rendering.device, devices,
-                     "What renders: the processor, the graphics processor (OpenGL 4.5), or a graphics processor where "
-                     "the work is worth it; 'wheatstone info --devices' lists what is there")
-      ->group(method_group);
+  add_device_option(command, rendering.device, "What renders")->group(method_group);
   add_choice<SliceFilter>(command, "--filter", rendering.filter, filters, "Depth-plane filter of the layered method")
       ->group(method_group);
   add_number(command, "--planes", rendering.planes, {1, 100'000},

@@ -62,19 +62,23 @@ int count_of(const ViewsArguments& arguments, int wanted) {
 }
 
 /// The eyes' own pictures, or as many views as are wanted, with the middle of the scene's disparities on the screen.
-ReadViews draw_painting(const std::string& file, int count, float span, const Progress& progress) {
-  const bool of_the_eyes = count == 2 && span == 1;
+ReadViews draw_painting(const ViewsArguments& arguments, int count, const Progress& progress) {
+  const std::string& file = arguments.files.front();
+  const bool of_the_eyes = count == 2 && arguments.span == 1;
   const Painting painting = of_the_eyes ? read_painting(file) : read_painting_for_views(file);
   ReadViews read;
   read.how = "drawn from a painting";
   if (of_the_eyes) {
-    const PreparedPainting prepared = prepare(painting);
+    const PreparedPainting prepared = prepare(painting, {}, arguments.device);
     const std::array eyes{left_eye, right_eye};
     for (DrawnView& view : draw(prepared, eyes)) read.views.push_back(std::move(view.picture));
     return read;
   }
-  const DisplayViewsOptions options{
-      .views = count, .width = width_of(painting), .height = height_of(painting), .span = span};
+  const DisplayViewsOptions options{.views = count,
+                                    .width = width_of(painting),
+                                    .height = height_of(painting),
+                                    .span = arguments.span,
+                                    .device = arguments.device};
   read.views = draw_display_views(painting, options, progress).views;
   return read;
 }
@@ -111,7 +115,7 @@ ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::
     refuse_options(command, options, situation, {});
   };
   if (fs::is_directory(file)) {
-    refuse({"--layout", "--from-quilt", "--views", "--span"}, "on a folder of views");
+    refuse({"--layout", "--from-quilt", "--views", "--span", "--device"}, "on a folder of views");
     return read_pictures(pictures_in(file), session.progress);
   }
   if (is_film(file))
@@ -120,20 +124,21 @@ ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::
                             "picture{}",
                             file, quilt_of_name(fs::path(file).filename().string()) ? " (with --from-quilt)" : ""));
   if (!arguments.quilt.empty()) {
-    refuse({"--layout", "--views", "--span"}, "with --from-quilt");
+    refuse({"--layout", "--views", "--span", "--device"}, "with --from-quilt");
     return take_quilt(arguments, file);
   }
   if (file.ends_with(".wst")) {
     refuse({"--layout"}, "on a painting (.wst)");
-    return draw_painting(file, count_of(arguments, wanted), arguments.span, session.progress);
+    return draw_painting(arguments, count_of(arguments, wanted), session.progress);
   }
   if (file.ends_with(".exr")) {
-    refuse({"--layout"}, "on OpenEXR files");
+    refuse({"--layout", "--device"}, "on OpenEXR files");
     if (!is_multiview_exr(file))
       return render_stack(file, count_of(arguments, wanted), arguments.span, session.progress);
     refuse({"--views", "--span"}, "on a multi-view OpenEXR, which has its own views");
     return {read_multiview_exr(file), "a multi-view OpenEXR"};
   }
+  refuse({"--device"}, "on pictures; it works on a painting (.wst)");
   refuse({"--views", "--span"}, "on pictures; it works on a painting (.wst) or slices (.exr)");
   return read_views_in_picture(arguments, file, session.progress);
 }
@@ -177,7 +182,7 @@ ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const
                               const Session& session) {
   const bool one_file = arguments.files.size() == 1;
   if (!one_file)
-    refuse_options(command, {"--layout", "--from-quilt", "--views", "--span"}, "on several files",
+    refuse_options(command, {"--layout", "--from-quilt", "--views", "--span", "--device"}, "on several files",
                    "it works on one file that holds all views");
   ReadViews read =
       one_file ? read_one_file(arguments, wanted, command, session) : read_pictures(arguments.files, session.progress);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command.h"
+#include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 
 namespace wheatstone::cli {
@@ -13,11 +14,12 @@ namespace wheatstone::cli {
 /// Views as they are typed: pictures, a folder of them, one file that holds several, a painting or slices.
 struct ViewsArguments {
   std::vector<std::string> files;
-  std::string layout;  ///< of one picture that holds two
-  std::string quilt;   ///< COLUMNSxROWS of one picture that is a quilt
-  bool swap = false;   ///< right to left
-  int views = 0;       ///< of slices; 0: what the packing wants
-  float span = 1;      ///< of slices, in eye separations
+  std::string layout;                 ///< of one picture that holds two
+  std::string quilt;                  ///< COLUMNSxROWS of one picture that is a quilt
+  bool swap = false;                  ///< right to left
+  int views = 0;                      ///< of slices; 0: what the packing wants
+  float span = 1;                     ///< of slices, in eye separations
+  Device device = Device::processor;  ///< of paintings
 };
 
 void add_views_arguments(CLI::App& command, ViewsArguments& arguments);

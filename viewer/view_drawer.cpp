@@ -85,7 +85,7 @@ DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& pain
                                                      .top = part.top / part.scale};
     prepared_.reset();
     prepared_ = Prepared{painting, part, finest_layer,
-                         prepare(*painting, {.placement = placement, .finest_layer = finest_layer})};
+                         prepare(*painting, {.placement = placement, .finest_layer = finest_layer}, Device::automatic)};
   }
   DrawnViews drawn{.positions = positions, .scale = part.scale, .left = part.left, .top = part.top};
   for (DrawnView& view : draw(prepared_->ready, positions)) drawn.pictures.push_back(std::move(view.picture));

@@ -8,7 +8,10 @@
 
 #include "cli/packing.h"
 #include "cli/run_program.h"
+#include "psnr.h"
+#include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
@@ -162,6 +165,22 @@ TEST(PackCommand, APaintingHasAsManyViewsAsAreWanted) {
   EXPECT_EQ(files_in(folder / "five").size(), 5u);
   EXPECT_NE(read_image(folder / "five/view_000.png"), read_image(folder / "five/view_004.png"));
   run_in(folder, {"pack", "painted/painting.wst", "--to", "quilt", "--quilt", "8x6", "-o", "quilt"});
+}
+
+TEST(PackCommand, TheGraphicsProcessorDrawsTheSameViews) {
+  try {
+    gpu_facts();
+  } catch (const Error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"paint", "left.png", "right.png", "--style", "posterise", "-o", "painted"});
+  for (const std::string device : {"cpu", "gpu"})
+    run_in(folder, {"pack", "painted/painting.wst", "--to", "views", "--views", "3", "--device", device, "-o", device});
+  for (const std::string view : {"view_000.png", "view_001.png", "view_002.png"})
+    EXPECT_GT(psnr_db(read_image(folder / "cpu" / view), read_image(folder / "gpu" / view)), 45) << view;
+  expect_refused(folder, {"pack", "left.png", "right.png", "--device", "gpu", "-o", "out.mpo"}, 2, "--device: has no");
 }
 
 TEST(PackCommand, APaintingOfTwoEyesHasTwoViewsAndNoMore) {

@@ -87,7 +87,7 @@ DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOpti
     result.worst_bare_share = std::max(result.worst_bare_share, view.bare_share);
     result.views.push_back(std::move(view.picture));
   };
-  draw(prepare(painting, {.placement = plan.placement}), result.rig.positions, keep);
+  draw(prepare(painting, {.placement = plan.placement}, options.device), result.rig.positions, keep);
   report(progress, "views", 1);
   return result;
 }

@@ -7,6 +7,7 @@
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/rig.h"
+#include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/reduced_pair.h"
@@ -21,6 +22,7 @@ struct DisplayViewsOptions {
                                   ///< at most, but no more than parts near and far by `depth_share` of the width
   float widest_span = 4;
   float depth_share = 0.2f;
+  Device device = Device::processor;      ///< what draws them
   std::optional<float> zero_parallax_px;  ///< disparity on the screen plane; none: the middle of the scene's
   DepthPlacing depth =
       {};  ///< with regions they say what lies on the screen, and `span` is `widest_span` where it is 0

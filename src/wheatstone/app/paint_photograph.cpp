@@ -61,7 +61,7 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   const auto presented = [&](const Painting& painting) {
     return presented_views(comfortable_separation(painting, options.depth_budget));
   };
-  result.painted = paint(photographs, result.geometry, options.style, progress, presented);
+  result.painted = paint(photographs, result.geometry, options.style, progress, {presented, options.device});
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
   return result;
 }

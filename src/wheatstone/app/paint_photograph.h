@@ -26,6 +26,7 @@ struct PaintPhotographOptions {
   std::optional<Image<float>> left_disparity;   ///< ready-made; none: the photographs are matched
   std::optional<Image<float>> right_disparity;  ///< only together with the left one
   ZeroParallax zero_parallax;
+  Device device = Device::processor;  ///< what draws the pictures
   std::optional<float>
       depth_budget;  ///< of what is looked at, for which views are drawn, too; as comfortable_separation
 };

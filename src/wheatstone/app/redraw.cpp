@@ -43,7 +43,7 @@ void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOpti
   const bool is_placed = !options.depth.regions.empty();
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   report(progress, "drawing", 0);
-  const PreparedPainting prepared = prepare(sized);
+  const PreparedPainting prepared = prepare(sized, {}, options.device);
   const float separation = is_placed ? 1 : comfortable_separation(sized, options.depth_budget);
   std::vector<ViewPosition> views{left_eye, right_eye};
   std::ranges::copy(presented_views(separation), std::back_inserter(views));

@@ -6,6 +6,7 @@
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/place_depth.h"
 #include "wheatstone/depth/comfort.h"
+#include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/progress.h"
 
@@ -26,6 +27,7 @@ struct RedrawOptions {
   std::optional<float> zero_parallax_px = std::nullopt;
   std::optional<float> depth_budget = comfortable_parallax_share;  ///< of what is looked at, as comfortable_separation
   DepthPlacing depth = {};  ///< with regions they say what lies on the screen, and there is no budget
+  Device device = Device::processor;
 };
 
 /// Draws a painting again, for both eyes, over its canvas colour: left.png, right.png, side_by_side.png and

@@ -20,9 +20,10 @@ namespace wheatstone {
 namespace {
 
 /// Draws both eyes of a planned painting, and other views, which have no photograph to be drawn over.
-void draw_views(const StereoPairView& photographs, const Style& style, std::span<const ViewPosition> others,
+void draw_views(const StereoPairView& photographs, const Style& style, const PaintDrawing& drawing,
                 PaintedPair& result) {
-  const PreparedPainting prepared = prepare(result.painting);
+  const PreparedPainting prepared = prepare(result.painting, {}, drawing.device);
+  const auto others = drawing.other_views ? drawing.other_views(result.painting) : std::vector<ViewPosition>();
   std::vector<ViewPosition> views{left_eye, right_eye};
   std::vector<ImageView<const Rgb8>> backgrounds;
   if (style.background == Background::photograph) {
@@ -67,7 +68,7 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                  const Progress& progress, const OtherViews& other_views) {
+                  const Progress& progress, const PaintDrawing& drawing) {
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);
@@ -75,7 +76,7 @@ PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& g
   }
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);
-  draw_views(photographs, style, other_views ? other_views(result.painting) : std::vector<ViewPosition>(), result);
+  draw_views(photographs, style, drawing, result);
   if (style.propagation == Propagation::raster && style.marks == Marks::strokes) lay_left_over_right(geometry, result);
   report(progress, "drawing", 1);
   return result;

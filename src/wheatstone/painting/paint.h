@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
@@ -28,8 +29,12 @@ struct PaintedPair {
   PaintingTimes times;
 };
 
-/// Which other views of a planned painting are drawn together with its eyes, which costs less than by themselves.
-using OtherViews = std::function<std::vector<ViewPosition>(const Painting&)>;
+/// How a planned painting is drawn.
+struct PaintDrawing {
+  /// Other views that are drawn together with its eyes, which costs less than by themselves; empty: none.
+  std::function<std::vector<ViewPosition>(const Painting&)> other_views = {};
+  Device device = Device::processor;
+};
 
 /// The views that paintings of photographs can be drawn for: five eye separations.
 inline constexpr ViewRange widest_views{ViewPosition(-2.5f), ViewPosition(2.5f)};
@@ -42,7 +47,7 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
 
 /// Paints a rectified pair so that its marks fuse. Takes and throws what plan_painting does.
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                  const Progress& progress = {}, const OtherViews& other_views = {});
+                  const Progress& progress = {}, const PaintDrawing& drawing = {});
 
 /// One eye, painted alone.
 struct PaintedView {

@@ -55,7 +55,7 @@ TEST(Paint, DrawsOtherViewsThatAreAskedForWithTheEyes) {
   const StereoPair photographs = test_scene::photographs();
   const auto nearer = [](const Painting&) { return std::vector{ViewPosition(-0.3f), ViewPosition(0.3f)}; };
   const PaintedPair alone = paint(photographs, test_scene::geometry(), small_style());
-  const PaintedPair painted = paint(photographs, test_scene::geometry(), small_style(), {}, nearer);
+  const PaintedPair painted = paint(photographs, test_scene::geometry(), small_style(), {}, {nearer});
   EXPECT_EQ(painted.pictures.left, alone.pictures.left);
   EXPECT_EQ(painted.pictures.right, alone.pictures.right);
   ASSERT_EQ(painted.other_views.size(), 2u);
