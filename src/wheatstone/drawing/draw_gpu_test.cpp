@@ -14,8 +14,8 @@
 namespace wheatstone {
 namespace {
 
-/// From beyond the left eye to beyond the right one.
-const std::vector<ViewPosition> wide{ViewPosition(-2.5), left_eye, ViewPosition(-0.13), right_eye, ViewPosition(2.5)};
+/// One beyond the eyes, one between them, and an eye.
+const std::vector<ViewPosition> wide{ViewPosition(-2.5), ViewPosition(-0.13), right_eye};
 
 std::vector<Image<Rgb8>> pictures_of(const Painting& painting, Device device,
                                      std::span<const ImageView<const Rgb8>> backgrounds = {}) {
