@@ -59,8 +59,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "wheatstone (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
-"The package wheatstone for Python matches and paints pairs of pictures and
-renders particles, from and to NumPy's arrays.")
+"The package wheatstone for Python reads, rectifies, matches and paints pairs of
+pictures and films, and renders particles, from and to NumPy's arrays.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME wheatstone-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "wheatstone (= ${PROJECT_VERSION}), openmpi-bin")
