@@ -45,13 +45,15 @@ struct Arguments {
   std::string disparity;
   std::string output = "page.html";
   PageWords words;
-  std::string element;   ///< file for the element's code; empty: it is not wanted
-  std::string max_size;  ///< of the page; empty: what is usual for its kind
+  std::string element;    ///< file for the element's code; empty: it is not wanted
+  std::string max_size;   ///< of the page; empty: what is usual for its kind
+  std::string subtitles;  ///< of a film, in a WebVTT file; empty: none
 };
 
 std::vector<fs::path> files_that_are_read(const Arguments& arguments) {
   std::vector<fs::path> files = files_read(arguments.views);
-  for (const std::string& file : {arguments.depth.file, arguments.depth.model, arguments.disparity})
+  for (const std::string& file :
+       {arguments.depth.file, arguments.depth.model, arguments.disparity, arguments.subtitles})
     files.emplace_back(file);
   return files;
 }
@@ -113,9 +115,10 @@ SharedPicture share_film_file(const Arguments& arguments, const CLI::App& comman
     const Size size = parse_size("--from-quilt", views.quilt, {1, 1000}, "COLUMNSxROWS");
     options.quilt = QuiltLayout{size.width, size.height};
   }
-  refuse_others(command, {options.quilt ? "--from-quilt" : "--layout", "--max-size"}, "on a film");
+  refuse_others(command, {options.quilt ? "--from-quilt" : "--layout", "--max-size", "--subtitles"}, "on a film");
   options.layout = film_layout_option("--layout", views.layout);
   if (const auto most = most_bytes(arguments)) options.most_bytes = *most;
+  options.subtitles = arguments.subtitles;
   return share_film(film, options);
 }
 
@@ -150,6 +153,7 @@ SharedPicture share(const Arguments& arguments, const CLI::App& command, const S
 }
 
 void run(Arguments arguments, const CLI::App& command, const Session& session) {
+  most_bytes(arguments);  // refused before anything is read
   const std::vector<fs::path> inputs = files_that_are_read(arguments);
   for (const std::string& output : {arguments.output, arguments.element}) check_not_an_input(output, inputs);
   if (arguments.words.title.empty()) arguments.words.title = fs::path(arguments.views.files.front()).stem().string();
@@ -199,6 +203,7 @@ void add_share_command(CLI::App& program, const Session& session) {
                    "Most bytes of the page, as 8MB: of a painting and of slices, numbers are rounded more and pictures "
                    "made smaller; a film that is larger stays beside the page")
       ->type_name("SIZE");
+  command->add_option("--subtitles", arguments->subtitles, "Subtitles of a film: a WebVTT file (.vtt)");
   add_depth_options(*command, arguments->depth);
   command->footer(
       "Examples:\n"

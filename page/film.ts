@@ -10,6 +10,8 @@ const jumpSeconds = 5;
 export class Film {
   readonly video = document.createElement("video");
   readonly texture: WebGLTexture;
+  /** The subtitles of this moment. */
+  readonly said = document.createElement("p");
 
   private constructor(private readonly gl: Gl) {
     this.texture = makeTexture(gl, gl.LINEAR);
@@ -25,6 +27,7 @@ export class Film {
       video.addEventListener("loadeddata", () => loaded());
       video.addEventListener("error", () => failed(new PageError(words.noFilm(video.error?.code === MediaError.MEDIA_ERR_NETWORK ? undefined : facts.codec))));
     });
+    if (facts.hasSubtitles) film.subtitle(await source.bytes("subtitles"));
     video.src = inside ? URL.createObjectURL(inside) : new URL(facts.file!, source.address).href;
     await canPlay;
     try {
@@ -45,10 +48,28 @@ export class Film {
     return film;
   }
 
+  private subtitle(file: Uint8Array): void {
+    const { video } = this;
+    const element = document.createElement("track");
+    element.src = URL.createObjectURL(new Blob([file as BlobPart], { type: "text/vtt" }));
+    video.append(element);
+    element.track.mode = "hidden"; // it is read, and the page shows its text
+    element.addEventListener("load", () => this.say());
+  }
+
+  /** Browsers tell of subtitles only while a film plays, so that they are looked for with each frame. */
+  private say(): void {
+    const { said, video } = this;
+    const cues = Array.from(video.textTracks[0]?.cues ?? []) as VTTCue[];
+    const present = cues.filter((cue) => cue.startTime <= video.currentTime && video.currentTime < cue.endTime);
+    said.replaceChildren(...present.map((cue) => cue.getCueAsHTML()));
+  }
+
   private takeFrame(): void {
     const { gl, texture, video } = this;
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, video);
+    this.say();
   }
 
   close(): void {
@@ -77,9 +98,12 @@ export class Film {
   }
 }
 
-/** Adds buttons and a slider that play the film. */
+/** Adds buttons and a slider that play the film, and above them its subtitles. */
 export function addFilmControls(bar: HTMLElement, film: Film, hasSound: boolean): void {
   bar.querySelector(".film")?.remove();
+  bar.parentNode!.querySelector(".said")?.remove();
+  film.said.className = "said";
+  bar.before(film.said);
   const { video } = film;
   const controls = document.createElement("span");
   controls.className = "film";

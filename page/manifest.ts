@@ -98,6 +98,8 @@ export interface ViewsFacts extends Common {
   /** Of a film: how its frames are coded, for people. */
   codec?: string;
   hasSound?: boolean;
+  /** The part "subtitles" is a WebVTT file. */
+  hasSubtitles?: boolean;
   /** Of a film that stands beside the page: its address from there; else the bytes are the part "views". */
   file?: string;
 }

@@ -15,6 +15,8 @@ canvas { display: none; aspect-ratio: var(--aspect, 1.33); width: min(100%, var(
 .bar button, .bar select, .bar label { font: inherit; }
 .film { display: flex; gap: .8em; align-items: center; }
 ::slotted(video) { display: block; margin: 0 auto; max-width: 100%; max-height: 80vh; }
+.said { margin: 0 auto; padding: .2em 1em; text-align: center; font-size: 1.2em; }
+.said:empty { display: none; }
 .how, .alarm { margin: .5em auto; max-width: 40em; text-align: center; min-height: 1.4em; }
 .alarm:empty { display: none; }
 .alarm { padding: .6em 1em; background: #fff3d6; color: #402c00; border-radius: .3em; }

@@ -236,16 +236,22 @@ run("rotoscope", "film", "--style", "posterise", "--pixel-format", "yuv444p", "-
 run("rotoscope", "film", "--style", "posterise", "--output-layout", "left-right", "-o", "film-drawn/frame_%04d.png");
 const isPaused = (page) => page.evaluate(() => document.querySelector("wheatstone-picture").shadowRoot.querySelector(".film button").textContent === "Play");
 
-await test("a film is its frames, is gone through by keys, and does not play by itself where motion is not wanted", async () => {
-  run("share", "film.mp4", "-o", "film.html");
+const waitUntilSaid = (page, words) =>
+  page.waitForFunction((words) => document.querySelector("wheatstone-picture").shadowRoot.querySelector(".said").textContent === words, words, { timeout: 5000 });
+
+await test("a film is its frames, is gone through by keys, has its subtitles, and does not play by itself where motion is not wanted", async () => {
+  writeFileSync(at("film.vtt"), `WEBVTT\n\n00:00.000 --> 00:00.100\n<b>Fruit</b>\n\n00:00.200 --> 00:10.000\nThe end\n`);
+  run("share", "film.mp4", "--subtitles", "film.vtt", "-o", "film.html");
   const { page, troubles } = await openPage(browser, at("film.html"), { reducedMotion: "reduce" });
   const canvas = page.locator("wheatstone-picture canvas");
   const told = await comparePictures(page, "film-drawn", [[{ mode: "parallel" }, "frame_0001.png"]]);
   await page.waitForTimeout(200);
   assert.ok(await isPaused(page), "it plays by itself");
+  await waitUntilSaid(page, "Fruit");
   await canvas.press("l");
   await page.waitForTimeout(200);
   const end = await comparePictures(page, "film-drawn", [[{ mode: "parallel" }, "frame_0006.png"]]);
+  await waitUntilSaid(page, "The end");
   await canvas.press(" ");
   await page.waitForFunction(() => document.querySelector("wheatstone-picture").shadowRoot.querySelector(".film button").textContent === "Pause");
   assert.deepEqual(troubles, []);

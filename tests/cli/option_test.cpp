@@ -69,6 +69,7 @@ TEST(NumberOptions, RefuseWhatIsNoFiniteNumberInTheirRange) {
       {with(paint, {"--display", "looking-glass-go"}), "--views", "0"},
       {with(paint, {"--display", "looking-glass-go"}), "--size", "0x20"},
       {{"paint", "any.wst"}, "--scale", "1e9"},
+      {{"share", "any.exr"}, "--max-size", "999"},
       {match, "--range", "1:1000000"},
       {match, "--block", "99"},
       {render, "--exposure", "0"},

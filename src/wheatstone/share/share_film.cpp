@@ -64,6 +64,18 @@ FilmViews views_of_eyes(const fs::path& film, std::optional<StereoLayout> layout
   return {reader.facts(), {1, 2}, traits.right_first, false, std::move(frame.left)};
 }
 
+/// Subtitles as the page has them. What browsers would not read is refused here, where somebody can mend it.
+PagePart subtitles_part(const fs::path& file) {
+  constexpr std::size_t most_bytes = 4'000'000;
+  const std::string text = read_whole_file(file, most_bytes);
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF", signature = "WEBVTT";
+  const std::string_view begin = std::string_view(text).substr(text.starts_with(byte_order_mark) ? 3 : 0);
+  if (!begin.starts_with(signature))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: does not begin with WEBVTT, expected subtitles as a WebVTT file", file.string()));
+  return {"subtitles", {text.begin(), text.end()}};
+}
+
 /// The address of a film from where a page stands.
 std::string address_of(const fs::path& film, const fs::path& page) {
   const fs::path folder = fs::absolute(page).parent_path();
@@ -108,6 +120,8 @@ SharedPicture share_film(const fs::path& film, const ShareFilmOptions& options) 
              {"type", type},
              {"codec", codec->words},
              {"hasSound", std::ranges::count(views.facts.side_streams, "audio", &SideStream::kind) > 0}};
+  facts["hasSubtitles"] = !options.subtitles.empty();
+  if (!options.subtitles.empty()) shared.parts.push_back(subtitles_part(options.subtitles));
   const std::uintmax_t bytes = fs::file_size(film);
   if (page_bytes(shared) + bytes * 4 / 3 <= options.most_bytes) {
     const std::string whole = read_whole_file(film, std::numeric_limits<std::size_t>::max());

@@ -16,6 +16,7 @@ struct ShareFilmOptions {
   std::filesystem::path page = "page.html";  ///< where the page will stand, from which a film beside it is found
   std::optional<StereoLayout> layout;        ///< by default what the film says, or lets guess
   std::optional<QuiltLayout> quilt;          ///< each frame is a quilt
+  std::filesystem::path subtitles;           ///< a WebVTT file; empty: none
   std::size_t most_bytes = 32'000'000;       ///< of the page; a film that is larger stays beside it
 };
 

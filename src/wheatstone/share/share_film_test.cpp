@@ -4,6 +4,7 @@
 
 #include "temporary_folder.h"
 #include "throws_error.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/video/film_writer.h"
 
 namespace wheatstone {
@@ -35,6 +36,14 @@ TEST(ShareFilm, IsInsideThePageOrBesideItWhereItIsLarger) {
   EXPECT_THAT(beside.facts, HasSubstr(R"("file":"../a%20film.mp4")"));
   EXPECT_THAT(beside.note, HasSubstr("from where it is"));
   EXPECT_THAT(html_page(beside, {}), HasSubstr("media-src 'self' blob:;"));
+}
+
+TEST(ShareFilm, RefusesSubtitlesThatBrowsersDoNotRead) {
+  const TemporaryFolder folder;
+  write_small_film(folder / "film.mp4", {.layout = StereoLayout::left_right, .frame_rate = {24, 1}});
+  write_whole_file(folder / "film.srt", "1\n00:00:00,000 --> 00:00:01,000\nFruit\n");
+  expect_error(ErrorKind::bad_input, "film.srt: does not begin with WEBVTT",
+               [&] { share_film(folder / "film.mp4", {.subtitles = folder / "film.srt"}); });
 }
 
 TEST(ShareFilm, RefusesWhatBrowsersDoNotPlayAndPagesDoNotShow) {
