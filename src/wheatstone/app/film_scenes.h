@@ -26,7 +26,7 @@ struct ScenePart {
 };
 
 /// What is left of a film after its first `done` frames, scene by scene in order. Each goes to the rank that has the
-/// fewest frames before it, so that all come to about the same place at a time.
+/// least to do before it, so that all come to about the same place at a time; the first also writes all frames.
 std::vector<ScenePart> deal_out_scenes(const FilmScenes& film, std::int64_t done, int ranks);
 
 }  // namespace wheatstone

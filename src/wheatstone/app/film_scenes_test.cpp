@@ -118,8 +118,8 @@ TEST(FilmScenes, GoToRanksSoThatAllHaveAboutAsMuchToPaint) {
     return text;
   };
   EXPECT_EQ(dealt(0, 1), "0-100:0 100-130:0 130-150:0 150-200:0 200-260:0 ");
-  EXPECT_EQ(dealt(0, 2), "0-100:0 100-130:1 130-150:1 150-200:1 200-260:0 ");
-  EXPECT_EQ(dealt(120, 2), "120-130:0 130-150:1 150-200:0 200-260:1 ");
+  EXPECT_EQ(dealt(0, 2), "0-100:1 100-130:0 130-150:0 150-200:0 200-260:1 ");
+  EXPECT_EQ(dealt(120, 2), "120-130:1 130-150:1 150-200:0 200-260:1 ");
   EXPECT_EQ(dealt(260, 2), "");
 }
 
