@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/all_of_column.h"
 
 namespace wheatstone {
 namespace {
@@ -125,9 +126,7 @@ void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::st
 void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
   constexpr float largest = Cloud::farthest_drawn;
   const auto all_near = [](const std::vector<float>& axis) {
-    bool near = true;
-    for (const float value : axis) near &= std::abs(value) <= largest;
-    return near;
+    return all_of_column(axis, [](float value) { return std::abs(value) <= largest; });
   };
   if (all_near(cloud.x) && all_near(cloud.y) && all_near(cloud.z)) return;
   for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z})

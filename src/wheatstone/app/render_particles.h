@@ -59,7 +59,7 @@ struct RenderParticlesOptions {
   bool slices = false;          ///< make slices, and the views from them
   bool without_views = false;   ///< make slices only
   bool stream = false;          ///< never hold all particles: two passes over the file, chunk by chunk; by slices
-  std::size_t chunk = 250'000;  ///< particles
+  std::size_t chunk = 1 << 16;  ///< particles; what is made of so few stays in the cache
 };
 
 /// What numbers of a picture are counted in, as far as the file tells: "kpc", "code length".

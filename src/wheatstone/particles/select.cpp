@@ -5,6 +5,8 @@
 #include <tuple>
 #include <vector>
 
+#include "wheatstone/particles/all_of_column.h"
+
 namespace wheatstone {
 namespace {
 
@@ -41,9 +43,7 @@ bool inside(const Cut& cut, const std::array<double, 3>& at) {
 
 /// Whether every number lies between two others. Nearly always all do, and then nothing is asked of each.
 bool all_between(const std::vector<float>& column, float lower, float upper) {
-  bool between = true;
-  for (const float value : column) between &= value > lower && value < upper;
-  return between;
+  return all_of_column(column, [=](float value) { return (value > lower) & (value < upper); });
 }
 
 void mend(std::vector<float>& column, SelectionCounts& counts) {
