@@ -30,7 +30,7 @@ class PassedFrames {
   PassedFrames& operator=(const PassedFrames&) = delete;
 
   /// Throws Error{cannot_read_write}.
-  void put(std::int64_t number, const PassedFrame& frame) const;
+  void put(std::int64_t number, const PassedFrame& passed) const;
   /// The frame, once it was put, and removes its file.
   std::optional<PassedFrame> take(std::int64_t number) const;
 
