@@ -139,6 +139,68 @@ TEST(Rotoscope, ASceneBeginsAtACut) {
   EXPECT_EQ(state.frames_of_scene, 3);
 }
 
+StereoPair eyes_of_still(int frame, float noise) {
+  SyntheticFilmOptions options;
+  options.still.width = 192;
+  options.still.height = 108;
+  options.still.samples_a_side = 1;
+  options.frames = 16;
+  options.scene = FilmScene::still;
+  options.noise = noise;
+  return make_synthetic_film_frame(options, frame).pictures;
+}
+
+// The depth is looked at again at the eighth frame.
+TEST(Rotoscope, WhereNothingMovesFramesAreEqualOnceTheFadesHaveEnded) {
+  const StereoPair eyes = eyes_of_still(0, 0);
+  ASSERT_EQ(eyes.left, eyes_of_still(5, 0).left) << "the film moves";
+  constexpr int fades_end = 6, frames = 9;
+  RotoscopeState state;
+  StereoPair last;
+  for (int frame = 0; frame < frames; ++frame) {
+    RotoscopedFrame painted = rotoscope_frame(eyes, {}, state);
+    if (frame > fades_end) {
+      EXPECT_EQ(painted.painted.pictures.left, last.left) << frame;
+      EXPECT_EQ(painted.painted.pictures.right, last.right) << frame;
+      EXPECT_EQ(painted.counts.begun, 0) << frame;
+    }
+    last = std::move(painted.painted.pictures);
+  }
+}
+
+/// Sum of the squared differences of two frames' levels.
+double squared_change(ImageView<const Rgb8> before, ImageView<const Rgb8> now) {
+  double sum = 0;
+  for (int y = 0; y < now.height(); ++y) {
+    for (int x = 0; x < now.width(); ++x) {
+      const Rgb8 a = before(x, y), b = now(x, y);
+      const double red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
+      sum += red * red + green * green + blue * blue;
+    }
+  }
+  return sum;
+}
+
+TEST(Rotoscope, NoiseAloneMovesThePaintingLittleMoreThanTheFilm) {
+  constexpr float noise = 3;
+  constexpr int frames = 5;
+  RotoscopeState state;
+  StereoPair last_eyes, last;
+  double of_film = 0, of_painting = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    StereoPair eyes = eyes_of_still(frame, noise);
+    StereoPair painted = rotoscope_frame(eyes, {}, state).painted.pictures;
+    if (frame > 0) {
+      of_film += squared_change(last_eyes.left, eyes.left) + squared_change(last_eyes.right, eyes.right);
+      of_painting += squared_change(last.left, painted.left) + squared_change(last.right, painted.right);
+    }
+    last_eyes = std::move(eyes);
+    last = std::move(painted);
+  }
+  EXPECT_GT(of_film, 0);
+  EXPECT_LE(of_painting, 1.5 * of_film);
+}
+
 TEST(Rotoscope, OneEyeGivesOneEye) {
   RotoscopeState state;
   for (int frame = 0; frame < 3; ++frame) {

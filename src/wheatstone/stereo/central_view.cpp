@@ -46,9 +46,22 @@ class LanczosRow {
     const auto phase = static_cast<std::size_t>((column - static_cast<float>(left)) * phases + 0.5f);
     if (phase == 0) return row[left];
     const std::array<float, taps>& weights = weights_[phase];
+    // Most places have all their neighbours in the row.
+    if (left >= before && left - before + taps <= last + 1) {
+      const Rgb8* first = &row[left - before];
+      return mean(weights, [first](int k) { return first[k]; });
+    }
+    return mean(weights, [&](int k) { return row[std::clamp(left + k - before, 0, last)]; });
+  }
+
+ private:
+  static constexpr int taps = 8, before = 3, phases = 64;
+
+  template <class PixelAt>
+  static Rgb8 mean(const std::array<float, taps>& weights, PixelAt pixel_at) {
     float red = 0, green = 0, blue = 0;
     for (int k = 0; k < taps; ++k) {
-      const Rgb8 pixel = row[std::clamp(left + k - before, 0, last)];
+      const Rgb8 pixel = pixel_at(k);
       red += weights[k] * static_cast<float>(pixel.r);
       green += weights[k] * static_cast<float>(pixel.g);
       blue += weights[k] * static_cast<float>(pixel.b);
@@ -56,9 +69,6 @@ class LanczosRow {
     const auto level = [](float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); };
     return {level(red), level(green), level(blue)};
   }
-
- private:
-  static constexpr int taps = 8, before = 3, phases = 64;
 
   static double kernel(double x) {
     constexpr double reach = 4;

@@ -14,9 +14,24 @@ struct Cell {
   int left, right, top, bottom;
 };
 
+/// True where some pixel was wrong before the carried strokes and still is. Cells without one are the most by far, and
+/// whole rows of a cell are compared at once.
+bool is_wrong_still(const CarriedGround& ground, const Cell& cell, float squared_threshold) {
+  for (int y = cell.top; y < cell.bottom; ++y) {
+    const float* before = ground.before.row(y).data();
+    const float* after = ground.after.row(y).data();
+    int wrong = 0;
+    for (int x = cell.left; x < cell.right; ++x)
+      wrong |= static_cast<int>(before[x] > squared_threshold) & static_cast<int>(after[x] > squared_threshold);
+    if (wrong != 0) return true;
+  }
+  return false;
+}
+
 /// Looks at one cell among the pixels beside depth edges, or among the others.
 void look_at(const CarriedGround& ground, const Cell& cell, bool beside_edge, Image<std::uint8_t>& places) {
   const float squared_threshold = ground.threshold * ground.threshold;
+  if (!is_wrong_still(ground, cell, squared_threshold)) return;
   const auto each = [&](auto visit) {
     for (int y = cell.top; y < cell.bottom; ++y)
       for (int x = cell.left; x < cell.right; ++x)

@@ -14,6 +14,7 @@
 #include "wheatstone/image/reduced_view.h"
 #include "wheatstone/marks/resize_strokes.h"
 #include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/strokes/carried_points_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
 #include "wheatstone/strokes/cover_bare_internal.h"
 #include "wheatstone/strokes/layer_order.h"
@@ -69,7 +70,8 @@ class ViewAtWork {
     const LayerInputs inputs = make_layer_inputs(planner_, style_, scaled_, layer);
     const ImageView<const std::uint8_t> part = part_ ? part_->seeds.view() : ImageView<const std::uint8_t>();
     Image<std::uint8_t> seeds;
-    const bool compares = options.goes_on || !tracked.tracks.empty();
+    const std::size_t carried = tracked.tracks.size();
+    const bool compares = options.goes_on || carried != 0;
     const Image<float> before = compares ? errors_left(inputs) : Image<float>();
     if (!tracked.tracks.empty()) {
       end_wrong_colours(inputs, before, options, tracked);
@@ -85,7 +87,7 @@ class ViewAtWork {
     rasterise(finest ? strokes_near_bare(begun, planner_.canvas) : begun, planner_.view, hiding(), planner_.canvas);
     if (!finest) return;
     Layer dots = cover_bare(planner_, inputs, scaled_, style_, part);
-    if (part_) append_strokes(dots_left_out(), dots);
+    if (part_) append_strokes(dots_left_out({tracked, carried}), dots);
     numbers_.give(dots);
     add(std::move(dots), inputs, before, options, tracked);
   }
@@ -268,13 +270,14 @@ class ViewAtWork {
     return seeds;
   }
 
-  /// Dots for the thin edges of near surfaces that the smaller picture does not show. Around what no photograph shows,
-  /// those surfaces have strokes of their own.
-  Layer dots_left_out() const {
+  /// Dots for the thin edges of near surfaces that the smaller picture does not show, but where carried strokes have a
+  /// point already. Around what no photograph shows, those surfaces have strokes of their own.
+  Layer dots_left_out(const CarriedPoints& carried) const {
     const auto reduction = static_cast<float>(reduction_);
     Layer dots{scaled_.radii_px.back(), {}, {}};
     for (const ReducedView::LeftOut& pixels : part_->left_out) {
       if (!uncovered_.empty() && uncovered_(static_cast<int>(pixels.x), static_cast<int>(pixels.y)) == 0) continue;
+      if (carried.any_at({pixels.x, pixels.y, pixels.disparity}, depth_threshold_px())) continue;
       const ControlPoint point{pixels.x / reduction, pixels.y / reduction, pixels.disparity / reduction};
       dots.strokes.push_back({.first_point = static_cast<std::uint32_t>(dots.points.size()),
                               .point_count = 1,
