@@ -13,13 +13,28 @@ namespace wheatstone {
 
 namespace {
 
+/// Pixels of chunks at the beginning in which nothing is known: most of a surface that is not the reference view's.
+int unknown_chunks(std::span<const float> row) {
+  constexpr std::size_t chunk = 16;
+  std::size_t pixels = 0;
+  for (; pixels + chunk <= row.size(); pixels += chunk) {
+    int known = 0;
+    for (std::size_t i = 0; i < chunk; ++i) known |= row[pixels + i] == row[pixels + i] ? 1 : 0;
+    if (known != 0) break;
+  }
+  return static_cast<int>(pixels);
+}
+
 PreparedSurfaces::KnownPart known_part(const Surface& surface) {
   PreparedSurfaces::KnownPart known{surface.view, surface.left_px, surface.continued, {}, {}, {}};
+  known.disparities.reserve(surface.disparity.pixels().size());  // memory that is not used costs nothing
   for (int y = 0; y < surface.disparity.height(); ++y) {
     known.first_run.push_back(known.runs.size());
     const auto row = surface.disparity.row(y);
     const int width = surface.disparity.width();
     for (int begin = 0; begin < width; ++begin) {
+      begin += unknown_chunks(row.subspan(static_cast<std::size_t>(begin)));
+      if (begin >= width) break;
       if (std::isnan(row[begin])) continue;
       int end = begin;
       while (end < width && !std::isnan(row[end])) ++end;
@@ -50,7 +65,7 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, 
   if (surfaces.seen.empty()) return seen;
   seen.reference = Image<float>(rows.width, rows.row_count, unknown);
   seen.nearest = seen.photographed = seen.reference;
-  const auto see_row = [&](int row) {
+  const auto see_row = [&](int row, std::vector<float>& continued) {
     const int y = rows.first_row + row;
     const auto reference = seen.reference.row(row), nearest = seen.nearest.row(row),
                photographed = seen.photographed.row(row);
@@ -62,7 +77,7 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, 
     warp(surfaces.seen.front(), reference);
     close_cracks(reference);
     std::ranges::copy(reference, photographed.begin());
-    std::vector<float> continued(nearest.size(), unknown);
+    continued.assign(nearest.size(), unknown);
     for (const PreparedSurfaces::KnownPart& part : std::span(surfaces.seen).subspan(1))
       warp(part, part.continued ? std::span<float>(continued) : photographed);
     for (std::size_t x = 0; x < nearest.size(); ++x)
@@ -71,7 +86,8 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, 
   constexpr int rows_at_once = 32;
   tbb::parallel_for(tbb::blocked_range<int>(0, rows.row_count, rows_at_once),
                     [&](const tbb::blocked_range<int>& range) {
-                      for (int row = range.begin(); row < range.end(); ++row) see_row(row);
+                      std::vector<float> continued;
+                      for (int row = range.begin(); row < range.end(); ++row) see_row(row, continued);
                     });
   seen.hiding = {seen.nearest,      seen.reference,        surfaces.tolerance_px, surfaces.seen.front().view,
                  seen.photographed, surfaces.photographed, rows.first_row};

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -20,6 +21,10 @@ Surface surface_of(const SceneView& view) {
   tbb::parallel_for(0, height, [&](int y) {
     const auto from = view.disparity.row(y);
     const auto to = surface.disparity.row(y);
+    if (!view.only_here.empty() && std::ranges::count(view.only_here.row(y), 0) == width) {
+      std::ranges::fill(to, std::numeric_limits<float>::quiet_NaN());
+      return;
+    }
     for (int x = 0; x < width; ++x) {
       const bool is_its_own = view.only_here.empty() || view.only_here(x, y) != 0;
       to[x] = is_its_own ? static_cast<float>(floor_of(from[x] * disparity_steps + 0.5f)) / disparity_steps

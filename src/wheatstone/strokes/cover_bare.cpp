@@ -65,13 +65,16 @@ Rgb8 colour_of_surface(const LayerPlanner& planner, ImageView<const std::uint8_t
 }  // namespace
 
 Layer strokes_near_bare(const Layer& layer, const Canvas& canvas) {
-  constexpr int block_px = 8;
+  constexpr int block_px = 16;
   const int columns = canvas.width / block_px + 1, rows = canvas.height / block_px + 1;
   Image<std::uint8_t> has_bare(columns, rows);
   tbb::parallel_for(0, rows, [&](int row) {
-    for (int y = row * block_px; y < std::min((row + 1) * block_px, canvas.height); ++y)
-      for (int x = 0; x < canvas.width; ++x)
-        if (canvas.coverage(x, y) < 0.5f) has_bare(x / block_px, row) = 1;
+    const auto marks = has_bare.row(row);
+    for (int y = row * block_px; y < std::min((row + 1) * block_px, canvas.height); ++y) {
+      const auto coverage = canvas.coverage.row(y).first(static_cast<std::size_t>(canvas.width));
+      for (std::size_t x = 0; x < coverage.size(); ++x)
+        if (coverage[x] < 0.5f) marks[x / block_px] = 1;
+    }
   });
   const auto block = [](float place, int count) {
     return std::clamp(static_cast<int>(std::floor(place / block_px)), 0, count - 1);
@@ -163,8 +166,12 @@ Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const S
   const int width = planner.photograph.width(), height = planner.photograph.height();
   Image<std::uint8_t> bare(width, height);
   tbb::parallel_for(0, height, [&](int y) {
-    for (int x = 0; x < width; ++x)
-      bare(x, y) = planner.canvas.coverage(x, y) < 0.5f && (wanted.empty() || wanted(x, y) != 0) ? 255 : 0;
+    const auto coverage = planner.canvas.coverage.row(y);
+    const auto marks = bare.row(y);
+    for (int x = 0; x < width; ++x) marks[x] = coverage[x] < 0.5f ? 255 : 0;
+    if (wanted.empty()) return;
+    const auto wanted_here = wanted.row(y);
+    for (int x = 0; x < width; ++x) marks[x] = wanted_here[x] != 0 ? marks[x] : std::uint8_t{0};
   });
   BareThread thread(planner, inputs, scaled, style, bare);
   Layer cover{scaled.radii_px.back(), {}, {}};
