@@ -199,6 +199,7 @@ export class WheatstonePicture extends HTMLElement {
     this.isWanted = false;
     const { stage, canvas, look } = this;
     if (!stage || !this.hasContent || stage.isElsewhere || stage.gl.isContextLost()) return;
+    this.dataset.shown = ""; // what is not shown has no size
     this.fit();
     const moves = now - this.movedAt < this.restTime;
     const effort = moves ? this.effort : 1;
@@ -206,7 +207,6 @@ export class WheatstonePicture extends HTMLElement {
     const isNew = stage.draw(this.shownLook(now, look), effort);
     if (isNew && effort === 1) this.measure(stage.gl, begin);
     canvas.dataset.frames = String(Number(canvas.dataset.frames ?? 0) + 1);
-    this.dataset.shown = "";
     const wiggles = look.mode === "wiggle" && !prefersNoMotion();
     if (wiggles) this.redraw();
   }

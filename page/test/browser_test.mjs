@@ -9,6 +9,7 @@ import { once } from "node:events";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { alarmOf, fakeHeadset, openPage, picturesAlike, pngAt, psnr, shotOf, sizeOf, startBrowser } from "./browser.mjs";
+import { hasFirefox, shotInFirefox } from "./firefox.mjs";
 
 const [wheatstone, folder, which] = process.argv.slice(2);
 const run = (...words) => execFileSync(wheatstone, ["--quiet", ...words], { cwd: folder, stdio: ["ignore", "ignore", "inherit"] });
@@ -300,6 +301,19 @@ await longTest("another site shows a page in its element, with the controls that
   await page.close();
   close();
   return told;
+});
+
+await longTest("Firefox shows the same strokes and slices, where it is installed", async () => {
+  if (!hasFirefox()) return "skipped: firefox-esr or xvfb-run is not installed";
+  const page = await browser.newPage();
+  const told = [];
+  for (const [file, expected] of [["shared.html", "impressionist-drawn/left.png"], ["mass.html", "mass/view_000.png"]]) {
+    const found = await psnr(page, await shotInFirefox(folder, file, 160), pngAt(at(expected)));
+    assert.ok(found >= leastPsnr, `${file}: ${found} dB`);
+    told.push(`${found.toFixed(1)} dB`);
+  }
+  await page.close();
+  return told.join(", ");
 });
 
 await test("a page whose data were cut says so, and shows the still picture", async () => {
