@@ -58,6 +58,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wheatstone)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "wheatstone (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+  "${CMAKE_CURRENT_SOURCE_DIR}/python/postinst;${CMAKE_CURRENT_SOURCE_DIR}/python/prerm")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "The package wheatstone for Python reads, rectifies, matches and paints pairs of
 pictures and films, and renders particles, from and to NumPy's arrays.")
