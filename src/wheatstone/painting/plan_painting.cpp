@@ -9,6 +9,7 @@
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/motion/fitting_scene.h"
+#include "wheatstone/painting/mend_spots_internal.h"
 #include "wheatstone/strokes/layer_planner.h"
 
 namespace wheatstone {
@@ -70,6 +71,7 @@ PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const Car
   for (const SceneView& view : frame.views)
     if (view.left_px != 0) shift_marks(view.position, static_cast<float>(view.left_px), painting);
   painting.surfaces = surfaces_of(frame.views, style);
+  mend_spots(frame.views, style, painting);
   painting.relief = relief_for(style, width_of(painting));
   return planned;
 }
