@@ -1,16 +1,29 @@
 #include "view_arguments.h"
 
+#include <fmt/format.h>
+
 namespace wheatstone::cli {
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
   command.add_option(
       "FILE", arguments.files,
-      "Paintings (.wst), stereo photographs, films, pictures with depth, quilts, slices (.exr) or particles; "
+      "Paintings (.wst), stereo photographs, films, pictures with depth, quilts, slices (.exr), particles, or a series "
+      "of snapshots ('snap_%03d.hdf5'); "
       "two pictures of one scene are its left and right view");
   command.add_option("--mode", arguments.mode, "Output mode, as --to of 'wheatstone pack'; red-cyan by default");
   command.add_option("--style", arguments.style, "Style in which photographs are painted: a preset or a style file");
   command.add_option("--display", arguments.display,
                      "Display, which sets the views of a quilt and what is comfortable");
+  command.add_option("--camera", arguments.camera, "Camera path that is played, as of 'wheatstone render'");
+  command.add_option(
+      "--quantity", arguments.quantity,
+      "Numbers that are shown of particles, as of 'wheatstone render': column-density, mean:temperature");
+  auto* const focus = command.add_option("--focus", arguments.focus,
+                                         "Point X,Y of particles or slices around which there is more depth: shares of "
+                                         "a view's width and height");
+  command.add_option("--focus-radius", arguments.focus_radius, "Radius of that area, as a share of the width")
+      ->needs(focus);
+  command.add_option("--focus-gain", arguments.focus_gain, "Factor on the depth at that point")->needs(focus);
   command.add_option("--size", arguments.size, "Size of the window: WIDTHxHEIGHT")->capture_default_str();
   command.add_flag("--full-screen", arguments.full_screen, "Begin in full screen");
   auto* const opengl = command.add_flag(
@@ -35,7 +48,8 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       "  wheatstone view painting.wst\n"
       "  wheatstone view left.png right.png --style mosaic --mode left-right\n"
       "  wheatstone view film.mp4 --mode left-right\n"
-      "  wheatstone view universe.hdf5 --display looking-glass-portrait");
+      "  wheatstone view universe.hdf5 --display looking-glass-portrait\n"
+      "  wheatstone view 'snap_%03d.hdf5' --camera path.toml --quantity column-density");
 }
 
 std::vector<std::string> view_words(const ViewArguments& arguments) {
@@ -46,6 +60,11 @@ std::vector<std::string> view_words(const ViewArguments& arguments) {
   add("--mode", arguments.mode);
   add("--style", arguments.style);
   add("--display", arguments.display);
+  add("--camera", arguments.camera);
+  add("--quantity", arguments.quantity);
+  add("--focus", arguments.focus);
+  if (arguments.focus_radius) add("--focus-radius", fmt::format("{}", *arguments.focus_radius));
+  if (arguments.focus_gain) add("--focus-gain", fmt::format("{}", *arguments.focus_gain));
   add("--size", arguments.size);
   add("--script", arguments.script);
   add("--control", arguments.control);

@@ -14,6 +14,8 @@ std::span<const Command> input_commands();
 std::span<const Command> painting_commands();
 std::span<const Command> film_commands();
 std::span<const Command> particle_commands();
+std::span<const Command> quantity_commands();
+std::span<const Command> camera_commands();
 std::span<const Command> panel_commands();
 
 inline ViewState& state_of(Viewer& viewer) { return viewer.session().state; }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "depth_placing.h"
 #include "film_player.h"
 #include "output_mode.h"
+#include "particle_film.h"
 #include "particle_scene.h"
 #include "style_controls.h"
 #include "wheatstone/marks/style_parameters.h"
@@ -138,20 +140,53 @@ std::string view_options(const Session& session, const std::array<double, 3>& or
   return text + depth_options(state);
 }
 
+/// The point with more depth.
+std::string focus_options(const ScreenFocus& focus) {
+  if (!focus.at) return {};
+  return fmt::format(" --focus {},{} --focus-radius {} --focus-gain {}", (*focus.at)[0], (*focus.at)[1], focus.radius,
+                     focus.gain);
+}
+
+/// The options of `render` that show mass, or a quantity.
+std::string mass_options(const ParticleLook& look) {
+  std::string text;
+  if (!look.quantity.empty()) text += fmt::format(" --quantity {}", shell_word(look.quantity));
+  if (look.stretch == Stretch::log) text += " --stretch log";
+  if (look.stretch == Stretch::linear) text += " --stretch linear";
+  if (look.least) text += fmt::format(" --least={}", *look.least);
+  if (look.most) text += fmt::format(" --most={}", *look.most);
+  return text;
+}
+
 /// The options of `render` that make particles look so.
 std::string look_options(const ViewState& state) {
   const ParticleLook& look = state.look;
   const ParticleLook usual;
-  std::string text = " --look thesis";
-  if (look.exposure) text += fmt::format(" --exposure {}", *look.exposure);
-  if (look.coldest) text += fmt::format(" --coldest {}", *look.coldest);
-  if (look.hottest) text += fmt::format(" --hottest {}", *look.hottest);
+  std::string text;
+  if (drawn_look(look) == Look::thesis) {
+    text += " --look thesis";
+    if (look.exposure) text += fmt::format(" --exposure {}", *look.exposure);
+    if (look.opacity != usual.opacity) text += fmt::format(" --opacity {}", look.opacity);
+    if (look.opaque) text += " --opaque";
+  } else {
+    text += mass_options(look);
+  }
+  const bool has_hues = drawn_look(look) == Look::thesis || look.quantity.empty();
+  if (look.coldest && has_hues) text += fmt::format(" --coldest {}", *look.coldest);
+  if (look.hottest && has_hues) text += fmt::format(" --hottest {}", *look.hottest);
   if (!look.colours.empty()) text += fmt::format(" --colours {}", look.colours);
   if (look.smallest_px != usual.smallest_px || look.largest_px != usual.largest_px)
     text += fmt::format(" --splat {},{}", look.smallest_px, look.largest_px);
-  if (look.opacity != usual.opacity) text += fmt::format(" --opacity {}", look.opacity);
-  if (look.opaque) text += " --opaque";
-  return text;
+  if (state.orbit.orthographic) text += " --projection orthographic";
+  return text + focus_options(look.focus);
+}
+
+/// The options of `render` that make the film of what goes on in time. A path that no file holds is left out.
+std::string film_options(const Session& session) {
+  const std::string camera =
+      session.camera_file.empty() ? std::string() : " --camera " + shell_word(session.camera_file.string());
+  const auto frames = std::llround(session.film->duration_s * particle_frames_a_second) + 1;
+  return fmt::format(" --frames {}{} -o film.mp4", frames, camera);
 }
 
 std::string for_film(const Session& session, const Item& item) {
@@ -171,16 +206,20 @@ struct LineOf {
   }
   std::string operator()(const SlicesContent& /*content*/) const {
     const ViewState& state = session.state;
-    if (state.look.near_mm || state.look.far_mm)
-      return fmt::format("wheatstone render{} --filter centroid --views 2 --span {}{} -o views", files_of(item),
-                         state.adjustment.separation, depth_options(state));
+    const bool has_depth = state.look.near_mm || state.look.far_mm;
+    if (has_depth || state.look.focus.at)
+      return fmt::format("wheatstone render{} --filter centroid --views 2 --span {}{}{} -o views", files_of(item),
+                         state.adjustment.separation, has_depth ? depth_options(state) : std::string(),
+                         focus_options(state.look.focus));
     return packed(session.state, shell_word(item.front().string()),
                   session.state.adjustment.zero_parallax_px * session.state.adjustment.separation);
   }
   std::string operator()(const ParticlesContent& content) const {
     const std::array<double, 3>& origin = content.particles->cloud.origin;
-    return fmt::format("wheatstone render{}{}{} -o views", files_of(item), view_options(session, origin),
-                       look_options(session.state));
+    const std::string options = view_options(session, origin) + look_options(session.state);
+    if (session.film) return fmt::format("wheatstone render{}{}{}", files_of(item), options, film_options(session));
+    const char* const annotated = session.state.look.annotated ? " --annotate" : "";
+    return fmt::format("wheatstone render{}{}{} -o views", files_of(item), options, annotated);
   }
 };
 
@@ -189,7 +228,8 @@ struct LineOf {
 std::string command_line_of(const Session& session) {
   const Item* const item = open_item(session);
   if (item == nullptr) return {};
-  return session.film ? for_film(session, *item) : std::visit(LineOf{session, *item}, session.opened.content);
+  return session.film && !session.film->of_particles ? for_film(session, *item)
+                                                     : std::visit(LineOf{session, *item}, session.opened.content);
 }
 
 }  // namespace wheatstone::viewer

@@ -15,7 +15,7 @@ std::vector<Command> all_commands() {
   std::vector<Command> all;
   for (const std::span<const Command> group :
        {file_commands(), looking_commands(), depth_commands(), input_commands(), painting_commands(), film_commands(),
-        particle_commands(), panel_commands()})
+        particle_commands(), quantity_commands(), camera_commands(), panel_commands()})
     all.insert(all.end(), group.begin(), group.end());
   std::ranges::stable_partition(all, [](const Command& command) { return command.menu != "Help"; });
   return all;

@@ -13,15 +13,15 @@ namespace wheatstone::viewer {
 
 /// A picture of what is open, as a viewport shows it.
 struct Frame {
-  Image<Rgb8> picture;             ///< of the viewport's size
-  Image<Rgb8> right;               ///< of a page flip: `picture` is the left eye's; else empty
-  std::vector<ViewPlace> places;   ///< where views lie in it; of what covers the whole frame, that of the middle view
-  double scale = 1;                ///< screen pixels for one of the content
-  bool preliminary = false;        ///< drawn quickly: another drawing with all effort shows more
-  std::optional<float> exposure;   ///< of particles, as all of them have it
-  Content shown;                   ///< what it shows, with its depth as it is seen
-  Content placed;                  ///< the same, without more depth where somebody looks
-  std::optional<DepthEnds> depth;  ///< of that
+  Image<Rgb8> picture;            ///< of the viewport's size
+  Image<Rgb8> right;              ///< of a page flip: `picture` is the left eye's; else empty
+  std::vector<ViewPlace> places;  ///< where views lie in it; of what covers the whole frame, that of the middle view
+  double scale = 1;               ///< screen pixels for one of the content
+  bool preliminary = false;       ///< drawn quickly: another drawing with all effort shows more
+  std::optional<Brightness> brightness;  ///< of particles, as all of them have it
+  Content shown;                         ///< what it shows, with its depth as it is seen
+  Content placed;                        ///< the same, without more depth where somebody looks
+  std::optional<DepthEnds> depth;        ///< of that
 };
 
 /// The size of the picture that each eye is to have, before a mode puts both in one.

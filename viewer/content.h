@@ -7,11 +7,10 @@
 #include <variant>
 #include <vector>
 
+#include "wheatstone/app/render_particles.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/multiview/slice_stack.h"
-#include "wheatstone/particles/cloud.h"
-#include "wheatstone/particles/cloud_statistics.h"
 #include "wheatstone/stereo/reduced_pair.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
@@ -43,10 +42,12 @@ struct SlicesContent {
   friend bool operator==(const SlicesContent&, const SlicesContent&) = default;
 };
 
-/// Particles, ready to be rendered: with densities, and what is known of all of them.
-struct Particles {
-  Cloud cloud;
-  CloudStatistics statistics;
+/// Particles, ready to be rendered, and what a picture of them tells.
+struct Particles : ReadyParticles {
+  std::string quantity;  ///< that they were read with: a name, as quantity_name_of has it
+  ShownUnits units;      ///< of that
+  std::optional<double> redshift;
+  double time = 0;  ///< of a series
 };
 struct ParticlesContent {
   std::shared_ptr<const Particles> particles;
@@ -64,6 +65,7 @@ PictureSize size_of(const Content& content);
 std::optional<DepthEnds> depth_of(const Content& content);
 
 struct OpenedFilm;
+class ParticleReader;
 
 /// What was opened, and what to tell about it.
 struct Opened {
@@ -71,6 +73,7 @@ struct Opened {
   std::string kind;                             ///< "painting", "photograph", "slices" …, for people
   std::vector<std::string> notes;               ///< one line each
   std::shared_ptr<const OpenedFilm> film = {};  ///< of which the content is the first frame
+  std::shared_ptr<ParticleReader> reader = {};  ///< of which the content is the first particles
   bool is_ready = true;                         ///< false: shown as it came, while it is made ready
   std::optional<DepthEnds> depth = {};          ///< of the content, or of the frame of the film that was painted last
 };

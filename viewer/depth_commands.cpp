@@ -34,8 +34,8 @@ void step_zero_parallax(Viewer& viewer, float by_px) {
 void move_head(Viewer& viewer, int steps) {
   constexpr float head_step = 0.1f;
   constexpr double film_step_s = 5;
-  if (viewer.film() != nullptr && viewer.film()->plays())
-    viewer.film()->seek(viewer.session().film->seconds + steps * film_step_s);
+  if (const auto& film = viewer.session().film; film && film->plays)
+    viewer.seek_film(film->seconds + steps * film_step_s);
   else
     state_of(viewer).head += static_cast<float>(steps) * head_step;
 }

@@ -2,6 +2,8 @@
 
 #include "command_groups_internal.h"
 #include "command_line.h"
+#include "particle_moves.h"
+#include "particle_reader.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
@@ -18,8 +20,18 @@ void step_item(Viewer& viewer, int by) {
 
 void open_files(Viewer& viewer, const Words& words) {
   Session& session = viewer.session();
-  session.items.push_back({words.begin(), words.end()});
+  const Item files(words.begin(), words.end());
+  const auto series = series_of_files(files);
+  session.items.push_back(series ? Item{*series} : files);
   viewer.open(session.items.size() - 1);
+}
+
+void open_series(Viewer& viewer, const Words& /*words*/) {
+  const Item* const item = open_item(viewer.session());
+  const auto pattern = item == nullptr ? std::nullopt : series_pattern_of(item->front());
+  if (!pattern || open_particles(viewer) == nullptr)
+    throw Error(ErrorKind::wrong_usage, "no snapshot is open that is one of several with numbered names");
+  open_files(viewer, {pattern->string()});
 }
 
 void save_painting(Viewer& viewer, const Words& words) {
@@ -36,6 +48,7 @@ void save_style(Viewer& viewer, const Words& words) {
 constexpr Command table[] = {
     // name, arguments, menu, text, keys
     {"open", "FILE [RIGHT]", "File", "Open…", "Ctrl+O", open_files},
+    {"open-series", "", "File", "Open the series of this snapshot", "Ctrl+Shift+O", open_series},
     {"next-file", "", "File", "Next file", "PgDown", [](Viewer& v, const Words&) { step_item(v, 1); }},
     {"previous-file", "", "File", "Previous file", "PgUp", [](Viewer& v, const Words&) { step_item(v, -1); }},
     {"save-picture", "FILE", "File", "Save picture…", "Ctrl+S",

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "film_player.h"
-#include "wheatstone/app/render_particles.h"
+#include "particle_reader.h"
 #include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
@@ -22,16 +22,18 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/disparity_from_depth.h"
 #include "wheatstone/stereo/single_view.h"
+#include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone::viewer {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Who is told of what an opening does.
+/// Who is told of what an opening does, and what is wanted of it.
 struct Listeners {
   const Progress& progress;
   const ShowFirst& show;
+  const std::string& quantity;  ///< of particles
 };
 
 void show_as_it_came(const StereoPair& pictures, const ShowFirst& show) {
@@ -123,15 +125,29 @@ bool are_named_as_eyes(const fs::path& left, const fs::path& right) {
   });
 }
 
-Opened open_particles(const fs::path& path, const Progress& progress) {
-  ReadyParticles ready = read_particles(path, {}, progress);
-  auto particles = std::make_shared<Particles>(Particles{std::move(ready.cloud), std::move(ready.statistics)});
-  return {ParticlesContent{std::move(particles)}, "particles", {}};
+/// Whether a path is the pattern of snapshots.
+bool names_series(const fs::path& path) {
+  const std::optional<FramePattern> pattern = frame_pattern(path);
+  if (!pattern) return false;
+  const std::vector<std::int64_t> numbers = numbers_of(*pattern);
+  return !numbers.empty() && holds_particles(pattern->file(numbers.front()));
+}
+
+Opened open_particles(const fs::path& path, const Listeners& listeners) {
+  auto reader = std::make_shared<ParticleReader>(path);
+  const bool is_series = !reader->times().empty();
+  const double time = is_series ? reader->times().front() : 0;
+  Opened opened{ParticlesContent{reader->read(listeners.quantity, time, listeners.progress)}, "particles", {}};
+  if (is_series) opened.notes.push_back(fmt::format("a series of {} snapshots", reader->times().size()));
+  if (!is_series && series_pattern_of(path)) opened.notes.push_back("'open-series' plays all snapshots of this name");
+  opened.reader = std::move(reader);
+  return opened;
 }
 
 Opened open_without_depth(std::span<const fs::path> files, const Listeners& listeners) {
   const fs::path& path = files.front();
   report(listeners.progress, "reading", 0);
+  if (names_series(path)) return open_particles(path, listeners);
   if (names_film(path))
     return open_film_files(files.size() == 2 ? FilmFiles{path, files[1], {}} : find_film(path.string()));
   if (files.size() == 2)
@@ -143,14 +159,15 @@ Opened open_without_depth(std::span<const fs::path> files, const Listeners& list
     if (is_multiview_exr(path)) return opened_views(read_multiview_exr(path), "views");
     return {SlicesContent{std::make_shared<const SliceStack>(read_slices(path))}, "slices", {}};
   }
-  if (holds_particles(path)) return open_particles(path, listeners.progress);
+  if (holds_particles(path)) return open_particles(path, listeners);
   return open_picture(path, listeners);
 }
 
 }  // namespace
 
-Opened open_content(std::span<const fs::path> files, const Progress& progress, const ShowFirst& show) {
-  Opened opened = open_without_depth(files, {progress, show});
+Opened open_content(std::span<const fs::path> files, const Progress& progress, const ShowFirst& show,
+                    const std::string& quantity) {
+  Opened opened = open_without_depth(files, {progress, show, quantity});
   opened.depth = depth_of(opened.content);
   return opened;
 }

@@ -79,6 +79,19 @@ void set_depth(Viewer& viewer, std::optional<float> ParticleLook::*length_mm, co
   state_of(viewer).look = changed.look;
 }
 
+/// For what has no effect on mass. Throws Error{wrong_usage} where that is shown.
+ParticleLook& thesis_look_of(Viewer& viewer) {
+  ParticleLook& look = state_of(viewer).look;
+  if (drawn_look(look) != Look::thesis) throw Error(ErrorKind::wrong_usage, "it works with 'look thesis'");
+  return look;
+}
+
+void set_opaque(Viewer& viewer, const Words& words) {
+  ParticleLook& look = state_of(viewer).look;
+  look.opaque = switch_of(words[0]);
+  forget_brightness(look);
+}
+
 constexpr Command table[] = {
     // name, arguments, menu, text, keys
     {"orbit", "AZIMUTH ELEVATION", "Particles", "Turn around the particles, in degrees", "", orbit},
@@ -87,7 +100,7 @@ constexpr Command table[] = {
     {"look-at", "X Y Z", "Particles", "Point in the middle, around which the view turns", "", look_at},
     {"look-at-place", "X Y", "Particles", "Look at what is seen at a place on the screen", "", look_at_place},
     {"exposure", "VALUE|auto", "Particles", "Exposure: factor on the light", "",
-     [](Viewer& v, const Words& w) { state_of(v).look.exposure = number_or_auto(w[0], 1e-9, 1e9); }},
+     [](Viewer& v, const Words& w) { thesis_look_of(v).exposure = number_or_auto(w[0], 1e-9, 1e9); }},
     {"colours", "NAME|auto", "Particles", "Colour map", "", set_colours},
     {"coldest", "VALUE|auto", "Particles", "Temperature where the colours begin", "",
      [](Viewer& v, const Words& w) { set_limit(v, &ParticleLook::coldest, w[0]); }},
@@ -95,9 +108,8 @@ constexpr Command table[] = {
      [](Viewer& v, const Words& w) { set_limit(v, &ParticleLook::hottest, w[0]); }},
     {"splat", "MIN,MAX", "Particles", "Smallest and largest diameter of a splat, in pixels", "", set_splat},
     {"opacity", "VALUE", "Particles", "Opacity of the densest particles", "",
-     [](Viewer& v, const Words& w) { state_of(v).look.opacity = static_cast<float>(number_of(w[0], 1e-6, 1000)); }},
-    {"opaque", "on|off", "Particles", "Opaque particles, the nearest hides the others", "",
-     [](Viewer& v, const Words& w) { state_of(v).look.opaque = switch_of(w[0]); }},
+     [](Viewer& v, const Words& w) { thesis_look_of(v).opacity = static_cast<float>(number_of(w[0], 1e-6, 1000)); }},
+    {"opaque", "on|off", "Particles", "Opaque particles, the nearest hides the others", "", set_opaque},
     {"near", "MM|auto", "Particles", "Depth of particles or slices in front of the screen, in mm", "",
      [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::near_mm, w[0]); }},
     {"far", "MM|auto", "Particles", "Depth of particles or slices behind the screen, in mm", "",

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <limits>
+#include <cmath>
 
 #include "particle_scene.h"
-#include "wheatstone/multiview/render.h"
+#include "wheatstone/app/annotate.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -31,6 +31,9 @@ Cloud every_nth(const Cloud& cloud, std::size_t every) {
   some.temperature = every_nth(cloud.temperature, every);
   some.smoothing_length = every_nth(cloud.smoothing_length, every);
   some.colour = every_nth(cloud.colour, every);
+  some.mass = every_nth(cloud.mass, every);
+  some.quantity = every_nth(cloud.quantity, every);
+  some.presence = every_nth(cloud.presence, every);
   some.origin = cloud.origin;
   some.box_size = cloud.box_size;
   return some;
@@ -46,29 +49,51 @@ std::size_t ParticleDrawer::share_for(std::size_t particles) const {
   return std::min(std::bit_ceil(std::max<std::size_t>(wanted, 1)), most);
 }
 
-const Cloud& ParticleDrawer::thinned(const std::shared_ptr<const Particles>& particles, std::size_t every) {
-  if (of_ != particles || every_ != every) thinned_ = every > 1 ? every_nth(particles->cloud, every) : Cloud();
+const ReadyParticles& ParticleDrawer::thinned(const std::shared_ptr<const Particles>& particles, std::size_t every) {
+  if (of_ != particles || every_ != every) {
+    thinned_ = {};
+    if (every > 1) thinned_ = {.cloud = every_nth(particles->cloud, every), .statistics = particles->statistics};
+  }
   of_ = particles;
   every_ = every;
-  return every > 1 ? thinned_ : particles->cloud;
+  if (every == 1) return *particles;
+  return thinned_;
 }
 
 DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& particles, const ViewState& state,
                                     const Rig& rig, Effort effort) {
   const std::size_t every = effort == Effort::quick ? share_for(particles->cloud.size()) : 1;
-  const Cloud& cloud = effort == Effort::quick ? thinned(particles, every) : particles->cloud;
-  // Particles that hide each other do not add their light.
-  const float light = state.look.opaque ? 1.f : static_cast<float>(every);
-  const Scene scene = particle_scene(*particles, state, rig);
-  const RenderOptions options{
-      .device = Device::automatic,
-      .opaque = state.look.opaque,
-      .exposure = state.look.exposure ? *state.look.exposure * light : std::numeric_limits<float>::quiet_NaN()};
+  const ReadyParticles& drawn = effort == Effort::quick ? thinned(particles, every) : *particles;
+  RenderParticlesOptions options = render_options(state, rig);
+  options.rendering.device = Device::automatic;
+  // Until what is to be shown has been read, what has been is shown.
+  if (quantity_name_of(options.quantity) != particles->quantity) options.quantity = particles->quantity;
+  const bool is_mass = options.appearance.look == Look::mass;
+  if (is_mass && (std::isnan(options.least) || std::isnan(options.most))) {
+    const Brightness found = brightness_for(particles->statistics, options);
+    if (std::isnan(options.least)) options.least = found.least;
+    if (std::isnan(options.most)) options.most = found.most;
+  }
+  // Fewer particles have less light, but for those that hide each other; a mean stays as it is.
+  const float light = options.rendering.opaque ? 1.f : static_cast<float>(every);
+  const float fewer = particles->quantity.empty() ? light : 1.f;
+  options.rendering.exposure *= light;
+  options.least /= fewer;
+  options.most /= fewer;
   const auto start = std::chrono::steady_clock::now();
-  RenderedViews rendered = render(cloud, scene, rig, options);
+  RenderedParticles rendered = render_ready(drawn, options);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  seconds_a_particle_ += 0.3 * (seconds / static_cast<double>(cloud.size()) - seconds_a_particle_);
-  return {std::move(rendered.views), rendered.exposure / light, every == 1};
+  seconds_a_particle_ += 0.3 * (seconds / static_cast<double>(drawn.cloud.size()) - seconds_a_particle_);
+  rendered.least *= fewer;
+  rendered.most *= fewer;
+  if (state.look.annotated) {
+    rendered.units = particles->units;
+    rendered.redshift = particles->redshift;
+    annotate(rendered, rendered.rendered.views);
+  }
+  return {std::move(rendered.rendered.views),
+          {.exposure = rendered.rendered.exposure / light, .least = rendered.least, .most = rendered.most},
+          every == 1};
 }
 
 }  // namespace wheatstone::viewer

@@ -17,8 +17,8 @@ enum class Effort {
 
 struct DrawnParticles {
   std::vector<Image<Rgb8>> views;
-  float exposure = 1;  ///< that all particles were given
-  bool of_all = true;  ///< false: of a share of the particles
+  Brightness brightness;  ///< that all particles were given
+  bool of_all = true;     ///< false: of a share of the particles
 };
 
 /// Draws views of particles: quickly, every nth particle with n times its light, or all of them. Keeps every nth
@@ -33,11 +33,11 @@ class ParticleDrawer {
 
  private:
   std::size_t share_for(std::size_t particles) const;
-  const Cloud& thinned(const std::shared_ptr<const Particles>& particles, std::size_t every);
+  const ReadyParticles& thinned(const std::shared_ptr<const Particles>& particles, std::size_t every);
 
   std::shared_ptr<const Particles> of_;
   std::size_t every_ = 1;
-  Cloud thinned_;
+  ReadyParticles thinned_;
   double seconds_a_particle_ = 2e-7;
 };
 

@@ -35,21 +35,46 @@ PerceivedDepth perceived_depth(const ViewState& state) {
   return depth;
 }
 
-Scene particle_scene(const Particles& particles, const ViewState& state, const Rig& rig) {
+std::optional<Focus> focus_in(const ScreenFocus& focus, int width, int height) {
+  if (!focus.at) return {};
+  const auto across = static_cast<float>(width);
+  return Focus{.x_px = (*focus.at)[0] * across,
+               .y_px = (*focus.at)[1] * static_cast<float>(height),
+               .radius_px = focus.radius * across,
+               .gain = focus.gain};
+}
+
+RenderParticlesOptions render_options(const ViewState& state, const Rig& rig) {
   const ParticleLook& look = state.look;
   RenderParticlesOptions options;
   options.width = rig.width;
   options.height = rig.height;
+  options.positions = rig.positions;
   options.framing = state.orbit;
   options.depth = perceived_depth(state);
-  options.appearance.look = Look::thesis;
-  options.appearance.coldest = look.coldest.value_or(unknown);
-  options.appearance.hottest = look.hottest.value_or(unknown);
-  options.appearance.colour_map = look.colours;
-  options.appearance.smallest_px = look.smallest_px;
-  options.appearance.largest_px = look.largest_px;
-  options.appearance.opacity = look.opacity;
-  return scene_of(particles.statistics, options);
+  Appearance& appearance = options.appearance;
+  appearance.look = drawn_look(look);
+  appearance.coldest = look.coldest.value_or(unknown);
+  appearance.hottest = look.hottest.value_or(unknown);
+  appearance.colour_map = look.colours;
+  appearance.smallest_px = look.smallest_px;
+  appearance.largest_px = look.largest_px;
+  appearance.opacity = look.opacity;
+  options.rendering.opaque = look.opaque;
+  options.rendering.focus = focus_in(look.focus, rig.width, rig.height);
+  if (appearance.look == Look::thesis) {
+    options.rendering.exposure = look.exposure.value_or(unknown);
+  } else {
+    options.quantity = look.quantity;
+    options.rendering.tone.stretch = look.stretch;
+    options.least = look.least.value_or(unknown);
+    options.most = look.most.value_or(unknown);
+  }
+  return options;
+}
+
+Scene particle_scene(const Particles& particles, const ViewState& state, const Rig& rig) {
+  return scene_of(particles.statistics, render_options(state, rig));
 }
 
 std::optional<SeenParticle> particle_at(const Particles& particles, const Scene& scene, const PlaceInView& place) {

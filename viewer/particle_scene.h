@@ -15,6 +15,13 @@ namespace wheatstone::viewer {
 /// How deep a state has particles, or slices, stand on its display.
 PerceivedDepth perceived_depth(const ViewState& state);
 
+/// The options of `wheatstone render` that make the views of a rig as a state has them. Throws Error{wrong_usage} where
+/// these make no sense.
+RenderParticlesOptions render_options(const ViewState& state, const Rig& rig);
+
+/// A state's focus in views of this size; none where it has none.
+std::optional<Focus> focus_in(const ScreenFocus& focus, int width, int height);
+
 /// What the views of a rig see of particles, as `wheatstone render` has it with the options of the state. Throws
 /// Error{wrong_usage} where these make no sense.
 Scene particle_scene(const Particles& particles, const ViewState& state, const Rig& rig);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -14,6 +15,7 @@
 #include "particle_moves.h"
 #include "particle_scene.h"
 #include "pointing.h"
+#include "psnr.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "viewer.h"
@@ -50,6 +52,24 @@ class OpenParticles : public testing::Test {
     viewer.open(0);
     viewer.wait();
     run("mode left-right");
+    run("look thesis");
+  }
+  /// How like what is shown is to what the command makes that it tells: the worse eye's PSNR.
+  double likeness_to_command() {
+    const std::string line = command_line_of(viewer.session());
+    SCOPED_TRACE(line);
+    run_command(folder, words_of(line));
+    double worst = 1000;
+    for (const int eye : {0, 1}) {
+      const Image<Rgb8> made = read_image(folder / fmt::format("views/view_00{}.png", eye));
+      EXPECT_EQ(made.width() * 2, picture().width());
+      Image<Rgb8> shown(made.width(), made.height());
+      for (int y = 0; y < made.height(); ++y)
+        std::ranges::copy(picture().row(y).subspan(eye * static_cast<std::size_t>(made.width()), made.row(y).size()),
+                          shown.row(y).begin());
+      worst = std::min(worst, psnr_db(shown, made));
+    }
+    return worst;
   }
   void run(std::string_view line) {
     run_line(viewer, line);
@@ -85,6 +105,48 @@ TEST_F(OpenParticles, AreTheViewsOfTheCommandThatTheyTell) {
         ASSERT_EQ(picture()(x + left.width(), y), right(x, y)) << line << "\nat " << x << ", " << y;
       }
   }
+}
+
+TEST_F(OpenParticles, ShowTheNumbersThatRenderShows) {
+  run("orbit 20 -30");
+  for (const char* line : {"look mass", "quantity column-density", "projection orthographic", "annotate on",
+                           "quantity mean:rho", "stretch log", "colours viridis", "least 1.5"}) {
+    run(line);
+    EXPECT_GT(likeness_to_command(), 50) << line;
+  }
+  EXPECT_EQ(open_particles(viewer)->units.name, "rho");
+  // Another quantity has other limits, and another picture.
+  const Image<Rgb8> before = picture();
+  run("quantity column-density");
+  EXPECT_NE(state().look.least, 1.5f);
+  EXPECT_LT(psnr_db(before, picture()), 40);
+}
+
+TEST_F(OpenParticles, StayAsTheyAreWhereAQuantityIsNotThere) {
+  run("quantity mean:rho");
+  run("quantity mean:colour-of-money");
+  EXPECT_TRUE(viewer.session().message_is_error);
+  EXPECT_THAT(viewer.session().message, HasSubstr("colour-of-money"));
+  EXPECT_EQ(state().look.quantity, "rho");
+  EXPECT_GT(likeness_to_command(), 50);
+}
+
+TEST_F(OpenParticles, HaveMoreDepthWhereTheFocusIs) {
+  run("look mass");
+  const Image<Rgb8> before = picture();
+  run("focus-gain 1.4");
+  EXPECT_EQ(picture(), before) << "there is no focus yet";
+  run("focus-at 60 80");
+  ASSERT_TRUE(state().look.focus.at);
+  EXPECT_NEAR((*state().look.focus.at)[0], 0.5, 0.01);
+  EXPECT_NEAR((*state().look.focus.at)[1], 0.5, 0.01);
+  run("focus-radius 0.4");
+  EXPECT_LT(psnr_db(picture(), before), 50);
+  EXPECT_GT(likeness_to_command(), 50);
+  expect_error(ErrorKind::wrong_usage, "--focus-radius", [this] { run_line(viewer, "focus-radius 0.001"); });
+  EXPECT_FLOAT_EQ(state().look.focus.radius, 0.4f);
+  run("focus off");
+  EXPECT_GT(likeness_to_command(), 50);
 }
 
 TEST_F(OpenParticles, KeepTheirExposureUntilAnotherIsAskedFor) {
@@ -161,10 +223,11 @@ TEST_F(OpenParticles, AreDrawnQuicklyFromAShareOfAsMuchLight) {
       many->cloud.z.push_back(few.cloud.z[i] + jitter);
       many->cloud.density.push_back(few.cloud.density[i]);
     }
-  many->statistics.add(many->cloud);
+  static_cast<ReadyParticles&>(*many) = ready_particles(std::move(many->cloud), "many");
   ParticleDrawer drawer;
   const Rig rig{160, 120, {left_eye, right_eye}};
   ViewState view;
+  view.look.look = Look::thesis;
   view.look.exposure = 0.001f;
   const auto mean = [](const Image<Rgb8>& image) {
     double sum = 0;
@@ -178,10 +241,18 @@ TEST_F(OpenParticles, AreDrawnQuicklyFromAShareOfAsMuchLight) {
   drawer.expect_seconds_a_particle(3e-6);
   const DrawnParticles quick = drawer.draw(many, view, rig, Effort::quick);
   EXPECT_FALSE(quick.of_all);
-  EXPECT_EQ(quick.exposure, whole.exposure);
+  EXPECT_EQ(quick.brightness.exposure, whole.brightness.exposure);
   // Fewer particles lie less evenly, and what the tone map takes from their bright middles their rims do not give back.
   EXPECT_GT(mean(quick.views[0]) / mean(whole.views[0]), 0.7);
   EXPECT_LT(mean(quick.views[0]) / mean(whole.views[0]), 1.1);
+  // Of mass the same limits stand for less light.
+  view.look.look = Look::mass;
+  const DrawnParticles mass = drawer.draw(many, view, rig, Effort::whole);
+  drawer.expect_seconds_a_particle(3e-6);
+  const DrawnParticles less = drawer.draw(many, view, rig, Effort::quick);
+  EXPECT_FALSE(less.of_all);
+  EXPECT_NEAR(less.brightness.most / mass.brightness.most, 1, 1e-4);
+  EXPECT_NEAR(mean(less.views[0]) / mean(mass.views[0]), 1, 0.2);
 }
 
 TEST_F(OpenParticles, RefuseWhatMakesNoSense) {
@@ -191,6 +262,10 @@ TEST_F(OpenParticles, RefuseWhatMakesNoSense) {
   expect_error(ErrorKind::wrong_usage, "no number", running("exposure bright"));
   expect_error(ErrorKind::wrong_usage, "colour", running("colours mud"));
   expect_error(ErrorKind::wrong_usage, "near", running("near 5000"));
+  expect_error(ErrorKind::wrong_usage, "asinh, log, linear", running("stretch sqrt"));
+  expect_error(ErrorKind::wrong_usage, "expected X,Y", running("focus 5"));
+  run_line(viewer, "look mass");
+  expect_error(ErrorKind::wrong_usage, "look thesis", running("exposure 2"));
 }
 
 TEST(OpenSlices, StandAsDeepAsAsked) {

@@ -9,6 +9,7 @@
 #include "content.h"
 #include "head_filter.h"
 #include "view_state.h"
+#include "wheatstone/app/camera_path.h"
 
 namespace wheatstone::viewer {
 
@@ -48,8 +49,10 @@ struct FilmStatus {
   std::int64_t frame = 0;  ///< that is shown, from 0
   double seconds = 0, duration_s = 0;
   bool plays = false;
-  bool paints = true;      ///< frames where it stands still
-  bool is_placed = false;  ///< its depth was brought to where it is comfortable
+  bool paints = true;         ///< frames where it stands still
+  bool is_placed = false;     ///< its depth was brought to where it is comfortable
+  bool of_particles = false;  ///< no film, but a series of particles or a camera's path
+  std::string moment;         ///< of those, the time or redshift
 };
 
 /// All that a viewer knows: plain data.
@@ -63,6 +66,8 @@ struct Session {
   ViewState state;
   std::optional<float> zero_parallax_target_px;  ///< what it moves to
   double easing_s = click_easing_s;              ///< of that move
+  CameraPath camera_path;                        ///< along which particles are looked at, as time goes on
+  std::filesystem::path camera_file;             ///< that holds this path; empty: none does
   HeadFilterOptions head_filter;
   std::optional<TrackedHead> tracked_head;
   bool gaze_follows_pointer = false;

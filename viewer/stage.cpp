@@ -276,7 +276,7 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
   frame.places = places_in_frame(mode, left_place, right_place, viewport);
   frame.scale = fit.scale;
   frame.preliminary = drawn.preliminary;
-  frame.exposure = drawn.exposure;
+  frame.brightness = drawn.brightness;
   return frame;
 }
 

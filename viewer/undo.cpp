@@ -11,6 +11,7 @@ ViewState parameters_of(ViewState state) {
   state.framed = as_new.framed;
   state.head = as_new.head;
   state.orbit = as_new.orbit;
+  state.share = as_new.share;
   state.step = as_new.step;
   state.comparison = as_new.comparison;
   state.layers_apart_deg = as_new.layers_apart_deg;
@@ -27,6 +28,7 @@ void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState
   session.state.framed = now.framed;
   session.state.head = now.head;
   session.state.orbit = now.orbit;
+  session.state.share = now.share;
   session.state.comparison = now.comparison;
   session.state.layers_apart_deg = now.layers_apart_deg;
   session.state.depth_around = now.depth_around;

@@ -40,9 +40,10 @@ DrawnViews photographs(const Photograph& photograph, const WantedPart& part, con
   return nearest_pictures(pictures, 1, part, wanted);
 }
 
-DrawnViews sliced(const SliceStack& stack, const std::vector<ViewPosition>& positions) {
-  const Rig rig{stack.width, stack.height, positions};
-  return {.pictures = render_slices(stack, rig), .positions = positions};
+std::vector<Image<Rgb8>> slice_views(const SliceStack& stack, const std::vector<ViewPosition>& positions,
+                                     const ViewState& state) {
+  return render_slices(stack, {stack.width, stack.height, positions}, SliceFilter::centroid, {},
+                       focus_in(state.look.focus, stack.width, stack.height));
 }
 
 }  // namespace
@@ -130,15 +131,15 @@ const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& s
     const std::vector<ImageView<const Rgb8>> lent(pictures->views->begin(), pictures->views->end());
     views = nearest_pictures(lent, pictures->span, part, positions);
   } else if (const auto* const slices = std::get_if<SlicesContent>(&content)) {
-    views = sliced(placed_slices(*slices, state), positions);
+    views = {.pictures = slice_views(placed_slices(*slices, state), positions, state), .positions = positions};
   } else if (const auto* const particles = std::get_if<ParticlesContent>(&content)) {
     DrawnParticles made = particles_.draw(particles->particles, state, {part.width, part.height, positions}, effort);
     views = {.pictures = std::move(made.views),
              .positions = positions,
              .preliminary = !made.of_all,
-             .exposure = made.exposure};
+             .brightness = made.brightness};
     // The state will say what was found.
-    if (made.of_all) placing.look.exposure = made.exposure;
+    if (made.of_all) keep_brightness(placing.look, made.brightness);
   }
   drawn_ = Drawn{content, part, state.finest_layer, std::move(placing), positions, std::move(views)};
   return drawn_->views;
@@ -174,8 +175,7 @@ const std::vector<Image<Rgb8>>& ViewDrawer::display_views(const Content& content
   } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
     views = *pictures->views;
   } else if (const auto* const slices = std::get_if<SlicesContent>(&content)) {
-    const SliceStack& stack = placed_slices(*slices, state);
-    views = render_slices(stack, {stack.width, stack.height, rig.positions});
+    views = slice_views(placed_slices(*slices, state), rig.positions, state);
   } else if (const auto* const particles = std::get_if<ParticlesContent>(&content)) {
     views = particles_.draw(particles->particles, state, rig, Effort::whole).views;
   }

@@ -26,9 +26,9 @@ struct DrawnViews {
   std::vector<Image<Rgb8>> pictures;    ///< of one size
   std::vector<ViewPosition> positions;  ///< that they show: where there are pictures only, the nearest to those wanted
   double scale = 1;
-  int left = 0, top = 0;          ///< of the pictures' corner, in pixels of the content `scale` times as large
-  bool preliminary = false;       ///< drawn quickly: another drawing with all effort shows more
-  std::optional<float> exposure;  ///< of particles
+  int left = 0, top = 0;                 ///< of the pictures' corner, in pixels of the content `scale` times as large
+  bool preliminary = false;              ///< drawn quickly: another drawing with all effort shows more
+  std::optional<Brightness> brightness;  ///< of particles
 };
 
 /// Draws views of what is open, and keeps what the next drawing can use again. Of one thread.

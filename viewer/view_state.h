@@ -59,7 +59,8 @@ struct ViewState {
   Style style;
   wheatstone::Framing orbit{.zoom = 1.2f};  ///< of particles
   ParticleLook look;
-  int step = 0;  ///< of a wiggle
+  double share = 0;  ///< of the time of a series of particles, or of a camera path: 0 its beginning, 1 its end
+  int step = 0;      ///< of a wiggle
   friend bool operator==(const ViewState&, const ViewState&) = default;
 };
 

@@ -11,6 +11,7 @@
 
 #include "gaze.h"
 #include "paint_in_steps.h"
+#include "particle_reader.h"
 #include "wheatstone/app/present_pair.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
@@ -49,6 +50,10 @@ void Viewer::open_all(const std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) session_.items.push_back({file});
     open(0);
   };
+  if (const std::optional<std::filesystem::path> series = series_of_files(files)) {
+    session_.items.push_back({*series});
+    return open(0);
+  }
   if (files.size() != 2) return open_each();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
@@ -83,9 +88,12 @@ void Viewer::open(std::size_t item) {
   session_.state.depth_around.reset();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
-  making_.start([this, job, before, files = session_.items[item]](const std::stop_token& stop) {
+  reads_particles_ = false;
+  failed_time_.reset();
+  making_.start([this, job, before, files = session_.items[item],
+                 quantity = session_.state.look.quantity](const std::stop_token& stop) {
     try {
-      Opened opened = open_content(files, progress_of(job, stop), showing(job));
+      Opened opened = open_content(files, progress_of(job, stop), showing(job), quantity);
       mailbox_.post([this, job, opened = std::move(opened)]() mutable {
         if (job == job_) take_opened(std::move(opened));
       });
@@ -148,15 +156,18 @@ void Viewer::post_failure(const std::exception& error, std::uint64_t job) {
 
 void Viewer::take_opened(Opened opened) {
   session_.opened = std::move(opened);
-  session_.state.look.exposure.reset();
+  forget_brightness(session_.state.look);
   session_.state.orbit.look_at.reset();
   session_.state.adjustment.zero_parallax_px = 0;
   session_.state.adjustment.separation = 1;
+  session_.state.share = 0;
   if (!session_.opened.is_ready) return;
   session_.opening.reset();
   for (const std::string& note : session_.opened.notes) tell(note);
   show_comfortably();
   take_film(session_.opened.film);
+  take_particles();
+  if (session_.film && session_.film->of_particles && !session_.camera_path.keys.empty()) play_film();
   paint();
 }
 
@@ -202,8 +213,10 @@ void Viewer::collect() {
 
 void Viewer::move_on() {
   const double now = now_s();
-  const double passed_s = std::min(now - std::exchange(moved_at_s_, now), step_of_easing_s * 4);
+  const double since_s = now - std::exchange(moved_at_s_, now);
+  const double passed_s = std::min(since_s, step_of_easing_s * 4);
   move_film(now);
+  move_particles(since_s);
   if (session_.zero_parallax_target_px) {
     constexpr float near_enough_px = 0.05f;
     float& zero_parallax_px = session_.state.adjustment.zero_parallax_px;
@@ -228,7 +241,8 @@ std::optional<double> Viewer::next_step_s() const {
   const std::optional<double> input_s = inputs_.next_step_s();
   if (film_s && input_s) return std::min(*film_s, *input_s);
   if (film_s || input_s) return film_s ? film_s : input_s;
-  if (session_.zero_parallax_target_px || session_.depth_around_target) return step_of_easing_s;
+  const bool particles_play = session_.film && session_.film->of_particles && session_.film->plays;
+  if (session_.zero_parallax_target_px || session_.depth_around_target || particles_play) return step_of_easing_s;
   if (session_.state.mode == "wiggle") return step_of_wiggle_s;
   return {};
 }
@@ -259,11 +273,11 @@ void Viewer::draw(const Asked& asked, const std::stop_token& stop) {
 void Viewer::post_frame(Frame frame, const Asked& asked) {
   auto shared = std::make_shared<Frame>(std::move(frame));
   mailbox_.post([this, shared, asked] {
-    std::optional<float>& exposure = session_.state.look.exposure;
     // What the first whole picture found stays, so that nothing flickers.
-    if (!exposure && !shared->preliminary && asked.content == session_.opened.content) {
-      exposure = shared->exposure;
-      if (asked_ && asked_->state == asked.state) asked_->state.look.exposure = exposure;
+    if (shared->brightness && !shared->preliminary && asked.content == session_.opened.content &&
+        asked.state.look == session_.state.look) {
+      keep_brightness(session_.state.look, *shared->brightness);
+      if (asked_ && asked_->state == asked.state) asked_->state.look = session_.state.look;
     }
     frame_ = std::move(*shared);
     ++frames_drawn_;

@@ -45,9 +45,14 @@ class Viewer {
   void show_comfortably();
   /// The player of the film that is open; none where no film is.
   FilmPlayer* film() { return player_.get(); }
-  /// Begins to play the film, or to pause it.
+  /// Begins to play the film, the series of particles or the camera's path, or to pause it.
   void play_film();
   void pause_film();
+  /// Pauses, and shows the frame so many frames later; earlier where negative.
+  void step_film(int frames);
+  void seek_film(double seconds);
+  /// Looks at particles along the path, which begins where it has any keys.
+  void take_camera_path(CameraPath path, std::filesystem::path file = {});
   /// Paints the frame that stands, where films are to be painted; shows the frame as it is otherwise.
   void show_standing_frame();
   /// Paints the whole film that is open into a file, beside everything else. Throws Error{wrong_usage} where no film is
@@ -95,6 +100,13 @@ class Viewer {
   void move_on();
   void take_film(const std::shared_ptr<const OpenedFilm>& film);
   void move_film(double now_s);
+  void take_particles();
+  void move_particles(double passed_s);
+  void show_particles_at(double seconds);
+  /// Has the particles read that the state wants, where others are open and none are being read.
+  void read_wanted_particles();
+  void read_particles_for(const std::string& quantity, double time);
+  void post_particles_failure(const Error& error, double time, std::uint64_t job);
   void draw_if_changed();
   struct Asked;
   /// Draws what was asked for on the drawing thread, quickly at first where that is not all.
@@ -121,6 +133,8 @@ class Viewer {
   std::optional<Asked> asked_;  ///< for the newest frame that was asked for
   std::uint64_t job_ = 0;       ///< number of the newest opening or painting; what older ones deliver is left aside
   double moved_at_s_ = 0, wiggled_at_s_ = 0;
+  bool reads_particles_ = false;
+  std::optional<double> failed_time_;  ///< of a series, at which it could not be read
 
   Stage stage_;  ///< of the drawing thread
   int files_to_save_ = 0;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "particle_film.h"
 #include "viewer.h"
 #include "wheatstone/error.h"
 
@@ -22,6 +23,12 @@ void Viewer::take_film(const std::shared_ptr<const OpenedFilm>& film) {
 }
 
 void Viewer::play_film() {
+  if (session_.film && session_.film->of_particles) {
+    FilmStatus& film = *session_.film;
+    film.plays = true;
+    if (film.seconds >= film.duration_s) show_particles_at(0);
+    return;
+  }
   if (!player_) return;
   player_->play(steady_s());
   session_.film->plays = true;
@@ -31,7 +38,25 @@ void Viewer::play_film() {
   session_.opening.reset();
 }
 
+void Viewer::step_film(int frames) {
+  if (session_.film && session_.film->of_particles) {
+    session_.film->plays = false;
+    show_particles_at(session_.film->seconds + frames / particle_frames_a_second);
+  } else if (player_) {
+    player_->step(frames);
+  }
+}
+
+void Viewer::seek_film(double seconds) {
+  if (session_.film && session_.film->of_particles) {
+    show_particles_at(seconds);
+  } else if (player_) {
+    player_->seek(seconds);
+  }
+}
+
 void Viewer::pause_film() {
+  if (session_.film && session_.film->of_particles) session_.film->plays = false;
   if (!player_ || !player_->plays()) return;
   player_->pause();
   session_.film->plays = false;
@@ -39,7 +64,7 @@ void Viewer::pause_film() {
 }
 
 void Viewer::show_standing_frame() {
-  if (!session_.film || session_.film->plays) return;
+  if (!session_.film || session_.film->of_particles || session_.film->plays) return;
   if (session_.film->paints) {
     paint();
     return;

@@ -60,8 +60,11 @@ void FilmBar::show_session(const Session& session) {
     slider_->setEnabled(film->duration_s > 0);
     if (!slider_->isSliderDown() && film->duration_s > 0)
       slider_->setValue(static_cast<int>(most_steps * film->seconds / film->duration_s));
-    time_->setText(QString::fromStdString(
-        fmt::format(" {} / {}, frame {} ", clock_text(film->seconds), clock_text(film->duration_s), film->frame)));
+    const std::string moment = film->moment.empty() ? std::string() : film->moment + ", ";
+    const std::size_t keys = session.camera_path.keys.size();
+    const std::string path = film->of_particles && keys > 0 ? fmt::format(", {} keyframes", keys) : std::string();
+    time_->setText(QString::fromStdString(fmt::format(" {}{} / {}, frame {}{} ", moment, clock_text(film->seconds),
+                                                      clock_text(film->duration_s), film->frame, path)));
   }
   progress_action_->setVisible(session.whole_film.has_value());
   cancel_action_->setVisible(session.whole_film.has_value());

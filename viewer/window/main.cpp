@@ -56,8 +56,16 @@ void begin(Window& window, const ViewArguments& arguments) {
       throw Error(ErrorKind::bad_input, fmt::format("{}: no such file", file));
   Session& session = window.viewer().session();
   if (!arguments.mode.empty()) run_line(window.viewer(), "mode " + arguments.mode);
-  if (!arguments.display.empty()) run_command(window.viewer(), find_command("display"), {arguments.display});
-  if (!arguments.style.empty()) run_command(window.viewer(), find_command("style"), {arguments.style});
+  const auto run = [&](const char* name, const std::string& value) {
+    if (!value.empty()) run_command(window.viewer(), find_command(name), {value});
+  };
+  run("display", arguments.display);
+  run("style", arguments.style);
+  run("camera", arguments.camera);
+  run("quantity", arguments.quantity);
+  run("focus", arguments.focus);
+  if (arguments.focus_radius) run("focus-radius", fmt::format("{}", *arguments.focus_radius));
+  if (arguments.focus_gain) run("focus-gain", fmt::format("{}", *arguments.focus_gain));
   session.state.style.seed = arguments.seed;
   session.full_screen = arguments.full_screen;
   window.viewer().open_all({arguments.files.begin(), arguments.files.end()});

@@ -155,6 +155,7 @@ std::optional<Words> Window::ask_for_arguments(const Command& command) {
     if (words.empty()) return {};
     return words;
   }
+  if (command.name == "camera") return one(QFileDialog::getOpenFileName(this, title));
   if (command.arguments == "FILE") return one(QFileDialog::getSaveFileName(this, title));
   QStringList choices;
   if (command.name == "mode")
@@ -277,7 +278,10 @@ bool Window::pointer_event(QEvent* event) {
     }
     case QEvent::MouseButtonRelease: {
       if (!std::exchange(is_pressed_, false) || is_dragged_) return true;
-      if (!static_cast<QMouseEvent*>(event)->modifiers().testFlag(Qt::ControlModifier)) {
+      const Qt::KeyboardModifiers held = static_cast<QMouseEvent*>(event)->modifiers();
+      if (held.testFlag(Qt::ControlModifier) && held.testFlag(Qt::ShiftModifier)) {
+        do_line("focus-at", {fmt::format("{}", pressed_at_.x()), fmt::format("{}", pressed_at_.y())});
+      } else if (!held.testFlag(Qt::ControlModifier)) {
         click_timer_.start(click_delay_ms);
       } else if (open_particles(viewer_) != nullptr) {
         do_line("look-at-place", {fmt::format("{}", pressed_at_.x()), fmt::format("{}", pressed_at_.y())});

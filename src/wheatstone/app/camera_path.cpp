@@ -129,6 +129,18 @@ CameraPath parse_camera_path(std::string_view toml, const std::string& name) {
   return path;
 }
 
+std::string camera_path_text(const CameraPath& path) {
+  std::string text;
+  for (const CameraKey& key : path.keys) {
+    text += fmt::format("{}[[key]]\nat = {}\n", text.empty() ? "" : "\n", key.at);
+    for (const Channel& channel : channels)
+      if (const std::optional<double>& value = key.*(channel.value))
+        text += fmt::format("{} = {}\n", channel.name, *value);
+    if (key.centre) text += fmt::format("centre = {}\n", *key.centre);
+  }
+  return text;
+}
+
 CameraPath read_camera_path(const std::filesystem::path& file) {
   constexpr std::size_t most_bytes = 1 << 20;
   return parse_camera_path(read_whole_file(file, most_bytes), file.string());

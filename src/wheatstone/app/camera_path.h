@@ -18,11 +18,13 @@ struct CameraKey {
   std::optional<double> zoom = {};
   std::optional<std::array<double, 3>> centre = {};  ///< that is looked at, in the file's units
   std::optional<double> time = {};                   ///< of the simulation (CloudSource::time)
+  friend bool operator==(const CameraKey&, const CameraKey&) = default;
 };
 
 /// Keyframes of a camera that moves, `at` ascending.
 struct CameraPath {
   std::vector<CameraKey> keys;
+  friend bool operator==(const CameraPath&, const CameraPath&) = default;
 };
 
 /// The values at a moment: each is a smooth curve through the keys that have it, which rests at its ends and does not
@@ -32,6 +34,9 @@ CameraKey camera_at(const CameraPath& path, double at);
 /// Reads `[[key]]` tables with `at` and any of azimuth, elevation, fov, zoom, centre and time. `name` is for messages.
 /// Throws Error{bad_input} where it is no TOML, has no keys, other keys or numbers that make no sense.
 CameraPath parse_camera_path(std::string_view toml, const std::string& name);
+
+/// The text that parse_camera_path reads as this path, with the same numbers.
+std::string camera_path_text(const CameraPath& path);
 
 /// The same from a file.
 CameraPath read_camera_path(const std::filesystem::path& file);

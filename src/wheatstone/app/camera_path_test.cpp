@@ -45,6 +45,13 @@ TEST(CameraPath, ZoomsByFactorsAndLeavesOpenWhatNoKeySays) {
   EXPECT_FALSE(middle.elevation_deg || middle.time || middle.field_of_view_deg);
 }
 
+TEST(CameraPath, IsTheSameFromItsText) {
+  const CameraPath path{{{.at = 0, .azimuth_deg = 1.0 / 3, .zoom = 2, .centre = {{1e8 + 0.1, -1e-12, 0}}},
+                         {.at = 0.1, .elevation_deg = -90, .field_of_view_deg = 40, .time = 1e22},
+                         {.at = 1}}};
+  EXPECT_EQ(parse_camera_path(camera_path_text(path), "path.toml"), path);
+}
+
 TEST(CameraPath, RefusesWhatItDoesNotKnowInOneLine) {
   const auto refused = [](const std::string& toml, const std::string& message) {
     expect_error(ErrorKind::bad_input, message, [&] { parse_camera_path(toml, "path.toml"); });

@@ -12,9 +12,6 @@
 
 namespace wheatstone {
 
-/// The quantity's name without "mean:"; nothing where none is shown.
-std::string quantity_name_of(const std::string& quantity);
-
 /// Columns that every cloud may have become the quantity without being read again. Throws Error{bad_input} where the
 /// cloud has no such column.
 void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::string& quantity);

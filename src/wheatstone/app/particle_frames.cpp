@@ -110,9 +110,13 @@ RenderedParticles ParticleFrames::frame(int number, const Progress& progress) {
   const Moment moment = moment_of(number);
   const RenderParticlesOptions options = options_at(number, moment.key);
   if (!series_) return render_ready(still_, options, progress);
-  ReadyParticles particles = ready_particles(series_->at(moment.time, progress), input_, options, progress);
+  return render_ready(particles_at(moment.time, progress), options, progress);
+}
+
+ReadyParticles ParticleFrames::particles_at(double time, const Progress& progress) {
+  ReadyParticles particles = ready_particles(series_->at(time, progress), input_, options_.particles, progress);
   particles.statistics = held(std::move(particles.statistics));
-  return render_ready(particles, options, progress);
+  return particles;
 }
 
 }  // namespace wheatstone

@@ -33,6 +33,11 @@ class ParticleFrames {
   /// Frame 0, 1, … Throws as render_particles.
   RenderedParticles frame(int number, const Progress& progress = {});
 
+  /// The snapshots; none where there is one.
+  const SnapshotSeries* series() const { return series_ ? &series_->series() : nullptr; }
+  /// The particles of a series at a time, with what is held through the film. Throws as render_particles.
+  ReadyParticles particles_at(double time, const Progress& progress = {});
+
  private:
   /// The camera at a frame, and what time it shows.
   struct Moment {

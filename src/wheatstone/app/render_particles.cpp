@@ -28,8 +28,9 @@ struct Staged {
 };
 
 Staged stage(const RenderParticlesOptions& options, const CloudStatistics& statistics) {
-  return {scene_of(statistics, options), evenly_spaced(options.width, options.height, options.views, options.span),
-          viewing_of(options)};
+  Rig rig = options.positions.empty() ? evenly_spaced(options.width, options.height, options.views, options.span)
+                                      : Rig{options.width, options.height, options.positions};
+  return {scene_of(statistics, options), std::move(rig), viewing_of(options)};
 }
 
 /// The middle of a box or sphere; nothing where there is neither.
@@ -167,6 +168,8 @@ std::string unit_of(const CloudSource& source, const std::string& name, std::str
   return otherwise;
 }
 
+}  // namespace
+
 ShownUnits units_of(const CloudSource& source, const RenderParticlesOptions& options, bool has_mass) {
   ShownUnits units;
   units.length = unit_of(source, "length", unit_of(source, "x", "code length"));
@@ -182,8 +185,6 @@ ShownUnits units_of(const CloudSource& source, const RenderParticlesOptions& opt
   }
   return units;
 }
-
-}  // namespace
 
 ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, const RenderParticlesOptions& options,
                                const Progress& progress) {

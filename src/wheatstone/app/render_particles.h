@@ -8,6 +8,7 @@
 
 #include "wheatstone/depth/camera.h"
 #include "wheatstone/depth/depth_regions.h"
+#include "wheatstone/depth/view_position.h"
 #include "wheatstone/depth/viewing_geometry.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/scene.h"
@@ -46,7 +47,8 @@ struct RenderParticlesOptions {
   PerceivedDepth depth;
   int width = 640, height = 360;  ///< of a view
   int views = 2;
-  float span = 1;  ///< eye separations from the first view to the last
+  float span = 1;                       ///< eye separations from the first view to the last
+  std::vector<ViewPosition> positions;  ///< of the views, in place of `views` and `span`; empty: evenly spaced
   RenderOptions rendering;
   /// What is shown in place of the usual picture: "column-density"; or a quantity, of which the mean along each line of
   /// sight is shown, weighted by mass: "temperature", "density", or the name of a dataset or column
@@ -132,6 +134,12 @@ struct Brightness {
   float least, most;  ///< in units of what is shown
 };
 Brightness brightness_for(const CloudStatistics& statistics, const RenderParticlesOptions& options);
+
+/// The name of the column that a quantity is the mean of, without "mean:"; empty where none is shown.
+std::string quantity_name_of(const std::string& quantity);
+
+/// What the numbers of a picture of these particles are counted in. `has_mass`: they have masses.
+ShownUnits units_of(const CloudSource& source, const RenderParticlesOptions& options, bool has_mass);
 
 /// What of a file becomes the cloud: with the middle of what is shown as its origin, where the options tell it.
 CloudChoice choice_of(const RenderParticlesOptions& options);
