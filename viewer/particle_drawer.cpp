@@ -66,9 +66,10 @@ DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& part
   const ReadyParticles& drawn = effort == Effort::quick ? thinned(particles, every) : *particles;
   RenderParticlesOptions options = render_options(state, rig);
   options.rendering.device = Device::automatic;
-  // Until what is to be shown has been read, what has been is shown.
-  if (quantity_name_of(options.quantity) != particles->quantity) options.quantity = particles->quantity;
   const bool is_mass = options.appearance.look == Look::mass;
+  // Until what is to be shown has been read, what has been is shown.
+  const bool is_wanted = !is_mass || quantity_name_of(options.quantity) == particles->quantity;
+  if (!is_wanted) options.quantity = particles->quantity;
   if (is_mass && (std::isnan(options.least) || std::isnan(options.most))) {
     const Brightness found = brightness_for(particles->statistics, options);
     if (std::isnan(options.least)) options.least = found.least;
@@ -93,7 +94,7 @@ DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& part
   }
   return {std::move(rendered.rendered.views),
           {.exposure = rendered.rendered.exposure / light, .least = rendered.least, .most = rendered.most},
-          every == 1};
+          every == 1 && is_wanted};
 }
 
 }  // namespace wheatstone::viewer

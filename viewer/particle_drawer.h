@@ -18,7 +18,7 @@ enum class Effort {
 struct DrawnParticles {
   std::vector<Image<Rgb8>> views;
   Brightness brightness;  ///< that all particles were given
-  bool of_all = true;     ///< false: of a share of the particles
+  bool of_all = true;     ///< false: of a share of them, or not of the quantity that is to be shown
 };
 
 /// Draws views of particles: quickly, every nth particle with n times its light, or all of them. Keeps every nth

@@ -51,8 +51,8 @@ class OpenParticles : public testing::Test {
     viewer.set_viewport({240, 160});
     viewer.open(0);
     viewer.wait();
-    run("mode left-right");
     run("look thesis");
+    run("mode left-right");
   }
   /// How like what is shown is to what the command makes that it tells: the worse eye's PSNR.
   double likeness_to_command() {
@@ -116,6 +116,9 @@ TEST_F(OpenParticles, ShowTheNumbersThatRenderShows) {
   }
   EXPECT_EQ(open_particles(viewer)->units.name, "rho");
   // Another quantity has other limits, and another picture.
+  run("quantity mean:x");
+  run("quantity mean:rho");
+  EXPECT_NEAR(*state().look.most, 4, 1.5) << "the densities go from 1 to 4";
   const Image<Rgb8> before = picture();
   run("quantity column-density");
   EXPECT_NE(state().look.least, 1.5f);
@@ -252,7 +255,8 @@ TEST_F(OpenParticles, AreDrawnQuicklyFromAShareOfAsMuchLight) {
   const DrawnParticles less = drawer.draw(many, view, rig, Effort::quick);
   EXPECT_FALSE(less.of_all);
   EXPECT_NEAR(less.brightness.most / mass.brightness.most, 1, 1e-4);
-  EXPECT_NEAR(mean(less.views[0]) / mean(mass.views[0]), 1, 0.2);
+  EXPECT_GT(mean(less.views[0]) / mean(mass.views[0]), 0.7);
+  EXPECT_LT(mean(less.views[0]) / mean(mass.views[0]), 1.1);
 }
 
 TEST_F(OpenParticles, RefuseWhatMakesNoSense) {
