@@ -19,6 +19,7 @@ void load_camera(Viewer& viewer, const Words& words) {
 }
 
 void add_key(Viewer& viewer, const Words& /*words*/) {
+  if (open_particles(viewer) == nullptr) return viewer.tell("no particles are open", true);
   const CameraKey key = key_here(viewer.session());
   viewer.take_camera_path(with_key(viewer.session(), key));
   viewer.tell(fmt::format("keyframe at {:.3g}, {} in all; go to another time and add the next", key.at,
@@ -26,6 +27,7 @@ void add_key(Viewer& viewer, const Words& /*words*/) {
 }
 
 void remove_key(Viewer& viewer, const Words& /*words*/) {
+  if (viewer.session().camera_path.keys.empty()) return viewer.tell("the camera path has no keyframe", true);
   viewer.take_camera_path(without_nearest_key(viewer.session()));
   viewer.tell(fmt::format("{} keyframes", viewer.session().camera_path.keys.size()));
 }

@@ -30,7 +30,7 @@ void open_series(Viewer& viewer, const Words& /*words*/) {
   const Item* const item = open_item(viewer.session());
   const auto pattern = item == nullptr ? std::nullopt : series_pattern_of(item->front());
   if (!pattern || open_particles(viewer) == nullptr)
-    throw Error(ErrorKind::wrong_usage, "no snapshot is open that is one of several with numbered names");
+    return viewer.tell("no snapshot is open that is one of several with numbered names", true);
   open_files(viewer, {pattern->string()});
 }
 

@@ -100,7 +100,6 @@ CameraPath with_key(const Session& session, const CameraKey& key) {
 
 CameraPath without_nearest_key(const Session& session) {
   CameraPath path = session.camera_path;
-  if (path.keys.empty()) throw Error(ErrorKind::wrong_usage, "the camera path has no keyframe");
   const double share = session.state.share;
   const auto away = [share](const CameraKey& key) { return std::abs(key.at - share); };
   path.keys.erase(std::ranges::min_element(path.keys, {}, away));

@@ -23,7 +23,7 @@ CameraKey key_here(const Session& session);
 /// The path with a key, in place of one that is less than half a frame away.
 CameraPath with_key(const Session& session, const CameraKey& key);
 
-/// The path without the key that is nearest to the state's share. Throws Error{wrong_usage} where it has none.
+/// The path without the key that is nearest to the state's share; it has one.
 CameraPath without_nearest_key(const Session& session);
 
 }  // namespace wheatstone::viewer
