@@ -22,8 +22,11 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
                                          "Point X,Y of particles or slices around which there is more depth: shares of "
                                          "a view's width and height");
   command.add_option("--focus-radius", arguments.focus_radius, "Radius of that area, as a share of the width")
+      ->type_name("NUMBER")
       ->needs(focus);
-  command.add_option("--focus-gain", arguments.focus_gain, "Factor on the depth at that point")->needs(focus);
+  command.add_option("--focus-gain", arguments.focus_gain, "Factor on the depth at that point")
+      ->type_name("NUMBER")
+      ->needs(focus);
   command.add_option("--size", arguments.size, "Size of the window: WIDTHxHEIGHT")->capture_default_str();
   command.add_flag("--full-screen", arguments.full_screen, "Begin in full screen");
   auto* const opengl = command.add_flag(
@@ -49,7 +52,7 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       "  wheatstone view left.png right.png --style mosaic --mode left-right\n"
       "  wheatstone view film.mp4 --mode left-right\n"
       "  wheatstone view universe.hdf5 --display looking-glass-portrait\n"
-      "  wheatstone view 'snap_%03d.hdf5' --camera path.toml --quantity column-density");
+      "  wheatstone view universe.hdf5 --camera path.toml --quantity column-density");
 }
 
 std::vector<std::string> view_words(const ViewArguments& arguments) {

@@ -153,6 +153,8 @@ const std::map<std::string, Maker>& makers() {
          make_with_program({"paint", example_input("left.png"), example_input("right.png"), "-o", path});
        }},
       {"painting.wst", make_painting},
+      {"path.toml",
+       [](const fs::path& path) { put_bytes(path, "[[key]]\nat = 0\nazimuth = 30\n[[key]]\nat = 1\nazimuth = 60\n"); }},
       {"tour.txt", [](const fs::path& path) { put_bytes(path, "wait\nmode right\nwait\n"); }},
       {"rig", make_rig},
       {"film.mp4", make_film},

@@ -61,7 +61,7 @@ void write_gif(const std::filesystem::path& path, std::span<const Image<Rgb8>* c
   const std::unique_ptr<PictureWriter> writer = picture_writer(".gif", name);
   StoredPicture picture{frames.front()->width(), frames.front()->height(), 3};
   const int frames_a_second = std::max(1, static_cast<int>(std::lround(static_cast<double>(frames.size()) / seconds)));
-  picture.put("FramesPerSecond", Rational{frames_a_second, 1});
+  picture.put("FramesPerSecond", Ratio{frames_a_second, 1});
   picture.put("gif:LoopCount", 0);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const bool begun = i == 0 ? writer->begin({&picture, 1}) : writer->begin_next(picture);

@@ -128,8 +128,12 @@ void add_disparities(const StrokePainting& painting, std::vector<float>& to) {
     for (const Stroke& stroke : layer.strokes) to.push_back(stroke.disparity);
 }
 
+/// Regions that are for some views only mend what these show of others, unless all of them are: one painting an eye.
 void add_disparities(const RegionPainting& painting, std::vector<float>& to) {
-  for (const RegionMark& mark : painting.marks) to.push_back(mark.disparity);
+  const auto is_for_all = [](const RegionMark& mark) { return mark.views == all_views; };
+  const bool only_those = std::ranges::any_of(painting.marks, is_for_all);
+  for (const RegionMark& mark : painting.marks)
+    if (!only_those || is_for_all(mark)) to.push_back(mark.disparity);
 }
 
 void add_disparities(const DiffusionPainting& painting, std::vector<float>& to) {

@@ -63,7 +63,7 @@ struct PutAttribute {
 
   void operator()(int number) const { spec.attribute(name, number); }
   void operator()(float number) const { spec.attribute(name, number); }
-  void operator()(const Rational& ratio) const { spec.attribute(name, OIIO::TypeRational, &ratio); }
+  void operator()(const Ratio& ratio) const { spec.attribute(name, OIIO::TypeRational, &ratio); }
   void operator()(const std::string& word) const { spec.attribute(name, word); }
   void operator()(const std::vector<std::string>& words) const {
     const std::vector<OIIO::ustring> named(words.begin(), words.end());

@@ -27,13 +27,13 @@ struct NumberKind {
 };
 inline constexpr NumberKind bytes_kind{8, false}, words_kind{16, false}, halves_kind{16, true}, floats_kind{32, true};
 
-struct Rational {
+struct Ratio {
   int numerator = 0, denominator = 1;
 };
 
 /// What a file says of a picture beside its pixels, by the names that OpenImageIO gives.
 using PictureAttribute =
-    std::variant<int, float, Rational, std::string, std::vector<std::string>, std::vector<std::uint8_t>>;
+    std::variant<int, float, Ratio, std::string, std::vector<std::string>, std::vector<std::uint8_t>>;
 
 /// One picture of a file without its pixels. EXR, TIFF and GIF files may have several.
 struct StoredPicture {
