@@ -8,10 +8,9 @@
 
 #include "cli/packing.h"
 #include "cli/run_program.h"
+#include "needs_gpu.h"
 #include "psnr.h"
-#include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
@@ -167,12 +166,9 @@ TEST(PackCommand, APaintingHasAsManyViewsAsAreWanted) {
   run_in(folder, {"pack", "painted/painting.wst", "--to", "quilt", "--quilt", "8x6", "-o", "quilt"});
 }
 
-TEST(PackCommand, TheGraphicsProcessorDrawsTheSameViews) {
-  try {
-    gpu_facts();
-  } catch (const Error& error) {
-    GTEST_SKIP() << error.what();
-  }
+using PackOnGpu = NeedsGpu;
+
+TEST_F(PackOnGpu, DrawsTheSameViews) {
   const TemporaryFolder folder;
   put_still(folder);
   run_in(folder, {"paint", "left.png", "right.png", "--style", "posterise", "-o", "painted"});

@@ -4,11 +4,11 @@
 
 #include <vector>
 
+#include "needs_gpu.h"
 #include "psnr.h"
 #include "scenes/two_surfaces.h"
 #include "throws_error.h"
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/painting/paint.h"
 
 namespace wheatstone {
@@ -29,15 +29,7 @@ Painting painting_of(const Style& style) {
   return paint(test_scene::photographs(), test_scene::geometry(), style).painting;
 }
 
-class DrawGpu : public testing::Test {
-  void SetUp() override {
-    try {
-      gpu_facts();
-    } catch (const Error& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-};
+class DrawGpu : public NeedsGpu {};
 
 TEST_F(DrawGpu, DrawsStrokesAsTheProcessorDoes) {
   for (const char* const name : {"impressionist", "pointillist"}) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "needs_gpu.h"
 #include "throws_error.h"
 #include "wheatstone/gpu/program.h"
 
@@ -24,15 +25,7 @@ void main() {
   if (gl_GlobalInvocationID.x < numbers.length()) numbers[gl_GlobalInvocationID.x] *= 2;
 })"};
 
-class Gpu : public testing::Test {
-  void SetUp() override {
-    try {
-      gpu_facts();
-    } catch (const Error& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-};
+class Gpu : public NeedsGpu {};
 
 /// Ends the process with the exit code and the message of the error that says why there is no graphics processor.
 [[noreturn]] void end_with_reason(std::initializer_list<std::pair<const char*, const char*>> variables) {

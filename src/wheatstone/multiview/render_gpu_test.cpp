@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "needs_gpu.h"
 #include "psnr.h"
 #include "stage_of_kernels.h"
 #include "throws_error.h"
-#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/multiview/render.h"
 
 namespace wheatstone {
@@ -25,15 +25,7 @@ struct Case {
   }
 };
 
-class RenderGpu : public testing::Test {
-  void SetUp() override {
-    try {
-      gpu_facts();
-    } catch (const Error& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-};
+class RenderGpu : public NeedsGpu {};
 
 TEST_F(RenderGpu, ShowsMassAsTheProcessorDoes) {
   Case mass(kernels(1000));
