@@ -47,13 +47,7 @@ double series_time(const Session& session) {
 void look_along(Session& session) {
   const CameraKey key = camera_at(session.camera_path, session.state.share);
   Framing& orbit = session.state.orbit;
-  const auto take = [](const std::optional<double>& from, float& to) {
-    if (from) to = static_cast<float>(*from);
-  };
-  take(key.azimuth_deg, orbit.azimuth_deg);
-  take(key.elevation_deg, orbit.elevation_deg);
-  take(key.field_of_view_deg, orbit.field_of_view_deg);
-  take(key.zoom, orbit.zoom);
+  turn_as(key, orbit);
   if (!key.centre) return;
   const std::array<double, 3>& origin = particles_of(session).cloud.origin;
   orbit.look_at.emplace();

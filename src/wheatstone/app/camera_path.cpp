@@ -107,6 +107,16 @@ CameraKey camera_at(const CameraPath& path, double at) {
   return key;
 }
 
+void turn_as(const CameraKey& key, Framing& framing) {
+  const auto take = [](const std::optional<double>& from, float& to) {
+    if (from) to = static_cast<float>(*from);
+  };
+  take(key.azimuth_deg, framing.azimuth_deg);
+  take(key.elevation_deg, framing.elevation_deg);
+  take(key.field_of_view_deg, framing.field_of_view_deg);
+  take(key.zoom, framing.zoom);
+}
+
 CameraPath parse_camera_path(std::string_view toml, const std::string& name) {
   CameraPath path;
   try {

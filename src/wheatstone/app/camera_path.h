@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "wheatstone/depth/camera.h"
+
 namespace wheatstone {
 
 /// A moment of a film, and what is to be true of it. Nothing where the moment leaves a value open.
@@ -30,6 +32,9 @@ struct CameraPath {
 /// The values at a moment: each is a smooth curve through the keys that have it, which rests at its ends and does not
 /// swing beyond the keys (monotone_cubic.h); zoom changes by factors.
 CameraKey camera_at(const CameraPath& path, double at);
+
+/// Gives a framing the angles, the field of view and the zoom that a key has.
+void turn_as(const CameraKey& key, Framing& framing);
 
 /// Reads `[[key]]` tables with `at` and any of azimuth, elevation, fov, zoom, centre and time. `name` is for messages.
 /// Throws Error{bad_input} where it is no TOML, has no keys, other keys or numbers that make no sense.

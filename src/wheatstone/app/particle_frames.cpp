@@ -94,13 +94,7 @@ double ParticleFrames::share_of(int number) const {
 RenderParticlesOptions ParticleFrames::options_at(int number, const CameraKey& key) const {
   RenderParticlesOptions options = options_.particles;
   Framing& framing = options.framing;
-  const auto take = [](const std::optional<double>& from, float& to) {
-    if (from) to = static_cast<float>(*from);
-  };
-  take(key.azimuth_deg, framing.azimuth_deg);
-  take(key.elevation_deg, framing.elevation_deg);
-  take(key.field_of_view_deg, framing.field_of_view_deg);
-  take(key.zoom, framing.zoom);
+  turn_as(key, framing);
   if (key.centre) options.look_at = key.centre;
   framing.azimuth_deg += options_.orbit_deg * static_cast<float>(number) / static_cast<float>(options_.count);
   return options;
