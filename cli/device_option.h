@@ -3,11 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "command.h"
 #include "wheatstone/gpu/device.h"
 
 namespace wheatstone::cli {
 
 /// Adds --device. `work` says what it does: "What renders".
 CLI::Option* add_device_option(CLI::App& command, Device& device, const std::string& work);
+
+/// The device that --device comes to on this machine, as files that depend on it name it: "cpu", or the name of the
+/// graphics processor. Where `auto` finds no real one, it becomes the processor, and a line says so. Throws
+/// Error{wrong_usage} where a graphics processor was asked for and there is none.
+std::string settle_device(Device& device, const Session& session);
 
 }  // namespace wheatstone::cli

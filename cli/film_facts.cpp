@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <string>
 
-#include "wheatstone/display/quilt.h"
+#include "quilt_facts.h"
 #include "wheatstone/video/film_reader.h"
 
 namespace wheatstone::cli {
@@ -29,18 +28,6 @@ ordered_json facts_of_side_streams(const FilmFacts& film) {
   return all;
 }
 
-/// The views of a quilt film, as its name tells them.
-void put_quilt(ordered_json& facts, const std::filesystem::path& path, const FilmFacts& film) {
-  const std::optional<NamedQuilt> quilt = quilt_of_name(path.filename().string());
-  if (!quilt) return;
-  const auto [columns, rows] = quilt->layout;
-  facts["quilt"] = fmt::format("{}x{}", columns, rows);
-  facts["views"] = columns * rows;
-  facts["view_width"] = film.width / columns;
-  facts["view_height"] = film.height / rows;
-  facts["view_aspect"] = quilt->aspect;
-}
-
 }  // namespace
 
 ordered_json facts_of_film(const std::filesystem::path& path) {
@@ -49,7 +36,7 @@ ordered_json facts_of_film(const std::filesystem::path& path) {
   ordered_json facts = {{"kind", "film"}, {"container", film.container}};
   put(facts, "codec", film.codec);
   put(facts, "pixel_format", film.pixel_format);
-  put_quilt(facts, path, film);
+  put_quilt(facts, path, film.width, film.height);
   facts["width"] = film.width;
   facts["height"] = film.height;
   if (film.pixel_aspect != Rational{1, 1}) {

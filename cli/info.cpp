@@ -15,6 +15,7 @@
 #include "film_facts.h"
 #include "option_use.h"
 #include "print_facts.h"
+#include "quilt_facts.h"
 #include "typed_options.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/convergence.h"
@@ -260,6 +261,10 @@ ordered_json facts_of(const Arguments& arguments, const CLI::App& command) {
     return facts_of_disparity(path, {});
   }
   ordered_json facts = facts_of_picture(picture);
+  if (arguments.layout.empty() && put_quilt(facts, path, picture.width, picture.height)) {
+    refuse({"--display"}, "on a quilt; it works on two views");
+    return facts;
+  }
   put_views(facts, path, arguments.layout, arguments.display);
   if (!facts.contains("views")) refuse({"--display"}, "on a picture of one view; it works on two");
   return facts;

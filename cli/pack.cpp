@@ -48,6 +48,19 @@ std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const Argument
   return views;
 }
 
+/// What to read, and how. A graphics processor that draws the views of a painting puts them into one picture, too,
+/// where nothing is done to them before.
+ViewsArguments input_of(const Arguments& arguments, const Packing& packing, const Session& session) {
+  ViewsArguments input = arguments.input;
+  settle_device(input.device, session);
+  const int views = packing.format->views;
+  const bool untouched = arguments.shift_px == 0 && arguments.floating_window.empty() && !input.swap &&
+                         (views == 0 || input.views == 0 || input.views == views);
+  if (input.device != Device::processor && packing.format->composition && untouched)
+    input.composition = packing.format->composition(packing);
+  return input;
+}
+
 /// Makes the views smaller where their longer side is above `longest_px`.
 void reduce(std::vector<Image<Rgb8>>& views, int longest_px) {
   const PictureSize whole{views.front().width(), views.front().height()};
@@ -63,24 +76,21 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   ViewsOutput output{arguments.output, files_read(arguments.input), arguments.packing.format};
   output.inputs.emplace_back(arguments.packing.screen);
   check_views_output(output);
-  ReadViews read = read_views_argument(arguments.input, views_wanted(packing), command, session);
-  if (arguments.max_size > 0) reduce(read.views, arguments.max_size);
+  ReadViews read = read_views_argument(input_of(arguments, packing, session), views_wanted(packing), command, session);
+  if (arguments.max_size > 0 && !read.views.empty()) reduce(read.views, arguments.max_size);
   const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), arguments);
   report(session.progress, "packing", 0);
-  const std::string written = write_packed({packing, arguments.packing, views, output, session});
+  const std::string written = write_packed({packing, arguments.packing, views, read.composed, output, session});
+  const std::size_t count = views.empty() ? static_cast<std::size_t>(read.count) : views.size();
+  const PictureSize size = views.empty() ? read.size : PictureSize{views.front().width(), views.front().height()};
   if (session.json) {
-    const nlohmann::ordered_json facts{{"output", written},
-                                       {"packing", packing.name},
-                                       {"views", views.size()},
-                                       {"width", views.front().width()},
-                                       {"height", views.front().height()},
-                                       {"input", read.how}};
+    const nlohmann::ordered_json facts{{"output", written},   {"packing", packing.name}, {"views", count},
+                                       {"width", size.width}, {"height", size.height},   {"input", read.how}};
     print_facts(facts, session);
     return;
   }
   if (session.verbose)
-    fmt::print(session.output, "{} views of {}x{} pixels, {}\n", views.size(), views.front().width(),
-               views.front().height(), read.how);
+    fmt::print(session.output, "{} views of {}x{} pixels, {}\n", count, size.width, size.height, read.how);
   fmt::print(session.output, "written to {}\n", written);
 }
 

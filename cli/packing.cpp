@@ -26,7 +26,6 @@
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
-#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "write_views_output.h"
 
@@ -108,20 +107,25 @@ auto one_file(Write write) {
   };
 }
 
+/// Of a format that has a composition.
+Image<Rgb8> composed(const PackingJob& job) {
+  if (!job.composed.empty()) return job.composed;
+  return compose(job.views, job.packing.format->composition(job.packing));
+}
+
 void add_anaglyphs(std::vector<PackingFormat>& formats) {
-  const auto write = [](const AnaglyphKind& kind) {
-    return one_picture([&kind](const PackingJob& job) { return anaglyph(pair_of(job.views), kind); });
+  const auto add = [&](std::string_view name, std::string_view alias, const AnaglyphKind& kind) {
+    formats.push_back({name, alias, "", 2, one_picture(composed), [kind](const Packing&) { return kind; }});
   };
-  formats.push_back({"anaglyph", "", "", 2, write(anaglyph_kinds().front())});
-  for (const AnaglyphKind& kind : anaglyph_kinds()) formats.push_back({kind.name, kind.ffmpeg, "", 2, write(kind)});
+  add("anaglyph", "", anaglyph_kinds().front());
+  for (const AnaglyphKind& kind : anaglyph_kinds()) add(kind.name, kind.ffmpeg, kind);
 }
 
 void add_layouts(std::vector<PackingFormat>& formats) {
   for (const LayoutTraits& traits : stereo_layouts()) {
     if (!is_packed(traits.layout)) continue;
-    formats.push_back({traits.name, traits.ffmpeg, "", 2, one_picture([layout = traits.layout](const PackingJob& job) {
-                         return put_together(job.views[0], job.views[1], layout);
-                       })});
+    formats.push_back({traits.name, traits.ffmpeg, "", 2, one_picture(composed),
+                       [layout = traits.layout](const Packing&) { return layout; }});
   }
 }
 
@@ -145,11 +149,13 @@ void add_many_views(std::vector<PackingFormat>& formats) {
   formats.push_back({"wiggle", "", ".gif", 0, one_file([](const PackingJob& job) {
                        write_wiggle(job.output.name, job.views, job.arguments.seconds);
                      })});
-  formats.push_back({"quilt", "", "", 0, [](const PackingJob& job) {
-                       return write_quilt(job.views, *job.packing.quilt, job.packing.aspect, job.output);
-                     }});
-  formats.push_back({"lenticular", "", "", 0,
-                     one_picture([](const PackingJob& job) { return interleave(job.views, *job.packing.screen); })});
+  formats.push_back({"quilt", "", "", 0,
+                     [](const PackingJob& job) {
+                       return write_quilt(composed(job), *job.packing.quilt, job.packing.aspect, job.output);
+                     },
+                     [](const Packing& packing) { return *packing.quilt; }});
+  formats.push_back(
+      {"lenticular", "", "", 0, one_picture(composed), [](const Packing& packing) { return *packing.screen; }});
 }
 
 void add_matched(std::vector<PackingFormat>& formats) {
@@ -277,7 +283,7 @@ int views_wanted(const Packing& packing) {
 
 std::string write_packed(const PackingJob& job) {
   const PackingFormat& format = *job.packing.format;
-  if (format.views != 0 && job.views.size() != static_cast<std::size_t>(format.views))
+  if (job.composed.empty() && format.views != 0 && job.views.size() != static_cast<std::size_t>(format.views))
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("--to {}: takes two views, but there are {}", job.packing.name, job.views.size()));
   return format.write(job);

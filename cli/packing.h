@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "wheatstone/calibration/prepare_pair.h"
+#include "wheatstone/display/compose.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/image.h"
@@ -45,6 +46,7 @@ struct PackingJob {
   const Packing& packing;
   const PackingArguments& arguments;
   std::span<const Image<Rgb8>> views;
+  const Image<Rgb8>& composed;  ///< the format's picture, where it is made already; then there are no views
   const ViewsOutput& output;
   const Session& session;
 };
@@ -57,6 +59,8 @@ struct PackingFormat {
   int views;                ///< that it takes; 0: any number
   /// Returns the name of what was written.
   std::function<std::string(const PackingJob&)> write;
+  /// Of a format that is one picture in which every view has its place: how.
+  std::function<DisplayComposition(const Packing&)> composition = {};
 };
 
 /// The table: anaglyphs and layouts of two eyes from their own tables, then the formats that need more than two views'

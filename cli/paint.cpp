@@ -10,11 +10,8 @@
 #include <utility>
 #include <vector>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include "command.h"
+#include "device_option.h"
 #include "disparity_argument.h"
 #include "display_argument.h"
 #include "number_arguments.h"
@@ -27,6 +24,7 @@
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
+#include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/marks/style_parameters.h"
 #include "write_views_output.h"
@@ -105,13 +103,21 @@ DisplayViewsOptions views_options(const Arguments& arguments, const DisplayPrese
   return options;
 }
 
-/// Writes a quilt or a lenticular picture where the display takes one, and else a picture a view.
+/// The quilt or the lenticular picture that the display takes, if it takes one.
+std::optional<DisplayComposition> composition_for(const DisplayPreset& display, int views) {
+  const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
+  if (layout.columns * layout.rows == views) return layout;
+  if (display.lenses.screen_width_px > 0) return lenticular_screen_of(display);
+  return {};
+}
+
+/// Writes the picture that the display takes, and else a picture a view.
 std::string write_views(const DisplayPreset& display, const ViewsOutput& output, const DisplayViews& result,
                         const Progress& progress) {
-  const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
-  if (layout.columns * layout.rows == static_cast<int>(result.views.size()))
-    return write_quilt(result.views, layout, display.aspect, output);
-  if (display.lenses.screen_width_px > 0) return write_lenticular(result.views, lenticular_screen_of(display), output);
+  const auto composition = composition_for(display, static_cast<int>(result.rig.positions.size()));
+  if (composition && std::holds_alternative<QuiltLayout>(*composition))
+    return write_quilt(result.picture, std::get<QuiltLayout>(*composition), display.aspect, output);
+  if (composition) return write_lenticular(result.picture, output);
   write_view_folder(result.views, output, progress);
   return output.name;
 }
@@ -159,17 +165,17 @@ struct Painted {
 Painted write_and_tell(const Arguments& arguments, const DisplayPreset& display, const std::string& output,
                        const DisplayViews& drawn, const Session& session) {
   const std::string written = write_views(display, output_of(arguments, output), drawn, session.progress);
-  const Image<Rgb8>& first = drawn.views.front();
+  const Rig& rig = drawn.rig;
   Json facts{{"output", written},
-             {"views", drawn.views.size()},
-             {"width", first.width()},
-             {"height", first.height()},
+             {"views", rig.positions.size()},
+             {"width", rig.width},
+             {"height", rig.height},
              {"span", drawn.span},
              {"zero_parallax_px", drawn.zero_parallax_px},
              {"worst_bare_share", drawn.worst_bare_share}};
   std::string text =
       fmt::format("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n",
-                  drawn.views.size(), first.width(), first.height(), drawn.span);
+                  rig.positions.size(), rig.width, rig.height, drawn.span);
   text += fmt::format("zero parallax    disparity {:.1f} px\n", drawn.zero_parallax_px);
   text += fmt::format("left bare        at most {:.2f} % of a view\n", 100 * drawn.worst_bare_share);
   return {std::move(facts), std::move(text), written};
@@ -179,8 +185,9 @@ Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const
                           const PaintPhotographOptions& painting, const Session& session) {
   const ReadPhotograph& photograph = subject.photograph;
   const DisplayPreset& display = find_display(arguments.display);
-  const PaintedViews result =
-      paint_views(photograph.pair.pictures, painting, views_options(arguments, display), session.progress);
+  const DisplayViewsOptions options = views_options(arguments, display);
+  const PaintedViews result = paint_views(photograph.pair.pictures, painting, options, session.progress,
+                                          composition_for(display, options.views));
   if (result.confidence) tell_of_match(photograph, *result.confidence, session);
   Painted painted = write_and_tell(arguments, display, job.output, result.views, session);
   painted.facts[subject.strength ? "depth" : "pair"] = subject.told();
@@ -205,18 +212,9 @@ PaintPhotographOptions options_from(const Arguments& arguments, const Session& s
   return options;
 }
 
-/// A large picture that is freed goes back to the system at once: kept, it would be in the way of those of other sizes,
-/// and painting 12 megapixels would take a tenth more memory. Smaller ones are kept, as new memory has to be cleared.
-void return_large_memory() {
-#ifdef __GLIBC__
-  constexpr int large_bytes = 8 << 20;
-  mallopt(M_MMAP_THRESHOLD, large_bytes);
-  mallopt(M_TRIM_THRESHOLD, large_bytes);
-#endif
-}
-
 Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions options,
                   const Session& session) {
+  keep_freed_memory();
   // What cannot be written is said before the work.
   const ViewsOutput output = output_of(arguments, job.output);
   ResultOptions results{
@@ -228,7 +226,6 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   if (!arguments.display.empty()) {
     check_views_output(output);
   } else {
-    return_large_memory();
     folder.emplace(output.name, output.inputs);
     for (const std::string& name : result_names(results)) folder->file(name);
   }
@@ -308,8 +305,8 @@ void draw_for_display_again(const Arguments& arguments, const Session& session) 
   const DisplayPreset& display = find_display(arguments.display);
   DisplayViewsOptions options = views_options(arguments, display);
   options.zero_parallax_px = parse_zero_parallax(arguments).disparity_px;
-  const DisplayViews views =
-      draw_display_views(read_painting_for_views(arguments.files.front()), options, session.progress);
+  const DisplayViews views = draw_display_views(read_painting_for_views(arguments.files.front()), options,
+                                                session.progress, composition_for(display, options.views));
   tell(write_and_tell(arguments, display, arguments.folder, views, session), session);
 }
 
@@ -340,6 +337,7 @@ void run(Arguments& arguments, const CLI::App& command, const Session& session) 
     fmt::print(session.output, "{}", style_to_toml(style_from(style, session.seed)));
     return;
   }
+  settle_device(arguments.device, session);
   if (arguments.files.size() == 1 && arguments.files.front().ends_with(".wst"))
     return draw_painting_again(arguments, command, session);
   const std::vector<PaintJob> jobs = paint_jobs(arguments);

@@ -16,6 +16,7 @@
 #include "slices_argument.h"
 #include "wheatstone/app/annotate.h"
 #include "wheatstone/app/write_values.h"
+#include "wheatstone/display/compose.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
@@ -57,12 +58,13 @@ std::string write_views(const RenderArguments& arguments, const RenderedParticle
     return arguments.output;
   }
   const std::vector<Image<Rgb8>>& views = result.rendered.views;
+  const Device device = arguments.options.rendering.device;
   if (!arguments.quilt.empty()) {
     const QuiltLayout layout = quilt_for(arguments.quilt, static_cast<int>(views.size()));
-    return write_quilt(views, layout, arguments.aspect, output_of(arguments));
+    return write_quilt(compose(views, layout, device), layout, arguments.aspect, output_of(arguments));
   }
   if (!arguments.display.empty() && find_display(arguments.display).lenses.screen_width_px > 0)
-    return write_lenticular(views, find_lenticular(arguments.display), output_of(arguments));
+    return write_lenticular(compose(views, find_lenticular(arguments.display), device), output_of(arguments));
   write_view_folder(views, output_of(arguments), session.progress);
   return arguments.output;
 }

@@ -16,6 +16,7 @@
 
 #include "command.h"
 #include "depth_argument.h"
+#include "device_option.h"
 #include "display_argument.h"
 #include "film_argument.h"
 #include "match_options.h"
@@ -245,6 +246,16 @@ void take_truth(const Arguments& arguments, const Session& session, RotoscopeFil
     options.made_from.push_back(fs::path(arguments.truth) / file);
 }
 
+/// Frames of one film are drawn by one device: --resume compares it.
+void take_device(const CLI::App& command, const Session& session, const std::string& output,
+                 RotoscopeFilmOptions& options) {
+  if (fs::path(output).extension() == ".wst")
+    refuse_options(command, {"--device"}, "on marks (.wst)", "they are not drawn");
+  if (options.frames.device != Device::processor && !session.ranks.alone())
+    throw Error(ErrorKind::wrong_usage, "--device: works in one process, expected --device cpu under mpirun");
+  options.made_by += fmt::format(", drawn by {}", settle_device(options.frames.device, session));
+}
+
 FilmFiles films_from(const Arguments& arguments) {
   std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
   if (has_depth(arguments.depth) && !layout) layout = StereoLayout::mono;
@@ -287,6 +298,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
       arguments.matching.quality != "best" &&
       std::ranges::none_of(std::array{"--matcher", "--block", "--no-left-right-check", "--refine"},
                            [&](const char* option) { return was_given(command, option); });
+  arguments.options.frames.at_half_size = arguments.matching.quality == "fast";
   take_flow(arguments);
   take_display(command, arguments);
   take_depth_budget(command, arguments);
@@ -298,6 +310,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   const FilmFiles film = films_from(arguments);
   options.reading = reading_options(arguments, film, session);
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
+  take_device(command, session, arguments.output, options);
   StereoFilmReader source = open_film(film, options.reading);
   if (has_depth(arguments.depth)) {
     take_depth(arguments, film, source, options);
@@ -430,6 +443,7 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
   add_time_options(command, *arguments);
   add_film_depth_options(command, arguments->depth);
   add_film_display_options(command, arguments->display);
+  add_device_option(command, arguments->options.frames.device, "What draws the planned frames");
   add_style_options(command, arguments->style);
   arguments->matching.matcher = name_of(RotoscopeOptions().matching.matcher);  // films need a quick one
   add_match_options(command, arguments->matching);

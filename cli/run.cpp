@@ -20,6 +20,7 @@
 #include "print_facts.h"
 #include "program.h"
 #include "wheatstone/error.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/ranks/launch.h"
 
 namespace wheatstone::cli {
@@ -61,6 +62,12 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
                          : fmt::format("{}: no such command; {}", words.front(), hint);
   }
   return fmt::format("{}; {}", found, hint);
+}
+
+/// Says where the processor did what a graphics processor had begun.
+void tell_of_gpu(const Session& session) {
+  const std::string why = why_left_by_gpu();
+  if (!why.empty() && !session.quiet) fmt::print(session.errors, "wheatstone: the cpu finished the work; {}\n", why);
 }
 
 /// At most so many threads for TBB and OpenCV, as long as it lives.
@@ -112,6 +119,7 @@ int run_program(std::span<const std::string> arguments, Session& session, Progre
   try {
     // CLI11 takes the last word first.
     program->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    tell_of_gpu(session);
     session.ranks.meet();
     // A signal that comes after the last report of progress comes too late: the results have their names.
     run_is_over();

@@ -70,11 +70,8 @@ bool are_ready_views(const ViewsArguments& views) {
          quilt_of_name(fs::path(first).filename().string()).has_value();
 }
 
-SharedPicture share_ready_views(ViewsArguments views, const std::string& title, const CLI::App& command,
+SharedPicture share_ready_views(const ViewsArguments& views, const std::string& title, const CLI::App& command,
                                 const Session& session) {
-  if (views.quilt.empty())
-    if (const auto named = quilt_of_name(fs::path(views.files.front()).filename().string()))
-      views.quilt = fmt::format("{}x{}", named->layout.columns, named->layout.rows);
   return share_views(read_views_argument(views, 0, command, session).views, title);
 }
 

@@ -14,6 +14,7 @@
 #include "pictures_in_folder.h"
 #include "typed_options.h"
 #include "wheatstone/app/display_views.h"
+#include "wheatstone/app/draw_composed.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
@@ -68,9 +69,15 @@ ReadViews draw_painting(const ViewsArguments& arguments, int count, const Progre
   const Painting painting = of_the_eyes ? read_painting(file) : read_painting_for_views(file);
   ReadViews read;
   read.how = "drawn from a painting";
+  read.count = count;
+  read.size = {width_of(painting), height_of(painting)};
   if (of_the_eyes) {
     const PreparedPainting prepared = prepare(painting, {}, arguments.device);
     const std::array eyes{left_eye, right_eye};
+    if (arguments.composition) {
+      read.composed = draw_composed(prepared, eyes, *arguments.composition).picture;
+      return read;
+    }
     for (DrawnView& view : draw(prepared, eyes)) read.views.push_back(std::move(view.picture));
     return read;
   }
@@ -79,7 +86,9 @@ ReadViews draw_painting(const ViewsArguments& arguments, int count, const Progre
                                     .height = height_of(painting),
                                     .span = arguments.span,
                                     .device = arguments.device};
-  read.views = draw_display_views(painting, options, progress).views;
+  DisplayViews drawn = draw_display_views(painting, options, progress, arguments.composition);
+  read.views = std::move(drawn.views);
+  read.composed = std::move(drawn.picture);
   return read;
 }
 
@@ -89,9 +98,15 @@ ReadViews render_stack(const std::string& file, int count, float span, const Pro
   return {render_slices(stack, rig, SliceFilter::centroid, progress), "made from slices"};
 }
 
-ReadViews take_quilt(const ViewsArguments& arguments, const std::string& file) {
-  const Size size = parse_size("--from-quilt", arguments.quilt, {1, 1000}, "COLUMNSxROWS");
-  return {views_of_quilt(read_image(file), {size.width, size.height}), "taken from a quilt"};
+/// As the option or else the file's name says it; nothing where the file is no quilt.
+std::optional<QuiltLayout> quilt_layout_of(const ViewsArguments& arguments, const std::string& file) {
+  if (!arguments.quilt.empty()) {
+    const Size size = parse_size("--from-quilt", arguments.quilt, {1, 1000}, "COLUMNSxROWS");
+    return QuiltLayout{size.width, size.height};
+  }
+  const std::optional<NamedQuilt> named = quilt_of_name(fs::path(file).filename().string());
+  if (!named || !arguments.layout.empty()) return {};
+  return named->layout;
 }
 
 /// The views that a picture holds.
@@ -122,10 +137,10 @@ ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: is a film, expected pictures; of a film a single frame can be packed, saved as a "
                             "picture{}",
-                            file, quilt_of_name(fs::path(file).filename().string()) ? " (with --from-quilt)" : ""));
-  if (!arguments.quilt.empty()) {
-    refuse({"--layout", "--views", "--span", "--device"}, "with --from-quilt");
-    return take_quilt(arguments, file);
+                            file, quilt_of_name(fs::path(file).filename().string()) ? " with such a name" : ""));
+  if (const std::optional<QuiltLayout> layout = quilt_layout_of(arguments, file)) {
+    refuse({"--layout", "--views", "--span", "--device"}, arguments.quilt.empty() ? "on a quilt" : "with --from-quilt");
+    return {views_of_quilt(read_image(file), *layout), "taken from a quilt"};
   }
   if (file.ends_with(".wst")) {
     refuse({"--layout"}, "on a painting (.wst)");
@@ -164,7 +179,9 @@ void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
   command.add_option("--layout", arguments.layout,
                      fmt::format("Layout of one picture that holds both views: {}; detected by default",
                                  fmt::join(photograph_layout_names(), ", ")));
-  command.add_option("--from-quilt", arguments.quilt, "Read the picture as a quilt of COLUMNSxROWS views");
+  command.add_option("--from-quilt", arguments.quilt,
+                     "Read the picture as a quilt of COLUMNSxROWS views; by default where its name says so, as in "
+                     "gas_qs8x6a0.75.png");
   command.add_flag("--swap", arguments.swap, "Reverse the order of the views: they are stored from right to left");
   add_number(command, "--views", arguments.views, {1, 1000}, "Number of views to make from a painting or from slices")
       ->default_str("");

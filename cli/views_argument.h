@@ -2,12 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command.h"
+#include "wheatstone/display/compose.h"
 #include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
+#include "wheatstone/stereo/reduced_pair.h"
 
 namespace wheatstone::cli {
 
@@ -20,6 +23,8 @@ struct ViewsArguments {
   int views = 0;                      ///< of slices; 0: what the packing wants
   float span = 1;                     ///< of slices, in eye separations
   Device device = Device::processor;  ///< of paintings
+  /// Where all that is wanted is one picture of the views: paintings are drawn into it.
+  std::optional<DisplayComposition> composition = {};
 };
 
 void add_views_arguments(CLI::App& command, ViewsArguments& arguments);
@@ -27,6 +32,11 @@ void add_views_arguments(CLI::App& command, ViewsArguments& arguments);
 struct ReadViews {
   std::vector<Image<Rgb8>> views;  ///< left to right, of one size
   std::string how;                 ///< in words, where they come from
+
+  /// Of a painting where one picture was wanted: then there are no views, but it is composed of so many of this size.
+  Image<Rgb8> composed = {};
+  int count = 0;
+  PictureSize size = {0, 0};
 };
 
 /// A painting that can be drawn for any view. Throws Error{bad_input} where it holds what two eyes show.

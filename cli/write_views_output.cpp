@@ -23,26 +23,25 @@ void check_format_fits(const CLI::App& command, const ViewsOutput& output) {
                 fmt::format("--format: is '{}', but --output is '{}'", output.format, output.name));
 }
 
-std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& layout, double aspect,
+std::string write_quilt(ImageView<const Rgb8> quilt, const QuiltLayout& layout, double aspect,
                         const ViewsOutput& output) {
   const std::filesystem::path path = output.name;
-  if (!(aspect > 0)) aspect = static_cast<double>(views.front().width()) / views.front().height();
+  if (!(aspect > 0)) aspect = static_cast<double>(quilt.width() * layout.rows) / (quilt.height() * layout.columns);
   const std::filesystem::path file =
       path.has_extension()
           ? path
           : path.parent_path() / std::filesystem::path(quilt_name(path.filename().string(), layout, aspect))
                                      .replace_extension(output.format);
   check_not_an_input(file, output.inputs);
-  write_image(file, make_quilt(views, layout));
+  write_image(file, quilt);
   return file.string();
 }
 
-std::string write_lenticular(std::span<const Image<Rgb8>> views, const LenticularScreen& screen,
-                             const ViewsOutput& output) {
+std::string write_lenticular(ImageView<const Rgb8> picture, const ViewsOutput& output) {
   std::filesystem::path file = output.name;
   if (!file.has_extension()) file += "." + output.format;
   check_not_an_input(file, output.inputs);
-  write_image(file, interleave(views, screen));
+  write_image(file, picture);
   return file.string();
 }
 

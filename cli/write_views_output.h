@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/progress.h"
@@ -27,13 +26,12 @@ void check_views_output(const ViewsOutput& output);
 /// Writes one quilt and returns its name: the output's where that has an ending, and else the output's with the
 /// display's convention. `aspect` is the screen's; 0: a view's own. Throws Error: cannot_read_write, or wrong_usage
 /// where that is an input.
-std::string write_quilt(std::span<const Image<Rgb8>> views, const QuiltLayout& layout, double aspect,
+std::string write_quilt(ImageView<const Rgb8> quilt, const QuiltLayout& layout, double aspect,
                         const ViewsOutput& output);
 
-/// Writes one picture with the views interleaved under the screen's lenses, and returns its name: the output's, with
-/// the format's ending where that has none. Throws Error: cannot_read_write, or wrong_usage where that is an input.
-std::string write_lenticular(std::span<const Image<Rgb8>> views, const LenticularScreen& screen,
-                             const ViewsOutput& output);
+/// Writes one picture with the views interleaved under a screen's lenses, and returns its name: the output's, with the
+/// format's ending where that has none. Throws Error: cannot_read_write, or wrong_usage where that is an input.
+std::string write_lenticular(ImageView<const Rgb8> picture, const ViewsOutput& output);
 
 /// Throws Error{wrong_usage} where --format was given beside a file name whose ending says another.
 void check_format_fits(const CLI::App& command, const ViewsOutput& output);

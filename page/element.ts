@@ -150,13 +150,17 @@ export class WheatstonePicture extends HTMLElement {
       this.dataset.loaded = "";
       this.dispatchEvent(new Event("load"));
     } catch (error) {
-      if (opening !== this.opening) return;
-      this.stage = undefined;
-      if (!(error instanceof PageError)) console.error(error);
-      this.fail(error instanceof PageError ? error.message : words.notShown);
-      if (error instanceof PageError && error.instead) this.replaceChildren(error.instead);
-      this.dispatchEvent(new Event("error"));
+      if (opening === this.opening) this.giveUp(error);
     }
+  }
+
+  /** The picture cannot be shown, and the page says why. */
+  private giveUp(error: unknown): void {
+    this.close();
+    if (!(error instanceof PageError)) console.error(error);
+    this.fail(error instanceof PageError ? error.message : words.notShown);
+    if (error instanceof PageError && error.instead) this.replaceChildren(error.instead);
+    this.dispatchEvent(new Event("error"));
   }
 
   private begin(title: string, separation: number, zeroParallax: number): void {
@@ -204,8 +208,13 @@ export class WheatstonePicture extends HTMLElement {
     const moves = now - this.movedAt < this.restTime;
     const effort = moves ? this.effort : 1;
     const begin = performance.now();
-    const isNew = stage.draw(this.shownLook(now, look), effort);
-    if (isNew && effort === 1) this.measure(stage.gl, begin);
+    try {
+      const isNew = stage.draw(this.shownLook(now, look), effort);
+      if (isNew && effort === 1) this.measure(stage.gl, begin);
+    } catch (error) {
+      this.giveUp(error);
+      return;
+    }
     canvas.dataset.frames = String(Number(canvas.dataset.frames ?? 0) + 1);
     const wiggles = look.mode === "wiggle" && !prefersNoMotion();
     if (wiggles) this.redraw();

@@ -11,6 +11,7 @@ export interface Program {
 
 const head = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\nprecision highp sampler2DArray;\n";
 
+/** The device compiles it while the page does other things: whether it links is found out, and thrown, at its first use. */
 export function makeProgram(gl: Gl, vertex: string, fragment: string, attributes: string[] = []): Program {
   const program = gl.createProgram()!;
   for (const [type, source] of [
@@ -24,13 +25,17 @@ export function makeProgram(gl: Gl, vertex: string, fragment: string, attributes
   }
   attributes.forEach((name, place) => gl.bindAttribLocation(program, place, name));
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-    const told = gl.getAttachedShaders(program)!.map((shader) => gl.getShaderInfoLog(shader));
-    throw new Error(`A shader does not link: ${gl.getProgramInfoLog(program)} ${told.join(" ")}`);
-  }
+  let isChecked = false;
   const places = new Map<string, WebGLUniformLocation | null>();
   return {
-    program,
+    get program() {
+      if (!isChecked && !gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+        const told = gl.getAttachedShaders(program)!.map((shader) => gl.getShaderInfoLog(shader));
+        throw new Error(`A shader does not link: ${gl.getProgramInfoLog(program)} ${told.join(" ")}`);
+      }
+      isChecked = true;
+      return program;
+    },
     at: (name) => {
       if (!places.has(name)) places.set(name, gl.getUniformLocation(program, name));
       return places.get(name)!;

@@ -14,6 +14,8 @@ export interface Picture {
   draw(view: number, target: Target): void;
   /** The same sooner and less exactly, for while the view moves. */
   drawQuickly?(view: number, target: Target): void;
+  /** More is still being decoded, so that what is drawn will soon be drawn again. */
+  readonly isUnfinished?: boolean;
   /** Layers of detail, and how many of them are drawn. */
   readonly detail?: { readonly layers: number; shown: number };
   /** What tells how deep the scene is, once it is loaded. */

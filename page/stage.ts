@@ -25,6 +25,9 @@ export interface Window {
   begin(view: number): number;
 }
 
+/** Of the pixels' number along each side, for a picture of which more is on its way: it is there sooner. */
+const unfinishedShare = 0.5;
+
 function isPair(mode: Mode): boolean {
   return mode === "anaglyph" || isSideBySide(mode);
 }
@@ -121,7 +124,8 @@ export class Stage {
     const { facts } = picture;
     const isQuick = effort < 1 && picture.drawQuickly !== undefined;
     const most = this.gl.getParameter(this.gl.MAX_TEXTURE_SIZE) as number;
-    const used = Math.min(isQuick ? scale : scale * effort, most / facts.width, most / facts.height);
+    const share = picture.isUnfinished ? unfinishedShare : isQuick ? 1 : effort;
+    const used = Math.min(scale * share, most / facts.width, most / facts.height);
     const width = Math.max(Math.round(facts.width * used), 1);
     const height = Math.max(Math.round(facts.height * used), 1);
     const keeper = this.kept[slot]?.keeper ?? new TargetKeeper();

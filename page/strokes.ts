@@ -342,14 +342,30 @@ export class StrokesPicture implements Picture {
   }
 
   async load(changed: () => void): Promise<void> {
-    const surfaces = (this.surfaces = await Surfaces.from(this.source, this.facts.surfaces));
-    const isBeside = (view: number) => plannedIn(view, surfaces) !== PlannedIn.reference;
-    for (let layer = 0; layer < this.facts.layers.length; ++layer) {
-      const streams = await streamsOf(this.source, `layer-${layer}`);
-      const { all, beside } = readLayer(streams, this.facts, isBeside);
-      this.loaded.push({ all: new DeviceChains(this.gl, this.indices, all), beside: new DeviceChains(this.gl, this.indices, beside) });
+    const { source, facts } = this;
+    const surfaces = (this.surfaces = await Surfaces.fromPhotographs(source, facts.surfaces));
+    await this.loadLayer(0, surfaces);
+    changed();
+    // The coarse strokes are seen before the rest is decoded.
+    await nextFrame();
+    this.surfaces = await surfaces.withContinued(source, facts.surfaces);
+    this.seenView = undefined;
+    if (facts.layers.length === 1) changed();
+    for (let layer = 1; layer < facts.layers.length; ++layer) {
+      await this.loadLayer(layer, surfaces);
       changed();
     }
+  }
+
+  private async loadLayer(layer: number, surfaces: Surfaces): Promise<void> {
+    const { gl, indices, facts } = this;
+    const isBeside = (view: number) => plannedIn(view, surfaces) !== PlannedIn.reference;
+    const { all, beside } = readLayer(await streamsOf(this.source, `layer-${layer}`), facts, isBeside);
+    this.loaded.push({ all: new DeviceChains(gl, indices, all), beside: new DeviceChains(gl, indices, beside) });
+  }
+
+  get isUnfinished(): boolean {
+    return this.loaded.length < this.facts.layers.length;
   }
 
   draw(view: number, target: Target): void {
@@ -458,6 +474,15 @@ export class StrokesPicture implements Picture {
     this.gl.uniform2f(program.at("seenScale"), 1 / scale, 1 / scale);
     this.gl.uniform1f(program.at("tolerance"), this.surfaces!.tolerance);
   }
+}
+
+/** Resolves once a frame has been shown; soon, where none is, as in a window that nobody sees. */
+function nextFrame(): Promise<void> {
+  const longestMilliseconds = 100;
+  return new Promise((shown) => {
+    requestAnimationFrame(() => setTimeout(shown, 0));
+    setTimeout(shown, longestMilliseconds);
+  });
 }
 
 /** By what the surfaces may hide what was planned in a view. */

@@ -146,6 +146,15 @@ function goOn(row: Float32Array): void {
   }
 }
 
+/** Those of the surfaces that are wanted. */
+function knownParts(source: Source, facts: SurfacesFacts, isWanted: (surface: SurfaceFacts) => boolean): Promise<KnownPart[]> {
+  const wanted = Array.from(facts.seen.entries()).filter(([, surface]) => isWanted(surface));
+  const parts = wanted.map(async ([i, surface]) =>
+    knownPart(surface, await decodedDisparities(await source.bytes(`surface-${i}`), surface.width, surface.height), i),
+  );
+  return Promise.all(parts);
+}
+
 export class Surfaces {
   readonly reference: number;
   /** From the leftmost to the rightmost view that a photograph shows. */
@@ -160,10 +169,18 @@ export class Surfaces {
   }
 
   static async from(source: Source, facts: SurfacesFacts): Promise<Surfaces> {
-    const parts = facts.seen.map(async (surface, i) =>
-      knownPart(surface, await decodedDisparities(await source.bytes(`surface-${i}`), surface.width, surface.height), i),
-    );
-    return new Surfaces(facts.tolerance, await Promise.all(parts));
+    return new Surfaces(facts.tolerance, await knownParts(source, facts, () => true));
+  }
+
+  /** Only what photographs show, which is there sooner, and is all that most of a view between the eyes needs. */
+  static async fromPhotographs(source: Source, facts: SurfacesFacts): Promise<Surfaces> {
+    return new Surfaces(facts.tolerance, await knownParts(source, facts, (surface) => !surface.continued));
+  }
+
+  /** With what no photograph shows. */
+  async withContinued(source: Source, facts: SurfacesFacts): Promise<Surfaces> {
+    const continued = await knownParts(source, facts, (surface) => surface.continued);
+    return new Surfaces(this.tolerance, [...this.parts, ...continued].sort((a, b) => a.picture - b.picture));
   }
 
   /** The same with another view as the reference, which sees all of what the surfaces show; one of them is its own. */

@@ -52,8 +52,9 @@ inline bool strays(const Layer& layer, const Stroke& stroke, const ViewSurfaces&
 }
 
 /// How much paint of one layer runs over depth edges, in the views in which its strokes were planned: the share of its
-/// strokes, 0..1, that jump from one surface to another, by more than `threshold_px` of disparity, or whose centre line
-/// strays onto another surface, and that come farther away from the edge there than their radius.
+/// strokes, of those that these views show, 0..1, that jump from one surface to another, by more than `threshold_px` of
+/// disparity, or whose centre line strays onto another surface, and that come farther away from the edge there than
+/// their radius.
 inline double spilling_share(const Layer& layer, const StereoGeometry& geometry, float threshold_px) {
   std::size_t spilling = 0, planned = 0;
   for (const ViewPosition view : {left_eye, right_eye}) {
@@ -62,7 +63,7 @@ inline double spilling_share(const Layer& layer, const StereoGeometry& geometry,
         disparity, distance_to_depth_edge(disparity_in_steps(disparity), threshold_px, 2 * layer.radius_px + 2),
         threshold_px};
     for (const Stroke& stroke : layer.strokes) {
-      if (stroke.reference_view != view) continue;
+      if (stroke.reference_view != view || !stroke.views.contains(view)) continue;
       ++planned;
       spilling += jumps(layer, stroke, surfaces) || strays(layer, stroke, surfaces) ? 1 : 0;
     }

@@ -4,7 +4,6 @@
 //   bench_multiview [THREADS]
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -228,15 +227,6 @@ void print_many_regions(const Stage& stage) {
   std::ranges::sort(ratios);
   fmt::print("\nFive regions / one region, layered: {:.3f} (limit 1.02; {:.3f} to {:.3f} in nine rounds)\n",
              ratios[ratios.size() / 2], ratios.front(), ratios.back());
-}
-
-double processor_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 void print_exact(const Stage& stage) {

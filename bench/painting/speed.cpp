@@ -14,6 +14,7 @@
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
@@ -115,6 +116,7 @@ int main(int argument_count, char** arguments) {
   const int threads = argument_count > 1 ? std::atoi(arguments[1]) : tbb::info::default_concurrency();
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   cv::setNumThreads(threads);
+  wheatstone::keep_freed_memory();  // as the program does
   fmt::print(
       "StrokePainting the synthetic still, impressionist, disparity given, {} threads.\n"
       "Both eyes as multiples of one eye's time; P planning, R rasterising of one eye.\n\n",

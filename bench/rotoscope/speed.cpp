@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <tbb/parallel_invoke.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <opencv2/calib3d.hpp>
@@ -91,6 +92,7 @@ void measure(const std::vector<StereoPair>& film, const Contender& contender) {
   RotoscopeOptions options;
   options.flow = contender.flow;
   options.matching.size = match_options_for(contender.quality).size;
+  options.at_half_size = contender.quality == MatchQuality::fast;
   RotoscopeState state;
   rotoscope_frame(film.front(), options, state);
   Seconds ours, opencv;
@@ -125,11 +127,15 @@ void measure(const std::vector<StereoPair>& film, const Contender& contender) {
 }  // namespace
 }  // namespace wheatstone::bench
 
-int main() {
+/// The names of those to be measured may be given.
+int main(int argc, char** argv) {
   using namespace wheatstone;
+  const std::vector<bench::Contender> contenders{{"farneback", FlowMethod::farneback, MatchQuality::good, 2},
+                                                 {"dis", FlowMethod::dis, MatchQuality::good, 0.68},
+                                                 {"fast", FlowMethod::dis, MatchQuality::fast, 0.4}};
+  const std::vector<std::string> names(argv + 1, argv + argc);
   fmt::print("Painted films, 1920x1080 an eye, strokes, after the first frame\n");
   const auto film = bench::make_film();
-  bench::measure(film, {"farneback", FlowMethod::farneback, MatchQuality::good, 2});
-  bench::measure(film, {"dis", FlowMethod::dis, MatchQuality::good, 0.68});
-  bench::measure(film, {"dis, fast", FlowMethod::dis, MatchQuality::fast, 0.4});
+  for (const bench::Contender& contender : contenders)
+    if (names.empty() || std::ranges::find(names, contender.name) != names.end()) bench::measure(film, contender);
 }

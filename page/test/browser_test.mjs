@@ -151,8 +151,9 @@ await test("who wants no motion gets none", async () => {
   await page.close();
 });
 
-await test("a headset shows each eye its view, on a wall two metres away", async () => {
-  const { page } = await openPage(browser, at("impressionist.html"), { before: fakeHeadset });
+/** What a headset shows each eye, on a wall two metres away, against the pictures of these files. */
+async function compareInHeadset(name, files) {
+  const { page } = await openPage(browser, at(name), { before: fakeHeadset, reducedMotion: "reduce" });
   await page.setViewportSize({ width: 1600, height: 800 });
   await page.evaluate(() => Object.assign(document.querySelector("wheatstone-picture"), { zeroParallax: 0, separation: 1 }));
   await page.getByRole("button", { name: "Enter VR" }).click();
@@ -160,18 +161,22 @@ await test("a headset shows each eye its view, on a wall two metres away", async
   const shot = await page.screenshot();
   const told = [];
   for (const [file, eye, sign] of [
-    ["left.png", 0, 1],
-    ["right.png", 800, -1],
+    [files[0], 0, 1],
+    [files[1], 800, -1],
   ]) {
     // Two metres wide at two metres, a quarter turn to 800 pixels: 400 of them. The eye stands 31.5 mm beside the middle.
     const middle = eye + 400 + sign * (0.0315 / 2) * 400;
-    const found = await picturesAlike(page, shot, pngAt(at(`impressionist-drawn/${file}`)), { x: middle - 200, y: 250, width: 400, height: 300 });
+    const found = await picturesAlike(page, shot, pngAt(at(file)), { x: middle - 200, y: 250, width: 400, height: 300 });
     assert.ok(found >= leastPsnr, `${file}: ${found} dB`);
     told.push(`${found.toFixed(1)} dB`);
   }
   await page.close();
   return told.join(", ");
-});
+}
+
+await test("a headset shows each eye its view, on a wall two metres away", () =>
+  compareInHeadset("impressionist.html", ["impressionist-drawn/left.png", "impressionist-drawn/right.png"]),
+);
 
 for (const [name, ...options] of [["posterise"], ["diffusion"], ["relief", "--style", "impressionist", "--texture"]]) {
   await (name === "posterise" ? test : longTest)(`a painting of ${name} is that of the command line`, async () => {
@@ -235,6 +240,8 @@ run("synth", "film", "--size", "160x120", "--frames", "6", "--samples", "1", "-o
 mkdirSync(at("film-drawn"));
 run("rotoscope", "film", "--style", "posterise", "--pixel-format", "yuv444p", "--crf", "8", "-o", "film.mp4");
 run("rotoscope", "film", "--style", "posterise", "--output-layout", "left-right", "-o", "film-drawn/frame_%04d.png");
+run("pack", "film-drawn/frame_0001.png", "--layout", "left-right", "--to", "views", "-o", "film-drawn");
+run("pack", "film-drawn/frame_0001.png", "--layout", "left-right", "--to", "anaglyph", "-o", "film-drawn/anaglyph.png");
 const isPaused = (page) => page.evaluate(() => document.querySelector("wheatstone-picture").shadowRoot.querySelector(".film button").textContent === "Play");
 
 const waitUntilSaid = (page, words) =>
@@ -245,7 +252,12 @@ await test("a film is its frames, is gone through by keys, has its subtitles, an
   run("share", "film.mp4", "--subtitles", "film.vtt", "-o", "film.html");
   const { page, troubles } = await openPage(browser, at("film.html"), { reducedMotion: "reduce" });
   const canvas = page.locator("wheatstone-picture canvas");
-  const told = await comparePictures(page, "film-drawn", [[{ mode: "parallel" }, "frame_0001.png"]]);
+  const told = await comparePictures(page, "film-drawn", [
+    [{ mode: "parallel" }, "frame_0001.png"],
+    [{ mode: "anaglyph" }, "anaglyph.png"],
+    [{ mode: "wiggle", view: -0.5 }, "view_000.png"],
+    [{ mode: "wiggle", view: 0.5 }, "view_001.png"],
+  ]);
   await page.waitForTimeout(200);
   assert.ok(await isPaused(page), "it plays by itself");
   await waitUntilSaid(page, "Fruit");
@@ -261,6 +273,24 @@ await test("a film is its frames, is gone through by keys, has its subtitles, an
   assert.ok(!(await isPaused(moving.page)), "it does not play");
   await moving.page.close();
   return `${told}, at its end ${end}`;
+});
+
+await longTest("a headset shows each eye its view of a film", () =>
+  compareInHeadset("film.html", ["film-drawn/view_000.png", "film-drawn/view_001.png"]),
+);
+
+await longTest("a film of quilts is its views", async () => {
+  run("rotoscope", "film", "--style", "posterise", "--display", "looking-glass-portrait", "--size", "120x160", "--to", "0.05", "--pixel-format", "yuv444p", "--crf", "8", "-o", "quilts");
+  run("share", "quilts_qs8x6a0.75.mp4", "-o", "quilts.html");
+  execFileSync("ffmpeg", ["-v", "error", "-i", at("quilts_qs8x6a0.75.mp4"), "-frames:v", "1", at("quilts_qs8x6a0.75.png")]);
+  run("pack", "quilts_qs8x6a0.75.png", "--to", "views", "-o", "quilts-drawn");
+  const { page } = await openPage(browser, at("quilts.html"), { reducedMotion: "reduce" });
+  const told = await comparePictures(page, "quilts-drawn", [
+    [{ mode: "flat", view: -0.5 }, "view_000.png"],
+    [{ mode: "flat", view: 0.5 }, "view_047.png"],
+  ]);
+  await page.close();
+  return told;
 });
 
 await test("a film that lies beside a page without a server plays as it is", async () => {
@@ -334,6 +364,13 @@ await test("a browser without WebGL, or one that loses it, says so and shows the
   });
   await expectStill(without.page, /no WebGL/);
   await without.page.close();
+  const broken = await openPage(browser, at("impressionist.html"), {
+    before: () => {
+      WebGL2RenderingContext.prototype.getProgramParameter = () => false;
+    },
+  });
+  await expectStill(broken.page, /cannot be shown/);
+  await broken.page.close();
   const { page } = await openPage(browser, at("impressionist.html"));
   await page.evaluate(() => {
     const canvas = document.querySelector("wheatstone-picture").shadowRoot.querySelector("canvas");

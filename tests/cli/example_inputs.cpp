@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 // Large enough for features and checkerboards to be found.
-constexpr int photograph_width = 240, photograph_height = 180;
+constexpr int photograph_width = 192, photograph_height = 144;
 
 const StereoPair& photographs() {
   static const StereoPair pair = still_for_test(photograph_width, photograph_height);
@@ -45,8 +45,8 @@ void make_rig(const fs::path& folder) {
                         .square_mm = 30,
                         .width = photograph_width,
                         .height = photograph_height,
-                        .focal_px = 252,
-                        .distance_mm = 760};
+                        .focal_px = 201.6,
+                        .distance_mm = 600};
   for (std::size_t i = 0; i < checkerboard_tilts.size(); ++i) {
     view.tilt_x = checkerboard_tilts[i][0];
     view.tilt_y = checkerboard_tilts[i][1];

@@ -76,9 +76,14 @@ TEST(PackCommand, QuiltsComeApartAndAreNamedByConvention) {
   const TemporaryFolder folder;
   put_still(folder);
   run_in(folder, {"pack", "left.png", "right.png", "right.png", "left.png", "--quilt", "2x2", "-o", "four"});
-  run_in(folder, {"pack", "four_qs2x2a1.3333.png", "--from-quilt", "2x2", "-o", "views"});
+  const auto facts = nlohmann::json::parse(run_in(folder, {"info", "four_qs2x2a1.3333.png", "--json"}).output);
+  EXPECT_EQ(facts["quilt"], "2x2");
+  run_in(folder, {"pack", "four_qs2x2a1.3333.png", "-o", "views"});
   EXPECT_EQ(read_image(folder / "views/view_000.png"), still().left);
   EXPECT_EQ(read_image(folder / "views/view_002.png"), still().right);
+  std::filesystem::rename(folder / "four_qs2x2a1.3333.png", folder / "four.png");
+  run_in(folder, {"pack", "four.png", "--from-quilt", "2x2", "-o", "again"});
+  EXPECT_EQ(read_image(folder / "again/view_002.png"), still().right);
 }
 
 TEST(PackCommand, MakesWhatScreensShow) {

@@ -243,7 +243,7 @@ TEST(RenderCommand, RefusesWhatMakesNoSense) {
   refused({"--fit", "sphere:0,0,0,-1"}, "--fit: is 'sphere:0,0,0,-1', expected auto");
   refused({"--views", "0"}, "--views");
   refused({"--device", "tpu"}, "--device");
-  refused({"--device", "gpu", "--opaque"}, "--device gpu does not render --opaque");
+  refused({"--device", "gpu", "--blend", "over"}, "--device gpu does not render --blend over");
   refused({"--device", "gpu", "--method", "exact"}, "expected auto, incremental or layered");
   refused({"--device", "gpu", "--save-slices", "s.exr"}, "--device");
   refused({"--size", "0x5"}, "--size");

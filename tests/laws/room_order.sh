@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A room includes only what stands above it, and an installed header only the standard library and our own headers.
+# A room includes only what stands above it, in programs of a graphics processor, too; and an installed header only the standard library and our own headers.
 # Tests are free: they use scenes with exact truth and measures that stand below what they test.
 # The order is the list of rooms in CMakeLists.txt of the folder given.
 #
@@ -13,7 +13,7 @@ if ((${#rooms[@]} == 0)); then
   exit 1
 fi
 
-find . -name '*.h' -o -name '*.cpp' | sort | xargs awk -v rooms="${rooms[*]}" '
+find . -name '*.h' -o -name '*.cpp' -o -name '*.comp' -o -name '*.glsl' | sort | xargs awk -v rooms="${rooms[*]}" '
   BEGIN {
     count = split(rooms, names, " ")
     for (i = 1; i <= count; i++) floor[names[i]] = i

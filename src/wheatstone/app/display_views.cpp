@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/app/draw_composed.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 
@@ -74,20 +75,29 @@ DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends,
   return plan;
 }
 
-DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options,
-                                const Progress& progress) {
+DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options, const Progress& progress,
+                                const std::optional<DisplayComposition>& composition) {
   check_has_surfaces(painting);
   if (!options.depth.regions.empty())
-    return draw_display_views(with_placed_depth(painting, options), for_placed(options), progress);
+    return draw_display_views(with_placed_depth(painting, options), for_placed(options), progress, composition);
   const DisplayViewsPlan plan = plan_display_views({width_of(painting), height_of(painting)},
                                                    depth_ends(painting.surfaces.seen.front().disparity), options);
-  DisplayViews result{.rig = plan.rig, .span = plan.span, .zero_parallax_px = plan.zero_parallax_px};
+  DisplayViews result{
+      .views = {}, .picture = {}, .rig = plan.rig, .span = plan.span, .zero_parallax_px = plan.zero_parallax_px};
   report(progress, "views", 0);
+  const PreparedPainting prepared = prepare(painting, {.placement = plan.placement}, options.device);
+  if (composition) {
+    ComposedViews composed = draw_composed(prepared, result.rig.positions, *composition);
+    result.picture = std::move(composed.picture);
+    result.worst_bare_share = composed.worst_bare_share;
+    report(progress, "views", 1);
+    return result;
+  }
   const ViewSink keep = [&](std::size_t /*place*/, DrawnView view) {
     result.worst_bare_share = std::max(result.worst_bare_share, view.bare_share);
     result.views.push_back(std::move(view.picture));
   };
-  draw(prepare(painting, {.placement = plan.placement}, options.device), result.rig.positions, keep);
+  draw(prepared, result.rig.positions, keep);
   report(progress, "views", 1);
   return result;
 }

@@ -7,6 +7,7 @@
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/rig.h"
+#include "wheatstone/display/compose.h"
 #include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/progress.h"
@@ -45,15 +46,18 @@ DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends,
 
 struct DisplayViews {
   std::vector<Image<Rgb8>> views;  ///< left to right
+  Image<Rgb8> picture;             ///< composed of them; then there are no views
   Rig rig;
   float span = 0;               ///< as chosen
   float zero_parallax_px = 0;   ///< in pixels of the painting
   double worst_bare_share = 0;  ///< of a view's pixels that marks cover less than half
 };
 
-/// Draws a painting for a display. Throws Error{bad_input} where the painting has no surfaces, as those of two eyes and
-/// of old files, and other views than those of the two eyes are wanted.
+/// Draws a painting for a display: its views, or where a composition is given, the one picture of them. Throws
+/// Error{bad_input} where the painting has no surfaces, as those of two eyes and of old files, and other views than
+/// those of the two eyes are wanted.
 DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options,
-                                const Progress& progress = {});
+                                const Progress& progress = {},
+                                const std::optional<DisplayComposition>& composition = {});
 
 }  // namespace wheatstone

@@ -42,9 +42,9 @@ FilmEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_
   return eyes;
 }
 
-FilmEyePictures draw_for_eyes(const Painting& painting, const FilmEyes& eyes) {
+FilmEyePictures draw_for_eyes(const Painting& painting, const FilmEyes& eyes, Device device) {
   const std::array views{ViewPosition(-eyes.separation / 2), ViewPosition(eyes.separation / 2)};
-  std::vector<DrawnView> drawn = draw(prepare(painting, {.placement = eyes.placement}), views);
+  std::vector<DrawnView> drawn = draw(prepare(painting, {.placement = eyes.placement}, device), views);
   DrawnView &left = drawn.front(), &right = drawn.back();
   return {std::move(left.picture), std::move(right.picture), left.bare_share, right.bare_share};
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "wheatstone/depth/convergence.h"
+#include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
@@ -30,7 +31,7 @@ struct FilmEyePictures {
   Image<Rgb8> left, right;
   double left_bare_share = 0, right_bare_share = 0;
 };
-FilmEyePictures draw_for_eyes(const Painting& painting, const FilmEyes& eyes);
+FilmEyePictures draw_for_eyes(const Painting& painting, const FilmEyes& eyes, Device device = Device::processor);
 
 /// What a film says of itself whose eyes were moved in so many frames, at least so near together: a sentence.
 std::string moved_eyes_note(std::int64_t frames, double least_separation);

@@ -5,7 +5,8 @@
 namespace wheatstone {
 
 PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOptions& painting,
-                         DisplayViewsOptions views, const Progress& progress) {
+                         DisplayViewsOptions views, const Progress& progress,
+                         const std::optional<DisplayComposition>& composition) {
   check_style(painting.style);
   if (painting.style.propagation != Propagation::strokes)
     throw Error(ErrorKind::wrong_usage,
@@ -14,7 +15,7 @@ PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOpt
   if (painting.zero_parallax.disparity_px || painting.zero_parallax.at)
     views.zero_parallax_px = screen_disparity(painting.zero_parallax, found.geometry);
   const Painting planned = plan_painting(photographs, found.geometry, painting.style, progress);
-  return {draw_display_views(planned, views, progress), found.confidence};
+  return {draw_display_views(planned, views, progress, composition), found.confidence};
 }
 
 }  // namespace wheatstone

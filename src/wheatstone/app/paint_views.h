@@ -15,6 +15,7 @@ struct PaintedViews {
 /// screen plane is `painting.zero_parallax` where that is given, else that of `views`. Throws as paint_photograph and
 /// draw_display_views do.
 PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOptions& painting,
-                         DisplayViewsOptions views, const Progress& progress = {});
+                         DisplayViewsOptions views, const Progress& progress = {},
+                         const std::optional<DisplayComposition>& composition = {});
 
 }  // namespace wheatstone

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
-#include <future>
+#include <exception>
 #include <memory>
+#include <optional>
+#include <semaphore>
 #include <span>
+#include <thread>
 #include <utility>
 
 #include "wheatstone/error.h"
@@ -29,31 +33,71 @@ std::size_t bytes_of(const Cloud& cloud) {
   return numbers * sizeof(float) + cloud.colour.size() * sizeof(Rgb8);
 }
 
-/// The chunks of a file that a rank reads: every N-th of N ranks.
+/// The chunks of a file that a rank reads: every N-th of N ranks. The next one is read while the last is worked on.
 class ChunksInTurn {
  public:
-  ChunksInTurn(const CloudSource& source, std::size_t chunk, const Ranks& ranks)
-      : source_(source), chunk_(chunk), others_(ranks.count() - 1), to_pass_(ranks.rank()) {}
+  ChunksInTurn(CloudSource source, std::size_t chunk, const Ranks& ranks)
+      : source_(std::move(source)), chunk_(chunk), others_(ranks.count() - 1), to_pass_(ranks.rank()), thread_([this] {
+          read_when_asked();
+        }) {
+    asked_.release();
+  }
+  ~ChunksInTurn() {
+    ended_ = true;
+    asked_.release();
+    thread_.join();
+  }
+  ChunksInTurn(const ChunksInTurn&) = delete;
+  ChunksInTurn& operator=(const ChunksInTurn&) = delete;
 
   struct Chunk {
     Cloud cloud;              ///< nothing at the end
     std::uint64_t first = 0;  ///< number of its first particle in the file
   };
-  Chunk next() {
+  /// The memory of the chunk before is used again.
+  Chunk next(Cloud used) {
+    if (at_end_) return {};
+    read_.acquire();
+    if (error_) std::rethrow_exception(error_);
+    Chunk chunk = std::move(chunk_read_);
+    at_end_ = chunk.cloud.size() == 0;
+    if (at_end_) return chunk;
+    if (source_.reuse) source_.reuse(std::move(used));
+    asked_.release();
+    return chunk;
+  }
+
+ private:
+  void read_when_asked() {
+    for (asked_.acquire(); !ended_; asked_.acquire()) {
+      try {
+        chunk_read_ = read();
+      } catch (...) {
+        error_ = std::current_exception();
+      }
+      read_.release();
+    }
+  }
+  Chunk read() {
     for (; to_pass_ > 0; --to_pass_) at_ += pass();
     to_pass_ = others_;
     Chunk chunk{source_.next(chunk_), at_};
     at_ += chunk.cloud.size();
     return chunk;
   }
-
- private:
   std::size_t pass() { return source_.skip ? source_.skip(chunk_) : source_.next(chunk_).size(); }
 
-  const CloudSource& source_;
+  CloudSource source_;
   std::size_t chunk_;
   int others_, to_pass_;
   std::uint64_t at_ = 0;
+  Chunk chunk_read_;
+  std::exception_ptr error_;
+  bool at_end_ = false;
+  std::atomic<bool> ended_ = false;
+  std::counting_semaphore<2> asked_{0};
+  std::binary_semaphore read_{0};
+  std::thread thread_;  // the last, since it uses the others
 };
 
 /// What one rank has read in a round of chunks, and kept of it.
@@ -76,26 +120,25 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
   CloudChoice choice = choice_of(options);
   // Whoever does not read the first particles must be told of their origin.
   if (!ranks.alone() && !choice.origin) choice.origin = open_cloud(file, choice).next(1000).origin;
-  const CloudSource source = open_cloud(file, choice);
-  ChunksInTurn chunks(source, options.chunk, ranks);
-  // The next chunk is read while this one is worked on.
-  const auto read_next = [&] { return std::async(std::launch::async, [&] { return chunks.next(); }); };
-  std::future<ChunksInTurn::Chunk> pending = read_next();
+  CloudSource source = open_cloud(file, choice);
+  const std::optional<std::uint64_t> expected = source.count;
+  ChunksInTurn chunks(std::move(source), options.chunk, ranks);
   SelectionCounts counts;
   std::uint64_t done = 0;
+  Cloud chunk;
   while (true) {
-    auto [chunk, first] = pending.get();
+    ChunksInTurn::Chunk following = chunks.next(std::move(chunk));
+    chunk = std::move(following.cloud);
     const std::size_t read = chunk.size();
-    pending = read > 0 ? read_next() : std::async(std::launch::deferred, [] { return ChunksInTurn::Chunk(); });
     put_quantity(chunk, file, options.quantity);
-    add(counts, select_particles(chunk, options.selection, first));
+    add(counts, select_particles(chunk, options.selection, following.first));
     check_positions(file, chunk);
     const std::vector<RoundShare> round = ranks.from_all(RoundShare{read, chunk.size()});
     const std::uint64_t read_by_all = sum_of(round, &RoundShare::read);
     if (read_by_all == 0) break;
     done += read_by_all;
     if (sum_of(round, &RoundShare::kept) > 0) visit(chunk, std::span<const RoundShare>(round));
-    if (source.count) report(progress, step, static_cast<double>(done) / static_cast<double>(*source.count));
+    if (expected) report(progress, step, static_cast<double>(done) / static_cast<double>(*expected));
   }
   SelectionCounts all;
   for (const SelectionCounts& of_rank : ranks.from_all(counts)) add(all, of_rank);

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "wheatstone/app/half_size_internal.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/match_near.h"
 #include "wheatstone/measures/film_measures.h"
@@ -24,11 +27,13 @@ namespace {
 
 /// A frame as it comes, and how it is to be painted.
 struct FrameTask {
-  const StereoPair& eyes;
+  const StereoPair& whole;  ///< as the frame is drawn
+  const StereoPair& eyes;   ///< as it is planned: the same, or half the size
   const RotoscopeOptions& options;
   const KnownFrame* known;
   const Progress& progress;
   Flow to_before = {};  ///< of the left eye, in pixels of a small copy; empty where none is known
+  int reduction = 1;    ///< of `eyes`, and of all that is found in them
 };
 
 /// A frame as it is painted from.
@@ -59,11 +64,26 @@ bool looks_again(std::int64_t frame_of_scene) {
          (frame_of_scene < frames_between_looks && std::has_single_bit(static_cast<std::uint64_t>(frame_of_scene)));
 }
 
+/// The range of a frame that is looked at again: in a smaller copy, since what it adds is what the first frame hid.
+std::optional<DisparityRange> range_of_later_frame(const StereoPair& eyes) {
+  constexpr int widest_px = 640;
+  const int width = eyes.left.width();
+  if (width <= widest_px) return find_disparity_range(eyes);
+  const PictureSize size{widest_px, std::max(eyes.left.height() * widest_px / width, 1)};
+  const std::optional<DisparityRange> found =
+      find_disparity_range({reduced(eyes.left, size), reduced(eyes.right, size)});
+  if (!found) return {};
+  const double scale = static_cast<double>(width) / widest_px;
+  return DisparityRange{static_cast<int>(std::floor(found->least * scale)),
+                        static_cast<int>(std::ceil(found->largest * scale))};
+}
+
 /// The disparities to look for: those of the scene's first frame, widened by what later frames show, with some room,
 /// so that nothing moves out of them between two looks.
 DisparityRange scene_range(const StereoPair& eyes, RotoscopeState& state) {
   if (state.range && !looks_again(state.frames_of_scene)) return *state.range;
-  std::optional<DisparityRange> found = find_disparity_range(eyes);
+  std::optional<DisparityRange> found =
+      state.frames_of_scene > 0 ? range_of_later_frame(eyes) : find_disparity_range(eyes);
   const int width = eyes.left.width();
   // A black frame says nothing.
   if (!found) return state.range.value_or(usual_disparity_range(width));
@@ -103,8 +123,13 @@ std::optional<MatchedPair> match_frame(const FrameTask& task, const MatchOptions
 
 StereoGeometry find_geometry(const FrameTask& task, RotoscopeState& state) {
   MatchOptions matching = task.options.matching;
-  if (!matching.range) matching.range = scene_range(task.eyes, state);
-  matching.size = std::min(matching.size, share_of_width(task.eyes.left, task.options.widest_matched_px));
+  if (!matching.range) {
+    matching.range = scene_range(task.eyes, state);
+  } else if (task.reduction > 1) {
+    matching.range = at_half_size(*matching.range);
+  }
+  matching.size = std::min(matching.size * task.reduction,
+                           share_of_width(task.eyes.left, task.options.widest_matched_px / task.reduction));
   if (std::optional<MatchedPair> matched = match_frame(task, matching, state)) return std::move(matched->geometry);
   // A frame that shows nothing, as a black one, is as deep as the one before, or flat where a scene begins with it.
   if (state.frames_of_scene > 0 && !state.left_disparity_before.empty())
@@ -206,34 +231,64 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
     return;
   }
   frame.views = scene_from_centre(frame.centre, task.eyes, frame.geometry);
-  if (task.options.display || task.options.depth_budget)
-    follow_depth(depth_ends(frame.centre.disparity), scene_begins, state.depth);
+  const auto reduction = static_cast<float>(task.reduction);
+  if (task.options.display || task.options.depth_budget) {
+    const DepthEnds ends = depth_ends(frame.centre.disparity);
+    follow_depth({ends.farthest_px * reduction, ends.nearest_px * reduction}, scene_begins, state.depth);
+  }
   if (!task.options.display) return;
   const ViewRange wanted =
-      planned_views({task.eyes.left.width(), task.eyes.left.height()}, state.depth, task.options.display->views);
-  frame.outer = make_outer_views(task.eyes, frame.geometry, wanted, state.depth.first.middle_px());
+      planned_views({task.whole.left.width(), task.whole.left.height()}, state.depth, task.options.display->views);
+  frame.outer = make_outer_views(task.eyes, frame.geometry, wanted, state.depth.first.middle_px() / reduction);
   append_views(frame.outer, frame.views);
 }
 
-/// Plans the frame and draws it for the display, or for eyes other than the film's own.
+/// Draws a painting for the eyes in which its scene is seen, or for the one view there is.
+void draw_over(const FrameTask& task, PaintedPair& painted) {
+  const StereoPair& photographs = task.whole;
+  std::vector<ViewPosition> views{left_eye, right_eye};
+  std::vector<ImageView<const Rgb8>> backgrounds{photographs.left, photographs.right};
+  if (photographs.right.empty()) {
+    views = {central_view};
+    backgrounds.pop_back();
+  }
+  if (task.options.style.background != Background::photograph) backgrounds.clear();
+  std::vector<DrawnView> drawn = draw(prepare(painted.painting, {}, task.options.device), views, backgrounds);
+  painted.pictures.left = std::move(drawn.front().picture);
+  painted.left_bare_share = drawn.front().bare_share;
+  if (drawn.size() < 2) return;
+  painted.pictures.right = std::move(drawn.back().picture);
+  painted.right_bare_share = drawn.back().bare_share;
+}
+
+/// Plans the frame and draws it for the display, for eyes other than the film's own, or larger than it is planned.
 PaintedFrame paint_presented(const FilmFrame& frame, const FrameTask& task, const FilmEyes& eyes,
                              RotoscopeState& state) {
+  const Style& style = task.options.style;
   PaintedFrame result;
   PaintedPair& painted = result.painted;
   {
     const Stopwatch watch(painted.times.planning_s);
-    PlannedFrame planned = plan_painting(frame, task.options.style, task.options.carrying, state.memory, task.progress);
-    painted.painting = std::move(planned.painting);
+    const bool is_smaller = task.reduction > 1;
+    PlannedFrame planned = plan_painting(frame, is_smaller ? at_half_size(style) : style, task.options.carrying,
+                                         state.memory, task.progress);
+    const PictureSize size{task.whole.left.width(), task.whole.left.height()};
+    painted.painting =
+        is_smaller ? at_whole_size(std::move(planned.painting), size, style) : std::move(planned.painting);
     result.counts = planned.counts;
   }
   report(task.progress, "drawing", 0);
   const Stopwatch watch(painted.times.rasterising_s);
   if (task.options.display) {
-    DisplayedFrame shown = draw_for_display(painted.painting, state.depth, *task.options.display);
+    FilmDisplay display = *task.options.display;
+    display.views.device = task.options.device;
+    DisplayedFrame shown = draw_for_display(painted.painting, state.depth, display);
     painted.pictures.left = std::move(shown.picture);
     painted.left_bare_share = shown.worst_bare_share;
+  } else if (!are_moved(eyes)) {
+    draw_over(task, painted);
   } else {
-    FilmEyePictures drawn = draw_for_eyes(painted.painting, eyes);
+    FilmEyePictures drawn = draw_for_eyes(painted.painting, eyes, task.options.device);
     painted.pictures = {std::move(drawn.left), std::move(drawn.right)};
     painted.left_bare_share = drawn.left_bare_share;
     painted.right_bare_share = drawn.right_bare_share;
@@ -267,7 +322,7 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   const bool has_depth = known != nullptr && known->depth;
   check_eyes(photographed, options, state, has_depth);
   RotoscopedFrame result;
-  FirstLook first = rectify_frame({photographed, options, known, progress}, state, result);
+  FirstLook first = rectify_frame({photographed, photographed, options, known, progress}, state, result);
   StereoPair eyes = std::move(first.eyes);
   KnownFrame made;
   if (has_depth) {
@@ -276,7 +331,11 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
     made = {std::move(pair.geometry), known->flow};
     known = &made;
   }
-  const FrameTask task{eyes, options, known, progress, std::move(first.to_before)};
+  const bool is_smaller =
+      options.at_half_size && known == nullptr && may_be_planned_at_half_size(options.style, eyes.left.width());
+  const StereoPair smaller = is_smaller ? at_half_size(eyes) : StereoPair();
+  const FrameTask task{eyes,     is_smaller ? smaller : eyes, options,           known,
+                       progress, std::move(first.to_before),  is_smaller ? 2 : 1};
   FrameAtWork frame = look_at(task, state, result.times);
   find_views(task, result.scene_begins, state, frame);
   const bool carries = !result.scene_begins && !options.anew;
@@ -289,9 +348,10 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   const FilmFrame to_paint{frame.views, carries ? &state.flow_before : nullptr};
   if (options.depth_budget && !eyes.right.empty() && !options.display)
     result.eyes = comfortable_eyes({eyes.left.width(), eyes.left.height()}, state.depth.ends, *options.depth_budget);
-  PaintedFrame painted = options.display || are_moved(result.eyes)
-                             ? paint_presented(to_paint, task, result.eyes, state)
-                             : paint_frame(to_paint, options.style, options.carrying, state.memory, progress);
+  PaintedFrame painted =
+      options.display || are_moved(result.eyes) || is_smaller
+          ? paint_presented(to_paint, task, result.eyes, state)
+          : paint_frame(to_paint, options.style, options.carrying, state.memory, progress, options.device);
   result.painted = std::move(painted.painted);
   result.counts = painted.counts;
 

@@ -30,12 +30,16 @@ struct RotoscopeOptions {
   RectifyPolicy rectify = RectifyPolicy::automatic;
   int widest_matched_px = 1280;  ///< wider frames are matched in copies of this width
   int widest_flow_px = 960;      ///< and their flow is found in copies of this one
+  /// All is found, and strokes are planned, in frames of half the size, where their brushes are wide enough for that
+  /// and nothing is known beforehand. They are drawn at the film's size.
+  bool at_half_size = false;
   FlowMethod flow = FlowMethod::dis;
   std::filesystem::path flow_model;  ///< with FlowMethod::onnx, as FlowOptions
   NetworkValues flow_model_values = NetworkValues::to_255;
   CentralMerge central = CentralMerge::visible;
   CarryOptions carrying;
   std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for two eyes
+  Device device = Device::processor;   ///< what draws them; where it is automatic and fails, the processor does
   DisparityFromDepthOptions depth;     ///< of the frames of one eye whose depth is known
   std::optional<float> depth_budget;   ///< of two eyes, as comfortable_eyes; none: they are the film's own
   bool anew = false;                   ///< every frame as if a scene began: the naive method, to be measured against
@@ -68,8 +72,10 @@ struct RotoscopeTotals {
 struct RotoscopeState {
   std::int64_t frames = 0;
   std::int64_t frames_of_scene = 0;
-  Image<Rgb8> left_before;     ///< the left eye's picture as it came
-  Image<Rgb8> central_before;  ///< the central view's, as all that follows of the rectified frame
+  Image<Rgb8> left_before;  ///< the left eye's picture as it came
+  /// The central view's. It and all that follows are of the rectified frame, or of half its size where it is planned
+  /// so.
+  Image<Rgb8> central_before;
   Image<float> left_disparity_before, central_disparity_before;
   FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
   std::optional<DisparityRange> range;

@@ -243,7 +243,7 @@ class Decoder {
     return result;
   }
 
-  /// A picture of the film's size, or none.
+  /// A picture of the frame's size, or none.
   template <class Pixel, class From>
   Image<Pixel> frame_image(const From& from, const Image<Rgb8>& frame) const {
     Image<Pixel> result = image<Pixel>(from);
@@ -332,12 +332,15 @@ RotoscopeState Decoder::state(const state::RotoscopeState& from) const {
   if (const state::DepthRange* range = from.depth_range())
     state.depth_range = InverseDepthRange{range->farthest(), range->nearest()};
   state.rectification = rectification(*from.rectification(), frame);
-  state.central_before = frame_image<Rgb8>(*from.central_before(), frame);
-  state.left_disparity_before = frame_image<float>(*from.left_disparity_before(), frame);
-  state.central_disparity_before = frame_image<float>(*from.central_disparity_before(), frame);
-  state.flow_before = {flow(*from.forward(), frame), flow(*from.backward(), frame)};
+  state.central_before = image<Rgb8>(*from.central_before());
+  const Image<Rgb8>& planned = state.central_before.empty() ? frame : state.central_before;
+  const PictureSize half{(frame.width() + 1) / 2, (frame.height() + 1) / 2};
+  expect(same_size(planned, frame) || (planned.width() == half.width && planned.height() == half.height));
+  state.left_disparity_before = frame_image<float>(*from.left_disparity_before(), planned);
+  state.central_disparity_before = frame_image<float>(*from.central_disparity_before(), planned);
+  state.flow_before = {flow(*from.forward(), planned), flow(*from.backward(), planned)};
   for (const state::Layer* one : *from.layers_before()) state.layers_before.push_back(layer(*one));
-  state.memory = memory(from, frame);
+  state.memory = memory(from, planned);
   return state;
 }
 

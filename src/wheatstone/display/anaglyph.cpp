@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
+#include "wheatstone/display/anaglyph_internal.h"
 #include "wheatstone/image/srgb.h"
 
 namespace wheatstone {
 namespace {
 
-/// Rows: red, green and blue of the result; columns: red, green and blue of an eye.
-using Matrix = std::array<std::array<float, 3>, 3>;
+using Matrix = AnaglyphMatrix;
 
 struct Recipe {
   AnaglyphKind kind;
@@ -84,15 +86,32 @@ Rgb8 mixed_in_linear_light(const Recipe& recipe, Rgb8 left, Rgb8 right) {
   return {channel(0), channel(1), channel(2)};
 }
 
+/// Of both eyes' sum of encoded values, 0..255.
+std::uint8_t encoded_channel(float sum, float gamma) {
+  float value = clipped(sum / 255);
+  if (gamma != 1) value = std::pow(value, 1 / gamma);
+  return static_cast<std::uint8_t>(255 * value + 0.5f);
+}
+
+/// The least number from which on a code value, or more, is made of it; codes do not fall where numbers rise.
+template <class CodeOf>
+float threshold_of(int code, CodeOf code_of) {
+  constexpr float most = 1024;
+  std::uint32_t below = 0, from = std::bit_cast<std::uint32_t>(most);
+  while (from - below > 1) {
+    const std::uint32_t middle = below + (from - below) / 2;
+    (code_of(std::bit_cast<float>(middle)) >= code ? from : below) = middle;
+  }
+  return std::bit_cast<float>(from);
+}
+
 Rgb8 mixed_as_encoded(const Recipe& recipe, Rgb8 left, Rgb8 right) {
   const auto encoded = [](Rgb8 c) {
     return std::array<float, 3>{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
   };
   const std::array<float, 3> l = encoded(left), r = encoded(right);
   const auto channel = [&](std::size_t i, float gamma) {
-    float value = clipped((row_times(recipe.left[i], l) + row_times(recipe.right[i], r)) / 255);
-    if (gamma != 1) value = std::pow(value, 1 / gamma);
-    return static_cast<std::uint8_t>(255 * value + 0.5f);
+    return encoded_channel(row_times(recipe.left[i], l) + row_times(recipe.right[i], r), gamma);
   };
   return {channel(0, recipe.red_gamma), channel(1, 1), channel(2, 1)};
 }
@@ -116,6 +135,22 @@ Image<Rgb8> anaglyph(const StereoPairView& pair, const AnaglyphKind& kind) {
   if (kind.linear_light)
     return mixed(pair, [&](Rgb8 left, Rgb8 right) { return mixed_in_linear_light(recipe, left, right); });
   return mixed(pair, [&](Rgb8 left, Rgb8 right) { return mixed_as_encoded(recipe, left, right); });
+}
+
+AnaglyphTables anaglyph_tables(const AnaglyphKind& kind) {
+  const Recipe& recipe = recipe_of(kind);
+  AnaglyphTables tables{.left = recipe.left, .right = recipe.right, .clips_eyes = kind.linear_light};
+  for (int code = 0; code < 256; ++code)
+    tables.light[static_cast<std::size_t>(code)] =
+        kind.linear_light ? linear_from_srgb(static_cast<std::uint8_t>(code)) : static_cast<float>(code);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const auto code_of = [&, gamma = channel == 0 ? recipe.red_gamma : 1](float sum) {
+      return kind.linear_light ? srgb_from_linear(sum) : encoded_channel(sum, gamma);
+    };
+    for (int code = 1; code < 256; ++code)
+      tables.thresholds[channel][static_cast<std::size_t>(code - 1)] = threshold_of(code, code_of);
+  }
+  return tables;
 }
 
 Image<Rgb8> anaglyph(const StereoPairView& pair) { return anaglyph(pair, kinds.front()); }

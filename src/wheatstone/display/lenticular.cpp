@@ -16,29 +16,12 @@ namespace {
 /// A part of a lens, in 2^64ths.
 std::uint64_t part_of_lens(double lenses) { return static_cast<std::uint64_t>((lenses - std::floor(lenses)) * 0x1p64); }
 
-Phases phases_of_row(const LenticularScreen& screen, int y) {
-  const double width = screen.width;
-  const double lenses = screen.pitch * width / screen.dpi * std::cos(std::atan(1 / screen.slope));
-  const double tilt = screen.height / (width * screen.slope) * (screen.flip ? -1 : 1);
-  const double up = 1 - (y + 0.5) / screen.height;
-  const Phases phases{part_of_lens((0.5 / width + up * tilt) * lenses - screen.center),
-                      part_of_lens(lenses / (3 * width))};
-  if (screen.first_from_left) return phases;
-  // 1 − frac a, but for a bit; counted this way it is below 1 too where a is whole.
-  return {~phases.first, ~phases.a_subpixel + 1};
-}
-
 void check(std::span<const Image<Rgb8>> views) {
   if (views.empty()) throw Error(ErrorKind::wrong_usage, "no views to interleave");
   for (const Image<Rgb8>& view : views)
     if (!same_size(view, views.front()) || view.empty())
       throw Error(ErrorKind::wrong_usage, "the views to interleave must be of one size");
   if (views.size() > 0xFFFF) throw Error(ErrorKind::wrong_usage, "more than 65535 views to interleave");
-}
-
-/// The sample of a smaller picture where sample `i` of `count` is in the larger one: the middles' places agree.
-int nearest_sample(int i, int count, int smaller) {
-  return static_cast<int>((2 * static_cast<std::int64_t>(i) + 1) * smaller / (2 * static_cast<std::int64_t>(count)));
 }
 
 /// One row: of each pixel the three bytes that its sub-pixels' views have there.
@@ -53,6 +36,22 @@ void take(std::span<const std::uint8_t* const> rows, std::span<const std::uint16
 }
 
 }  // namespace
+
+Phases phases_of_row(const LenticularScreen& screen, int y) {
+  const double width = screen.width;
+  const double lenses = screen.pitch * width / screen.dpi * std::cos(std::atan(1 / screen.slope));
+  const double tilt = screen.height / (width * screen.slope) * (screen.flip ? -1 : 1);
+  const double up = 1 - (y + 0.5) / screen.height;
+  const Phases phases{part_of_lens((0.5 / width + up * tilt) * lenses - screen.center),
+                      part_of_lens(lenses / (3 * width))};
+  if (screen.first_from_left) return phases;
+  // 1 − frac a, but for a bit; counted this way it is below 1 too where a is whole.
+  return {~phases.first, ~phases.a_subpixel + 1};
+}
+
+int nearest_sample(int i, int count, int smaller) {
+  return static_cast<int>((2 * static_cast<std::int64_t>(i) + 1) * smaller / (2 * static_cast<std::int64_t>(count)));
+}
 
 int view_of_subpixel(const LenticularScreen& screen, int views, int x, int y, int channel) {
   const Phases phases = phases_of_row(screen, y);

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include "wheatstone/display/lenticular.h"
+
 namespace wheatstone {
 
 /// Where a row's sub-pixels are under their lenses, in parts of 2^64 of a lens: whole lenses drop out where sums wrap
@@ -11,6 +13,11 @@ struct Phases {
   std::uint64_t first;       ///< of the row's first sub-pixel
   std::uint64_t a_subpixel;  ///< from each to the next
 };
+
+Phases phases_of_row(const LenticularScreen& screen, int y);
+
+/// The sample of a smaller picture where sample `i` of `count` is in the larger one: the middles' places agree.
+int nearest_sample(int i, int count, int smaller);
 
 /// ⌊phase · views⌋, from the phase's upper half.
 inline std::uint16_t view_at(std::uint64_t phase, std::uint32_t views) {

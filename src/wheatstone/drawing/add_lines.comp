@@ -6,7 +6,8 @@
 
 layout(local_size_x = 64) in;
 
-const int most_views = 64;
+#include "wheatstone/gpu/views.glsl"
+
 const float unknown = -1e30;
 const float nothing_shown = 1e30;
 const float same_surface_px = 1;

@@ -5,7 +5,8 @@
 
 layout(local_size_x = 64) in;
 
-const int most_views = 64;
+#include "wheatstone/gpu/views.glsl"
+
 const uint gap = 1u << 24;
 const float unknown = -1e30;
 

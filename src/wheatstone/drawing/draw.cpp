@@ -26,30 +26,12 @@ void leave_out_detail(const DrawOptions& options, Painting& painting) {
   if (strokes->layers.size() > wanted) strokes->layers.resize(wanted);
 }
 
-/// Whether a painting is to be drawn by the graphics processor. On its own it is chosen where it is a real one, and
-/// where the work is more than handing it over.
-bool chooses_gpu(const PreparedPainting::Contents& contents, Device device) {
-  constexpr int worthwhile = 1 << 16;  // pixels
-  if (device != Device::automatic) return device == Device::graphics;
-  return contents.width * contents.height >= worthwhile && has_real_gpu();
-}
-
-/// Refuses what the graphics processor does not do here.
-void check_gpu_can(const PreparedPainting::Contents& contents) {
-  if (contents.relief.depth_px > 0)
-    throw Error(ErrorKind::wrong_usage, "--device gpu does not light relief (--texture), expected --device cpu");
-}
-
 /// Hands a painting to the graphics processor, or not.
 void hand_over(PreparedPainting::Contents& contents, Device device) {
-  if (!chooses_gpu(contents, device)) return;
-  contents.gpu_was_chosen = device == Device::automatic;
-  try {
-    check_gpu_can(contents);
-    contents.on_gpu = std::make_shared<PaintingOnGpu>(contents);
-  } catch (const Error& error) {
-    if (!contents.gpu_was_chosen || error.kind() != ErrorKind::wrong_usage) throw;
-  }
+  constexpr int worthwhile = 1 << 16;  // pixels
+  contents.device = device;
+  if (!chooses_gpu(device, contents.width * contents.height >= worthwhile)) return;
+  done_on_gpu(device, [&] { contents.on_gpu = std::make_shared<PaintingOnGpu>(contents); });
 }
 
 PreparedPainting prepared(const Painting& painting, Device device) {
@@ -77,13 +59,8 @@ void draw_on_processor(const PreparedPainting::Contents& contents, std::span<con
 }
 
 void draw_some(const PreparedPainting::Contents& contents, std::span<const ViewToDraw> views) {
-  if (contents.on_gpu == nullptr) return draw_on_processor(contents, views);
-  try {
-    contents.on_gpu->draw(views);
-  } catch (const Error& error) {
-    if (!contents.gpu_was_chosen || error.kind() != ErrorKind::wrong_usage) throw;
-    draw_on_processor(contents, views);
-  }
+  const bool drawn = contents.on_gpu != nullptr && done_on_gpu(contents.device, [&] { contents.on_gpu->draw(views); });
+  if (!drawn) draw_on_processor(contents, views);
 }
 
 }  // namespace
@@ -134,6 +111,15 @@ std::vector<DrawnView> draw(const PreparedPainting& painting, std::span<const Vi
 
 DrawnView draw(const PreparedPainting& painting, ViewPosition view, ImageView<const Rgb8> background) {
   return std::move(draw(painting, {&view, 1}, {&background, 1}).front());
+}
+
+std::optional<double> draw_on_gpu(const PreparedPainting& painting, std::span<const ViewPosition> views,
+                                  const std::function<GpuViewSink(const GpuFacts&)>& make_sink) {
+  const PreparedPainting::Contents& contents = painting.contents();
+  std::optional<double> bare_share;
+  if (contents.on_gpu == nullptr) return bare_share;
+  const bool done = done_on_gpu(contents.device, [&] { bare_share = contents.on_gpu->draw(views, make_sink); });
+  return done ? bare_share : std::nullopt;
 }
 
 DrawnView draw(const Painting& painting, ViewPosition view) { return draw(prepare(painting), view); }

@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "needs_gpu.h"
 #include "psnr.h"
 #include "scenes/two_surfaces.h"
-#include "throws_error.h"
 #include "wheatstone/drawing/draw.h"
+#include "wheatstone/drawing/draw_gpu.h"
 #include "wheatstone/painting/paint.h"
 
 namespace wheatstone {
@@ -92,10 +93,65 @@ TEST_F(DrawGpu, DrawsViewsFartherOutThanTheFirstOnes) {
   EXPECT_GT(psnr_db(draw(kept, ViewPosition(2.5)).picture, draw(prepare(painting), ViewPosition(2.5)).picture), 45);
 }
 
-TEST_F(DrawGpu, RefusesRelief) {
+/// A few pixels of each view, in tiles of which none, some or all are wanted; a bit each, rows of whole words.
+constexpr std::size_t words_a_row = (test_scene::width + 31) / 32;
+
+std::vector<std::uint32_t> some_wanted() {
+  std::vector<std::uint32_t> bits(wide.size() * test_scene::height * words_a_row);
+  for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = i % 7 == 0 ? ~0u : i % 3 == 0 ? 0 : 0x80010204u << i % 5;
+  return bits;
+}
+
+/// The pixels of all views, as the graphics processor leaves them in its memory.
+std::vector<std::uint32_t> pixels_left(const Painting& painting, bool only_some) {
+  std::vector<std::uint32_t> pixels(wide.size() * test_scene::width * test_scene::height);
+  const auto make_sink = [&](const GpuFacts&) {
+    GpuViewSink sink{.take = [&](const GpuBuffer& drawn, std::size_t, std::size_t) { drawn.read(std::span(pixels)); }};
+    if (only_some)
+      sink.wanted = [](std::size_t, std::size_t) {
+        const std::vector<std::uint32_t> bits = some_wanted();
+        return GpuBuffer(std::span<const std::uint32_t>(bits));
+      };
+    return sink;
+  };
+  EXPECT_TRUE(draw_on_gpu(prepare(painting, {}, Device::graphics), wide, make_sink));
+  for (std::uint32_t& pixel : pixels) pixel &= 0xffffff;
+  return pixels;
+}
+
+TEST_F(DrawGpu, DrawsOnlyPixelsThatAreWanted) {
+  const Painting painting = painting_of(style_by_name("impressionist"));
+  const std::vector<std::uint32_t> all = pixels_left(painting, false), some = pixels_left(painting, true);
+  const std::vector<std::uint32_t> bits = some_wanted();
+  std::size_t place = 0, drawn = 0;
+  for (std::size_t row = 0; row < wide.size() * test_scene::height; ++row)
+    for (std::size_t x = 0; x < test_scene::width; ++x, ++place) {
+      const bool is_wanted = (bits[row * words_a_row + x / 32] >> x % 32 & 1) != 0;
+      ASSERT_TRUE(some[place] == all[place] || (!is_wanted && some[place] == 0)) << "row " << row << ", column " << x;
+      drawn += some[place] != 0 ? 1 : 0;
+    }
+  EXPECT_LT(drawn, some.size() / 2);
+}
+
+TEST_F(DrawGpu, FillsGapsThatAreWanted) {
   Painting painting = painting_of(style_by_name("impressionist"));
+  std::get<StrokePainting>(painting.marks).layers.resize(1);
+  const std::vector<std::uint32_t> all = pixels_left(painting, false), some = pixels_left(painting, true);
+  const std::vector<std::uint32_t> bits = some_wanted();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t row = i / test_scene::width, x = i % test_scene::width;
+    const bool is_wanted = (bits[row * words_a_row + x / 32] >> x % 32 & 1) != 0;
+    ASSERT_TRUE(!is_wanted || some[i] == all[i]) << "row " << row << ", column " << x;
+  }
+}
+
+TEST_F(DrawGpu, LightsReliefAsTheProcessorDoes) {
+  Painting painting = painting_of(style_by_name("impressionist"));
+  const std::vector<Image<Rgb8>> flat = pictures_of(painting, Device::processor);
   painting.relief.depth_px = 1;
-  expect_error(ErrorKind::wrong_usage, "--device cpu", [&] { prepare(painting, {}, Device::graphics); });
+  const std::vector<Image<Rgb8>> expected = pictures_of(painting, Device::processor);
+  EXPECT_LT(worst_psnr(flat, expected), 40);
+  EXPECT_GT(worst_psnr(pictures_of(painting, Device::graphics), expected), 45);
 }
 
 }  // namespace

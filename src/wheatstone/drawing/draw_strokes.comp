@@ -5,11 +5,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-const int most_views = 64;
-const uint at_a_time = 64;  // segments that a tile looks at: one an invocation
-const float far_away = 1e30;
-const float unknown = -1e30;
-const float nothing_shown = 1e30;
+#include "wheatstone/gpu/views.glsl"
+
 const float dark = 1.0 / 1024;
 const float least_gap_light = 1 - 1.0 / 64;
 
@@ -19,6 +16,7 @@ layout(std430, binding = 0) readonly buffer Work {
   int has_surfaces;
   int shows_behind;    // 0: nothing shows through thin paint
   int has_background;  // else the canvas is behind
+  int only_wanted;     // 1: only pixels that are wanted are drawn
   uint canvas;
   float bare_light, tolerance_px;
   float still_depth;  // and how cells are numbered
@@ -43,10 +41,12 @@ layout(std430, binding = 2) readonly buffer Segments { Segment segments[]; };
 layout(std430, binding = 3) readonly buffer Cells { uint cell_first[]; };
 layout(std430, binding = 4) readonly buffer InCells { uint in_cells[]; };  // segments; the highest bit: fills gaps
 layout(std430, binding = 5) readonly buffer Planes { float planes[]; };
+// The backgrounds; or a bit for each pixel that is wanted, rows of whole words.
 layout(std430, binding = 6) readonly buffer Behind { uint behind[]; };
-layout(std430, binding = 7) buffer Pixels { uint pixels[]; };  // colour; 1 << 24: a gap, 2 << 24: bare
+// Colour; 1 << 24: a gap, 2 << 24: bare, 4 << 24: drawn because it was wanted.
+layout(std430, binding = 7) buffer Pixels { uint pixels[]; };
 
-const uint highest_bit = 1u << 31;  // of Segment::stroke and of in_cells
+#include "wheatstone/drawing/stroke_tiles.glsl"
 
 // A segment as the view sees it. A rigid stroke's place and pixels are those of the central view, sheared.
 struct Seen {
@@ -59,7 +59,6 @@ struct Seen {
 };
 
 // Of the segments at hand, those that reach the tile.
-shared uint reaches[2];
 shared Seen near[at_a_time];
 shared uint open;
 
@@ -80,41 +79,12 @@ Seen seen(Segment of, float shift) {
   return here;
 }
 
-bool reaches_tile(Seen here, float reach) {
-  vec2 low = vec2(gl_WorkGroupID.xy * 8u);
-  vec2 high = low + 8;
+bool reaches_tile(Seen here, float reach, vec2 low, vec2 high) {
   float above = here.shear * low.y;
   float below = here.shear * high.y;
   low.x += min(above, below);
   high.x += max(above, below);
-  vec2 from = vec2(here.x, here.y);
-  vec2 along = vec2(here.dx, here.dy);
-  vec2 to = from + along;
-  if (any(greaterThan(min(from, to) - reach, high)) || any(lessThan(max(from, to) + reach, low))) return false;
-  vec2 across = vec2(along.y, -along.x) * sqrt(here.by_length2);
-  vec2 half_size = (high - low) / 2;
-  return abs(dot(across, low + half_size - from)) <= reach + dot(abs(across), half_size);
-}
-
-// The list of a tile: its cell, which is as wide as 16 columns of the depth that stays where it is.
-uint cell_of_tile(float shift) {
-  int column = int(floor((float(gl_WorkGroupID.x * 8u) + shift * still_depth) / 16)) - first_cell;
-  return gl_WorkGroupID.y * cells_a_band + uint(clamp(column, 0, int(cells_a_band) - 1));
-}
-
-// Below which disparity paint is hidden, as hiding.h says it: of strokes of the reference view, of other views that
-// photographs show, of all others, and of those that fill gaps.
-vec4 hidden_below(int x, int y, int v) {
-  if (has_surfaces == 0) return vec4(unknown);
-  int size = width * height;
-  int at = v * 3 * size + y * width + x;
-  float reference = planes[at];
-  float photographed = planes[at + size];
-  float nearest = planes[at + 2 * size];
-  float below = nearest == unknown ? unknown : nearest - tolerance_px;
-  return vec4(below, reference != unknown && nearest <= reference + tolerance_px ? nothing_shown : below,
-              photographed != unknown && nearest <= photographed + tolerance_px ? nothing_shown : below,
-              photographed == unknown ? nothing_shown : below);
+  return reaches(vec2(here.x, here.y), vec2(here.dx, here.dy), here.by_length2, reach, low, high);
 }
 
 struct Drawn {
@@ -140,13 +110,58 @@ uint finished(Drawn drawn, int at) {
   }
   uvec3 level = uvec3(clamp(colour, 0.0, 255.0) + 0.5);
   return level.r | level.g << 8 | level.b << 16 | uint(drawn.light >= least_gap_light) << 24 |
-         uint(drawn.light > bare_light) << 25;
+         uint(drawn.light > bare_light) << 25 | uint(only_wanted) << 26;
+}
+
+// Of the wanted pixels of a tile of 32 columns and 8 rows, the one of this number, outside the picture where there are
+// fewer; and how many there are.
+ivec3 wanted_pixel(ivec2 tile, int v, uint number) {
+  int words_a_row = (width + 31) / 32;
+  uint left = number;
+  uint bits = 0;
+  uint all = 0;
+  int row = -1;
+  for (int r = 0; r < 8; ++r) {
+    uint word = tile.y + r < height ? behind[(v * height + tile.y + r) * words_a_row + tile.x / 32] : 0;
+    uint count = bitCount(word);
+    all += count;
+    if (row < 0) {
+      if (left < count) {
+        row = r;
+        bits = word;
+      } else {
+        left -= count;
+      }
+    }
+  }
+  int column = 0;
+  for (int half_word = 16; half_word > 0; half_word /= 2) {
+    uint before = bitCount(bits & ((1u << half_word) - 1));
+    if (left >= before) {
+      left -= before;
+      bits >>= half_word;
+      column += half_word;
+    }
+  }
+  return ivec3(row < 0 ? ivec2(width, height) : tile + ivec2(column, row), all);
 }
 
 void main() {
   int x = int(gl_GlobalInvocationID.x);
   int y = int(gl_GlobalInvocationID.y);
   int v = int(gl_GlobalInvocationID.z);
+  ivec2 tile = ivec2(gl_WorkGroupID.xy) * 8;
+  ivec2 tile_size = ivec2(8);
+  if (only_wanted != 0) {
+    // Four groups share a larger tile: those after the first have something to do where much is wanted.
+    tile.x = int(gl_WorkGroupID.x / 4) * 32;
+    tile_size.x = 32;
+    uint before = gl_WorkGroupID.x % 4 * 64;
+    ivec3 found = wanted_pixel(tile, v, before + gl_LocalInvocationIndex);
+    if (found.z <= int(before)) return;
+    x = found.x;
+    y = found.y;
+  }
   uint me = gl_LocalInvocationIndex;
   bool inside = x < width && y < height;
   float shift = view[v];
@@ -157,10 +172,10 @@ void main() {
   uint number = ~0u;  // of the stroke at hand, and the squared distance to what is seen of it
   int kind = 0;
   float squared = far_away;
-  uint cell = cell_of_tile(shift);
+  uint cell = cell_of_tile(uint(tile.x), gl_WorkGroupID.y, shift);
   uint end = cell_first[cell + 1];
   for (uint first = cell_first[cell]; first < end; first += at_a_time) {
-    if (me < 2) reaches[me] = 0;
+    if (me < 2) near_bits[me] = 0;
     if (me == 0) open = 0;
     barrier();
     if (drawn.light > dark) open = 1;
@@ -170,22 +185,17 @@ void main() {
       uint entry = in_cells[first + me];
       Segment segment = segments[entry & ~highest_bit];
       mine = seen(segment, shift);
-      if (reaches_tile(mine, segment.reach)) {
+      if (reaches_tile(mine, segment.reach, vec2(tile), vec2(tile + tile_size))) {
         Stroke stroke = strokes[mine.stroke];
         is_near = shift >= stroke.first_view && shift <= stroke.last_view;
         mine.kind = (entry & highest_bit) != 0 ? 3 : stroke.planned_in;
       }
     }
-    if (is_near) atomicOr(reaches[me / 32], 1u << (me % 32));
+    if (is_near) atomicOr(near_bits[me / 32], 1u << (me % 32));
     barrier();
     if (open == 0) break;
-    uint count = 0;
-    uint place = 0;
-    for (uint word = 0; word < 2; ++word) {
-      if (word == me / 32) place = count + bitCount(reaches[word] & ((1u << (me % 32)) - 1));
-      count += bitCount(reaches[word]);
-    }
-    if (is_near) near[place] = mine;
+    uint count = count_of_near();
+    if (is_near) near[place_among_near(me)] = mine;
     barrier();
     if (drawn.light <= dark) continue;
     for (uint i = 0; i < count; ++i) {

@@ -9,18 +9,20 @@
 
 #include "continue_paint_source.h"
 #include "draw_strokes_source.h"
+#include "want_rows_source.h"
 #include "wheatstone/drawing/painting_gpu_internal.h"
 
 namespace wheatstone {
 namespace {
 
 constexpr int tile_px = 8, cell_px = 16;
+constexpr int wanted_tile_px = 32;  ///< columns of a tile of which not all pixels are wanted
 constexpr std::uint32_t highest_bit = std::uint32_t{1} << 31;
 
 /// What draw_strokes.comp reads of its work: numbers of four bytes, without gaps.
 struct StrokeWork {
   std::int32_t width = 0, height = 0;
-  std::int32_t has_surfaces = 0, shows_behind = 0, has_background = 0;
+  std::int32_t has_surfaces = 0, shows_behind = 0, has_background = 0, only_wanted = 0;
   std::uint32_t canvas = 0;
   float bare_light = 0, tolerance_px = 0;
   float still_depth = 0;
@@ -91,18 +93,18 @@ float still_depth_of(std::span<const Segment> segments) {
 }  // namespace
 
 StrokesForGpu::StrokesForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces) {
-  for (auto layer = painting.layers.rbegin(); layer != painting.layers.rend(); ++layer)
-    for (auto stroke = layer->flat.strokes.rbegin(); stroke != layer->flat.strokes.rend(); ++stroke) {
-      const auto number = static_cast<std::uint32_t>(strokes.size());
-      strokes.push_back(stroke_for_gpu(*stroke, kind_of(stroke->reference_view, surfaces)));
-      const std::uint32_t last = stroke->first_vertex + stroke->vertex_count - 1;
-      for (std::uint32_t from = stroke->first_vertex; from < std::max(last, stroke->first_vertex + 1); ++from)
-        segments.push_back(segment_of(layer->flat, *stroke, from, std::min(from + 1, last), number));
-    }
+  for_strokes_from_nearest(painting, [&](const BandedLayer& layer, std::size_t place, std::size_t /*of_layer*/) {
+    const FlatStroke& stroke = layer.flat.strokes[place];
+    const auto number = static_cast<std::uint32_t>(strokes.size());
+    strokes.push_back(stroke_for_gpu(stroke, kind_of(stroke.reference_view, surfaces)));
+    for_segments(stroke, [&](std::uint32_t from, std::uint32_t to) {
+      segments.push_back(segment_of(layer.flat, stroke, from, to, number));
+    });
+  });
   still_depth = still_depth_of(segments);
 }
 
-CellsForGpu::CellsForGpu(const StrokesForGpu& of, int width, int height, float farthest_view)
+CellsForGpu::CellsForGpu(const StrokesForGpu& of, int width, int height, float farthest_view, int tile_columns)
     : first_cell(static_cast<std::int32_t>(std::floor(-farthest_view * std::abs(of.still_depth) / cell_px))) {
   const auto last_cell = static_cast<std::int32_t>(
       std::floor((static_cast<float>(width) + farthest_view * std::abs(of.still_depth)) / cell_px));
@@ -123,7 +125,8 @@ CellsForGpu::CellsForGpu(const StrokesForGpu& of, int width, int height, float f
         farthest_view * std::max(std::abs(depths.farthest - of.still_depth), std::abs(depths.nearest - of.still_depth));
     const auto [left, right] = std::minmax({segment.x, segment.x + segment.dx});
     // A tile's list is that of the cell in which it begins.
-    const int first = clamped(left - segment.reach - moves - tile_px, cell_px, first_cell, last_cell),
+    const int first = clamped(left - segment.reach - moves - static_cast<float>(tile_columns), cell_px, first_cell,
+                              last_cell),
               end = clamped(right + segment.reach + moves, cell_px, first_cell - 1, last_cell) + 1;
     for (int band = first_band; band < end_band; ++band)
       for (int cell = first; cell < end; ++cell)
@@ -144,26 +147,30 @@ CellsForGpu::CellsForGpu(const StrokesForGpu& of, int width, int height, float f
         for_cells(of.segments[i], [&](std::size_t cell) { in_cells[next[cell]++] = again ? i | highest_bit : i; });
 }
 
-GpuStrokes::GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& surfaces)
+GpuStrokes::GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, const Relief& relief)
     : painting_(painting),
       flat_(painting, surfaces),
       draw_strokes_(draw_strokes_source),
       continue_paint_(continue_paint_source),
+      want_rows_(want_rows_source),
       strokes_(std::span<const StrokesForGpu::Stroke>(flat_.strokes)),
-      segments_(std::span<const Segment>(flat_.segments)) {}
+      segments_(std::span<const Segment>(flat_.segments)) {
+  if (relief.depth_px > 0) relief_.emplace(painting, surfaces, relief);
+}
 
-void GpuStrokes::fill_cells(std::span<const ViewPosition> views) {
+void GpuStrokes::fill_cells(std::span<const ViewPosition> views, int tile_columns) {
   float farthest = 0;
   for (const ViewPosition view : views) farthest = std::max(farthest, std::abs(view - central_view));
-  if (cells_ && farthest <= cells_->farthest_view) return;
-  const CellsForGpu cells(flat_, painting_.width, painting_.height, farthest);
-  cells_.emplace(CellsOnGpu{farthest, cells.first_cell, cells.cells_a_band,
+  if (cells_ && farthest <= cells_->farthest_view && tile_columns == cells_->tile_columns) return;
+  const CellsForGpu cells(flat_, painting_.width, painting_.height, farthest, tile_columns);
+  cells_.emplace(CellsOnGpu{tile_columns, farthest, flat_.still_depth, cells.first_cell, cells.cells_a_band,
                             GpuBuffer(std::span<const std::uint32_t>(cells.cell_first)),
                             GpuBuffer(std::span<const std::uint32_t>(cells.in_cells))});
 }
 
 GpuBuffer GpuStrokes::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) {
-  fill_cells(views.positions);
+  const bool only_wanted = views.wanted && views.backgrounds.empty() && !relief_;
+  fill_cells(views.positions, only_wanted ? wanted_tile_px : tile_px);
   const auto size = static_cast<std::size_t>(painting_.width) * static_cast<std::size_t>(painting_.height);
   const bool has_background = !views.backgrounds.empty();
   const StrokeWork work{
@@ -172,6 +179,7 @@ GpuBuffer GpuStrokes::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes,
       .has_surfaces = surfaces.empty() ? 0 : 1,
       .shows_behind = has_background || painting_.canvas_shows ? 1 : 0,
       .has_background = has_background ? 1 : 0,
+      .only_wanted = only_wanted ? 1 : 0,
       .canvas = packed(painting_.canvas_colour),
       .bare_light = painting_.bare_light,
       .tolerance_px = surfaces.tolerance_px(),
@@ -184,11 +192,24 @@ GpuBuffer GpuStrokes::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes,
   const GpuBuffer behind{std::span<const std::uint32_t>(views.backgrounds)};
   GpuBuffer pixels(size * views.positions.size() * sizeof(std::uint32_t));
   const auto count = static_cast<std::uint32_t>(views.positions.size());
-  draw_strokes_.run(
-      {groups_of(painting_.width, tile_px), groups_of(painting_.height, tile_px), count},
-      {&of_work, &strokes_, &segments_, &cells_->cell_first, &cells_->in_cells, &planes, &behind, &pixels});
-  if (work.shows_behind == 0)
+  const std::uint32_t groups_a_band = only_wanted
+                                          ? wanted_tile_px / tile_px * groups_of(painting_.width, wanted_tile_px)
+                                          : groups_of(painting_.width, tile_px);
+  const auto draw_pixels = [&](const GpuBuffer& behind_or_wanted) {
+    draw_strokes_.run(
+        {groups_a_band, groups_of(painting_.height, tile_px), count},
+        {&of_work, &strokes_, &segments_, &cells_->cell_first, &cells_->in_cells, &planes, &behind_or_wanted, &pixels});
+  };
+  draw_pixels(only_wanted ? *views.wanted : behind);
+  if (work.shows_behind == 0) {
+    if (only_wanted) {
+      const GpuBuffer rows(views.wanted->bytes());
+      want_rows_.run({groups_of(painting_.height, 64), count}, {&of_work, &pixels, &rows});
+      draw_pixels(rows);
+    }
     continue_paint_.run({groups_of(painting_.height, 64), count}, {&of_work, &planes, &pixels});
+  }
+  if (relief_) relief_->light(surfaces, planes, views.positions, *cells_, pixels);
   return pixels;
 }
 

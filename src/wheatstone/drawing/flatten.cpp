@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 #include "wheatstone/marks/spline.h"
@@ -19,30 +20,50 @@ float squared_bend_of_segment(float radius_px) {
   return rim_px * rim_px;
 }
 
-/// The squared second difference of a spline at one of its controls, in the view where it bends most.
-float squared_bend(const ClampedSpline& spline, int control) {
-  const SpatialPoint a = spline.control(control - 1), b = spline.control(control), c = spline.control(control + 1);
-  const float depth = std::abs(a.disparity - 2 * b.disparity + c.disparity) * (right_eye - central_view);
-  const float x = std::abs(a.x - 2 * b.x + c.x) + depth, y = a.y - 2 * b.y + c.y;
-  return x * x + y * y;
-}
+/// The controls of one stroke's spline, and the squared second difference at each, in the view where it bends most.
+class BendingSpline {
+ public:
+  void set(const ClampedSpline& spline) {
+    spans_ = spline.span_count();
+    controls_.clear();
+    for (int i = 0; i < std::max(spans_ + 3, 1); ++i) controls_.push_back(spline.control(i));
+    bends_.assign(controls_.size(), 0);
+    for (std::size_t i = 1; i + 1 < controls_.size(); ++i)
+      bends_[i] = squared_bend(controls_[i - 1], controls_[i], controls_[i + 1]);
+  }
+
+  int span_count() const { return spans_; }
+  SpatialPoint control(int i) const { return controls_[static_cast<std::size_t>(i)]; }
+  float bend(int control) const { return bends_[static_cast<std::size_t>(control)]; }
+
+ private:
+  static float squared_bend(const SpatialPoint& a, const SpatialPoint& b, const SpatialPoint& c) {
+    const float depth = std::abs(a.disparity - 2 * b.disparity + c.disparity) * (right_eye - central_view);
+    const float x = std::abs(a.x - 2 * b.x + c.x) + depth, y = a.y - 2 * b.y + c.y;
+    return x * x + y * y;
+  }
+
+  int spans_ = 0;
+  std::vector<SpatialPoint> controls_;
+  std::vector<float> bends_;
+};
 
 /// Calls `add` with the vertices of a chain that stands for a spline: some segments for a span that bends much, or one
 /// for some spans. The chord of n spans leaves the curve n² times as far as that of one.
 template <class Add>
-void visit_vertices(const ClampedSpline& spline, float radius_px, Add add) {
+void visit_vertices(const BendingSpline& spline, float radius_px, Add add) {
   constexpr int most_segments_a_span = 16;
   const float most = squared_bend_of_segment(radius_px);
   add(spline.control(0));
   for (int first = 0, end = 0; first < spline.span_count(); first = end) {
-    const float bend = std::max(squared_bend(spline, first + 1), squared_bend(spline, first + 2));
+    const float bend = std::max(spline.bend(first + 1), spline.bend(first + 2));
     int segments = 1;
     end = first + 1;
     if (bend > most) {
       segments = std::min(static_cast<int>(std::ceil(std::sqrt(std::sqrt(bend / most)))), most_segments_a_span);
     } else {
       for (float largest = bend; end < spline.span_count(); ++end) {
-        largest = std::max(largest, squared_bend(spline, end + 2));
+        largest = std::max(largest, spline.bend(end + 2));
         const auto spans = static_cast<float>(end + 1 - first);
         if (largest * spans * spans * spans * spans > most) break;
       }
@@ -52,17 +73,16 @@ void visit_vertices(const ClampedSpline& spline, float radius_px, Add add) {
   }
 }
 
-void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& flat) {
-  std::size_t vertex = stroke.first_vertex;
+void add_vertices(const BendingSpline& spline, FlatStroke& stroke, FlatLayer& flat) {
+  stroke.first_vertex = static_cast<std::uint32_t>(flat.x.size());
   const SpatialPoint begin = spline.control(0);
   stroke.top = stroke.bottom = begin.y;
   stroke.left = stroke.right = begin.x;
   stroke.farthest_disparity = stroke.nearest_disparity = begin.disparity;
   visit_vertices(spline, stroke.radius_px, [&](const SpatialPoint& p) {
-    flat.x[vertex] = p.x;
-    flat.y[vertex] = p.y;
-    flat.disparity[vertex] = p.disparity;
-    ++vertex;
+    flat.x.push_back(p.x);
+    flat.y.push_back(p.y);
+    flat.disparity.push_back(p.disparity);
     stroke.top = std::min(stroke.top, p.y);
     stroke.bottom = std::max(stroke.bottom, p.y);
     stroke.left = std::min(stroke.left, p.x);
@@ -70,6 +90,7 @@ void write_vertices(const ClampedSpline& spline, FlatStroke& stroke, FlatLayer& 
     stroke.farthest_disparity = std::min(stroke.farthest_disparity, p.disparity);
     stroke.nearest_disparity = std::max(stroke.nearest_disparity, p.disparity);
   });
+  stroke.vertex_count = static_cast<std::uint32_t>(flat.x.size()) - stroke.first_vertex;
 }
 
 /// Fits a plane that slopes along the columns to a stroke's disparities.
@@ -96,42 +117,61 @@ void fit_depth(const FlatLayer& flat, FlatStroke& stroke) {
     if (std::abs(disparities[i] - stroke.disparity - stroke.depth_slope * rows[i]) > rigid_px) stroke.is_rigid = false;
 }
 
+FlatStroke without_vertices(const Stroke& source) {
+  FlatStroke stroke;
+  stroke.radius_px = source.radius_px;
+  stroke.opacity = source.opacity;
+  stroke.views = source.views;
+  stroke.number = source.number;
+  stroke.reference_view = source.reference_view;
+  stroke.red = source.colour.r;
+  stroke.green = source.colour.g;
+  stroke.blue = source.colour.b;
+  return stroke;
+}
+
+/// Some neighbouring strokes of a layer.
+FlatLayer flatten(const Layer& layer, std::size_t first, std::size_t end) {
+  FlatLayer part;
+  part.strokes.reserve(end - first);
+  BendingSpline spline;
+  for (std::size_t i = first; i < end; ++i) {
+    const Stroke& source = layer.strokes[i];
+    FlatStroke& stroke = part.strokes.emplace_back(without_vertices(source));
+    spline.set(ClampedSpline(layer.points_of(source), source.reference_view));
+    add_vertices(spline, stroke, part);
+    fit_depth(part, stroke);
+  }
+  return part;
+}
+
 }  // namespace
 
 FlatLayer flatten(const Layer& layer) {
+  constexpr std::size_t strokes_at_once = 512;
   const std::size_t count = layer.strokes.size();
+  std::vector<FlatLayer> parts((count + strokes_at_once - 1) / strokes_at_once);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    parts[i] = flatten(layer, i * strokes_at_once, std::min((i + 1) * strokes_at_once, count));
+  });
+  std::vector<std::uint32_t> first_vertices;
+  std::uint32_t vertices = 0;
+  for (const FlatLayer& part : parts) {
+    first_vertices.push_back(vertices);
+    vertices += static_cast<std::uint32_t>(part.x.size());
+  }
   FlatLayer flat;
   flat.strokes.resize(count);
-  const auto spline_of = [&](std::size_t i) {
-    return ClampedSpline(layer.points_of(layer.strokes[i]), layer.strokes[i].reference_view);
-  };
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    std::uint32_t vertices = 0;
-    visit_vertices(spline_of(i), layer.strokes[i].radius_px, [&](const SpatialPoint&) { ++vertices; });
-    flat.strokes[i].vertex_count = vertices;
-  });
-
-  std::uint32_t vertices = 0;
-  for (FlatStroke& stroke : flat.strokes) {
-    stroke.first_vertex = vertices;
-    vertices += stroke.vertex_count;
-  }
   for (std::vector<float>* values : {&flat.x, &flat.y, &flat.disparity})
     values->resize(vertices + FlatLayer::values_after);
-
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    FlatStroke& stroke = flat.strokes[i];
-    const Stroke& source = layer.strokes[i];
-    stroke.radius_px = source.radius_px;
-    stroke.opacity = source.opacity;
-    stroke.views = source.views;
-    stroke.number = source.number;
-    stroke.reference_view = source.reference_view;
-    stroke.red = source.colour.r;
-    stroke.green = source.colour.g;
-    stroke.blue = source.colour.b;
-    write_vertices(spline_of(i), stroke, flat);
-    fit_depth(flat, stroke);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    FlatLayer& part = parts[i];
+    for (FlatStroke& stroke : part.strokes) stroke.first_vertex += first_vertices[i];
+    const auto to = static_cast<std::ptrdiff_t>(first_vertices[i]);
+    std::ranges::copy(part.strokes, flat.strokes.begin() + static_cast<std::ptrdiff_t>(i * strokes_at_once));
+    std::ranges::copy(part.x, flat.x.begin() + to);
+    std::ranges::copy(part.y, flat.y.begin() + to);
+    std::ranges::copy(part.disparity, flat.disparity.begin() + to);
   });
   return flat;
 }

@@ -1,29 +1,36 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "wheatstone/drawing/draw_gpu.h"
 #include "wheatstone/drawing/prepared_painting_internal.h"
 #include "wheatstone/drawing/seen_surface_gpu_internal.h"
 #include "wheatstone/gpu/views.h"
 
 namespace wheatstone {
 
-constexpr std::uint32_t packed(Rgb8 colour) {
-  return colour.r | static_cast<std::uint32_t>(colour.g) << 8 | static_cast<std::uint32_t>(colour.b) << 16;
-}
-
 /// Views that one run draws.
 struct ViewsOnGpu {
   std::vector<ViewPosition> positions;     ///< at most most_gpu_views
   std::vector<std::uint32_t> backgrounds;  ///< packed, view by view; empty: none
+  /// Where only some pixels are wanted, a bit each, rows of whole words: others may be left undrawn.
+  std::optional<GpuBuffer> wanted = {};
 };
 
 /// What the programs write of a pixel beside its colour.
 constexpr std::uint32_t gpu_bare_pixel = std::uint32_t{2} << 24;
+
+/// How many pixels of a view the programs say this of.
+struct FlagCounts {
+  std::uint32_t gaps, bare, wanted;
+};
 
 /// Strokes as draw_strokes.comp reads them, the nearest first.
 struct StrokesForGpu {
@@ -47,10 +54,26 @@ struct StrokesForGpu {
   float still_depth = 0;  ///< the middle of all disparities
 };
 
+/// Calls `use` with each stroke's layer, its place and its layer's number, from the nearest stroke to the farthest.
+template <class Use>
+void for_strokes_from_nearest(const PreparedStrokes& painting, Use use) {
+  for (std::size_t layer = painting.layers.size(); layer-- > 0;)
+    for (std::size_t place = painting.layers[layer].flat.strokes.size(); place-- > 0;)
+      use(painting.layers[layer], place, layer);
+}
+
+/// Calls `use` with the vertices at both ends of each segment of a stroke: one, of no length, where it is a dot.
+template <class Use>
+void for_segments(const FlatStroke& stroke, Use use) {
+  const std::uint32_t last = stroke.first_vertex + stroke.vertex_count - 1;
+  for (std::uint32_t from = stroke.first_vertex; from < std::max(last, stroke.first_vertex + 1); ++from)
+    use(from, std::min(from + 1, last));
+}
+
 /// For every cell of a picture, the segments that views within a distance of the central view may see there: all of
 /// them from the nearest stroke to the farthest, then once more those that fill gaps.
 struct CellsForGpu {
-  CellsForGpu(const StrokesForGpu& of, int width, int height, float farthest_view);
+  CellsForGpu(const StrokesForGpu& of, int width, int height, float farthest_view, int tile_columns);
 
   std::int32_t
       first_cell;  ///< number of a band's first one: where still_depth lies, it may be moved out of the picture
@@ -59,29 +82,47 @@ struct CellsForGpu {
   std::vector<std::uint32_t> in_cells;    ///< the highest bit: fills gaps
 };
 
+/// These cells for views within a distance of the central view, on the graphics processor.
+struct CellsOnGpu {
+  int tile_columns;
+  float farthest_view, still_depth;
+  std::int32_t first_cell;
+  std::uint32_t cells_a_band;
+  GpuBuffer cell_first, in_cells;
+};
+
+/// The relief of strokes on the graphics processor. Made and used within on_gpu().
+class GpuRelief {
+ public:
+  GpuRelief(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, const Relief& relief);
+  /// Lights the pixels of these views. `cells` are those of the strokes, for all of the views.
+  void light(const GpuSurfaces& surfaces, const GpuBuffer& planes, std::span<const ViewPosition> views,
+             const CellsOnGpu& cells, const GpuBuffer& pixels) const;
+
+ private:
+  int width_, height_;
+  Relief relief_;
+  GpuProgram relief_strokes_, light_relief_;
+  std::optional<GpuBuffer> strokes_, segments_;
+};
+
 /// Strokes on the graphics processor. Made and used within on_gpu(); what it was made of must stay.
 class GpuStrokes {
  public:
-  GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& surfaces);
+  GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, const Relief& relief);
   /// The pixels of each view. `planes`: the surfaces as the views see them.
   GpuBuffer draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views);
 
  private:
-  struct CellsOnGpu {
-    float farthest_view;
-    std::int32_t first_cell;
-    std::uint32_t cells_a_band;
-    GpuBuffer cell_first, in_cells;
-  };
-
-  /// Sorts the segments into cells, unless they are for all these views.
-  void fill_cells(std::span<const ViewPosition> views);
+  /// Sorts the segments into cells, unless they are for all these views and for such tiles.
+  void fill_cells(std::span<const ViewPosition> views, int tile_columns);
 
   const PreparedStrokes& painting_;
   StrokesForGpu flat_;
-  GpuProgram draw_strokes_, continue_paint_;
+  GpuProgram draw_strokes_, continue_paint_, want_rows_;
   GpuBuffer strokes_, segments_;
   std::optional<CellsOnGpu> cells_;
+  std::optional<GpuRelief> relief_;
 };
 
 /// Regions on the graphics processor. Made and used within on_gpu(); what it was made of must stay.
@@ -128,9 +169,16 @@ class PaintingOnGpu {
 
   /// Throws the same.
   void draw(std::span<const ViewToDraw> views);
+  /// As draw_on_gpu() does; nothing where not enough views fit at once.
+  std::optional<double> draw(std::span<const ViewPosition> views,
+                             const std::function<GpuViewSink(const GpuFacts&)>& make_sink);
 
  private:
   struct Kept;
+  std::size_t views_at_once(const GpuFacts& facts) const;
+  GpuBuffer drawn(const ViewsOnGpu& views);
+  std::vector<FlagCounts> flags_of(const GpuBuffer& pixels, std::size_t views) const;
+
   const PreparedPainting::Contents& contents_;
   std::unique_ptr<Kept> kept_;
 };

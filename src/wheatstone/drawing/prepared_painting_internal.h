@@ -20,7 +20,7 @@ struct PreparedPainting::Contents {
   PreparedSurfaces surfaces;
   Relief relief;
   std::shared_ptr<PaintingOnGpu> on_gpu = {};  ///< what draws it, where the processor does not
-  bool gpu_was_chosen = false;                 ///< where it fails, the processor draws
+  Device device = Device::processor;           ///< that was asked for
 };
 
 // How each kind of marks is made ready and drawn.

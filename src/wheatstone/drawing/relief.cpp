@@ -41,11 +41,6 @@ float bristle_height(std::uint64_t seed, float radius_px, float bristle_px, cons
   return (0.7f * ridge + 0.3f * along) * (1 - 0.35f * to_rim * to_rim);
 }
 
-/// A stroke's number tells its bristles in every view and frame; without one, its place in its layer.
-std::uint64_t bristle_seed(const FlatStroke& stroke, std::size_t place, std::size_t layer) {
-  return hash_keys({layer, stroke.number != 0 ? stroke.number : place});
-}
-
 /// Pixels of a band: what the stroke at hand is nearest to.
 class ReliefBand {
  public:
@@ -147,6 +142,10 @@ class ReliefBand {
 };
 
 }  // namespace
+
+std::uint64_t bristle_seed(const FlatStroke& stroke, std::size_t place, std::size_t layer) {
+  return hash_keys({layer, stroke.number != 0 ? stroke.number : place});
+}
 
 Image<float> relief_of(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding, float bristle_px) {
   std::vector<SeenLayer> layers;

@@ -4,7 +4,8 @@
 
 layout(local_size_x = 64) in;
 
-const int most_views = 64;
+#include "wheatstone/gpu/views.glsl"
+
 const float unknown = -1e30;
 const float infinity = 3e38;
 const int samples = 4;  // a pixel's side

@@ -4,7 +4,8 @@
 
 layout(local_size_x = 64) in;
 
-const int most_views = 64;
+#include "wheatstone/gpu/views.glsl"
+
 const float unknown = -1e30;  // farther than anything
 const float joined_px = 1;
 const int widest_crack_px = 2;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "wheatstone/depth/warp_row.h"
-#include "wheatstone/drawing/nearest_surface.h"
 #include "wheatstone/drawing/seen_surface_internal.h"
 
 namespace wheatstone {
@@ -93,12 +92,6 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, 
   seen.hiding = {seen.nearest,      seen.reference,        surfaces.tolerance_px, surfaces.seen.front().view,
                  seen.photographed, surfaces.photographed, rows.first_row};
   return seen;
-}
-
-Image<float> nearest_surface(const Painting& painting, ViewPosition view) {
-  const int width = width_of(painting), height = height_of(painting);
-  if (painting.surfaces.seen.empty()) return Image<float>(width, height, std::numeric_limits<float>::quiet_NaN());
-  return seen_surfaces(PreparedSurfaces(painting.surfaces), view, {width, 0, height}).nearest;
 }
 
 }  // namespace wheatstone

@@ -9,7 +9,9 @@
 
 namespace wheatstone {
 
-GpuBuffer::GpuBuffer(std::size_t bytes) : bytes_(std::max<std::size_t>(bytes, 4)) {
+GpuBuffer::GpuBuffer(std::size_t bytes) : GpuBuffer(bytes, true) {}
+
+GpuBuffer::GpuBuffer(std::size_t bytes, bool cleared) : bytes_(std::max<std::size_t>(bytes, 4)) {
   glCreateBuffers(1, &name_);
   glNamedBufferStorage(name_, static_cast<GLsizeiptr>(bytes_), nullptr, GL_DYNAMIC_STORAGE_BIT);
   if (glGetError() == GL_OUT_OF_MEMORY) {
@@ -17,14 +19,35 @@ GpuBuffer::GpuBuffer(std::size_t bytes) : bytes_(std::max<std::size_t>(bytes, 4)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("graphics processor: its memory does not hold another {} MB", (bytes_ >> 20) + 1));
   }
-  clear();
+  if (cleared) clear();
 }
 
-GpuBuffer::~GpuBuffer() { glDeleteBuffers(1, &name_); }
+GpuBuffer::~GpuBuffer() {
+  glDeleteTextures(1, &texels_);
+  glDeleteBuffers(1, &name_);
+}
 
 void GpuBuffer::clear() { glClearNamedBufferData(name_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
 
-void GpuBuffer::bind(std::uint32_t binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
+void GpuBuffer::bind(std::uint32_t binding) const {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  if (bytes_ > static_cast<std::size_t>(most))
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("graphics processor: its programs take {} MB at once at most, and {} MB are needed; --device cpu "
+                    "needs no such room",
+                    most >> 20, (bytes_ >> 20) + 1));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
+}
+
+void GpuBuffer::bind_texels(std::uint32_t unit) const {
+  if (texels_ == 0) {
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &texels_);
+    glTextureBuffer(texels_, GL_RGBA32UI, name_);
+  }
+  glBindTextureUnit(unit, texels_);
+}
 
 void GpuBuffer::write_bytes(std::span<const std::byte> bytes, std::size_t at) {
   glNamedBufferSubData(name_, static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes.size()), bytes.data());

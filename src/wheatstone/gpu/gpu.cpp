@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/error.h"
@@ -47,6 +48,9 @@ GpuFacts facts_of_current() {
   GLint64 bytes = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
   facts.largest_buffer = static_cast<std::size_t>(bytes);
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  facts.most_texels = static_cast<std::size_t>(texels);
   return facts;
 }
 
@@ -153,6 +157,43 @@ bool has_real_gpu() {
   try {
     return !gpu_facts().imitated;
   } catch (const Error&) {
+    return false;
+  }
+}
+
+bool chooses_gpu(Device device, bool worthwhile) {
+  if (device != Device::automatic) return device == Device::graphics;
+  return worthwhile && has_real_gpu();
+}
+
+namespace {
+
+/// What why_left_by_gpu() tells.
+struct LeftWork {
+  std::mutex mutex;
+  std::string why;
+};
+
+LeftWork& left_work() {
+  static LeftWork left;
+  return left;
+}
+
+}  // namespace
+
+std::string why_left_by_gpu() {
+  const std::lock_guard lock(left_work().mutex);
+  return std::exchange(left_work().why, {});
+}
+
+bool done_on_gpu(Device device, const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const Error& error) {
+    if (device != Device::automatic || error.kind() != ErrorKind::wrong_usage) throw;
+    const std::lock_guard lock(left_work().mutex);
+    if (left_work().why.empty()) left_work().why = error.what();
     return false;
   }
 }

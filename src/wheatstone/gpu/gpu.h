@@ -14,6 +14,7 @@ struct GpuFacts {
   std::string version;             ///< of OpenGL and of the driver
   bool imitated = false;           ///< by the processor: right, but not fast
   std::size_t largest_buffer = 0;  ///< bytes that a program may use as one buffer
+  std::size_t most_texels = 0;     ///< groups of four words that a program may read of one buffer
 };
 
 /// The graphics processor that computes here: the first real one, else one that the processor imitates. Throws
@@ -22,6 +23,17 @@ GpuFacts gpu_facts();
 
 /// Whether a real graphics processor computes here.
 bool has_real_gpu();
+
+/// Whether a graphics processor is to do some work: where it is asked for; or where either may do it, there is a real
+/// one, and the work is more than handing it over.
+bool chooses_gpu(Device device, bool worthwhile);
+
+/// Does what chooses_gpu() chose. False where it fails with Error{wrong_usage} though nobody asked for a graphics
+/// processor: then the processor is to do the work.
+bool done_on_gpu(Device device, const std::function<void()>& work);
+
+/// Why done_on_gpu() left work to the processor since this was asked last, the first time; empty where it did not.
+std::string why_left_by_gpu();
 
 /// Runs work on the graphics processor: within it, buffers and programs can be made and used on the calling thread. The
 /// context is made on first use, without a window, and kept; callers take turns. Throws what the work throws, and

@@ -51,6 +51,26 @@ TEST(GpuDeathTest, SaysThatADriverIsTooOld) {
               testing::ExitedWithCode(2), "no OpenGL 4.5");
 }
 
+TEST(GpuChoice, IsAskedForOrWorthwhileAndReal) {
+  EXPECT_TRUE(chooses_gpu(Device::graphics, false));
+  EXPECT_FALSE(chooses_gpu(Device::processor, true));
+  EXPECT_FALSE(chooses_gpu(Device::automatic, false));
+  EXPECT_EQ(chooses_gpu(Device::automatic, true), has_real_gpu());
+}
+
+TEST(GpuChoice, FallsBackToTheProcessorWhereNobodyAskedForAnother) {
+  const auto refuse = [] { throw Error(ErrorKind::wrong_usage, "lost"); };
+  why_left_by_gpu();
+  EXPECT_FALSE(done_on_gpu(Device::automatic, refuse));
+  EXPECT_FALSE(done_on_gpu(Device::automatic, [] { throw Error(ErrorKind::wrong_usage, "again"); }));
+  EXPECT_EQ(why_left_by_gpu(), "lost");
+  EXPECT_EQ(why_left_by_gpu(), "");
+  expect_error(ErrorKind::wrong_usage, "lost", [&] { done_on_gpu(Device::graphics, refuse); });
+  expect_error(ErrorKind::bad_input, "file",
+               [] { done_on_gpu(Device::automatic, [] { throw Error(ErrorKind::bad_input, "file"); }); });
+  EXPECT_TRUE(done_on_gpu(Device::automatic, [] {}));
+}
+
 TEST_F(Gpu, TellsWhatItIs) {
   const GpuFacts facts = gpu_facts();
   EXPECT_FALSE(facts.name.empty());
@@ -86,6 +106,11 @@ TEST_F(Gpu, NamesTheProgramThatItsDriverRefuses) {
 TEST_F(Gpu, SaysThatItsMemoryDoesNotSuffice) {
   expect_error(ErrorKind::wrong_usage, "memory does not hold",
                [] { on_gpu([](const GpuFacts&) { GpuBuffer(std::size_t{1} << 46); }); });
+}
+
+TEST_F(Gpu, SaysThatItsProgramsTakeNoBufferOfThatSize) {
+  expect_error(ErrorKind::wrong_usage, "--device cpu needs no such room",
+               [] { on_gpu([](const GpuFacts& facts) { GpuBuffer(facts.largest_buffer + 4).bind(0); }); });
 }
 
 TEST_F(Gpu, IsOfUseAgainAfterAFault) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
+#include <string_view>
 
 #include "wheatstone/error.h"
 
@@ -36,15 +38,24 @@ GpuProgram::GpuProgram(const GpuSource& source) {
 
 GpuProgram::~GpuProgram() { glDeleteProgram(name_); }
 
-void GpuProgram::run(std::initializer_list<std::uint32_t> groups,
-                     std::initializer_list<const GpuBuffer*> buffers) const {
+void GpuProgram::run(std::initializer_list<std::uint32_t> groups, std::initializer_list<const GpuBuffer*> buffers,
+                     std::initializer_list<const GpuBuffer*> texels) const {
   std::array<std::uint32_t, 3> count{1, 1, 1};
   std::ranges::copy(groups, count.begin());
   std::uint32_t binding = 0;
   for (const GpuBuffer* const buffer : buffers) buffer->bind(binding++);
+  std::uint32_t unit = 0;
+  for (const GpuBuffer* const buffer : texels) buffer->bind_texels(unit++);
   glUseProgram(name_);
   glDispatchCompute(count[0], count[1], count[2]);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+const GpuProgram& kept_program(const GpuSource& source) {
+  // Never destroyed: at the end of the process there is no context in which it could be. Callers take turns (on_gpu).
+  static auto& programs = *new std::map<std::string_view, GpuProgram>();
+  const auto found = programs.find(source.text);
+  return found != programs.end() ? found->second : programs.emplace(source.text, GpuProgram(source)).first->second;
 }
 
 }  // namespace wheatstone

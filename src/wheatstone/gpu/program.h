@@ -26,13 +26,18 @@ class GpuProgram {
   GpuProgram& operator=(const GpuProgram&) = delete;
   GpuProgram& operator=(GpuProgram&&) = delete;
 
-  /// Runs groups × as many invocations as a group of the source has, in x, y and z. Buffer i is bound to binding i.
-  /// What runs next sees what this wrote.
-  void run(std::initializer_list<std::uint32_t> groups, std::initializer_list<const GpuBuffer*> buffers) const;
+  /// Runs groups × as many invocations as a group of the source has, in x, y and z. Buffer i is bound to binding i, and
+  /// number i of the texels to the sampler there. What runs next sees what this wrote.
+  void run(std::initializer_list<std::uint32_t> groups, std::initializer_list<const GpuBuffer*> buffers,
+           std::initializer_list<const GpuBuffer*> texels = {}) const;
 
  private:
   std::uint32_t name_ = 0;
 };
+
+/// The program of a source, which is compiled when it is first asked for, and kept to the end of the process. Within
+/// on_gpu().
+const GpuProgram& kept_program(const GpuSource& source);
 
 /// Groups of `size` that cover `count`.
 constexpr std::uint32_t groups_of(std::size_t count, std::size_t size) {

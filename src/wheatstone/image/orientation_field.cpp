@@ -103,9 +103,13 @@ Direction OrientationField::along(float x, float y, float gradient_x, float grad
   const float xy = gradient_x * gradient_y + field_weight * sample(xy_);
   const float yy = gradient_y * gradient_y + field_weight * sample(yy_);
   // The tensor's larger eigenvector points up the gradient, at half the angle of (xx − yy, 2xy); strokes run across.
+  const float across = xx - yy, aslant = 2 * xy, length = std::sqrt(across * across + aslant * aslant);
   if (xx + yy <= 0) return {};
-  const float angle = 0.5f * std::atan2(2 * xy, xx - yy);
-  return {-std::sin(angle), std::cos(angle)};
+  if (length == 0) return {0, 1};
+  const float larger = std::sqrt(0.5f * (1 + std::abs(across) / length));
+  const float smaller = std::abs(aslant) / (2 * length * larger);
+  return across >= 0 ? Direction{-std::copysign(smaller, aslant), larger}
+                     : Direction{-std::copysign(larger, aslant), smaller};
 }
 
 }  // namespace wheatstone

@@ -22,10 +22,11 @@ struct RowSums {
         farthest(width, std::numeric_limits<float>::infinity()),
         nearest(width, -std::numeric_limits<float>::infinity()) {}
 
+  /// `row_seeds` may be empty: all are wanted.
   void add(std::span<const Rgb8> row, std::span<const float> disparity, std::span<const std::uint8_t> row_seeds) {
     const std::uint8_t* const from = &row.data()->r;
     for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = static_cast<std::uint16_t>(colours[i] + from[i]);
-    for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] |= row_seeds[i];
+    for (std::size_t i = 0; i < row_seeds.size(); ++i) seeds[i] |= row_seeds[i];
     for (std::size_t i = 0; i < farthest.size(); ++i) farthest[i] = std::min(farthest[i], disparity[i]);
     for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::max(nearest[i], disparity[i]);
   }
@@ -65,7 +66,7 @@ float farthest_wanted(const Block& block, ImageView<const float> disparity, Imag
   float wanted = nowhere, farthest = nowhere;
   block.visit_pixels([&](int x, int y) {
     farthest = std::min(farthest, disparity(x, y));
-    if (seeds(x, y) != 0) wanted = std::min(wanted, disparity(x, y));
+    if (!seeds.empty() && seeds(x, y) != 0) wanted = std::min(wanted, disparity(x, y));
   });
   return wanted < nowhere ? wanted : farthest;
 }
@@ -118,18 +119,20 @@ void leave_out(const Block& block, const WholeView& view, float surface, std::ve
 ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
                     ImageView<const std::uint8_t> seeds, int reduction) {
   const int width = photograph.width() / reduction, height = photograph.height() / reduction;
+  const bool all_wanted = seeds.empty();
   ReducedView view{reduction, Image<Rgb8>(width, height), Image<float>(width, height),
-                   Image<std::uint8_t>(width, height)};
+                   all_wanted ? Image<std::uint8_t>() : Image<std::uint8_t>(width, height)};
   const Mean mean(reduction * reduction);
   std::vector<std::vector<ReducedView::LeftOut>> left_out(height);
   tbb::parallel_for(0, height, [&](int y) {
     const auto columns = static_cast<std::size_t>(width * reduction);
     RowSums sums(columns);
     for (int row = reduction * y; row < reduction * (y + 1); ++row)
-      sums.add(photograph.row(row).first(columns), disparity.row(row).first(columns), seeds.row(row).first(columns));
+      sums.add(photograph.row(row).first(columns), disparity.row(row).first(columns),
+               all_wanted ? std::span<const std::uint8_t>() : seeds.row(row).first(columns));
     const auto from_disparity = disparity.row(reduction * y);
     const auto to_colours = view.photograph.row(y);
-    const auto to_seeds = view.seeds.row(y);
+    const auto to_seeds = all_wanted ? std::span<std::uint8_t>() : view.seeds.row(y);
     for (int x = 0, from = 0; x < width; ++x) {
       std::uint32_t red = 0, green = 0, blue = 0;
       const auto begin = static_cast<std::size_t>(from);
@@ -139,7 +142,7 @@ ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> dis
         red += sums.colours[3 * column];
         green += sums.colours[3 * column + 1];
         blue += sums.colours[3 * column + 2];
-        to_seeds[x] |= sums.seeds[column];
+        if (!all_wanted) to_seeds[x] |= sums.seeds[column];
         farthest = std::min(farthest, sums.farthest[column]);
         nearest = std::max(nearest, sums.nearest[column]);
       }
@@ -149,7 +152,7 @@ ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> dis
         const Block block{reduction * x, reduction * y, reduction};
         surface = farthest_wanted(block, disparity, seeds);
         to_colours[x] = colour_of_surface(block, photograph, disparity, surface);
-        leave_out(block, {photograph, disparity, seeds}, surface, left_out[y]);
+        if (!all_wanted) leave_out(block, {photograph, disparity, seeds}, surface, left_out[y]);
       }
       view.disparity(x, y) = surface / static_cast<float>(reduction);
     }

@@ -21,12 +21,12 @@ struct ReducedView {
 
   int reduction = 1;
   Image<Rgb8> photograph;
-  Image<float> disparity;     ///< in reduced pixels
-  Image<std::uint8_t> seeds;  ///< not 0 where any of the pixels' is not
-  std::vector<LeftOut> left_out;
+  Image<float> disparity;         ///< in reduced pixels
+  Image<std::uint8_t> seeds;      ///< not 0 where any of the pixels' is not; empty: everywhere
+  std::vector<LeftOut> left_out;  ///< none where all is wanted
 };
 
-/// The three are of one size; `reduction` is 1 or more.
+/// The three are of one size, or `seeds` is empty: all is wanted; `reduction` is 1 or more.
 ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
                     ImageView<const std::uint8_t> seeds, int reduction);
 

@@ -33,17 +33,17 @@ void map_whole_marks(RegionPainting& painting, const Mapped& mapped) {
 template <class Mapped>
 void map_whole_marks(DiffusionPainting& /*painting*/, const Mapped& /*mapped*/) {}
 
-/// Regions for some views only are for those that now show the same. `gain` is how much more depth there is than
-/// before.
-void map_views(RegionPainting& painting, ViewPosition reference, float gain) {
+/// Marks for some views only are for those that now show the same. `gain` is how much more depth there is than before.
+template <class Marks>
+void map_views(Marks& painting, ViewPosition reference, float gain) {
+  if (!(gain > 0)) return;
   const auto mapped = [&](ViewPosition view) {
     return ViewPosition(reference.eye_separations() + (view - reference) / gain);
   };
-  for (RegionMark& mark : painting.marks)
-    if (mark.views != all_views && gain > 0) mark.views = {mapped(mark.views.first), mapped(mark.views.last)};
+  visit_marks(painting, [&](auto& mark) {
+    if (mark.views != all_views) mark.views = {mapped(mark.views.first), mapped(mark.views.last)};
+  });
 }
-template <class Marks>
-void map_views(Marks& /*painting*/, ViewPosition /*reference*/, float /*gain*/) {}
 
 /// Surfaces keep whole steps.
 float in_steps(float disparity_px) { return std::round(disparity_px * disparity_steps) / disparity_steps; }

@@ -1,8 +1,11 @@
 #include "wheatstone/marks/painting.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "wheatstone/marks/visit_points_internal.h"
 
@@ -34,14 +37,25 @@ class Mover {
     const double first = (surface.left_px + shift_in(surface.view) - to_.left) * to_.scale;
     Surface to{surface.view, Image<float>(std::max(times(from.width(), to_.scale), 1), to_.height),
                static_cast<int>(std::floor(first)), surface.continued};
-    for (int y = 0; y < to_.height; ++y) {
-      const int row = static_cast<int>(std::floor((y + 0.5) / to_.scale + to_.top));
-      for (int x = 0; x < to.disparity.width(); ++x) {
-        const int column = static_cast<int>(std::floor((x + 0.5 + to.left_px - first) / to_.scale));
-        to.disparity(x, y) =
-            from.contains(column, row) ? disparity(from(column, row)) : std::numeric_limits<float>::quiet_NaN();
-      }
+    // The columns of the surface that is there, from which those of the larger or smaller one come.
+    std::vector<int> columns;
+    const int width = to.disparity.width();
+    int begin = 0;
+    for (int x = 0; x < width; ++x) {
+      const int column = static_cast<int>(std::floor((x + 0.5 + to.left_px - first) / to_.scale));
+      if (column < 0) begin = x + 1;
+      if (column >= 0 && column < from.width()) columns.push_back(column);
     }
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    tbb::parallel_for(0, to_.height, [&](int y) {
+      const int row = static_cast<int>(std::floor((y + 0.5) / to_.scale + to_.top));
+      const std::span<float> values = to.disparity.row(y);
+      std::ranges::fill(values, unknown);
+      if (row < 0 || row >= from.height()) return;
+      const std::span<const float> row_from = from.row(row);
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        values[static_cast<std::size_t>(begin) + i] = disparity(row_from[static_cast<std::size_t>(columns[i])]);
+    });
     return to;
   }
 
@@ -123,28 +137,29 @@ void shift_marks(ViewPosition reference_view, float by_px, Painting& painting) {
 
 namespace {
 
-void add_disparities(const StrokePainting& painting, std::vector<float>& to) {
-  for (const Layer& layer : painting.layers)
-    for (const Stroke& stroke : layer.strokes) to.push_back(stroke.disparity);
+void add_disparities(const StrokePainting& /*painting*/, const Stroke& stroke, std::vector<float>& to) {
+  to.push_back(stroke.disparity);
 }
-
-/// Regions that are for some views only mend what these show of others, unless all of them are: one painting an eye.
-void add_disparities(const RegionPainting& painting, std::vector<float>& to) {
-  const auto is_for_all = [](const RegionMark& mark) { return mark.views == all_views; };
-  const bool only_those = std::ranges::any_of(painting.marks, is_for_all);
-  for (const RegionMark& mark : painting.marks)
-    if (!only_those || is_for_all(mark)) to.push_back(mark.disparity);
+void add_disparities(const RegionPainting& /*painting*/, const RegionMark& mark, std::vector<float>& to) {
+  to.push_back(mark.disparity);
 }
-
-void add_disparities(const DiffusionPainting& painting, std::vector<float>& to) {
-  for (const ColourPoint& point : painting.points) to.push_back(point.at.disparity);
+void add_disparities(const DiffusionPainting& painting, const ColourLine& line, std::vector<float>& to) {
+  for (const ColourPoint& point : painting.points_of(line)) to.push_back(point.at.disparity);
 }
 
 }  // namespace
 
 std::vector<float> disparities_of_marks(const Painting& painting) {
   std::vector<float> disparities;
-  std::visit([&](const auto& marks) { add_disparities(marks, disparities); }, painting.marks);
+  const auto add = [&](const auto& marks) {
+    // Marks for some views only mend what these show of others, unless all of them are: one painting an eye.
+    bool any_for_all = false;
+    visit_marks(marks, [&](const auto& mark) { any_for_all = any_for_all || mark.views == all_views; });
+    visit_marks(marks, [&](const auto& mark) {
+      if (!any_for_all || mark.views == all_views) add_disparities(marks, mark, disparities);
+    });
+  };
+  std::visit(add, painting.marks);
   return disparities;
 }
 

@@ -57,7 +57,7 @@ Painting placed(Painting painting, const Placement& placement);
 /// Moves the marks that stand in one reference view to the right.
 void shift_marks(ViewPosition reference_view, float by_px, Painting& painting);
 
-/// How near each mark is, in no order: the disparities of strokes and regions, and of the points of curves. Regions
+/// How near each mark is, in no order: the disparities of strokes and regions, and of the points of curves. Marks
 /// that mend what some views show of others do not count.
 std::vector<float> disparities_of_marks(const Painting& painting);
 

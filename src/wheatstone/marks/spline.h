@@ -46,8 +46,9 @@ class ClampedSpline {
   ViewPosition reference_view_;
 };
 
-/// The curve's point at 0 ≤ t ≤ 1 of one of its spans.
-inline SpatialPoint point_on(const ClampedSpline& spline, int span, float t) {
+/// The curve's point at 0 ≤ t ≤ 1 of one of the spans of a spline, whose control(i) is as a ClampedSpline's.
+template <class Spline>
+SpatialPoint point_on(const Spline& spline, int span, float t) {
   const SpatialPoint a = spline.control(span), b = spline.control(span + 1), c = spline.control(span + 2),
                      d = spline.control(span + 3);
   const float s = 1 - t;

@@ -62,7 +62,7 @@ struct Style {
   bool dual = false;     ///< strokes of two colours, side by side
 
   Marks marks = Marks::strokes;
-  int colours = 14;    ///< k: of a posterised picture
+  int colours = 18;    ///< k: of a posterised picture
   float tile_px = 14;  ///< width of a mosaic's tiles, for a picture 640 pixels wide
 
   bool depth_test = true;             ///< end strokes at depth discontinuities

@@ -31,4 +31,18 @@ void visit_points(DiffusionPainting& painting, Visit visit) {
       visit(painting.points[line.first_point + i].at, line.reference_view);
 }
 
+// Calls `visit(mark)` for all strokes, regions or lines; of a painting that may or may not be changed.
+
+template <class Painting, class Visit>
+void visit_marks(Painting& painting, Visit visit) {
+  if constexpr (requires { painting.layers; }) {
+    for (auto& layer : painting.layers)
+      for (auto& stroke : layer.strokes) visit(stroke);
+  } else if constexpr (requires { painting.lines; }) {
+    for (auto& line : painting.lines) visit(line);
+  } else {
+    for (auto& mark : painting.marks) visit(mark);
+  }
+}
+
 }  // namespace wheatstone

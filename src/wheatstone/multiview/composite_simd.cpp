@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "wheatstone/multiview/slice_band_internal.h"
 
@@ -9,95 +10,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "wheatstone/multiview/tone_simd_internal.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace wheatstone::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using Floats = hn::CappedTag<float, 16>;
-using Vec = hn::Vec<Floats>;
-constexpr std::ptrdiff_t lanes = hn::MaxLanes(Floats());
-
-// Columns composited at a time: their light of all planes fits in a first-level cache, and their sums in registers.
-constexpr int block_width = 4 * 16;
-constexpr int vectors = block_width / lanes;
-
-/// The sums of a block of pixels, channel by channel.
-using Sums = float[3][block_width];
-using Bytes = std::uint8_t[3][block_width];
-
-HWY_INLINE void store_bytes(hn::Vec<hn::RebindToSigned<Floats>> values, std::uint8_t* to) {
-  const hn::Rebind<std::uint8_t, Floats> bytes;
-  hn::StoreU(hn::DemoteTo(bytes, values), bytes, to);
-}
-
-/// sRGB bytes of linear light 0..1.
-HWY_INLINE void store_srgb(Vec linear, const ToneMap& map, std::uint8_t* to) {
-  const Floats d;
-  const hn::RebindToSigned<Floats> di;
-  const auto entry = hn::NearestInt(hn::Mul(linear, hn::Set(d, ToneMap::table_size - 1.f)));
-  store_bytes(hn::GatherIndex(di, map.table.data(), entry), to);
-}
-
-HWY_INLINE void tone_light(const Sums& sums, const ToneMap& map, Bytes& bytes) {
-  const Floats d;
-  for (int channel = 0; channel < 3; ++channel)
-    for (int i = 0; i < block_width; i += lanes) {
-      const Vec light = hn::Load(d, sums[channel] + i);
-      const Vec exposed = hn::Max(hn::Mul(light, hn::Set(d, map.exposure)), hn::Zero(d));
-      const Vec one = hn::Set(d, 1.f);
-      const Vec shown = map.bounded ? hn::Min(exposed, one) : hn::Div(exposed, hn::Add(exposed, one));
-      store_srgb(shown, map, bytes[channel] + i);
-    }
-}
-
-/// Where the stretch of a number stands in its table.
-HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> stretch_index(Vec value, const ToneMap& map) {
-  const Floats d;
-  const hn::RebindToSigned<Floats> di;
-  const Vec share = hn::Max(hn::MulAdd(value, hn::Set(d, map.scale), hn::Set(d, map.offset)), hn::Zero(d));
-  const auto index =
-      hn::Sub(hn::ShiftRight<ToneMap::index_shift>(hn::BitCast(di, share)), hn::Set(di, ToneMap::first_index));
-  return hn::Min(hn::Max(index, hn::Zero(di)), hn::Set(di, ToneMap::stretch_size - 1));
-}
-
-HWY_INLINE void tone_mass(const Sums& sums, const ToneMap& map, Bytes& bytes) {
-  const Floats d;
-  const hn::RebindToSigned<Floats> di;
-  const Vec nothing = hn::Set(d, 1e-30f);
-  const Vec most_hue = hn::Set(d, static_cast<float>(map.hues - 1));
-  for (int i = 0; i < block_width; i += lanes) {
-    const Vec column = hn::Load(d, sums[0] + i);
-    const Vec mean = hn::Div(hn::Load(d, sums[1] + i), hn::Max(column, nothing));
-    const auto brightness =
-        hn::GatherIndex(di, map.stretch.data(), stretch_index(map.shown == Shown::mean ? mean : column, map));
-    const auto hue = hn::NearestInt(hn::Clamp(hn::Mul(mean, most_hue), hn::Zero(d), most_hue));
-    const auto found = hn::GatherIndex(di, map.colours.data(), hn::Add(brightness, hue));
-    const auto colour = hn::IfThenElseZero(hn::RebindMask(di, hn::Gt(column, nothing)), found);
-    const auto low = hn::Set(di, 255);
-    store_bytes(hn::And(colour, low), bytes[0] + i);
-    store_bytes(hn::And(hn::ShiftRight<8>(colour), low), bytes[1] + i);
-    store_bytes(hn::ShiftRight<16>(colour), bytes[2] + i);
-  }
-}
-
-HWY_INLINE void tone_colours(const Sums& sums, const ToneMap& map, Bytes& bytes) {
-  const Floats d;
-  for (int i = 0; i < block_width; i += lanes) {
-    const Vec most = hn::Max(hn::Max(hn::Load(d, sums[0] + i), hn::Load(d, sums[1] + i)), hn::Load(d, sums[2] + i));
-    const Vec bright = hn::GatherIndex(d, map.linear_stretch.data(), stretch_index(most, map));
-    const Vec factor = hn::Div(bright, hn::Max(most, hn::Set(d, 1e-30f)));
-    for (int channel = 0; channel < 3; ++channel) {
-      const Vec light = hn::Mul(hn::Load(d, sums[channel] + i), factor);
-      store_srgb(hn::Clamp(light, hn::Zero(d), hn::Set(d, 1.f)), map, bytes[channel] + i);
-    }
-  }
-}
-
-HWY_INLINE void tone(const Sums& sums, const ToneMap& map, Bytes& bytes) {
-  if (map.look == Look::thesis) return tone_light(sums, map, bytes);
-  if (map.shown == Shown::colours) return tone_colours(sums, map, bytes);
-  tone_mass(sums, map, bytes);
-}
 
 /// Adds what the picture of half the size has in a block of a row: it is interpolated between its pixels, which keeps
 /// the sum. Pixel i of a picture lies between pixels (i − pad) / 2 + 1 and + 3 of the smaller one, whose pad is 2.
@@ -165,9 +82,15 @@ struct Channels {
   Vec red, green, blue;
 };
 
-HWY_INLINE Channels load_channels(const float* from) {
+/// Pixels of mass have two channels (LightBand).
+HWY_INLINE Channels load_channels(const float* from, int count) {
   const Floats d;
   Channels channels;
+  if (count == 2) {
+    hn::LoadInterleaved2(d, from, channels.red, channels.green);
+    channels.blue = hn::Zero(d);
+    return channels;
+  }
   Vec nothing;
   hn::LoadInterleaved4(d, from, channels.red, channels.green, channels.blue, nothing);
   return channels;
@@ -180,7 +103,7 @@ void finish_light_band(const LightBand& band, const ToneMap& map, int top, const
   for (int row = 0; row < rows; ++row) {
     for (int x = 0; x < target.width(); x += block_width) {
       for (int i = 0; i < block_width; i += lanes) {
-        const Channels light = load_channels(band.row(row) + (x + i - band.left()) * LightBand::channels);
+        const Channels light = load_channels(band.row(row) + (x + i - band.left()) * band.channels(), band.channels());
         hn::Store(light.red, d, sums[0] + i);
         hn::Store(light.green, d, sums[1] + i);
         hn::Store(light.blue, d, sums[2] + i);
@@ -190,6 +113,7 @@ void finish_light_band(const LightBand& band, const ToneMap& map, int top, const
   }
 }
 
+/// Of mass, the third channel stays as it is: dark.
 void take_plane(const LightBand& band, std::uint16_t* to, std::ptrdiff_t stride, SliceBand::Extent* lit) {
   const Floats d;
   const hn::Rebind<hwy::float16_t, Floats> halves;
@@ -197,11 +121,14 @@ void take_plane(const LightBand& band, std::uint16_t* to, std::ptrdiff_t stride,
   const auto store = [&](Vec light, std::uint16_t* at) {
     hn::StoreU(hn::BitCast(bits, hn::DemoteTo(halves, hn::Min(light, hn::Set(d, 65504.f)))), bits, at);
   };
+  const int channels = band.channels();
+  // Rows of both are longer than they must be.
+  const int width = std::min(band.width_with_margins(), static_cast<int>(stride));
   for (int row = 0; row < band.rows(); ++row, to += 3 * stride) {
-    const float* from = band.row(row) - LightBand::margin * LightBand::channels;
-    lit[row] = {.first = band.width_with_margins(), .end = -LightBand::margin};
-    for (int x = 0; x < band.width_with_margins(); x += lanes) {
-      const Channels light = load_channels(from + x * LightBand::channels);
+    const float* from = band.row(row) - LightBand::margin * channels;
+    lit[row] = {.first = width, .end = -LightBand::margin};
+    for (int x = 0; x < width; x += lanes) {
+      const Channels light = load_channels(from + x * channels, channels);
       const Vec sum = hn::Add(light.red, hn::Add(light.green, light.blue));
       if (!hn::AllFalse(d, hn::Gt(sum, hn::Zero(d)))) {
         lit[row].first = std::min(lit[row].first, x - LightBand::margin);
@@ -209,7 +136,7 @@ void take_plane(const LightBand& band, std::uint16_t* to, std::ptrdiff_t stride,
       }
       store(light.red, to + x);
       store(light.green, to + stride + x);
-      store(light.blue, to + 2 * stride + x);
+      if (channels > 2) store(light.blue, to + 2 * stride + x);
     }
   }
 }
@@ -244,12 +171,16 @@ Shift shift_of(float pixels, Resampling resampling) {
 /// One block of one row of all planes, as floats.
 struct UnpackedBlock {
   static constexpr int widest = block_width + 2 * 64;
+  static constexpr int beside = 2 * 16;  // what a vector may reach beyond the first and the last
+  explicit UnpackedBlock(int planes)
+      : values(static_cast<std::size_t>(planes) * 3 * widest + 2 * beside), first(static_cast<std::size_t>(planes)) {}
   std::vector<float> values;  // [plane][channel][widest]
   std::vector<int> first;     // column of each plane's value 0
   std::vector<int> lit;       // the planes that hold light here
   const float* at(int plane, int channel) const {
-    return values.data() + (static_cast<std::size_t>(plane) * 3 + channel) * widest;
+    return values.data() + beside + (static_cast<std::size_t>(plane) * 3 + channel) * widest;
   }
+  float* at(int plane, int channel) { return const_cast<float*>(std::as_const(*this).at(plane, channel)); }
 };
 
 /// Unpacks the planes that are lit where any view of the group looks, and lists them.
@@ -268,8 +199,7 @@ void unpack(const SliceBand& slices, int row, int x, const std::vector<std::arra
     block.first[plane] = x + reach[plane][0];
     for (int channel = 0; channel < channels; ++channel) {
       const std::uint16_t* from = slices.row(plane, row, channel) + (first - slices.left());
-      float* to = block.values.data() + (static_cast<std::size_t>(plane) * 3 + channel) * UnpackedBlock::widest +
-                  (first - block.first[plane]);
+      float* to = block.at(plane, channel) + (first - block.first[plane]);
       for (int i = 0; i < end - first; i += lanes)
         hn::StoreU(hn::PromoteTo(d, hn::BitCast(halves, hn::LoadU(bits, from + i))), d, to + i);
     }
@@ -304,6 +234,8 @@ struct Gains {
 void find_gains(const std::optional<Focus>& focus, int x, int y, Gains& gains) {
   gains.all_one = true;
   if (!focus || std::abs(static_cast<float>(y) + 0.5f - focus->y_px) >= focus->radius_px) return;
+  const float from_middle = static_cast<float>(x) + block_width / 2.f - focus->x_px;
+  if (std::abs(from_middle) >= focus->radius_px + block_width / 2.f) return;
   for (int i = 0; i < block_width; ++i) {
     gains.values[i] = focus->gain_at(static_cast<float>(x + i) + 0.5f, static_cast<float>(y) + 0.5f);
     gains.all_one = gains.all_one && gains.values[i] == 1;
@@ -343,29 +275,39 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<Floats>> weigh_around(Vec place, Vec share
   return hn::ConvertTo(di, taps == 4 ? hn::Sub(whole, one) : whole);
 }
 
-/// The same where each pixel moves by its own gain.
+/// The same where each pixel moves by its own gain. Those of a vector move by nearly as many whole pixels: what some of
+/// them want of a pixel that the others do not is read for all, with a weight of 0 for the others.
 template <int taps>
 void composite_in_focus(const UnpackedBlock& block, int x, std::span<const Move> moves, const Gains& gains,
                         int channels, Sums& sums) {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
-  for (int channel = 0; channel < channels; ++channel) std::fill_n(sums[channel], block_width, 0.f);
-  for (const int plane : block.lit) {
-    const Move move = moves[plane];
-    const Vec share = hn::Set(d, move.share);
-    for (int i = 0; i < block_width; i += lanes) {
+  for (int i = 0; i < block_width; i += lanes) {
+    Vec sum[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    for (const int plane : block.lit) {
+      const Move move = moves[plane];
       const Vec from_first = hn::Iota(d, static_cast<float>(x + i - block.first[plane]));
       const Vec place = hn::MulAdd(hn::Load(d, gains.values + i), hn::Set(d, move.pixels), from_first);
       Vec weights[taps];
-      const auto first = hn::Min(hn::Max(weigh_around<taps>(place, share, weights), hn::Zero(di)),
-                                 hn::Set(di, UnpackedBlock::widest - taps));
-      for (int channel = 0; channel < channels; ++channel) {
-        Vec sum = hn::Load(d, sums[channel] + i);
-        for (int tap = 0; tap < taps; ++tap)
-          sum = hn::MulAdd(weights[tap], hn::GatherIndex(d, block.at(plane, channel) + tap, first), sum);
-        hn::Store(sum, d, sums[channel] + i);
+      const auto wanted = weigh_around<taps>(place, hn::Set(d, move.share), weights);
+      const auto first = hn::Min(hn::Max(wanted, hn::Zero(di)), hn::Set(di, UnpackedBlock::widest - taps));
+      const auto shift = hn::Sub(first, hn::Iota(di, 0));
+      const int least = hn::GetLane(hn::MinOfLanes(di, shift));
+      const int most = hn::GetLane(hn::MaxOfLanes(di, shift));
+      for (int at = least; at < most + taps; ++at) {
+        Vec weight = weights[at - least < taps ? at - least : 0];
+        if (least != most) {
+          weight = hn::Zero(d);
+          for (int tap = 0; tap < taps; ++tap) {
+            const auto here = hn::RebindMask(d, hn::Eq(shift, hn::Set(di, at - tap)));
+            weight = hn::IfThenElse(here, weights[tap], weight);
+          }
+        }
+        for (int channel = 0; channel < channels; ++channel)
+          sum[channel] = hn::MulAdd(weight, hn::LoadU(d, block.at(plane, channel) + at), sum[channel]);
       }
     }
+    for (int channel = 0; channel < channels; ++channel) hn::Store(sum[channel], d, sums[channel] + i);
   }
 }
 
@@ -443,9 +385,7 @@ void composite_group(const SliceBand& slices, const ViewGroup& group, const Band
 
 template <int taps>
 void composite_band(const SliceBand& slices, const Compositing& compositing, const BandOfViews& to) {
-  UnpackedBlock block;
-  block.values.resize(static_cast<std::size_t>(slices.planes()) * 3 * UnpackedBlock::widest);
-  block.first.resize(slices.planes());
+  UnpackedBlock block(slices.planes());
   for (std::size_t view = 0; view < to.targets.size();) {
     const ViewGroup group = group_from(view, compositing);
     composite_group<taps>(slices, group, to, block);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace wheatstone {
 
 Costs estimate_costs(const Workload& workload) {
@@ -50,6 +52,35 @@ Choice choose_method(const Workload& workload) {
       name, workload.particles, workload.splat_px, workload.views, workload.pixels, workload.planes, costs.exact,
       costs.incremental, costs.layered);
   return choice;
+}
+
+Costs estimate_gpu_costs(const Workload& workload) {
+  constexpr double ns = 1e-9;
+  const auto particles = static_cast<double>(workload.particles);
+  const auto pixels = static_cast<double>(workload.pixels);
+  const double views = workload.views;
+  // A plane of mass has smaller pictures, too. An invocation costs something though it gathers nothing.
+  const double pictures = workload.mass ? 1.33 : 1;
+  const double area = (workload.splat_px + 1) * (workload.splat_px + 1);
+  const double gathered = (workload.mass ? 80 + 5 * area : 40 + 2.5 * area) * ns;
+  const double list = 200 * ns;
+  const double begin = 26 * ns, finish = 14 * ns, pack = 8.5 * ns, composite = 4 * ns;
+  Costs costs;
+  costs.exact = std::numeric_limits<double>::infinity();
+  costs.incremental = particles * (list + views * gathered) + views * pictures * pixels * (begin + finish);
+  costs.layered = particles * (list + gathered) +
+                  pictures * pixels * (workload.planes * (begin + pack + views * composite) + views * finish);
+  return costs;
+}
+
+Choice choose_gpu_method(const Workload& workload) {
+  const Costs costs = estimate_gpu_costs(workload);
+  const bool layered = costs.layered < costs.incremental;
+  return {.method = layered ? Method::layered : Method::incremental,
+          .reason = fmt::format("on a graphics processor, {}: for {} particles in {} views with {} planes, layered is "
+                                "estimated to take {:.2f} of the time of incremental",
+                                layered ? "layered" : "incremental", workload.particles, workload.views,
+                                workload.planes, costs.layered / costs.incremental)};
 }
 
 }  // namespace wheatstone

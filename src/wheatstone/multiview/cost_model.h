@@ -32,4 +32,8 @@ struct Choice {
 };
 Choice choose_method(const Workload& workload);
 
+/// The same on a graphics processor, which does not render by the exact way.
+Costs estimate_gpu_costs(const Workload& workload);
+Choice choose_gpu_method(const Workload& workload);
+
 }  // namespace wheatstone

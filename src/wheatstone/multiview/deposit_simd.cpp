@@ -11,27 +11,17 @@
 #include <hwy/highway.h>
 
 #include "wheatstone/multiview/fast_exp_internal.h"
+#include "wheatstone/multiview/mass_splats_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace wheatstone::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A vector is a few pixels of four channels: up to four.
-using Floats = hn::CappedTag<float, 16>;
-using Vec = hn::Vec<Floats>;
-constexpr std::ptrdiff_t lanes = hn::MaxLanes(Floats());
-constexpr int most_rows = 48;
-
-HWY_INLINE int rounded_up(float x) {
-  const int whole = static_cast<int>(x);
-  return whole + (static_cast<float>(whole) < x);
-}
-
 /// A splat, unpacked. Of light, its weight at a distance is 2^(−sharpness·distance²), and 0 beyond its reach. Of mass,
 /// it is the part of a Gaussian that lies over the pixel, and all of it lies within its reach: weights sum to 1,
 /// wherever the splat lies between the pixels.
 struct Spread {
-  HWY_ALIGN float colour[4];
+  HWY_ALIGN float colour[4];  // of mass, both channels twice
   float reach, sharpness;
   bool spline;  // of mass: the cubic spline kernel in place of a Gaussian
 };
@@ -49,7 +39,8 @@ HWY_INLINE void unpack(const Splat& splat, Spread& spread) {
     const float second = spread.colour[2];
     std::memcpy(spread.colour, splat.colour, sizeof(float));
     spread.colour[1] = spread.colour[0] * second;
-    spread.colour[2] = 0;
+    spread.colour[2] = spread.colour[0];
+    spread.colour[3] = spread.colour[1];
   }
   if constexpr (deposit == Deposit::absorbing) {
     const float depth = spread.colour[2];
@@ -61,49 +52,12 @@ HWY_INLINE void unpack(const Splat& splat, Spread& spread) {
   }
   if constexpr (keeps_sums(deposit)) {
     spread.reach = reach_of(size);
-    // Of a Gaussian 1 / (√2 deviations), of the spline 1 / radius.
-    spread.sharpness = (spread.spline ? 2.f : diameters_a_mass_deviation * 0.70710678f) / size;
+    spread.sharpness = 2 / size;
     return;
   }
   const float variance = size * size * (1 / (diameters_a_deviation * diameters_a_deviation)) + pixel_variance;
   spread.reach = reach_of(size);
   spread.sharpness = 0.72134752f / variance;  // 1 / (2 ln 2)
-}
-
-/// How much of a Gaussian lies between its middle and a distance, −½ to ½; all of a half beyond its rim. `scaled` is
-/// the distance over √2 deviations. Abramowitz & Stegun 1964, 7.1.26.
-HWY_INLINE Vec half_within_gaussian(Vec scaled) {
-  const Floats d;
-  const Vec x = hn::Abs(scaled);
-  const Vec t = hn::Div(hn::Set(d, 1.f), hn::MulAdd(x, hn::Set(d, 0.3275911f), hn::Set(d, 1.f)));
-  Vec tail = hn::MulAdd(t, hn::Set(d, 1.061405429f), hn::Set(d, -1.453152027f));
-  tail = hn::MulAdd(tail, t, hn::Set(d, 1.421413741f));
-  tail = hn::MulAdd(tail, t, hn::Set(d, -0.284496736f));
-  tail = hn::Mul(hn::MulAdd(tail, t, hn::Set(d, 0.254829592f)), t);
-  const Vec fall = fast_exp2(d, hn::Mul(hn::Mul(x, x), hn::Set(d, -1.44269504f)));
-  // At the rim, 2.75 deviations from the middle, the error function is 0.99404.
-  const Vec within = hn::Mul(hn::NegMulAdd(tail, fall, hn::Set(d, 1.f)), hn::Set(d, 0.5f / 0.994040f));
-  return hn::CopySign(hn::Min(within, hn::Set(d, 0.5f)), scaled);
-}
-
-/// The same of the cubic spline kernel, projected on an axis, where 1 is its radius: the integrals of 32 (1−r)³ r and
-/// of 16 r (1 − 6 r² + 6 r³) beyond and below a half, from the distance on.
-HWY_INLINE Vec half_within_spline(Vec scaled) {
-  const Floats d;
-  const Vec x = hn::Min(hn::Abs(scaled), hn::Set(d, 1.f));
-  const Vec square = hn::Mul(x, x);
-  Vec inner = hn::MulAdd(x, hn::Set(d, -3.2f), hn::Set(d, 4.8f));
-  inner = hn::MulAdd(inner, square, hn::Set(d, -8.f / 3));
-  inner = hn::Mul(hn::MulAdd(inner, square, hn::Set(d, 1.4f)), x);
-  const Vec rest = hn::Sub(hn::Set(d, 1.f), x);
-  const Vec fourth = hn::Mul(hn::Mul(rest, rest), hn::Mul(rest, rest));
-  const Vec tail = hn::Mul(hn::MulAdd(rest, hn::Set(d, -16.f / 15), hn::Set(d, 1.6f)), hn::Mul(fourth, rest));
-  const Vec outer = hn::Sub(hn::Set(d, 0.5f), tail);
-  return hn::CopySign(hn::IfThenElse(hn::Lt(x, hn::Set(d, 0.5f)), inner, outer), scaled);
-}
-
-HWY_INLINE Vec half_within(Vec scaled, const Spread& spread) {
-  return spread.spline ? half_within_spline(scaled) : half_within_gaussian(scaled);
 }
 
 /// Weights of pixels whose centres lie at these distances from the splat's.
@@ -113,8 +67,8 @@ HWY_INLINE Vec weights_at(Vec distance, const Spread& spread) {
   if constexpr (keeps_sums(deposit)) {
     const Vec scale = hn::Set(d, spread.sharpness);
     const Vec half = hn::Set(d, 0.5f);
-    return hn::Sub(half_within(hn::Mul(hn::Add(distance, half), scale), spread),
-                   half_within(hn::Mul(hn::Sub(distance, half), scale), spread));
+    return hn::Sub(half_within(hn::Mul(hn::Add(distance, half), scale), spread.spline),
+                   half_within(hn::Mul(hn::Sub(distance, half), scale), spread.spline));
   }
   const Vec weight = fast_exp2(d, hn::Mul(hn::Mul(distance, distance), hn::Set(d, -spread.sharpness)));
   return hn::IfThenElseZero(hn::Le(hn::Abs(distance), hn::Set(d, spread.reach)), weight);
@@ -127,7 +81,7 @@ HWY_INLINE Vec weights_in_window(float distance, const Spread& spread) {
   const Floats d;
   if constexpr (!keeps_sums(deposit)) return weights_at<deposit>(hn::Iota(d, distance), spread);
   const hn::RebindToSigned<Floats> di;
-  const Vec at_edge = half_within(hn::Mul(hn::Iota(d, distance - 0.5f), hn::Set(d, spread.sharpness)), spread);
+  const Vec at_edge = half_within(hn::Mul(hn::Iota(d, distance - 0.5f), hn::Set(d, spread.sharpness)), spread.spline);
   const auto next = hn::IndicesFromVec(d, hn::Min(hn::Iota(di, 1), hn::Set(di, static_cast<int>(lanes) - 1)));
   return hn::Sub(hn::TableLookupLanes(at_edge, next), at_edge);
 }
@@ -141,10 +95,10 @@ HWY_INLINE void weigh(float distance, const Spread& spread, int count, float* we
     hn::Store(weights_at<deposit>(hn::Iota(d, distance + static_cast<float>(i)), spread), d, weights + i);
 }
 
-/// The light of a row of pixels, all channels: their weights times the colour. The first pixel's centre is at
+/// The light of a row of pixels, all four channels: their weights times the colour. The first pixel's centre is at
 /// `distance` from the splat's.
 template <Deposit deposit, int pixels>
-HWY_INLINE void light_row(const Spread& spread, float distance, Vec (&light)[pixels * LightBand::channels / lanes]) {
+HWY_INLINE void light_row(const Spread& spread, float distance, Vec (&light)[pixels * 4 / lanes]) {
   const Floats d;
   if constexpr (lanes == 16) {
     const Vec weights = pixels < lanes ? weights_in_window<deposit>(distance, spread)
@@ -157,11 +111,10 @@ HWY_INLINE void light_row(const Spread& spread, float distance, Vec (&light)[pix
     }
   } else {
     HWY_ALIGN float weights[(pixels + lanes - 1) / lanes * lanes];
-    HWY_ALIGN float values[pixels * LightBand::channels];
+    HWY_ALIGN float values[pixels * 4];
     weigh<deposit>(distance, spread, pixels, weights);
-    for (int i = 0; i < pixels * LightBand::channels; ++i)
-      values[i] = weights[i / LightBand::channels] * spread.colour[i % LightBand::channels];
-    for (int i = 0; i < pixels * LightBand::channels / lanes; ++i) light[i] = hn::Load(d, values + i * lanes);
+    for (int i = 0; i < pixels * 4; ++i) values[i] = weights[i / 4] * spread.colour[i % 4];
+    for (int i = 0; i < pixels * 4 / lanes; ++i) light[i] = hn::Load(d, values + i * lanes);
   }
 }
 
@@ -172,14 +125,10 @@ struct RowWindow {
   HWY_ALIGN float weights[most_rows];
 };
 
-/// Adds rows × pixels to a band, the upper left one at `to`. `fixed_rows` of 0 stands for `rows.count`.
-template <Deposit deposit, int fixed_rows, int pixels>
-HWY_INLINE void add_window(const Spread& spread, float distance, const RowWindow& rows, std::ptrdiff_t stride,
-                           float* to) {
+/// Adds rows of pixels to a band, the upper left one at `to`. `fixed_rows` of 0 stands for `rows.count`.
+template <int fixed_rows, int vectors>
+HWY_INLINE void add_rows(const Vec (&light)[vectors], const RowWindow& rows, std::ptrdiff_t stride, float* to) {
   const Floats d;
-  constexpr int vectors = pixels * LightBand::channels / lanes;
-  Vec light[vectors];
-  light_row<deposit, pixels>(spread, distance, light);
   const int end = fixed_rows > 0 ? fixed_rows : rows.count;
   HWY_UNROLL(8)
   for (int row = 0; row < end; ++row, to += stride) {
@@ -199,14 +148,69 @@ HWY_INLINE void find_rows(const Splat& splat, const Spread& spread, int top, int
                : spread.reach < 4 ? 8
                                   : std::min(end, band_rows) - std::max(first, 0);
   rows.first = std::min(std::max(first, 0), band_rows - rows.count);
-  weigh<deposit>(static_cast<float>(rows.first) - y, spread, rows.count, rows.weights);
+  const float distance = static_cast<float>(rows.first) - y;
+  if constexpr (deposit == Deposit::mass)
+    return find_parts(distance - 0.5f, spread.sharpness, spread.spline, rows.count, rows.weights);
+  weigh<deposit>(distance, spread, rows.count, rows.weights);
+}
+
+/// Adds rows × pixels of four channels to a band.
+template <Deposit deposit, int fixed_rows, int pixels>
+HWY_INLINE void add_window(const Spread& spread, float distance, const RowWindow& rows, std::ptrdiff_t stride,
+                           float* to) {
+  Vec light[pixels * 4 / lanes];
+  light_row<deposit, pixels>(spread, distance, light);
+  add_rows<fixed_rows>(light, rows, stride, to);
+}
+
+/// Adds 16 pixels of mass, their parts in memory.
+template <int fixed_rows>
+HWY_INLINE void add_mass_window(const float* parts, const Spread& spread, const RowWindow& rows, std::ptrdiff_t stride,
+                                float* to) {
+  Vec light[4 * mass_line / lanes];
+  light_mass_in_memory(parts, spread.colour, light);
+  add_rows<fixed_rows>(light, rows, stride, to);
+}
+
+/// Adds a splat of mass, its centre in column `x` of the band.
+HWY_INLINE void add_mass(const Spread& spread, const RowWindow& rows, float x, LightBand& band) {
+  const int touched = rounded_up(x - spread.reach - 0.5f);
+  const int end = static_cast<int>(x + spread.reach + 0.5f);
+  const int first = touched & ~(mass_line - 1);
+  float* const to = band.row(rows.first) + first * channels_in(Deposit::mass);
+  const float first_edge = static_cast<float>(touched) - x;
+  const std::ptrdiff_t stride = band.stride();
+  if constexpr (lanes == 16) {
+    if (end - touched < lanes) {
+      const Vec parts = parts_from(first_edge, spread.sharpness, spread.spline);
+      if (end - first > 2 * mass_line) {
+        Vec light[3];
+        light_mass(parts, touched - first, spread.colour, light);
+        return add_rows<0>(light, rows, stride, to);
+      }
+      Vec light[2];
+      light_mass(parts, touched - first, spread.colour, light);
+      if (spread.reach < 2) return add_rows<4>(light, rows, stride, to);
+      if (spread.reach < 3) return add_rows<6>(light, rows, stride, to);
+      if (spread.reach < 4) return add_rows<8>(light, rows, stride, to);
+      return add_rows<0>(light, rows, stride, to);
+    }
+  }
+  HWY_ALIGN float parts[most_rows + 2 * mass_line + lanes] = {};
+  find_parts(first_edge, spread.sharpness, spread.spline, end - touched, parts + (touched - first));
+  if (spread.reach < 2) return add_mass_window<4>(parts, spread, rows, stride, to);
+  if (spread.reach < 3) return add_mass_window<6>(parts, spread, rows, stride, to);
+  if (spread.reach < 4) return add_mass_window<8>(parts, spread, rows, stride, to);
+  for (int column = 0; column < end - first; column += 2 * mass_line)
+    add_mass_window<0>(parts + column, spread, rows, stride, to + column * channels_in(Deposit::mass));
 }
 
 /// Adds a splat, its centre in column `x` of the band.
 template <Deposit deposit>
 HWY_INLINE void add(const Spread& spread, const RowWindow& rows, float x, LightBand& band) {
+  if constexpr (deposit == Deposit::mass) return add_mass(spread, rows, x, band);
   const int first = rounded_up(x - spread.reach - 0.5f) & ~3;  // of a cache line
-  float* const to = band.row(rows.first) + first * LightBand::channels;
+  float* const to = band.row(rows.first) + first * 4;
   const float distance = static_cast<float>(first) + 0.5f - x;
   const std::ptrdiff_t stride = band.stride();
   if (spread.reach < 2) return add_window<deposit, 4, 8>(spread, distance, rows, stride, to);
@@ -214,12 +218,34 @@ HWY_INLINE void add(const Spread& spread, const RowWindow& rows, float x, LightB
   if (spread.reach < 4) return add_window<deposit, 8, 12>(spread, distance, rows, stride, to);
   const int columns = static_cast<int>(x + spread.reach + 0.5f) - first;
   for (int column = 0; column < columns; column += 16)
-    add_window<deposit, 0, 16>(spread, distance + static_cast<float>(column), rows, stride,
-                               to + column * LightBand::channels);
+    add_window<deposit, 0, 16>(spread, distance + static_cast<float>(column), rows, stride, to + column * 4);
+}
+
+void deposit_mass(std::span<const Splat> splats, int top, bool spline, LightBand& band) {
+  MassSplats ready;
+  while (!splats.empty()) {
+    const std::span<const Splat> some = splats.first(std::min(splats.size(), MassSplats::most));
+    make_ready(some, top, spline, band, ready);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      if (ready.extent[i] < most_parts) {
+        add_lines<2>(ready, i, 0, band);
+        if (ready.columns_end[i] > 2 * mass_line) add_lines<1>(ready, i, 2, band);
+        continue;
+      }
+      Spread spread;
+      RowWindow rows;
+      spread.spline = spline;
+      unpack<Deposit::mass>(some[i], spread);
+      find_rows<Deposit::mass>(some[i], spread, top, band.rows(), rows);
+      add_mass(spread, rows, ready.x[i], band);
+    }
+    splats = splats.subspan(some.size());
+  }
 }
 
 template <Deposit deposit>
 void deposit_splats(std::span<const Splat> splats, int top, bool spline, LightBand& band) {
+  if constexpr (deposit == Deposit::mass) return deposit_mass(splats, top, spline, band);
   RowWindow rows;
   Spread spread;
   spread.spline = spline;

@@ -1,4 +1,5 @@
 #include <optional>
+#include <utility>
 
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
@@ -23,17 +24,22 @@ void make_view(const RenderJob& job, ViewPosition view, std::span<const ImageVie
   const Window window{.left = 0, .right = static_cast<float>(job.rig.width), .height = job.rig.height};
   const Deposit kind = deposit_of(job.scene.splat_style);
   const Projection projection = projection_for(job, orders, view);
-  const auto take = [&](const Cloud& particles, GatheredLight& to) {
-    const Chunks chunks = chunks_of(particles);
-    for_each_ordered(of_chunks(job, chunks), projection, window, orders,
-                     [&](const std::vector<SplatBlock>& blocks) { deposit_all(blocks, orders, kind, to); });
-  };
   light.darken();
   std::optional<GatheredLight> highlights;
-  if (job.scene.shine.lit()) highlights.emplace(orders, window, 1);
+  if (job.scene.shine.lit()) highlights.emplace(orders, window, kind, 1);
+  OrderingMemory memory;
+  WaitingBlocks waiting(memory, [&](const auto& blocks) { deposit_all(blocks, orders, kind, light); });
+  WaitingBlocks waiting_highlights(memory, [&](const auto& blocks) { deposit_all(blocks, orders, kind, *highlights); });
+  const auto take = [&](const Cloud& particles, WaitingBlocks& to) {
+    const Chunks chunks = chunks_of(particles);
+    for_each_ordered(of_chunks(job, chunks), projection, window, orders, memory,
+                     [&](std::vector<SplatBlock> blocks) { to.add(std::move(blocks)); });
+  };
   for_each_chunk_and_highlights(
-      job, {&view, 1}, [&](const Cloud& chunk) { take(chunk, light); },
-      [&](const Cloud& shining, std::size_t /*view*/) { take(shining, *highlights); });
+      job, {&view, 1}, [&](const Cloud& chunk) { take(chunk, waiting); },
+      [&](const Cloud& shining, std::size_t /*view*/) { take(shining, waiting_highlights); });
+  waiting.finish();
+  waiting_highlights.finish();
   if (highlights) light.add(*highlights);
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> target = pyramid.targets(p, picture);
@@ -45,7 +51,7 @@ void make_view(const RenderJob& job, ViewPosition view, std::span<const ImageVie
 
 GatheredLight light_for_view(const RenderJob& job) {
   const Window window{.left = 0, .right = static_cast<float>(job.rig.width), .height = job.rig.height};
-  return {orders_for(job), window, 1};
+  return {orders_for(job), window, deposit_of(job.scene.splat_style), 1};
 }
 
 }  // namespace

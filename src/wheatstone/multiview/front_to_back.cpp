@@ -14,7 +14,7 @@
 namespace wheatstone {
 
 FrontToBack::FrontToBack(int width, int rows, int top, ViewPosition view)
-    : width_(width), rows_(rows), top_(top), view_(view), band_(0, width, rows) {
+    : width_(width), rows_(rows), top_(top), view_(view), band_(0, width, rows, LightBand::most_channels) {
   for (int first = 0; first < width; first += block_columns)
     open_.push_back(std::min(block_columns, width - first) * rows);
 }
@@ -47,8 +47,8 @@ void FrontToBack::blend(const Splat& splat) {
   const float depth = float_from_half(splat.colour[2]);
   for (int row = first_row; row < end_row; ++row) {
     const float down = depth * weight_at(static_cast<float>(row) - y);
-    float* pixel = band_.row(row) + first * LightBand::channels;
-    for (int column = first; column < end; ++column, pixel += LightBand::channels) {
+    float* pixel = band_.row(row) + first * LightBand::most_channels;
+    for (int column = first; column < end; ++column, pixel += LightBand::most_channels) {
       const float through = 1 - pixel[3];
       if (through < full) continue;
       const float share = through * (1 - std::exp(-down * across[static_cast<std::size_t>(column - first)]));
@@ -79,7 +79,8 @@ void render_front_to_back(const RenderJob& job, std::span<const ViewPosition> vi
   const SplatOrders orders = orders_for(job);
   const SplatOrder& order = orders.front();
   std::vector<SplatBlock> splats;
-  for_each_ordered(job, projection_for(job, orders), window_around(job.scene, job.rig), orders,
+  OrderingMemory memory;
+  for_each_ordered(job, projection_for(job, orders), window_around(job.scene, job.rig), orders, memory,
                    [&](std::vector<SplatBlock> blocks) { std::ranges::move(blocks, std::back_inserter(splats)); });
   for_each_band_of(order, [&](int b) {
     const std::vector<Splat> sorted = nearest_first(splats, order, b);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "wheatstone/multiview/deal_out_internal.h"
@@ -108,8 +109,8 @@ Window window_in(const Window& window, const SplatOrder& order) {
           .height = order.rows};
 }
 
-GatheredLight::GatheredLight(const SplatOrders& orders, const Window& window, int targets)
-    : orders_(orders), window_(window) {
+GatheredLight::GatheredLight(const SplatOrders& orders, const Window& window, Deposit kind, int targets)
+    : orders_(orders), window_(window), channels_(channels_in(kind)) {
   for (const SplatOrder& order : orders) {
     const int count = targets > 0 ? targets : order.parts;
     targets_.push_back(count);
@@ -122,7 +123,7 @@ GatheredLight::GatheredLight(const SplatOrders& orders, const Window& window, in
 
 LightBand GatheredLight::dark_band(const SplatOrder& order, int target) const {
   const Window here = window_in(window_, order);
-  return {static_cast<int>(here.left), static_cast<int>(here.right), order.band_rows, target};
+  return {static_cast<int>(here.left), static_cast<int>(here.right), order.band_rows, channels_, target};
 }
 
 void GatheredLight::move_to_first(const Ranks& ranks) {
@@ -177,12 +178,13 @@ Chunks chunks_of(const Cloud& cloud, const Ranks& ranks) {
 }
 
 void for_each_ordered(const RenderJob& job, const Projection& projection, const Window& window,
-                      const SplatOrders& orders, const std::function<void(std::vector<SplatBlock>)>& take) {
+                      const SplatOrders& orders, OrderingMemory& memory,
+                      const std::function<void(std::vector<SplatBlock>)>& take) {
   job.chunks([&](const Cloud& cloud) {
     std::vector<std::vector<SplatBlock>> ordered;
     for (std::size_t first = 0; first < cloud.size(); first += particles_at_a_time) {
       const ParticleRange range{first, std::min(particles_at_a_time, cloud.size() - first)};
-      std::vector<SplatBlock> blocks = order_splats(cloud, range, projection, window, orders);
+      std::vector<SplatBlock> blocks = order_splats(cloud, range, projection, window, orders, memory);
       if (job.ranks.alone()) {
         take(std::move(blocks));
       } else {
@@ -192,6 +194,22 @@ void for_each_ordered(const RenderJob& job, const Projection& projection, const 
     if (job.ranks.alone()) return;
     for (std::vector<SplatBlock>& blocks : deal_out(std::move(ordered), orders, job.ranks)) take(std::move(blocks));
   });
+}
+
+// Of 32 768 particles or more each: so many splats take 6 MB.
+constexpr std::size_t most_waiting = 8;
+
+void WaitingBlocks::add(std::vector<SplatBlock> blocks) {
+  std::ranges::move(blocks, std::back_inserter(blocks_));
+  if (blocks_.size() >= most_waiting) finish();
+}
+
+void WaitingBlocks::finish() {
+  if (!blocks_.empty()) draw_(blocks_);
+  // Other ranks' blocks come, too: not all are needed again.
+  for (SplatBlock& block : blocks_)
+    if (memory_.spare.size() < most_waiting) memory_.spare.push_back(std::move(block));
+  blocks_.clear();
 }
 
 void for_each_band_of(const SplatOrder& order, const std::function<void(int band)>& work) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/multiview/light_band_internal.h"
@@ -21,7 +22,7 @@ Projection projection_for(const RenderJob& job, const SplatOrders& orders, ViewP
 /// of this rank are there.
 class GatheredLight {
  public:
-  GatheredLight(const SplatOrders& orders, const Window& window, int targets);
+  GatheredLight(const SplatOrders& orders, const Window& window, Deposit kind, int targets);
   void darken();
   /// Light of the same pictures and targets.
   void add(const GatheredLight& light);
@@ -41,6 +42,7 @@ class GatheredLight {
 
   SplatOrders orders_;
   Window window_;
+  int channels_;
   std::vector<int> targets_;
   std::vector<std::vector<LightBand>> light_;
 };
@@ -52,7 +54,26 @@ Window window_in(const Window& window, const SplatOrder& order);
 /// other what belongs to their bands: each takes the splats of its bands, of all ranks' chunks, in the order in which
 /// one rank alone would.
 void for_each_ordered(const RenderJob& job, const Projection& projection, const Window& window,
-                      const SplatOrders& orders, const std::function<void(std::vector<SplatBlock>)>& take);
+                      const SplatOrders& orders, OrderingMemory& memory,
+                      const std::function<void(std::vector<SplatBlock>)>& take);
+
+/// Blocks of splats that are waiting to be drawn. The more of them are drawn at a time, the more splats lie in each
+/// bin, and the less often its light is fetched. How many depends on nothing but the blocks that come, because sums of
+/// light depend on their order.
+class WaitingBlocks {
+ public:
+  using Draw = std::function<void(const std::vector<SplatBlock>& blocks)>;
+  /// Blocks that were drawn are spare.
+  WaitingBlocks(OrderingMemory& memory, Draw draw) : memory_(memory), draw_(std::move(draw)) {}
+  void add(std::vector<SplatBlock> blocks);
+  /// Draws what is left.
+  void finish();
+
+ private:
+  OrderingMemory& memory_;
+  Draw draw_;
+  std::vector<SplatBlock> blocks_;
+};
 
 /// Calls `work` with each of this rank's bands of a picture, in parallel.
 void for_each_band_of(const SplatOrder& order, const std::function<void(int band)>& work);

@@ -6,34 +6,49 @@
 #include <utility>
 #include <vector>
 
-#include "composite_planes_source.h"
-#include "finish_views_source.h"
+#include "composite_colours_cubic_source.h"
+#include "composite_colours_linear_source.h"
+#include "composite_mass_cubic_source.h"
+#include "composite_mass_linear_source.h"
+#include "finish_colours_source.h"
+#include "finish_look_source.h"
+#include "finish_mass_source.h"
+#include "finish_smaller_source.h"
+#include "pack_planes_source.h"
 #include "wheatstone/gpu/program.h"
 
 namespace wheatstone {
 namespace {
 
-/// What finish_views.comp reads of its work: numbers of four bytes, without gaps.
+/// What finish_views.glsl reads of its work: numbers of four bytes, without gaps.
 struct FinishWork {
   std::int32_t channels = 0, width = 0, rows = 0, pad = 0;
   std::int32_t base = 0;
   std::int32_t smaller_width = 0, smaller_rows = 0;
-  std::int32_t shown = 0;
+  std::int32_t shows_mean = 0;
   std::int32_t hues = 0, table_size = 0, stretch_size = 0, first_index = 0;
   float exposure = 0, scale = 0, offset = 0;
 };
 
-/// What composite_planes.comp reads of its work.
+/// What pack_planes.comp reads of its work.
+struct PackWork {
+  std::int32_t channels = 0, width = 0, rows = 0;
+  std::int32_t texels_a_row = 0;
+  std::int32_t first_value = 0, first_texel = 0;
+};
+
+/// What composite_planes.glsl reads of its work.
 struct CompositeWork {
   std::int32_t channels = 0, width = 0, rows = 0;
-  std::int32_t left = 0, plane_width = 0;
+  std::int32_t left = 0, texels_a_row = 0;
   std::int32_t first_plane = 0, end_plane = 0, base = 0;
   std::int32_t taps = 1;
+  std::int32_t again = 0;
   float first_parallax = 0, plane_spacing = 1;
   std::array<float, most_gpu_views> view{};
 };
 
-/// The tables of the tone map, one after the other, as finish_views.comp reads them.
+/// The tables of the tone map, one after the other, as finish_views.glsl reads them.
 std::vector<std::int32_t> tables_of(const ToneMap& tone) {
   std::vector<std::int32_t> tables = tone.table;
   tables.insert(tables.end(), tone.stretch.begin(), tone.stretch.end());
@@ -43,11 +58,11 @@ std::vector<std::int32_t> tables_of(const ToneMap& tone) {
   return tables;
 }
 
-/// How the shader shows sums; 0 leaves them light.
-std::int32_t shown_as(const ToneMap& tone) {
-  if (tone.look == Look::thesis) return 1;
-  if (tone.shown == Shown::colours) return 4;
-  return tone.shown == Shown::mean ? 3 : 2;
+/// What shows a picture's light.
+const GpuSource& source_for(const ToneMap& tone, std::size_t picture) {
+  if (picture > 0) return finish_smaller_source;
+  if (tone.look == Look::thesis) return finish_look_source;
+  return tone.shown == Shown::colours ? finish_colours_source : finish_mass_source;
 }
 
 FinishWork finish_work(const GpuPictures& pictures, const ToneMap& tone, std::size_t picture, int base) {
@@ -56,7 +71,7 @@ FinishWork finish_work(const GpuPictures& pictures, const ToneMap& tone, std::si
                   .rows = pictures.orders[picture].rows,
                   .pad = pictures.orders[picture].pad,
                   .base = base,
-                  .shown = picture == 0 ? shown_as(tone) : 0,
+                  .shows_mean = tone.shown == Shown::mean,
                   .hues = tone.hues,
                   .table_size = ToneMap::table_size,
                   .stretch_size = ToneMap::stretch_size,
@@ -77,24 +92,47 @@ std::array<std::uint32_t, 3> groups_of_pixels(const GpuPictures& pictures, std::
           static_cast<std::uint32_t>(views)};
 }
 
+/// Four words, which hold two pixels.
+constexpr std::size_t texel_bytes = 16;
+
+int texels_a_row(const GpuPictures& planes, std::size_t picture) { return (planes.width[picture] + 1) / 2; }
+
+/// Packs the planes of a picture that are in a group.
+void pack(const GpuPictures& planes, const TargetGroup& group, std::size_t picture, int first_texel,
+          const GpuBuffer& light, const GpuBuffer& packed) {
+  const int count = group.end[picture] - group.first[picture];
+  if (count == 0) return;
+  PackWork work{.channels = planes.channels,
+                .width = planes.width[picture],
+                .rows = planes.orders[picture].rows,
+                .texels_a_row = texels_a_row(planes, picture)};
+  work.first_value = group.base[picture] + group.first[picture] * static_cast<int>(planes.values(picture));
+  work.first_texel = first_texel + group.first[picture] * work.texels_a_row * work.rows;
+  const GpuBuffer of_work(std::span<const PackWork>(&work, 1));
+  kept_program(pack_planes_source)
+      .run({groups_of(work.texels_a_row, 64), static_cast<std::uint32_t>(work.rows), static_cast<std::uint32_t>(count)},
+           {&of_work, &light, &packed});
+}
+
 }  // namespace
 
 void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
                    const std::function<GpuLight(std::size_t)>& light_of, std::span<const ImageView<Rgb8>> views) {
-  const GpuProgram finish_views(finish_views_source);
   const std::vector<std::int32_t> all_tables = tables_of(tone);
   const GpuBuffer tables{std::span<const std::int32_t>(all_tables)};
   const GpuBuffer none(0);
-  const GpuBuffer colours(pictures.pixels(0) * views.size() * sizeof(std::uint32_t));
+  const GpuBuffer colours = GpuBuffer::of_any_bytes(pictures.pixels(0) * views.size() * sizeof(std::uint32_t));
   std::vector<GpuBuffer> finished;  // light of the pictures, the smallest first
   for (std::size_t p = pictures.size(); p-- > 0;) {
     const GpuLight own = light_of(p);
     const FinishWork work = finish_work(pictures, tone, p, own.base);
     const GpuBuffer of_work(std::span<const FinishWork>(&work, 1));
-    GpuBuffer here(p > 0 ? pictures.values(p) * views.size() * sizeof(float) : 0);
+    const std::size_t bytes = pictures.values(p) * views.size() * sizeof(float);
+    GpuBuffer here = GpuBuffer::of_any_bytes(p > 0 ? bytes : 0);
     const auto [columns, rows, count] = groups_of_pixels(pictures, p, views.size());
-    finish_views.run({columns, rows, count},
-                     {&of_work, own.light, finished.empty() ? &none : &finished.back(), &here, &colours, &tables});
+    kept_program(source_for(tone, p))
+        .run({columns, rows, count},
+             {&of_work, own.light, finished.empty() ? &none : &finished.back(), p > 0 ? &here : &colours, &tables});
     finished.push_back(std::move(here));
   }
   std::vector<std::uint32_t> pixels(pictures.pixels(0) * views.size());
@@ -105,29 +143,46 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
 
 GpuCompositor::GpuCompositor(const GpuPictures& planes, std::span<const TargetGroup> groups,
                              std::span<const GpuBuffer> light, Resampling resampling)
-    : planes_(planes), groups_(groups), light_(light), resampling_(resampling), program_(composite_planes_source) {}
+    : planes_(planes), groups_(groups), resampling_(resampling) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    std::vector<int>& first_texel = first_texel_.emplace_back();
+    int texels = 0;
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+      const int a_plane = texels_a_row(planes, p) * planes.orders[p].rows;
+      first_texel.push_back(texels - groups[g].first[p] * a_plane);
+      texels += (groups[g].end[p] - groups[g].first[p]) * a_plane;
+    }
+    packed_.push_back(GpuBuffer::of_any_bytes(static_cast<std::size_t>(texels) * texel_bytes));
+    for (std::size_t p = 0; p < planes.size(); ++p) pack(planes, groups[g], p, first_texel[p], light[g], packed_[g]);
+  }
+}
 
 GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_views,
                                    std::span<const ViewPosition> views) const {
   const SplatOrder& order = planes_.orders[picture];
-  GpuBuffer composited(of_views.values(picture) * views.size() * sizeof(float));
-  const auto [columns, rows, count] = groups_of_pixels(of_views, picture, views.size());
+  GpuBuffer composited = GpuBuffer::of_any_bytes(of_views.values(picture) * views.size() * sizeof(float));
+  const bool cubic = taps_of(resampling_) > 2;
+  const GpuSource& of_mass = cubic ? composite_mass_cubic_source : composite_mass_linear_source;
+  const GpuSource& of_colours = cubic ? composite_colours_cubic_source : composite_colours_linear_source;
+  CompositeWork work{.channels = planes_.channels,
+                     .width = of_views.width[picture],
+                     .rows = order.rows,
+                     .left = planes_.left[picture],
+                     .texels_a_row = texels_a_row(planes_, picture),
+                     .taps = taps_of(resampling_),
+                     .first_parallax = order.first * order.scale,
+                     .plane_spacing = order.spacing,
+                     .view = gpu_views(views)};
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const CompositeWork work{.channels = planes_.channels,
-                             .width = of_views.width[picture],
-                             .rows = order.rows,
-                             .left = planes_.left[picture],
-                             .plane_width = planes_.width[picture],
-                             .first_plane = groups_[g].first[picture],
-                             .end_plane = groups_[g].end[picture],
-                             .base = groups_[g].base[picture],
-                             .taps = taps_of(resampling_),
-                             .first_parallax = order.first * order.scale,
-                             .plane_spacing = order.spacing,
-                             .view = gpu_views(views)};
+    work.first_plane = groups_[g].first[picture];
+    work.end_plane = groups_[g].end[picture];
+    work.base = first_texel_[g][picture];
     if (work.first_plane == work.end_plane) continue;
     const GpuBuffer of_work(std::span<const CompositeWork>(&work, 1));
-    program_.run({columns, rows, count}, {&of_work, &light_[g], &composited});
+    kept_program(planes_.channels == 3 ? of_colours : of_mass)
+        .run({groups_of(work.width, 64), groups_of(work.rows, 8), static_cast<std::uint32_t>(views.size())},
+             {&of_work, &composited}, {&packed_[g]});
+    work.again = 1;
   }
   return composited;
 }

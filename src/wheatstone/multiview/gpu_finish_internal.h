@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "wheatstone/gpu/buffer.h"
 #include "wheatstone/gpu/program.h"
@@ -26,7 +27,7 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
                    const std::function<GpuLight(std::size_t picture)>& light_of,
                    std::span<const ImageView<Rgb8>> views);
 
-/// Composites views from the light of depth planes, which must stay. Made and used within on_gpu().
+/// Composites views from the light of depth planes. Made and used within on_gpu().
 class GpuCompositor {
  public:
   GpuCompositor(const GpuPictures& planes, std::span<const TargetGroup> groups, std::span<const GpuBuffer> light,
@@ -37,9 +38,9 @@ class GpuCompositor {
  private:
   const GpuPictures& planes_;
   std::span<const TargetGroup> groups_;
-  std::span<const GpuBuffer> light_;
   Resampling resampling_;
-  GpuProgram program_;
+  std::vector<GpuBuffer> packed_;              // [group]
+  std::vector<std::vector<int>> first_texel_;  // [group][picture]: where plane 0 would lie
 };
 
 }  // namespace wheatstone

@@ -4,24 +4,22 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
-#include "add_splats_source.h"
+#include "light_of_nearest_source.h"
 #include "light_of_sums_source.h"
+#include "project_splats_source.h"
 #include "wheatstone/error.h"
 #include "wheatstone/gpu/program.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
-#include "wheatstone/multiview/gpu_finish_internal.h"
+#include "wheatstone/multiview/gpu_lists_internal.h"
 
 namespace wheatstone {
 namespace {
 
-/// As many particles as are copied at a time.
-constexpr std::size_t particles_at_a_time = 1 << 20;
-
-/// What add_splats.comp reads of its work: numbers of four bytes, without gaps.
+/// What project_splats.comp reads of its work: numbers of four bytes, without gaps.
 struct SplatWork {
-  std::int32_t particles = 0, channels = 0, pictures = 0;
-  GpuTargets targets = GpuTargets::views;
+  std::int32_t particles = 0, pictures = 0;
   std::array<std::int32_t, 9> column{};
   std::int32_t by_mass = 0, second_is_quantity = 0, own_colours = 0, logarithmic = 0, from_density = 0;
   std::int32_t by_length = 0, by_rank = 0, larger_if_denser = 0;
@@ -32,10 +30,6 @@ struct SplatWork {
         opacity = 0, least_opacity = 0;
   float smallest_px = 0, largest_px = 0, largest_mass_px = 0, size_depth = 0, palette_first = 0, palette_scale = 0;
   std::array<float, PictureTable::most> widest{}, scale{}, pad{};
-  std::array<std::int32_t, PictureTable::most> left{}, width{}, rows{}, first_target{}, end_target{}, base{};
-  std::array<float, most_gpu_views> view{};
-  float first_parallax = 0, plane_spacing = 1;
-  std::array<std::int32_t, PictureTable::most> planes{};
   std::array<float, ParallaxTable::size> parallax{}, parallax_step{};
   std::array<float, SplatStyle::palette_size> red{}, green{}, blue{};
 };
@@ -130,25 +124,12 @@ void copy_columns(const Cloud& cloud, ParticleRange range, const SplatStyle& sty
   set_size_rule(cloud, style, work);
 }
 
-void set_pictures(const GpuPictures& pictures, SplatWork& work) {
-  work.channels = pictures.channels;
-  work.pictures = static_cast<std::int32_t>(pictures.size());
-  const PictureTable table(pictures.orders);
-  work.widest = table.widest;
-  work.scale = table.scale;
-  work.pad = table.pad;
-  std::ranges::copy(pictures.left, work.left.begin());
-  std::ranges::copy(pictures.width, work.width.begin());
-  std::ranges::copy(pictures.targets, work.planes.begin());
-  std::ranges::transform(pictures.orders, work.rows.begin(), &SplatOrder::rows);
-  work.first_parallax = pictures.orders.front().first;
-  work.plane_spacing = pictures.orders.front().spacing;
-}
-
-void set_group(const TargetGroup& group, SplatWork& work) {
-  std::ranges::copy(group.first, work.first_target.begin());
-  std::ranges::copy(group.end, work.end_target.begin());
-  std::ranges::copy(group.base, work.base.begin());
+void set_pictures(const SplatOrders& orders, SplatWork& work) {
+  work.pictures = static_cast<std::int32_t>(orders.size());
+  const PictureTable table(orders);
+  std::copy_n(table.widest.begin(), PictureTable::most, work.widest.begin());
+  std::copy_n(table.scale.begin(), PictureTable::most, work.scale.begin());
+  std::copy_n(table.pad.begin(), PictureTable::most, work.pad.begin());
 }
 
 /// Groups of 64 invocations in rows that no driver finds too long.
@@ -158,10 +139,13 @@ std::array<std::uint32_t, 2> rows_of_groups(std::size_t count) {
   return {std::min(groups, longest), (groups + longest - 1) / longest};
 }
 
-GpuBuffer light_of(const GpuBuffer& sums, std::size_t values, const GpuProgram& light_of_sums) {
-  GpuBuffer light(values * sizeof(float));
+/// Sums, or the nearest discs, as floats.
+GpuBuffer light_of(const GpuBuffer& sums, GpuTargets targets) {
+  const std::size_t values = sums.bytes() / sum_bytes;
+  GpuBuffer light = GpuBuffer::of_any_bytes(values * sizeof(float));
   const auto [columns, rows] = rows_of_groups(values);
-  light_of_sums.run({columns, rows}, {&sums, &light});
+  kept_program(targets == GpuTargets::discs_in_views ? light_of_nearest_source : light_of_sums_source)
+      .run({columns, rows}, {&sums, &light});
   return light;
 }
 
@@ -205,32 +189,40 @@ std::vector<TargetGroup> groups_of_targets(const GpuPictures& pictures, std::siz
   return groups;
 }
 
-std::vector<GpuBuffer> light_on_gpu(const RenderJob& job, const GpuPictures& pictures, GpuTargets targets,
-                                    std::span<const ViewPosition> views, std::span<const TargetGroup> groups) {
+std::vector<GpuBuffer> light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures,
+                                    GpuTargets targets, std::span<const ViewPosition> views,
+                                    std::span<const TargetGroup> groups) {
   const Projection projection = projection_for(job, pictures.orders);
-  SplatWork work{.targets = targets};
+  SplatWork work;
   set_camera(projection, work);
   set_style(projection, work);
-  set_pictures(pictures, work);
-  work.view = gpu_views(views);
-  std::vector<GpuBuffer> sums;
-  for (const TargetGroup& group : groups) sums.emplace_back(group.values * sum_bytes);
-  const GpuProgram add_splats(add_splats_source);
-  GpuBuffer columns(work.column.size() * particles_at_a_time * sizeof(float));
+  set_pictures(pictures.orders, work);
+  SplatGatherer gatherer(job, facts, pictures, targets, views, groups);
+  bool at_once = false;
+  GpuBuffer columns = GpuBuffer::of_any_bytes(work.column.size() * most_gathered * sizeof(float));
+  const auto add = [&](const Cloud& cloud, ParticleRange range) {
+    copy_columns(cloud, range, job.scene.splat_style, columns, work);
+    const GpuBuffer of_work(std::span<const SplatWork>(&work, 1));
+    kept_program(project_splats_source)
+        .run({groups_of(range.count, 64)}, {&of_work, &columns, &gatherer.splats(), &gatherer.reaches()});
+    at_once = range.count == job.statistics.count;
+    return gatherer.add(range.count, at_once);
+  };
   job.chunks([&](const Cloud& cloud) {
-    for (std::size_t first = 0; first < cloud.size(); first += particles_at_a_time) {
-      const ParticleRange range{first, std::min(particles_at_a_time, cloud.size() - first)};
-      copy_columns(cloud, range, job.scene.splat_style, columns, work);
-      for (std::size_t g = 0; g < groups.size(); ++g) {
-        set_group(groups[g], work);
-        const GpuBuffer of_work(std::span<const SplatWork>(&work, 1));
-        add_splats.run({groups_of(range.count, 64)}, {&of_work, &columns, &sums[g]});
+    std::size_t most = most_gathered;
+    for (std::size_t first = 0; first < cloud.size();) {
+      const ParticleRange range{first, std::min(most, cloud.size() - first)};
+      if (add(cloud, range)) {
+        first += range.count;
+      } else {
+        most = (range.count + 1) / 2;  // wide splats stand in many lists
       }
     }
   });
-  const GpuProgram light_of_sums(light_of_sums_source);
+  std::vector<GpuBuffer> gathered = std::move(gatherer).gathered();
+  if (at_once) return gathered;
   std::vector<GpuBuffer> light;
-  for (std::size_t g = 0; g < groups.size(); ++g) light.push_back(light_of(sums[g], groups[g].values, light_of_sums));
+  for (const GpuBuffer& sums : gathered) light.push_back(light_of(sums, targets));
   return light;
 }
 

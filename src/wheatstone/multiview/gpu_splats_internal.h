@@ -6,13 +6,17 @@
 #include <vector>
 
 #include "wheatstone/gpu/buffer.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/multiview/renderers_internal.h"
 #include "wheatstone/multiview/splat_internal.h"
 
 namespace wheatstone {
 
-/// How particles are added to sums (add_splats.comp).
-enum class GpuTargets : std::int32_t { views = 0, nearest_plane = 1, between_planes = 2 };
+/// What particles are added to (splat_lists.glsl), or drawn into as discs, of which each pixel shows the nearest.
+enum class GpuTargets : std::int32_t { views = 0, nearest_plane = 1, between_planes = 2, discs_in_views = 3 };
+
+/// What gathering writes: sums; sums to which it adds; or light, where all particles are gathered at once.
+enum class GpuWritten : std::int32_t { sums = 0, more_sums = 1, light = 2 };
 
 /// The pictures of every size (SplatOrder), as the graphics processor keeps what is added to them: target after target,
 /// which is a view or a depth plane, then row after row, pixel after pixel, channel after channel.
@@ -47,9 +51,10 @@ std::vector<TargetGroup> groups_of_targets(const GpuPictures& pictures, std::siz
 constexpr std::size_t words_a_sum = 2;
 constexpr std::size_t sum_bytes = words_a_sum * sizeof(std::uint32_t);
 
-/// Adds every particle to the targets of all groups: copied once, projected and lit once for each group. Returns the
-/// light of each group. Within on_gpu().
-std::vector<GpuBuffer> light_on_gpu(const RenderJob& job, const GpuPictures& pictures, GpuTargets targets,
-                                    std::span<const ViewPosition> views, std::span<const TargetGroup> groups);
+/// Adds every particle to the targets of all groups: copied, projected and lit once. Returns the light of each group.
+/// Within on_gpu().
+std::vector<GpuBuffer> light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures,
+                                    GpuTargets targets, std::span<const ViewPosition> views,
+                                    std::span<const TargetGroup> groups);
 
 }  // namespace wheatstone

@@ -1,4 +1,6 @@
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
@@ -36,20 +38,25 @@ void render_some(const RenderJob& job, std::span<const ViewPosition> views, std:
   const auto width = static_cast<float>(job.rig.width);
   const Window seen{.left = -around, .right = width + around, .height = job.rig.height};
   const Window shown{.left = 0, .right = width, .height = job.rig.height};
-  GatheredLight light(orders, shown, static_cast<int>(views.size()));
-  std::optional<GatheredLight> highlights;
-  if (job.scene.shine.lit()) highlights.emplace(orders, shown, static_cast<int>(views.size()));
   const ViewsAtOnce to{views, orders, deposit_of(job.scene.splat_style)};
+  GatheredLight light(orders, shown, to.kind, static_cast<int>(views.size()));
+  std::optional<GatheredLight> highlights;
+  if (job.scene.shine.lit()) highlights.emplace(orders, shown, to.kind, static_cast<int>(views.size()));
   const Projection projection = projection_for(job, orders);
-  const auto take = [&](const Cloud& particles, std::size_t first, std::size_t count, GatheredLight& to_light) {
+  OrderingMemory memory;
+  WaitingBlocks waiting(memory, [&](const auto& blocks) { deposit_in(blocks, 0, views.size(), to, light); });
+  const auto take = [&](const Cloud& particles, const std::function<void(std::vector<SplatBlock>)>& draw) {
     const Chunks chunks = chunks_of(particles);
-    for_each_ordered(of_chunks(job, chunks), projection, seen, orders,
-                     [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, first, count, to, to_light); });
+    for_each_ordered(of_chunks(job, chunks), projection, seen, orders, memory, draw);
   };
   // Those that shine are few: their light is each view's own, and the rest is not done again.
   for_each_chunk_and_highlights(
-      job, views, [&](const Cloud& chunk) { take(chunk, 0, views.size(), light); },
-      [&](const Cloud& shining, std::size_t view) { take(shining, view, 1, *highlights); });
+      job, views,
+      [&](const Cloud& chunk) { take(chunk, [&](std::vector<SplatBlock> blocks) { waiting.add(std::move(blocks)); }); },
+      [&](const Cloud& shining, std::size_t view) {
+        take(shining, [&](const std::vector<SplatBlock>& blocks) { deposit_in(blocks, view, 1, to, *highlights); });
+      });
+  waiting.finish();
   if (highlights) light.add(*highlights);
   ViewPyramid pyramid(orders, job.rig, views.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {

@@ -44,8 +44,8 @@ Window window_around(const Scene& scene, const Rig& rig, float gain) {
 PlaneFiller::PlaneFiller(const Window& window, const SplatOrder& order, Deposit kind)
     : order_(order),
       kind_(kind),
-      plane_(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows),
-      next_(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows, 3) {}
+      plane_(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows, channels_in(kind)),
+      next_(static_cast<int>(window.left), static_cast<int>(window.right), order.band_rows, channels_in(kind), 3) {}
 
 LightBand& PlaneFiller::fill(const std::vector<SplatBlock>& blocks, int b, int plane) {
   const bool shared = order_.within == SplatOrder::Within::nearer_plane;
@@ -120,12 +120,12 @@ struct PlanesOfViews {
   std::vector<ViewPosition> keys;
 };
 
-bool light_is_less(const SplatOrders& orders, const Window& window, std::uint64_t particles) {
+bool light_is_less(const SplatOrders& orders, const Window& window, Deposit kind, std::uint64_t particles) {
   const double width = static_cast<double>(window.right) - window.left + 2 * LightBand::margin;
   double pixels = 0;
   for (const SplatOrder& order : orders) pixels += width * order.scale * order.rows * order.parts;
   // A splat may stand in two bands, and a few bytes more say where.
-  return pixels * LightBand::channels * sizeof(float) < 1.3 * sizeof(Splat) * static_cast<double>(particles);
+  return pixels * channels_in(kind) * sizeof(float) < 1.3 * sizeof(Splat) * static_cast<double>(particles);
 }
 
 PlanesOfViews keep(const RenderJob& job, const SplatOrders& orders, const Window& window) {
@@ -135,12 +135,15 @@ PlanesOfViews keep(const RenderJob& job, const SplatOrders& orders, const Window
   const Shine& shine = job.scene.shine;
   if (shine.lit()) planes.keys = shine_keys(shine, job.rig.positions);
   planes.kept.resize(1 + planes.keys.size());
-  if (light_is_less(orders, window, job.statistics.count)) planes.kept[0].light.emplace(orders, window, 0);
+  if (light_is_less(orders, window, kind, job.statistics.count)) planes.kept[0].light.emplace(orders, window, kind, 0);
+  OrderingMemory memory;
+  WaitingBlocks waiting(memory,
+                        [&](const auto& blocks) { deposit_in_planes(blocks, orders, kind, *planes.kept[0].light); });
   const auto take = [&](const Cloud& particles, KeptForPlanes& kept) {
     const Chunks chunks = chunks_of(particles);
-    for_each_ordered(of_chunks(job, chunks), projection, window, orders, [&](std::vector<SplatBlock> blocks) {
+    for_each_ordered(of_chunks(job, chunks), projection, window, orders, memory, [&](std::vector<SplatBlock> blocks) {
       if (kept.light) {
-        deposit_in_planes(blocks, orders, kind, *kept.light);
+        waiting.add(std::move(blocks));
       } else {
         std::ranges::move(blocks, std::back_inserter(kept.splats));
       }
@@ -149,6 +152,7 @@ PlanesOfViews keep(const RenderJob& job, const SplatOrders& orders, const Window
   for_each_chunk_and_highlights(
       job, planes.keys, [&](const Cloud& chunk) { take(chunk, planes.kept[0]); },
       [&](const Cloud& shining, std::size_t key) { take(shining, planes.kept[key + 1]); });
+  waiting.finish();
   return planes;
 }
 

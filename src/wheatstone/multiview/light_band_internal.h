@@ -9,31 +9,34 @@
 
 namespace wheatstone {
 
-/// Light on a band of scan lines, red, green, blue and, where splats absorb, how much, for each pixel, with a margin on
-/// either side into which splats may spill. Four pixels are a cache line.
+/// Light on a band of scan lines, with a margin on either side into which splats may spill. A pixel has four channels,
+/// red, green, blue and, where splats absorb, how much, or of mass two (channels_in). Four or eight pixels are a cache
+/// line.
 class LightBand {
  public:
   static constexpr int margin = 48;  ///< the widest splat, and a vector
-  static constexpr std::ptrdiff_t channels = 4;
+  static constexpr int most_channels = 4;
 
   LightBand() = default;
   /// Bands that are written in turn lie at different places within a page (see `friendly`). `number` tells them apart.
-  LightBand(int left, int right, int rows, int number = 0)
+  LightBand(int left, int right, int rows, int channels, int number = 0)
       : left_(left),
         right_(right),
         rows_(rows),
-        lines_a_row_(friendly((right - left + 2 * margin + 3) / 4)),
+        channels_(channels),
+        lines_a_row_(friendly(((right - left + 2 * margin) * channels + 15) / 16)),
         first_line_(number % 8 * 8 + number % 2 * 4),
         lines_(static_cast<std::size_t>(lines_a_row_) * rows + first_line_) {}
 
   int left() const { return left_; }
   int right() const { return right_; }
   int rows() const { return rows_; }
-  int width_with_margins() const { return lines_a_row_ * 4; }                               ///< a multiple of 16
+  int channels() const { return channels_; }
+  int width_with_margins() const { return lines_a_row_ * 16 / channels_; }                  ///< a multiple of 16
   std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(lines_a_row_) * 16; }  ///< floats a row
   /// Column `left()` of a row; columns from −margin to width + margin may be written. Aligned as cache lines are.
   float* row(int row) {
-    return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values + margin * channels;
+    return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values + margin * channels_;
   }
   const float* row(int row) const { return const_cast<LightBand*>(this)->row(row); }
   void darken() {
@@ -61,7 +64,7 @@ class LightBand {
   struct alignas(64) Line {
     float values[16] = {};
   };
-  int left_ = 0, right_ = 0, rows_ = 0;
+  int left_ = 0, right_ = 0, rows_ = 0, channels_ = most_channels;
   int lines_a_row_ = 0;
   std::size_t first_line_ = 0;
   std::vector<Line> lines_;

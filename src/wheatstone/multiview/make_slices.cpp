@@ -31,6 +31,8 @@ struct SliceMaker::State {
   std::optional<GatheredLight> highlights;  // of those that shine
   std::vector<OpaqueBand> opaque;           // [band][plane], opaque ones
 
+  OrderingMemory memory;
+
   const SplatOrder& order() const { return orders.front(); }
   int left() const { return static_cast<int>(window.left); }
   int right() const { return static_cast<int>(window.right); }
@@ -47,7 +49,7 @@ void SliceMaker::State::add(const Cloud& cloud) {
   const RenderJob job{chunks, scene, rig, statistics, none, {}, options.ranks};
   const auto take = [&](const Cloud& particles, const std::function<void(const std::vector<SplatBlock>&)>& draw) {
     const Chunks some = chunks_of(particles);
-    for_each_ordered(of_chunks(job, some), projection_for(job, orders), window, orders, draw);
+    for_each_ordered(of_chunks(job, some), projection_for(job, orders), window, orders, memory, draw);
   };
   if (!light) return take(cloud, [&](const std::vector<SplatBlock>& blocks) { draw_opaque(blocks); });
   const auto deposit_in = [&](std::optional<GatheredLight>& to) {
@@ -97,7 +99,9 @@ LinearRgba SliceMaker::State::at(int plane, int x, int y) {
   const int band = y / order().band_rows;
   const int row = y % order().band_rows;
   if (options.opaque) return opaque[order().bin(band, plane)].light(x, row);
-  const float* const pixel = light->band(0, band, plane).row(row) + x * LightBand::channels;
+  const LightBand& of_plane = light->band(0, band, plane);
+  const float* const pixel = of_plane.row(row) + x * of_plane.channels();
+  if (of_plane.channels() == 2) return {pixel[0], pixel[1], 0, 0};
   const float depth = pixel[3];
   if (!(depth > 0)) return {pixel[0], pixel[1], pixel[2], 0};
   // Within a plane all particles shine through each other alike.
@@ -142,7 +146,7 @@ void enlarge(GatheredLight& light, const SplatOrders& orders, std::size_t small,
   const SplatOrder& to = orders[small - 1];
   const auto pixel = [&](int x, int y) -> const float* {
     const LightBand& band = light.band(small, y / from.band_rows, planes.small);
-    return band.row(y % from.band_rows) + (x - band.left()) * LightBand::channels;
+    return band.row(y % from.band_rows) + (x - band.left()) * band.channels();
   };
   tbb::parallel_for(0, to.rows, [&](int row) {
     LightBand& band = light.band(small - 1, row / to.band_rows, planes.large);
@@ -153,12 +157,12 @@ void enlarge(GatheredLight& light, const SplatOrders& orders, std::size_t small,
       const int x = column - to.pad;
       const int half_column = (x - (x & 1)) / 2;
       const std::array<int, 2> columns{half_column + 2, (x & 1) != 0 ? half_column + 3 : half_column + 1};
-      float* const sum = band.row(row % to.band_rows) + (column - band.left()) * LightBand::channels;
+      float* const sum = band.row(row % to.band_rows) + (column - band.left()) * band.channels();
       for (const int i : {0, 1})
         for (const int k : {0, 1}) {
           const float weight = planes.share * (i == 0 ? 0.75f : 0.25f) * (k == 0 ? 0.75f : 0.25f);
           const float* const part = pixel(columns[k], rows[i]);
-          for (int channel = 0; channel < 3; ++channel) sum[channel] += weight * part[channel];
+          for (int channel = 0; channel < band.channels(); ++channel) sum[channel] += weight * part[channel];
         }
     }
   });
@@ -218,8 +222,9 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
       for (int plane = 0; state.order().is_mine(b) && plane < state.order().parts; ++plane)
         state.opaque[state.order().bin(b, plane)] = OpaqueBand(state.left(), state.right(), state.order().band_rows);
   } else {
-    state.light.emplace(state.orders, state.window, 0);
-    if (shines) state.highlights.emplace(state.orders, state.window, 0);
+    const Deposit kind = deposit_of(scene.splat_style);
+    state.light.emplace(state.orders, state.window, kind, 0);
+    if (shines) state.highlights.emplace(state.orders, state.window, kind, 0);
   }
 }
 

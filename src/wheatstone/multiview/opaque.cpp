@@ -57,7 +57,8 @@ void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
   std::vector<std::vector<OpaqueBand>> bands(static_cast<std::size_t>(order.bands));
   for (int b = 0; b < order.bands; ++b)
     if (order.is_mine(b)) bands[b].assign(views.size(), OpaqueBand(0, job.rig.width, order.band_rows));
-  for_each_ordered(job, projection_for(job, orders), window_around(job.scene, job.rig), orders,
+  OrderingMemory memory;
+  for_each_ordered(job, projection_for(job, orders), window_around(job.scene, job.rig), orders, memory,
                    [&](const std::vector<SplatBlock>& blocks) {
                      for_each_band_of(order, [&](int b) {
                        for (std::size_t v = 0; v < views.size(); ++v)

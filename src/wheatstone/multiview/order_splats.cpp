@@ -1,8 +1,11 @@
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "wheatstone/image/srgb.h"
 #include "wheatstone/multiview/splat_internal.h"
@@ -27,13 +30,29 @@ void take_own_colours(const Cloud& cloud, ProjectedBlock& block) {
 void begin_block(std::size_t first, std::size_t count, bool own_colours, ProjectedBlock& block) {
   block.first = first;
   block.count = count;
-  block.splats.resize(count);
+  for (std::vector<float>* column : {&block.x, &block.y, &block.parallax}) column->resize(count);
+  block.colour.resize(count);
+  block.colour_and_size.resize(count);
   block.bin.resize(count);
   block.next_bin.resize(count);
   if (!own_colours) return;
   block.red.resize(count);
   block.green.resize(count);
   block.blue.resize(count);
+}
+
+/// A splat in words, as it lies in memory: what is put together of smaller parts waits until these are stored.
+using SplatWords = std::array<std::uint32_t, 5>;
+static_assert(sizeof(SplatWords) == sizeof(Splat) && std::endian::native == std::endian::little);
+
+SplatWords words_of(const ProjectedBlock& block, std::size_t i) {
+  return {std::bit_cast<std::uint32_t>(block.x[i]), std::bit_cast<std::uint32_t>(block.y[i]),
+          std::bit_cast<std::uint32_t>(block.parallax[i]), block.colour[i], block.colour_and_size[i]};
+}
+
+void put(const SplatWords& words, Splat& to) {
+  for (std::size_t i = 0; i < words.size(); ++i)
+    std::memcpy(reinterpret_cast<std::byte*>(&to) + i * sizeof(words[i]), &words[i], sizeof(words[i]));
 }
 
 /// Counts, then moves each splat to its bin; one that reaches into a second band goes there too.
@@ -51,16 +70,22 @@ void sort_into_bins(const ProjectedBlock& projected, std::size_t bins, SplatBloc
     ends[bin] = total;
     total += here;
   }
+  if (block.splats.capacity() < total) {
+    block.splats.clear();
+    block.splats.reserve(total + total / 8);  // so that it fits the next particles
+  }
   block.splats.resize(total);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t bin = projected.bin[i];
     const std::uint32_t next = projected.next_bin[i];
-    const bool in_two = next != bin;
-    const std::uint32_t at = ends[bin]++;
-    block.splats[at] = projected.splats[i];
-    // Written in any case, over itself if need be: no branch to guess wrong.
-    block.splats[in_two ? ends[next] : at] = projected.splats[i];
-    ends[next] += in_two;
+    const SplatWords words = words_of(projected, i);
+    // Written twice in any case, over itself where both bins are the same: no branch to guess wrong.
+    const std::uint32_t at_next = ends[next];
+    const std::uint32_t at = ends[bin];
+    put(words, block.splats[at_next]);
+    put(words, block.splats[at]);
+    ends[next] = at_next + 1;
+    ends[bin] = at + 1;
   }
 }
 
@@ -135,22 +160,27 @@ Projection make_projection(const Scene& scene, const CloudStatistics& statistics
 }
 
 std::vector<SplatBlock> order_splats(const Cloud& cloud, ParticleRange range, const Projection& projection,
-                                     const Window& window, const SplatOrders& orders) {
+                                     const Window& window, const SplatOrders& orders, OrderingMemory& memory) {
   if (range.count == 0) return {};
-  if (cloud.size() < most_lanes) return order_splats(filled_up(cloud), {0, most_lanes}, projection, window, orders);
+  if (cloud.size() < most_lanes)
+    return order_splats(filled_up(cloud), {0, most_lanes}, projection, window, orders, memory);
   if (range.count < most_lanes) {
-    return order_splats(filled_up(last_of(cloud, range.first)), {0, most_lanes}, projection, window, orders);
+    return order_splats(filled_up(last_of(cloud, range.first)), {0, most_lanes}, projection, window, orders, memory);
   }
   const PictureTable table(orders);
   const std::size_t blocks = std::max<std::size_t>(range.count / block_particles, 1);
   const bool own_colours = projection.splat_style.colour_source == ColourSource::own;
   std::vector<SplatBlock> ordered(blocks);
-  tbb::enumerable_thread_specific<ProjectedBlock> scratch;
+  for (SplatBlock& block : ordered) {
+    if (memory.spare.empty()) break;
+    block = std::move(memory.spare.back());
+    memory.spare.pop_back();
+  }
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
     const std::size_t begin = range.count * b / blocks;
     const std::size_t count = range.count * (b + 1) / blocks - begin;
     const std::size_t first = range.first + begin;
-    ProjectedBlock& projected = scratch.local();
+    ProjectedBlock& projected = memory.projected.local();
     begin_block(first, count, own_colours, projected);
     if (own_colours) take_own_colours(cloud, projected);
     project_particles(cloud, projection, window, table, projected);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 #include "wheatstone/multiview/splat_internal.h"
 
@@ -18,7 +20,6 @@ using Ints = hn::RebindToSigned<Floats>;
 using Halves = hn::Rebind<hwy::float16_t, Floats>;
 using HalfBits = hn::Rebind<std::uint16_t, Floats>;
 using Vec = hn::Vec<Floats>;
-constexpr std::size_t most_lanes = 16;
 
 /// Where a vector of particles lies in the picture.
 struct Placed {
@@ -198,15 +199,27 @@ HWY_INLINE hn::Vec<hn::RebindToUnsigned<Floats>> packed_light(const Lit& lit) {
   return hn::Or(root(lit.red, 2047), hn::Or(green, hn::ShiftLeft<22>(root(lit.blue, 1023))));
 }
 
-HWY_INLINE void store_halves(Vec values, std::uint16_t* to) {
-  const HalfBits bits;
-  hn::StoreU(hn::BitCast(bits, hn::DemoteTo(Halves(), values)), bits, to);
+/// Two half floats in 32 bits, the first in the lower ones.
+HWY_INLINE hn::Vec<hn::RebindToUnsigned<Floats>> packed_halves(Vec first, Vec second) {
+  const hn::RebindToUnsigned<Floats> du;
+  const auto bits_of = [&](Vec values) {
+    return hn::PromoteTo(du, hn::BitCast(HalfBits(), hn::DemoteTo(Halves(), values)));
+  };
+  return hn::Or(bits_of(first), hn::ShiftLeft<16>(bits_of(second)));
 }
 
 /// The bins of a vector of splats: in the first and in the last band that each reaches into.
 struct Bins {
   hn::Vec<hn::RebindToUnsigned<Floats>> first, last;
 };
+
+/// What a table has for each of the pictures.
+HWY_INLINE Vec of_pictures(const PictureTable::Numbers& numbers, hn::Vec<Ints> pictures) {
+  const Floats d;
+  if constexpr (hn::MaxLanes(Floats()) == std::tuple_size_v<PictureTable::Numbers>)
+    return hn::TableLookupLanes(hn::LoadU(d, numbers.data()), hn::IndicesFromVec(d, pictures));
+  return hn::GatherIndex(d, numbers.data(), pictures);
+}
 
 /// Moves splats that are too wide for the view's picture to the smaller one that fits, and dims them as their pixels
 /// are larger: light is what lies above an area. Returns the pictures' numbers.
@@ -219,8 +232,8 @@ HWY_INLINE hn::Vec<Ints> choose_picture(const PictureTable& table, Placed& place
     picture = hn::Add(picture, hn::IfThenElseZero(hn::Gt(lit.size, hn::Set(d, table.widest[i])), hn::Set(d, 1.f)));
   const auto number = hn::ConvertTo(Ints(), picture);
   if (hn::AllTrue(d, hn::Eq(picture, hn::Zero(d)))) return number;
-  const Vec scale = hn::GatherIndex(d, table.scale.data(), number);
-  const Vec pad = hn::GatherIndex(d, table.pad.data(), number);
+  const Vec scale = of_pictures(table.scale, number);
+  const Vec pad = of_pictures(table.pad, number);
   placed.x = hn::MulAdd(placed.x, scale, pad);
   placed.y = hn::MulAdd(placed.y, scale, pad);
   placed.parallax = hn::Mul(placed.parallax, scale);
@@ -242,8 +255,8 @@ HWY_INLINE Bins bins_of(const Placed& placed, Vec size, hn::Vec<Ints> picture, c
                         const PictureTable& table) {
   const Floats d;
   const Ints di;
-  const auto of_picture = [&](const std::array<float, PictureTable::most>& numbers) {
-    return table.pictures == 1 ? hn::Set(d, numbers[0]) : hn::GatherIndex(d, numbers.data(), picture);
+  const auto of_picture = [&](const PictureTable::Numbers& numbers) {
+    return table.pictures == 1 ? hn::Set(d, numbers[0]) : of_pictures(numbers, picture);
   };
   const Vec scale = of_picture(table.scale);
   // Smaller pictures are looked at two pixels beyond the view.
@@ -284,9 +297,6 @@ void project(const Cloud& cloud, const Projection& projection, const Window& win
   const hn::RebindToUnsigned<Floats> du;
   const std::size_t lanes = hn::Lanes(d);
   const Deposit deposit = channels_of(deposit_of(projection.splat_style));
-  HWY_ALIGN float x[most_lanes], y[most_lanes], parallax[most_lanes];
-  HWY_ALIGN std::uint32_t bits[most_lanes];
-  HWY_ALIGN std::uint16_t size[most_lanes], red[most_lanes], green[most_lanes], blue[most_lanes];
   for (std::size_t i = 0; i < block.count; i += lanes) {
     // The last vector starts earlier where the block does not fill it: the same particles again, the same splats.
     const std::size_t at = std::min(i, block.count - lanes);
@@ -296,27 +306,17 @@ void project(const Cloud& cloud, const Projection& projection, const Window& win
     const Bins bins = bins_of(placed, lit.size, picture, window, table);
     hn::StoreU(bins.first, du, block.bin.data() + at);
     hn::StoreU(bins.last, du, block.next_bin.data() + at);
-    hn::StoreU(placed.x, d, x);
-    hn::StoreU(placed.y, d, y);
-    hn::StoreU(placed.parallax, d, parallax);
-    store_halves(lit.size, size);
+    hn::StoreU(placed.x, d, block.x.data() + at);
+    hn::StoreU(placed.y, d, block.y.data() + at);
+    hn::StoreU(placed.parallax, d, block.parallax.data() + at);
+    auto colour = packed_halves(lit.red, lit.green);
+    Vec third = lit.blue;
     if (deposit == Deposit::mass || deposit == Deposit::absorbing) {
-      hn::StoreU(deposit == Deposit::mass ? hn::BitCast(du, lit.red) : packed_light(lit), du, bits);
-      store_halves(deposit == Deposit::mass ? lit.green : lit.opacity, blue);
-      for (std::size_t lane = 0; lane < lanes; ++lane)
-        block.splats[at + lane] = {
-            x[lane],
-            y[lane],
-            parallax[lane],
-            {static_cast<std::uint16_t>(bits[lane]), static_cast<std::uint16_t>(bits[lane] >> 16), blue[lane]},
-            size[lane]};
-      continue;
+      colour = deposit == Deposit::mass ? hn::BitCast(du, lit.red) : packed_light(lit);
+      third = deposit == Deposit::mass ? lit.green : lit.opacity;
     }
-    store_halves(lit.red, red);
-    store_halves(lit.green, green);
-    store_halves(lit.blue, blue);
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      block.splats[at + lane] = {x[lane], y[lane], parallax[lane], {red[lane], green[lane], blue[lane]}, size[lane]};
+    hn::StoreU(colour, du, block.colour.data() + at);
+    hn::StoreU(packed_halves(third, lit.size), du, block.colour_and_size.data() + at);
   }
 }
 

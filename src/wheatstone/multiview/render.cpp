@@ -85,20 +85,13 @@ void check_gpu_can(const Scene& scene, const RenderOptions& options) {
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --shine, expected --device cpu");
   if (!options.ranks.alone())
     throw Error(ErrorKind::wrong_usage, "--device gpu works in one process, expected --device cpu under mpirun");
-  if (options.opaque)
-    throw Error(ErrorKind::wrong_usage, "--device gpu does not render --opaque, expected --device cpu");
+  if (options.opaque && (options.method == Method::layered || scene.splat_style.look == Look::mass))
+    throw Error(ErrorKind::wrong_usage,
+                "--device gpu does not render --opaque with --look mass or --method layered, expected --device cpu");
   if (options.method == Method::exact)
     throw Error(
         ErrorKind::wrong_usage,
         "--device gpu does not render by --method exact, expected auto, incremental or layered, or --device cpu");
-}
-
-/// Whether the graphics processor is to render. On its own it is chosen where it is a real one, and where the work is
-/// more than handing it over.
-bool chooses_gpu(std::uint64_t particles, const Rig& rig, const RenderOptions& options) {
-  constexpr std::uint64_t worthwhile = 10'000'000;  // particles × views
-  if (options.device != Device::automatic) return options.device == Device::graphics;
-  return options.ranks.alone() && particles * rig.positions.size() >= worthwhile && has_real_gpu();
 }
 
 /// The diameter, in the picture that it is drawn in, of a splat of mean area.
@@ -127,47 +120,50 @@ float typical_splat_px(const CloudStatistics& statistics, const Scene& scene) {
   return static_cast<float>(std::sqrt(area / count)) - 1;
 }
 
+Workload workload_of(const CloudStatistics& statistics, const Scene& scene, const Rig& rig,
+                     const RenderOptions& options) {
+  const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
+  return {.particles = statistics.count,
+          .splat_px = typical_splat_px(statistics, scene),
+          .mass = scene.splat_style.look == Look::mass,
+          .views = static_cast<int>(rig.positions.size()),
+          .planes = static_cast<int>(planes.parallaxes.size()),
+          .pixels = static_cast<std::uint64_t>(rig.width) * rig.height,
+          .absorbs = scene.splat_style.blend == Blend::over};
+}
+
 Choice choose(const CloudStatistics& statistics, const Scene& scene, const Rig& rig, const RenderOptions& options) {
   if (options.method != Method::automatic) return {options.method, "as asked for"};
   if (options.focus) return {Method::layered, "layered: the focus moves depth planes"};
-  const DepthPlanes planes = planes_of(scene.mapping, options.planes, span_of(rig));
-  return choose_method({.particles = statistics.count,
-                        .splat_px = typical_splat_px(statistics, scene),
-                        .mass = scene.splat_style.look == Look::mass,
-                        .views = static_cast<int>(rig.positions.size()),
-                        .planes = static_cast<int>(planes.parallaxes.size()),
-                        .pixels = static_cast<std::uint64_t>(rig.width) * rig.height,
-                        .absorbs = scene.splat_style.blend == Blend::over});
+  return choose_method(workload_of(statistics, scene, rig, options));
 }
 
-/// A particle costs the graphics processor as much as it touches: each view, or two planes whatever the views.
-Choice choose_on_gpu(const Rig& rig, const RenderOptions& options) {
+Choice choose_on_gpu(const RenderJob& job, const RenderOptions& options) {
   if (options.method != Method::automatic) return {options.method, "as asked for"};
-  if (rig.positions.size() > 2) return {Method::layered, "on a graphics processor, more than two views: layered"};
-  return {Method::incremental, "on a graphics processor, at most two views: incremental"};
+  if (options.opaque) return {Method::incremental, "on a graphics processor, opaque: incremental"};
+  return choose_gpu_method(workload_of(job.statistics, job.scene, job.rig, options));
 }
 
-/// False where the device was chosen here and fails: the processor does the work then.
+/// False where the processor is to render.
 bool rendered_on_gpu(const RenderJob& job, std::span<const ImageView<Rgb8>> pictures, const RenderOptions& options,
                      RenderedViews& result) {
-  try {
+  constexpr std::uint64_t worthwhile = 10'000'000;  // particles × views
+  const std::uint64_t work = job.statistics.count * job.rig.positions.size();
+  if (!chooses_gpu(options.device, options.ranks.alone() && work >= worthwhile)) return false;
+  return done_on_gpu(options.device, [&] {
     check_gpu_can(job.scene, options);
-    const Choice choice = choose_on_gpu(job.rig, options);
+    const Choice choice = choose_on_gpu(job, options);
     if (choice.method == Method::layered) {
       const DepthPlanes planes = planes_of(job.scene.mapping, options.planes, span_of(job.rig));
       render_layered_on_gpu(job, planes, options.filter, pictures);
       result.planes = static_cast<int>(planes.parallaxes.size());
     } else {
-      render_incremental_on_gpu(job, pictures);
+      render_incremental_on_gpu(job, options.opaque, pictures);
     }
     result.device = gpu_facts().name;
     result.method = choice.method;
     result.reason = choice.reason;
-    return true;
-  } catch (const Error& error) {
-    if (options.device == Device::graphics || error.kind() != ErrorKind::wrong_usage) throw;
-    return false;
-  }
+  });
 }
 
 /// By slices that hide what is behind them.
@@ -211,14 +207,15 @@ RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, co
   const Choice choice = choose(statistics, scene, rig, options);
   result.method = choice.method;
   result.reason = choice.reason;
-  result.views.assign(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
+  result.views.reserve(rig.positions.size());
+  for (std::size_t v = 0; v < rig.positions.size(); ++v) result.views.emplace_back(rig.width, rig.height);
   const std::vector<ImageView<Rgb8>> pictures(result.views.begin(), result.views.end());
   const ToneMap tone(result.tone);
   const RenderJob job{chunks, scene, rig, statistics, tone, options.focus, options.ranks};
 
   report(progress, "views", 0);
   result.device = "cpu";
-  if (chooses_gpu(statistics.count, rig, options) && rendered_on_gpu(job, pictures, options, result)) {
+  if (rendered_on_gpu(job, pictures, options, result)) {
     report(progress, "views", 1);
     return result;
   }

@@ -75,6 +75,43 @@ TEST_F(RenderGpu, DoesNotDependOnTheOrderOfTheParticles) {
   for (std::size_t v = 0; v < one.size(); ++v) EXPECT_TRUE(std::ranges::equal(one[v].pixels(), other[v].pixels()));
 }
 
+TEST_F(RenderGpu, DoesNotDependOnTheChunksThatParticlesComeIn) {
+  const Cloud cloud = kernels(1000);
+  std::vector<Cloud> parts(3);
+  for (std::size_t part = 0; part < parts.size(); ++part)
+    for_each_column(parts[part], cloud, [&](auto& to, const auto& from) {
+      for (std::size_t i = part; i < from.size(); i += parts.size()) to.push_back(from[i]);
+    });
+  for (const Method method : {Method::incremental, Method::layered}) {
+    Case whole(cloud);
+    whole.options.method = method;
+    whole.options.tone = {.least = 0, .most = 5};
+    const std::vector<Image<Rgb8>> at_once = whole.views(Device::graphics);
+    const Chunks chunks = [&](const std::function<void(const Cloud&)>& visit) { std::ranges::for_each(parts, visit); };
+    const std::vector<Image<Rgb8>> in_parts =
+        render(chunks, whole.stage.statistics, whole.stage.scene, whole.stage.rig, whole.options).views;
+    for (std::size_t v = 0; v < at_once.size(); ++v)
+      EXPECT_TRUE(std::ranges::equal(at_once[v].pixels(), in_parts[v].pixels()));
+  }
+}
+
+TEST_F(RenderGpu, CountsTheFaintBesideTheBright) {
+  // 2^-12 of a mean particle's light on the left, and up to 2^24 of it on the right: every size of steps.
+  Cloud cloud = kernels(1000);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const bool bright = i % 2 == 1;
+    cloud.x[i] = (bright ? 1.f : -1.f) * (0.25f + std::abs(cloud.x[i]));
+    cloud.mass[i] = bright ? std::exp2(static_cast<float>(i % 9) * 3) : std::exp2(-12.f);
+    cloud.smoothing_length[i] = 0.05f;
+  }
+  Case mass(cloud);
+  mass.stage.scene.splat_style.mean_mass = 1;
+  for (const float most : {1e-3f, 1e6f}) {
+    mass.options.tone = {.least = 0, .most = most};
+    EXPECT_GT(worst_psnr(mass.views(Device::graphics), mass.views(Device::processor)), 55);
+  }
+}
+
 TEST_F(RenderGpu, CompositesDepthPlanesAsTheProcessorDoes) {
   for (const SliceFilter filter : {SliceFilter::nearest, SliceFilter::linear, SliceFilter::centroid}) {
     Case mass(kernels(1000));
@@ -84,11 +121,35 @@ TEST_F(RenderGpu, CompositesDepthPlanesAsTheProcessorDoes) {
   }
 }
 
+TEST_F(RenderGpu, ShowsTheNearestOfOpaqueParticles) {
+  Case look(kernels(1000), {.look = Look::thesis});
+  look.options.exposure = 20;
+  look.options.opaque = true;
+  const std::vector<Image<Rgb8>> expected = look.views(Device::processor);
+  const std::vector<Image<Rgb8>> found = look.views(Device::graphics);
+  EXPECT_GT(worst_psnr(found, expected), 55);
+  Case see_through = look;
+  see_through.options.opaque = false;
+  EXPECT_LT(worst_psnr(found, see_through.views(Device::graphics)), 35);
+  std::vector<Cloud> parts(2);
+  for_each_column(parts[0], look.cloud, [&](auto& to, const auto& from) {
+    if (!from.empty()) to.assign(from.begin(), from.begin() + 400);
+  });
+  for_each_column(parts[1], look.cloud, [&](auto& to, const auto& from) {
+    if (!from.empty()) to.assign(from.begin() + 400, from.end());
+  });
+  const Chunks chunks = [&](const std::function<void(const Cloud&)>& visit) { std::ranges::for_each(parts, visit); };
+  const std::vector<Image<Rgb8>> in_parts =
+      render(chunks, look.stage.statistics, look.stage.scene, look.stage.rig, look.options).views;
+  for (std::size_t v = 0; v < found.size(); ++v)
+    EXPECT_TRUE(std::ranges::equal(found[v].pixels(), in_parts[v].pixels()));
+}
+
 TEST_F(RenderGpu, RefusesWhatItDoesNotDo) {
   Case mass(kernels(100));
   mass.options.method = Method::exact;
   expect_error(ErrorKind::wrong_usage, "--device cpu", [&] { mass.views(Device::graphics); });
-  mass.options = {.opaque = true};
+  mass.options = {.method = Method::layered, .opaque = true};
   expect_error(ErrorKind::wrong_usage, "--opaque", [&] { mass.views(Device::graphics); });
 }
 

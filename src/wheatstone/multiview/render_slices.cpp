@@ -37,15 +37,15 @@ Hiding hiding_of(const SliceStack& stack) {
 void take_rows(const Slice& slice, int top, LightBand& band) {
   const int first = std::max(top, slice.top);
   const int end = std::min(top + band.rows(), slice.top + slice.pixels.height());
-  static_assert(sizeof(LinearRgba) == LightBand::channels * sizeof(float));
+  static_assert(sizeof(LinearRgba) == LightBand::most_channels * sizeof(float));
   for (int y = first; y < end; ++y) {
     const std::span<const LinearRgba> from = slice.pixels.row(y - slice.top);
     const int begin = std::max(slice.left, band.left());
     const int stop = std::min(slice.left + slice.pixels.width(), band.right());
     if (begin >= stop) return;
     band.note_light();
-    std::memcpy(band.row(y - top) + (begin - band.left()) * LightBand::channels, from.data() + (begin - slice.left),
-                sizeof(LinearRgba) * (stop - begin));
+    std::memcpy(band.row(y - top) + (begin - band.left()) * LightBand::most_channels,
+                from.data() + (begin - slice.left), sizeof(LinearRgba) * (stop - begin));
   }
 }
 
@@ -76,7 +76,7 @@ void add_glowing(const SliceStack& stack, const Rig& rig, const Compositing& com
   const int around = static_cast<int>(std::ceil(largest_shift_px(stack, rig.positions) * gain)) + 2;
   const int planes = static_cast<int>(stack.slices.size());
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {
-    return Workplace{LightBand(-around, rig.width + around, band_rows),
+    return Workplace{LightBand(-around, rig.width + around, band_rows, LightBand::most_channels),
                      SliceBand(-around, rig.width + around, band_rows, planes)};
   });
   std::vector<ViewTarget> targets;

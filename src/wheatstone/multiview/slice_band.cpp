@@ -7,7 +7,7 @@ SliceBand::SliceBand(int left, int right, int rows, int planes)
       right_(right),
       rows_(rows),
       planes_(planes),
-      stride_(LightBand(left, right, 0).width_with_margins()),
+      stride_(LightBand(left, right, 0, LightBand::most_channels).width_with_margins()),
       // A vector may be read from the last pixel on.
       values_(static_cast<std::size_t>(stride_) * 3 * rows * planes + 16),
       lit_(static_cast<std::size_t>(planes) * rows) {}

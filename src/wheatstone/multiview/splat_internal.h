@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -41,6 +43,10 @@ constexpr Deposit channels_of(Deposit deposit) {
   if (deposit == Deposit::mass_by_spline) return Deposit::mass;
   return deposit == Deposit::colours_by_spline ? Deposit::colours : deposit;
 }
+
+/// Channels of a pixel that splats add to: of mass its light and how much goes with it; else four, of which the last
+/// may stay 0.
+constexpr int channels_in(Deposit deposit) { return channels_of(deposit) == Deposit::mass ? 2 : 4; }
 
 /// Linear light 0..1 that is packed in 32 bits: the square roots of red and green in eleven bits each, and of blue in
 /// ten.
@@ -132,11 +138,6 @@ struct ParticleRange {
   std::size_t first, count;
 };
 
-/// Projects, lights and orders particles of a cloud, in blocks that depend on nothing but the cloud. Fewer than a
-/// vector holds must be the cloud's last.
-std::vector<SplatBlock> order_splats(const Cloud& cloud, ParticleRange range, const Projection& projection,
-                                     const Window& window, const SplatOrders& orders);
-
 /// The pictures' numbers as the projection looks them up.
 struct PictureTable {
   static constexpr int most = 9;
@@ -144,8 +145,10 @@ struct PictureTable {
   int pictures = 0;
   std::size_t bins = 0;
   SplatOrder first;
-  std::array<float, most> widest{};  ///< diameter, in the view's pixels, of a splat in each picture
-  std::array<float, most> scale{}, pad{}, last_row{}, parts{}, first_bin{}, parts_a_pixel{};
+  /// A number for each picture, as long as the widest vector, so that it can be one.
+  using Numbers = std::array<float, 16>;
+  Numbers widest{};  ///< diameter, in the view's pixels, of a splat in each picture
+  Numbers scale{}, pad{}, last_row{}, parts{}, first_bin{}, parts_a_pixel{};
 };
 /// The diameter of a splat of mass in any picture but the smallest.
 constexpr float widest_mass_px = 16;
@@ -153,10 +156,23 @@ constexpr float widest_mass_px = 16;
 /// Arrays that the projection fills for one block of particles, from number `first` of the cloud on; all `count` long.
 struct ProjectedBlock {
   std::size_t first = 0, count = 0;
-  std::vector<Splat> splats;
+  std::vector<float> x, y, parallax;
+  /// The splats' last eight bytes: the first two numbers of their colours, and the third one and their sizes.
+  std::vector<std::uint32_t> colour, colour_and_size;
   std::vector<std::uint32_t> bin, next_bin;  ///< the bins of the first and the last band; the last of all: not seen
   std::vector<float> red, green, blue;       ///< of particles that have colours of their own
 };
+
+/// Memory for ordering splats that is used again: fresh memory costs about as much as what is done in it.
+struct OrderingMemory {
+  tbb::enumerable_thread_specific<ProjectedBlock> projected;
+  std::vector<SplatBlock> spare;  ///< blocks that were drawn
+};
+
+/// Projects, lights and orders particles of a cloud, in blocks that depend on nothing but the cloud. Fewer than a
+/// vector holds must be the cloud's last.
+std::vector<SplatBlock> order_splats(const Cloud& cloud, ParticleRange range, const Projection& projection,
+                                     const Window& window, const SplatOrders& orders, OrderingMemory& memory);
 
 /// Projects and lights the block's particles, of which there are at least as many as a vector holds.
 void project_particles(const Cloud& cloud, const Projection& projection, const Window& window,

@@ -361,6 +361,10 @@ TEST(CostModel, TakesTheLayersForManyParticlesAndNotForFew) {
   EXPECT_EQ(choose_method({.particles = 300'000, .splat_px = 9, .mass = true, .views = 3, .planes = 34}).method,
             Method::layered);
   EXPECT_NE(choose_method({.particles = 5, .views = 9}).reason.find("exact"), std::string::npos);
+  // A graphics processor does not go through its planes for few particles, nor gather many in each of many views.
+  EXPECT_EQ(choose_gpu_method({.particles = 100'000'000, .views = 45}).method, Method::layered);
+  EXPECT_EQ(choose_gpu_method({.particles = 100'000, .views = 45}).method, Method::incremental);
+  EXPECT_EQ(choose_gpu_method({.particles = 1'000'000, .views = 1}).method, Method::incremental);
 }
 
 }  // namespace

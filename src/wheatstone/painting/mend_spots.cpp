@@ -1,34 +1,34 @@
 #include "wheatstone/painting/mend_spots_internal.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "wheatstone/curves/accents.h"
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/drawing/nearest_surface.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/regions/accents.h"
+#include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/strokes/accents.h"
 
 namespace wheatstone {
 namespace {
 
-/// The disparities that marks need to be seen. In other views than the reference what is wrong is mostly a near mark in
-/// a wrong place: marks must lie before it.
-Image<float> disparity_for(const SceneView& view, bool is_reference, const Painting& painting) {
+/// The disparities that marks need to be seen where a near mark lies in a wrong place: they must lie before it.
+Image<float> disparity_before(const SceneView& view) {
   constexpr int about_px = 9;
   constexpr float before_px = 1.5f;
-  Image<float> disparity = nearest_surface(painting, view.position);
-  for (int y = 0; y < disparity.height(); ++y)
-    for (int x = 0; x < disparity.width(); ++x)
-      if (std::isnan(disparity(x, y))) disparity(x, y) = view.disparity(x, y);
-  if (is_reference) return disparity;
-  Image<float> nearest(disparity.width(), disparity.height());
+  Image<float> nearest(view.disparity.width(), view.disparity.height());
   cv::Mat to = as_mat(nearest);
-  cv::dilate(as_mat(disparity), to, cv::getStructuringElement(cv::MORPH_RECT, {about_px, about_px}));
+  cv::dilate(as_mat(view.disparity), to, cv::getStructuringElement(cv::MORPH_RECT, {about_px, about_px}));
   for (float& value : nearest.pixels()) value += before_px;
   return nearest;
 }
+
+constexpr int least_px = 4;  ///< of a spot, as spots are counted
 
 /// Those that are nearer to a view than to the one halfway to the reference view, and as far beyond.
 ViewRange views_about(ViewPosition view, ViewPosition reference) {
@@ -36,28 +36,87 @@ ViewRange views_about(ViewPosition view, ViewPosition reference) {
   return {ViewPosition(at - reach), ViewPosition(at + reach)};
 }
 
+/// What a view would show if it saw the reference view's colours where its disparities say so.
+Image<Rgb8> colours_of_reference(const SceneView& view, const SceneView& reference) {
+  Image<Rgb8> colours(view.picture.width(), view.picture.height());
+  const float separation = view.position - reference.position;
+  tbb::parallel_for(0, colours.height(), [&](int y) {
+    const auto from = reference.picture.row(y), own = view.picture.row(y);
+    const auto to = colours.row(y);
+    for (int x = 0; x < colours.width(); ++x) {
+      const float place = static_cast<float>(x) + 0.5f + separation * view.disparity(x, y);
+      const bool is_shared = (view.only_here.empty() || view.only_here(x, y) == 0) && place >= 0 &&
+                             place < static_cast<float>(colours.width());
+      to[x] = is_shared ? from[static_cast<std::size_t>(place)] : own[x];
+    }
+  });
+  return colours;
+}
+
+/// Where marks of the reference view come to lie on what another view shows something else of: their disparity is
+/// wrong.
+Image<std::uint8_t> displaced_colours(const SceneView& view, const SceneView& reference) {
+  constexpr int rim_px = 2;
+  Image<std::uint8_t> spots = wrong_pixels(colours_of_reference(view, reference), view.picture);
+  remove_occlusion_specks(spots, least_px);
+  return dilate_occlusion(spots, rim_px);
+}
+
+bool has_any(const Image<std::uint8_t>& mask) {
+  return std::ranges::any_of(mask.pixels(), [](std::uint8_t value) { return value != 0; });
+}
+
+void add_accents_of(const SpotsOfView& found, const Style& style, Painting& painting) {
+  if (auto* const strokes = std::get_if<StrokePainting>(&painting.marks))
+    add_accents(found, style, *strokes);
+  else
+    add_accents(found, std::get<DiffusionPainting>(painting.marks));
+}
+
+/// Nearly all that is wrong with strokes is displaced: drawing them would tell little more, and cost more.
+void mend_displaced(std::span<const SceneView> views, const Style& style, Painting& painting) {
+  if (style.marks == Marks::strokes && style.jitter != ColourJitter{}) return;
+  const SceneView& reference = views.front();
+  constexpr int least_width_px =
+      160;  // in smaller pictures, what wrong_pixels takes for near is less than a pixel away
+  if (reference.picture.width() < least_width_px) return;
+  for (const SceneView& view : views.subspan(1)) {
+    if (view.continued) continue;
+    const Image<std::uint8_t> spots = displaced_colours(view, reference);
+    if (!has_any(spots)) continue;
+    const Image<float> disparity = disparity_before(view);
+    const ViewRange about = views_about(view.position, reference.position);
+    add_accents_of(
+        {view.picture, spots, disparity, view.position, reference.position, about, painting.surfaces.tolerance_px},
+        style, painting);
+  }
+}
+
+void mend_regions(std::span<const SceneView> views, const Style& style, Painting& painting) {
+  const ViewPosition reference = views.front().position;
+  for (const SceneView& view : views) {
+    if (view.continued) continue;
+    const bool is_reference = view.position == reference;
+    const Image<std::uint8_t> spots = wrong_pixels(draw(painting, view.position).picture, view.picture);
+    if (!has_any(spots)) continue;
+    const Image<float> before = is_reference ? Image<float>() : disparity_before(view);
+    const SpotsOfView found{view.picture,
+                            spots,
+                            is_reference ? view.disparity : before.view(),
+                            view.position,
+                            reference,
+                            is_reference ? all_views : views_about(view.position, reference),
+                            painting.surfaces.tolerance_px};
+    add_accents(found, style, std::get<RegionPainting>(painting.marks));
+  }
+}
+
 }  // namespace
 
 void mend_spots(std::span<const SceneView> views, const Style& style, Painting& painting) {
-  if (style.marks != Marks::regions) return;
   if (style.propagation == Propagation::independent) return;
-  const ViewPosition reference = views.front().position;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const SceneView& view = views[i];
-    if (view.continued) continue;
-    const DrawnView drawn = draw(painting, view.position);
-    const Image<std::uint8_t> spots = wrong_pixels(drawn.picture, view.picture);
-    if (std::ranges::all_of(spots.pixels(), [](std::uint8_t wrong) { return wrong == 0; })) continue;
-    const Image<float> disparity = disparity_for(view, i == 0, painting);
-    const SpotsOfView found{view.picture,
-                            spots,
-                            disparity,
-                            view.position,
-                            reference,
-                            i == 0 ? all_views : views_about(view.position, reference),
-                            painting.surfaces.tolerance_px};
-    add_accents(found, style.colours, std::get<RegionPainting>(painting.marks));
-  }
+  if (style.marks == Marks::regions) mend_regions(views, style, painting);
+  if (style.marks == Marks::strokes || style.marks == Marks::curves) mend_displaced(views, style, painting);
 }
 
 }  // namespace wheatstone

@@ -8,10 +8,12 @@
 
 namespace wheatstone {
 
-/// Draws each photographed view of a painting of regions, and adds marks where its colour is one that the
-/// photograph has nowhere near: small things that were joined to large ones, colours that spread too far, and, in other
-/// views than the reference, marks whose disparity is wrong. Those of the reference view are for all views, those of
-/// another one only for views about it. The painting has its surfaces.
+/// Adds small marks where a photographed view would show a colour that its photograph has nowhere near. Paintings of
+/// regions are drawn and looked at: small things may have been joined to large ones, colours be missing. Strokes and
+/// lines are mended in other views than the reference, where its colours contradict the view's because a disparity is
+/// wrong. What is wrong in the reference view is mended for all views, else for those about the view. Paintings of
+/// tiles, those whose colours are changed at random, and those of eyes apart are left as they are. The painting has its
+/// surfaces.
 void mend_spots(std::span<const SceneView> views, const Style& style, Painting& painting);
 
 }  // namespace wheatstone

@@ -1,7 +1,12 @@
-// Paintings of regions show no colour that the photographs have nowhere near.
+// Paintings show no colour that the photographs have nowhere near.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
@@ -32,9 +37,51 @@ void expect_right(const PaintedPair& painted, const StereoPair& photographs) {
 }
 
 TEST(Posterise, IsRightForTheOtherEyeAlsoWhereTheDisparityIsWrong) {
-  // The bar is 12 pixels nearer than the disparities say.
   const StereoPair photographs{with_bar(40, 30, 8, 36), with_bar(28, 30, 8, 36)};
   expect_right(paint_flat(photographs, style_by_name("posterise")), photographs);
+}
+
+class MendedSpots : public testing::TestWithParam<const char*> {};
+
+bool is_red(Rgb8 colour) { return colour.r > 150 && colour.g < 100 && colour.b < 100; }
+
+TEST_P(MendedSpots, ShowTheOtherEyeWhatItsPhotographShows) {
+  // The bar is 12 pixels nearer than the disparities say.
+  const StereoPair photographs{with_bar(40, 30, 8, 36), with_bar(28, 30, 8, 36)};
+  const Image<Rgb8> right = paint_flat(photographs, style_by_name(GetParam())).pictures.right;
+  for (int y = 32; y < 64; y += 4) {
+    EXPECT_TRUE(is_red(right(32, y))) << y;
+    EXPECT_FALSE(is_red(right(44, y))) << y;
+  }
+}
+
+TEST_P(MendedSpots, AreMendedForTheViewsAboutTheOtherEyeOnly) {
+  const StereoPair photographs{with_bar(40, 30, 8, 36), with_bar(28, 30, 8, 36)};
+  const Painting painting = paint_flat(photographs, style_by_name(GetParam())).painting;
+  const auto has_two_bars = [&](float position) {
+    const Image<Rgb8> seen = draw(painting, ViewPosition(position)).picture;
+    return is_red(seen(44, 48)) && is_red(seen(32, 48));
+  };
+  EXPECT_FALSE(has_two_bars(-0.5f));
+  EXPECT_FALSE(has_two_bars(0.f));
+  EXPECT_FALSE(has_two_bars(0.5f));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, MendedSpots, testing::Values("impressionist", "dual", "posterise", "diffusion"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+TEST(Posterise, KeepsColoursForSmallThingsOfTheirOwn) {
+  Image<Rgb8> picture(320, 160);
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      const auto level = static_cast<std::uint8_t>(20 + x * 210 / 320);
+      picture(x, y) = {level, static_cast<std::uint8_t>(y), level};
+    }
+  for (int y = 60; y < 66; ++y) std::fill_n(&picture(90, y), 6, Rgb8{20, 250, 20});
+  const Image<float> flat(320, 160, 0);
+  const PaintedPair painted = paint({picture, picture}, geometry_from_left(flat), style_by_name("posterise"));
+  const Rgb8 dot = painted.pictures.left(93, 63);
+  EXPECT_LT(std::hypot(dot.r - 20, dot.g - 250, dot.b - 20), unlike_colours);
 }
 
 }  // namespace

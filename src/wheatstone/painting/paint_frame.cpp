@@ -25,13 +25,14 @@ struct FrameTask {
   const Style& style;
   const CarryOptions& options;
   const Progress& progress;
+  Device device;
 };
 
 /// Draws the views that are shown.
 std::vector<DrawnView> draw_shown(const FrameTask& task, const std::vector<std::size_t>& shown,
                                   const Painting& painting) {
   report(task.progress, "drawing", 0);
-  const PreparedPainting prepared = prepare(painting);
+  const PreparedPainting prepared = prepare(painting, {}, task.device);
   const bool over_picture = task.style.background == Background::photograph;
   std::vector<ViewPosition> positions;
   std::vector<ImageView<const Rgb8>> backgrounds;
@@ -53,8 +54,8 @@ void take_pictures(std::vector<DrawnView> drawn, PaintedPair& painted) {
 }  // namespace
 
 PaintedFrame paint_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                         PaintingMemory& memory, const Progress& progress) {
-  const FrameTask task{frame, style, options, progress};
+                         PaintingMemory& memory, const Progress& progress, Device device) {
+  const FrameTask task{frame, style, options, progress, device};
   PaintedFrame result;
   PaintedPair& painted = result.painted;
   {

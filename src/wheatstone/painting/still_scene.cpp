@@ -12,12 +12,10 @@ namespace wheatstone {
 
 namespace {
 
-/// How much smaller what no photograph shows may be made: it is painted without detail.
+/// How much smaller what no photograph shows may be made: as small as its finest strokes are planned.
 int reduction_for(int width) {
-  constexpr int enough_px = 960, most = 4;
-  int reduction = 1;
-  while (reduction < most && width >= 2 * reduction * enough_px) reduction *= 2;
-  return reduction;
+  constexpr int halved_px = 480, quartered_px = 3840;
+  return width < halved_px ? 1 : width < quartered_px ? 2 : 4;
 }
 
 /// A pair and its geometry, smaller; of the geometry only the disparities.

@@ -45,6 +45,9 @@ struct CloudSource {
   std::uint64_t bytes = 0;  ///< of all files together
   /// The next particles, at most so many; an empty cloud at the end. Throws Error{bad_input} where the file is damaged.
   std::function<Cloud(std::size_t most)> next;
+  /// Takes back a cloud that `next` gave and that is not needed any more, for its memory: fresh memory takes longer to
+  /// get than the particles to read. Not while `next` reads. May be empty.
+  std::function<void(Cloud used)> reuse;
   /// Goes past the particles that `next` would give, and says how many they are. Only where the choice had an origin;
   /// empty where they must be read to be passed.
   std::function<std::size_t(std::size_t most)> skip;

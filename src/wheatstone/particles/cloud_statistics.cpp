@@ -10,12 +10,25 @@
 namespace wheatstone {
 
 void LogHistogram::add(const std::vector<float>& values) {
-  for (const float value : values) {
-    // The exponent and the first four bits of the mantissa number the step; zero, negative, infinite and NaN have none.
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    if (bits == 0 || bits >= 0x7F800000u) continue;
-    ++counts_[bits >> 19];
-    ++total_;
+  // Several tables in turn: neighbours often fall in one step, and a sum would wait for the one before.
+  constexpr std::size_t tables = 4;
+  std::array<std::array<std::uint32_t, steps>, tables> counts;
+  constexpr std::size_t most_at_once = std::size_t{1} << 30;  // as many as a table can count
+  for (std::size_t first = 0; first < values.size(); first += most_at_once) {
+    const std::size_t end = std::min(first + most_at_once, values.size());
+    for (auto& table : counts) table.fill(0);
+    for (std::size_t i = first; i < end; ++i) {
+      // The exponent and the first four bits of the mantissa number the step; zero, negative, infinite and NaN have
+      // none.
+      const auto bits = std::bit_cast<std::uint32_t>(values[i]);
+      if (bits - 1 >= 0x7F800000u - 1) continue;
+      ++counts[i % tables][bits >> 19];
+    }
+    for (const auto& table : counts)
+      for (std::size_t step = 0; step < steps; ++step) {
+        counts_[step] += table[step];
+        total_ += table[step];
+      }
   }
 }
 
@@ -47,7 +60,9 @@ void LogHistogram::add(const LogHistogram& other) {
 namespace {
 
 /// Multiples of the golden ratio spread evenly: a key's limit keeps a share of any stretch of the file.
-std::uint32_t key_of(std::uint64_t number) { return static_cast<std::uint32_t>(number * 0x9E3779B97F4A7C15u >> 32); }
+constexpr std::uint64_t golden = 0x9E3779B97F4A7C15u;
+constexpr std::uint32_t key_of_multiple(std::uint64_t multiple) { return static_cast<std::uint32_t>(multiple >> 32); }
+constexpr std::uint32_t key_of(std::uint64_t number) { return key_of_multiple(number * golden); }
 
 constexpr std::size_t most_kept = 1 << 17;
 
@@ -74,8 +89,9 @@ void take_bytes(std::span<const std::byte>& from, std::vector<Value>& column) {
 
 void ParticleSample::add(const Cloud& cloud, std::uint64_t before) {
   if (cloud.size() == 0) return;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (key_of(before + i) > highest_key_) continue;
+  std::uint64_t multiple = before * golden;
+  for (std::size_t i = 0; i < cloud.size(); ++i, multiple += golden) {
+    if (key_of_multiple(multiple) > highest_key_) continue;
     numbers_.push_back(before + i);
     for_each_column(kept_, cloud, [i](auto& to, const auto& from) {
       if (!from.empty()) to.push_back(from[i]);
@@ -159,11 +175,48 @@ void ParticleSample::share(const Ranks& ranks) {
   numbers_ = std::move(numbers);
 }
 
+namespace {
+
+// Sums and extremes of so many numbers in turn do not wait for each other, whatever the processor's vectors are.
+constexpr std::size_t strands = 16;
+
+struct Extremes {
+  float least, most;
+};
+
+Extremes extremes_of(const std::vector<float>& values) {
+  std::array<float, strands> least, most;
+  least.fill(values.front());
+  most.fill(values.front());
+  const std::size_t whole = values.size() / strands * strands;
+  for (std::size_t i = 0; i < whole; i += strands)
+    for (std::size_t k = 0; k < strands; ++k) {
+      const float value = values[i + k];
+      least[k] = value < least[k] ? value : least[k];
+      most[k] = value > most[k] ? value : most[k];
+    }
+  Extremes extremes{std::ranges::min(least), std::ranges::max(most)};
+  for (std::size_t i = whole; i < values.size(); ++i)
+    extremes = {std::min(extremes.least, values[i]), std::max(extremes.most, values[i])};
+  return extremes;
+}
+
+double sum_of(const std::vector<float>& values) {
+  std::array<double, strands> sums{};
+  const std::size_t whole = values.size() / strands * strands;
+  for (std::size_t i = 0; i < whole; i += strands)
+    for (std::size_t k = 0; k < strands; ++k) sums[k] += static_cast<double>(values[i + k]);
+  for (std::size_t i = whole; i < values.size(); ++i) sums[i - whole] += static_cast<double>(values[i]);
+  return std::accumulate(sums.begin(), sums.end(), 0.);
+}
+
+}  // namespace
+
 void CloudStatistics::add(const Cloud& cloud, std::uint64_t before) {
   const std::array<const std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (cloud.size() == 0) continue;
-    const auto [least, most] = std::ranges::minmax(*axes[axis]);
+    const auto [least, most] = extremes_of(*axes[axis]);
     lower[axis] = count == 0 ? least : std::min(lower[axis], least);
     upper[axis] = count == 0 ? most : std::max(upper[axis], most);
   }
@@ -175,8 +228,7 @@ void CloudStatistics::add(const Cloud& cloud, std::uint64_t before) {
   temperature.add(cloud.temperature);
   for (const float one : cloud.quantity) largest_quantity = std::max(largest_quantity, std::abs(one));
   // Chunk by chunk, so that ranks that read every other chunk come to the same sum.
-  mass += cloud.mass.empty() ? static_cast<double>(cloud.size())
-                             : std::accumulate(cloud.mass.begin(), cloud.mass.end(), 0.);
+  mass += cloud.mass.empty() ? static_cast<double>(cloud.size()) : sum_of(cloud.mass);
   has_density = has_density || !cloud.density.empty();
   has_temperature = has_temperature || !cloud.temperature.empty();
   has_mass = has_mass || !cloud.mass.empty();

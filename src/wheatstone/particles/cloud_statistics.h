@@ -25,8 +25,8 @@ class LogHistogram {
   double sum_of_inverses() const;
 
  private:
-  static constexpr int steps_a_factor_of_two = 16;
-  std::array<std::uint64_t, std::size_t{256} * steps_a_factor_of_two> counts_{};
+  static constexpr std::size_t steps = std::size_t{256} * 16;
+  std::array<std::uint64_t, steps> counts_{};
   std::uint64_t total_ = 0;
 };
 

@@ -207,7 +207,8 @@ CloudSource open_table(const std::shared_ptr<Reading>& reading, const CloudChoic
   CloudSource source{.format = "FITS table", .count = table.count, .fields = names_of(table.columns)};
   for (const Column& column : table.columns)
     if (!column.unit.empty()) source.units.emplace_back(column.name, column.unit);
-  source.next = cloud_reader([reading](std::size_t most) { return reading->next_rows(most); }, choice.origin);
+  give_rows([reading](std::size_t most, ParticleRows& next) { next = reading->next_rows(most); }, choice.origin,
+            source);
   return source;
 }
 
@@ -227,7 +228,8 @@ CloudSource open_image(const std::shared_ptr<Reading>& reading, const CloudChoic
   CloudSource source{.format = "FITS image", .fields = {"density"}};
   if (const std::string unit = text_of(reading->file.get(), "BUNIT"); !unit.empty())
     source.units.emplace_back("density", unit);
-  source.next = cloud_reader([reading](std::size_t most) { return reading->next_voxels(most); }, choice.origin);
+  give_rows([reading](std::size_t most, ParticleRows& next) { next = reading->next_voxels(most); }, choice.origin,
+            source);
   return source;
 }
 

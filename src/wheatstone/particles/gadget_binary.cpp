@@ -323,7 +323,7 @@ CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudCho
     refuse(first,
            fmt::format("its header says {} particles, but there are only {}", first.total[reading->type], count));
   source.count = count;
-  source.next = cloud_reader([reading](std::size_t most) { return reading->next(most); }, choice.origin);
+  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = reading->next(most); }, choice.origin, source);
   source.skip = [reading](std::size_t most) { return reading->skip(most); };
   return source;
 }

@@ -196,18 +196,14 @@ void put_mass_and_quantity(const Part& part, hsize_t first, hsize_t count, Cloud
   take_component(part.quantity.width, part.component, cloud.quantity);
 }
 
-ParticleRows read_part(const Part& part, hsize_t first, hsize_t count) {
-  ParticleRows rows;
-  std::vector<double> positions;
-  read_rows(part.position, first, count, positions, part.path);
-  put_positions(positions, 3, rows);
+void read_part(const Part& part, hsize_t first, hsize_t count, ParticleRows& rows) {
+  read_points(part.position, first, count, rows, part.path);
   Cloud& cloud = rows.others;
   put_scalars(part, part.density, first, count, cloud.density);
   put_temperature(part, first, count, cloud);
   put_mass_and_quantity(part, first, count, cloud);
   put_smoothing_length(part, first, count, cloud);
   put_motion(part, first, count, cloud);
-  return rows;
 }
 
 /// Which columns a part has: those of one snapshot have the same.
@@ -238,13 +234,12 @@ struct Snapshot {
     return std::min<hsize_t>(most, part.count - at);
   }
 
-  ParticleRows next(std::size_t most) {
+  void next(std::size_t most, ParticleRows& rows) {
     const hsize_t count = ahead(most);
-    if (count == 0) return {};
-    ParticleRows rows = read_part(part, at, count);
+    if (count == 0) return;
+    read_part(part, at, count, rows);
     rows.others.box_size = box_size;
     at += count;
-    return rows;
   }
 
   std::size_t skip(std::size_t most) {
@@ -334,7 +329,7 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
     throw Error(ErrorKind::bad_input, fmt::format("{}: its header says {} particles, but there are only {}",
                                                   path.string(), header.total, count));
   source.count = count;
-  source.next = cloud_reader([snapshot](std::size_t most) { return snapshot->next(most); }, choice.origin);
+  give_rows([snapshot](std::size_t most, ParticleRows& rows) { snapshot->next(most, rows); }, choice.origin, source);
   source.skip = [snapshot](std::size_t most) { return snapshot->skip(most); };
   return source;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/particles/hdf5_internal.h"
@@ -125,6 +126,7 @@ Hdf5Column open_column(hid_t where, const std::string& name, const std::string& 
   H5Sget_simple_extent_dims(space, extent.data(), nullptr);
   column.rows = extent[0];
   column.width = extent[1];
+  column.single_precision = H5Tget_class(type) == H5T_FLOAT && H5Tget_size(type) <= sizeof(float);
   constexpr hsize_t widest = 1024;
   if (column.width == 0 || column.width > widest)
     return refuse(fmt::format("has {} numbers per row, expected at most {}", column.width, widest));
@@ -153,6 +155,16 @@ void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vect
   std::vector<double> numbers;
   read_rows(column, first, count, numbers, file);
   to = in_single_precision(numbers);
+}
+
+void read_points(const Hdf5Column& column, hsize_t first, hsize_t count, ParticleRows& rows, const std::string& file) {
+  if (column.single_precision && column.width == 3) {
+    read_as(H5T_NATIVE_FLOAT, column, {first, count}, rows.single_points, file);
+    return;
+  }
+  std::vector<double> numbers;
+  read_rows(column, first, count, numbers, file);
+  put_positions(std::move(numbers), column.width, rows);
 }
 
 }  // namespace wheatstone

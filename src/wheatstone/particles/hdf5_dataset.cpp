@@ -98,21 +98,12 @@ Hdf5Column open_named(const Datasets& datasets, const std::string& name) {
   return column;
 }
 
-/// The first number of each row.
-std::vector<float> read_scalars(const Datasets& datasets, const Hdf5Column& column, hsize_t first, hsize_t count) {
-  std::vector<float> values;
-  if (!column.dataset) return values;
-  read_rows(column, first, count, values, datasets.path);
-  take_component(column.width, 0, values);
-  return values;
-}
-
-std::vector<float> read_quantity(const Datasets& datasets, hsize_t first, hsize_t count) {
-  std::vector<float> values;
-  if (!datasets.quantity.dataset) return values;
-  read_rows(datasets.quantity, first, count, values, datasets.path);
-  take_component(datasets.quantity.width, datasets.component, values);
-  return values;
+/// The numbers of a column, if there is one; of vectors, one component.
+void read_scalars(const Datasets& datasets, const Hdf5Column& column, int component, hsize_t count,
+                  std::vector<float>& to) {
+  if (!column.dataset) return;
+  read_rows(column, datasets.at, count, to, datasets.path);
+  take_component(column.width, component, to);
 }
 
 std::vector<double> read_axis(const Datasets& datasets, const Hdf5Column& column, hsize_t first, hsize_t count) {
@@ -130,10 +121,7 @@ void read_positions(const Datasets& datasets, hsize_t first, hsize_t count, Part
     rows.z = read_axis(datasets, datasets.position[2], first, count);
     return;
   }
-  std::vector<double> numbers;
-  const Hdf5Column& column = datasets.position.front();
-  read_rows(column, first, count, numbers, datasets.path);
-  put_positions(numbers, column.width, rows);
+  read_points(datasets.position.front(), first, count, rows, datasets.path);
 }
 
 }  // namespace
@@ -171,22 +159,19 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
 
   CloudSource source{.format = "HDF5", .count = datasets->count, .fields = all_datasets(datasets->file)};
   source.bytes = std::filesystem::file_size(path);
-  const auto next = [datasets](std::size_t most) {
-    ParticleRows rows;
-    const hsize_t at = datasets->at;
-    const hsize_t count = std::min<hsize_t>(most, datasets->count - at);
-    if (count == 0) return rows;
-    read_positions(*datasets, at, count, rows);
+  const auto next = [datasets](std::size_t most, ParticleRows& rows) {
+    const hsize_t count = std::min<hsize_t>(most, datasets->count - datasets->at);
+    if (count == 0) return;
+    read_positions(*datasets, datasets->at, count, rows);
     Cloud& cloud = rows.others;
-    cloud.density = read_scalars(*datasets, datasets->density, at, count);
-    cloud.temperature = read_scalars(*datasets, datasets->temperature, at, count);
-    cloud.smoothing_length = read_scalars(*datasets, datasets->smoothing_length, at, count);
-    cloud.mass = read_scalars(*datasets, datasets->mass, at, count);
-    cloud.quantity = read_quantity(*datasets, at, count);
+    read_scalars(*datasets, datasets->density, 0, count, cloud.density);
+    read_scalars(*datasets, datasets->temperature, 0, count, cloud.temperature);
+    read_scalars(*datasets, datasets->smoothing_length, 0, count, cloud.smoothing_length);
+    read_scalars(*datasets, datasets->mass, 0, count, cloud.mass);
+    read_scalars(*datasets, datasets->quantity, datasets->component, count, cloud.quantity);
     datasets->at += count;
-    return rows;
   };
-  source.next = cloud_reader(next, choice.origin);
+  give_rows(next, choice.origin, source);
   source.skip = [datasets](std::size_t most) -> std::size_t {
     const hsize_t count = std::min<hsize_t>(most, datasets->count - datasets->at);
     datasets->at += count;

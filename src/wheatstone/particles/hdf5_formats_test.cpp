@@ -382,6 +382,26 @@ TEST(Hdf5Dataset, ReadsAnyByName) {
   expect_error(ErrorKind::bad_input, "not a list of positions",
                [&] { read_cloud(folder / "stars.h5", {.position = "/x"}); });
 }
+
+TEST(CloudSource, GivesTheSameInTheMemoryOfChunksThatWereGivenBack) {
+  const TemporaryFolder folder;
+  write_snapshot(folder / "snap.hdf5", 2);
+  const Cloud whole = read_cloud(folder / "snap.hdf5");
+  const CloudSource source = open_cloud(folder / "snap.hdf5");
+  Cloud first = source.next(2);
+  // What others have put into a chunk does not come back.
+  first.quantity = first.presence = {7, 8};
+  first.x = {9, 9};
+  first.colour = {{1, 2, 3}, {4, 5, 6}};
+  source.reuse(std::move(first));
+  const Cloud second = source.next(2);
+  ASSERT_EQ(second.size(), 1u);
+  for_each_column(second, whole, [](const auto& column, const auto& of_whole) {
+    ASSERT_EQ(column.size(), of_whole.empty() ? 0u : 1u);
+    EXPECT_TRUE(column.empty() || column[0] == of_whole[2]);
+  });
+}
+
 TEST(CloudSource, ChunksAreTheWholeInOrder) {
   const TemporaryFolder folder;
   write_snapshot(folder / "snap.hdf5", 2);

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "wheatstone/particles/particle_rows_internal.h"
+
 namespace wheatstone {
 
 /// An HDF5 identifier that closes itself. What could not be opened is false.
@@ -57,6 +59,7 @@ struct Hdf5Column {
   Hdf5Handle dataset;
   hsize_t rows = 0;
   hsize_t width = 1;
+  bool single_precision = false;  ///< floating-point numbers that a float holds
 };
 
 /// Throws Error{bad_input} where it does not exist, holds no numbers, or has more than two dimensions. `file` and
@@ -70,5 +73,8 @@ void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vect
 void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<float>& to, const std::string& file);
 void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vector<std::uint64_t>& to,
                const std::string& file);
+
+/// Positions, of which each row's first three numbers are one, in the precision of the file.
+void read_points(const Hdf5Column& column, hsize_t first, hsize_t count, ParticleRows& rows, const std::string& file);
 
 }  // namespace wheatstone

@@ -251,7 +251,7 @@ CloudSource open_npz(const std::filesystem::path& path, const CloudChoice& choic
   CloudSource source{.format = "NumPy archive", .count = reading->count};
   for (const Array& array : reading->arrays.all) source.fields.push_back(array.name);
   source.bytes = std::filesystem::file_size(path);
-  source.next = cloud_reader([reading](std::size_t most) { return reading->next(most); }, choice.origin);
+  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = reading->next(most); }, choice.origin, source);
   return source;
 }
 

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "wheatstone/particles/particle_rows_internal.h"
@@ -31,37 +33,82 @@ double origin_along(std::vector<double> values) {
   return std::abs(median) > near_enough * spread ? median : 0;
 }
 
-std::array<double, 3> origin_of(const ParticleRows& rows) {
-  const auto first = [](const std::vector<double>& axis) {
-    return std::vector<double>(axis.begin(),
-                               axis.begin() + static_cast<std::ptrdiff_t>(std::min(looked_at, axis.size())));
-  };
-  return {origin_along(first(rows.x)), origin_along(first(rows.y)), origin_along(first(rows.z))};
+/// The first of a file's coordinates along an axis.
+std::vector<double> first_along(const ParticleRows& rows, std::size_t axis) {
+  std::vector<double> first(std::min(looked_at, rows.size()));
+  const std::array<const std::vector<double>*, 3> axes{&rows.x, &rows.y, &rows.z};
+  for (std::size_t i = 0; i < first.size(); ++i)
+    first[i] = !rows.single_points.empty() ? static_cast<double>(rows.single_points[3 * i + axis])
+               : !rows.points.empty()      ? rows.points[3 * i + axis]
+                                           : (*axes[axis])[i];
+  return first;
 }
 
-Cloud cloud_of(ParticleRows rows, const std::array<double, 3>& origin) {
+std::array<double, 3> origin_of(const ParticleRows& rows) {
+  return {origin_along(first_along(rows, 0)), origin_along(first_along(rows, 1)), origin_along(first_along(rows, 2))};
+}
+
+/// Coordinates along one axis as they lie in a file's rows.
+template <class Number, std::size_t stride>
+struct Coordinates {
+  const Number* first;
+  std::size_t count;
+  Number operator[](std::size_t i) const { return first[i * stride]; }
+};
+
+/// Puts differences from the middle, computed as `Number`. False where not all of them are near: nearly always they
+/// are, and then there is nothing to ask of each.
+template <class Difference, class Number, std::size_t stride>
+bool put_near(const Coordinates<Number, stride>& from, Difference middle, float* to) {
+  std::conditional_t<sizeof(Difference) == 4, int, std::int64_t> all_near = 1;
+  for (std::size_t i = 0; i < from.count; ++i) {
+    const Difference value = static_cast<Difference>(from[i]) - middle;
+    all_near &= std::abs(value) <= static_cast<Difference>(Cloud::farthest_drawn);
+    to[i] = static_cast<float>(value);
+  }
+  return all_near != 0;
+}
+
+template <class Number, std::size_t stride>
+void put_axis(const Coordinates<Number, stride>& from, double middle, std::vector<float>& to, double& farthest) {
+  to.resize(from.count);
+  if (middle == 0 ? put_near(from, Number{0}, to.data()) : put_near(from, middle, to.data())) return;
+  for (std::size_t i = 0; i < from.count; ++i) {
+    const double here = from[i];
+    const double value = here - middle;
+    to[i] = std::isfinite(value) ? in_single_precision(value) : static_cast<float>(value);
+    if (std::abs(value) > Cloud::farthest_drawn && std::isfinite(here) && std::abs(here) > std::abs(farthest))
+      farthest = here;
+  }
+}
+
+template <class Number>
+void put_points(const std::vector<Number>& points, Cloud& cloud) {
+  const std::array<std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    put_axis(Coordinates<Number, 3>{points.data() + axis, points.size() / 3}, cloud.origin[axis], *axes[axis],
+             cloud.farthest);
+}
+
+/// The rows as a cloud. What they leave is empty, but for the memory of their positions.
+Cloud cloud_of(ParticleRows& rows, const std::array<double, 3>& origin) {
   Cloud cloud = std::move(rows.others);
+  rows.others = {};
   cloud.origin = origin;
-  const auto put = [&](const std::vector<double>& from, double middle, std::vector<float>& to) {
-    to.resize(from.size());
-    // Nearly always all of them lie near: then there is nothing to ask of each.
-    bool all_near = true;
-    for (const double value : from) all_near &= std::abs(value - middle) <= Cloud::farthest_drawn;
-    if (all_near) {
-      std::ranges::transform(from, to.begin(), [middle](double value) { return static_cast<float>(value - middle); });
-      return;
-    }
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      const double value = from[i] - middle;
-      to[i] = std::isfinite(value) ? in_single_precision(value) : static_cast<float>(value);
-      if (std::abs(value) > Cloud::farthest_drawn && std::isfinite(from[i]) &&
-          std::abs(from[i]) > std::abs(cloud.farthest))
-        cloud.farthest = from[i];
-    }
-  };
-  put(rows.x, origin[0], cloud.x);
-  put(rows.y, origin[1], cloud.y);
-  put(rows.z, origin[2], cloud.z);
+  if (!rows.single_points.empty()) {
+    put_points(rows.single_points, cloud);
+  } else if (!rows.points.empty()) {
+    put_points(rows.points, cloud);
+  } else {
+    const auto put = [&](const std::vector<double>& from, double middle, std::vector<float>& to) {
+      put_axis(Coordinates<double, 1>{from.data(), from.size()}, middle, to, cloud.farthest);
+    };
+    put(rows.x, origin[0], cloud.x);
+    put(rows.y, origin[1], cloud.y);
+    put(rows.z, origin[2], cloud.z);
+  }
+  for (std::vector<double>* column : {&rows.x, &rows.y, &rows.z, &rows.points}) column->clear();
+  rows.single_points.clear();
   return cloud;
 }
 
@@ -75,7 +122,11 @@ std::vector<Value> taken(std::vector<Value>& from, std::size_t count) {
 
 /// The first rows, which are taken away.
 ParticleRows taken(ParticleRows& from, std::size_t count) {
-  ParticleRows rows{.x = taken(from.x, count), .y = taken(from.y, count), .z = taken(from.z, count)};
+  ParticleRows rows{.x = taken(from.x, count),
+                    .y = taken(from.y, count),
+                    .z = taken(from.z, count),
+                    .points = taken(from.points, 3 * count),
+                    .single_points = taken(from.single_points, 3 * count)};
   for_each_column(rows.others, from.others, [&](auto& column, auto& rest) { column = taken(rest, count); });
   rows.others.box_size = from.others.box_size;
   return rows;
@@ -85,36 +136,48 @@ ParticleRows taken(ParticleRows& from, std::size_t count) {
 struct Reading {
   RowReader next;
   std::optional<std::array<double, 3>> origin;
-  ParticleRows waiting;
+  ParticleRows rows = {};  ///< those that were read but not given yet; empty ones have memory
+  Cloud used = {};         ///< given back, and empty but for its memory
+
+  void read_rows(std::size_t most) {
+    rows.others = std::exchange(used, {});
+    next(most, rows);
+  }
 
   Cloud read(std::size_t most) {
-    if (waiting.size() == 0) {
-      if (origin) return cloud_of(next(most), *origin);
-      waiting = next(std::max(most, looked_at));
-      origin = origin_of(waiting);
+    if (!origin) {
+      read_rows(std::max(most, looked_at));
+      origin = origin_of(rows);
+    } else if (rows.size() == 0) {
+      read_rows(most);
     }
-    if (waiting.size() <= most) return cloud_of(std::exchange(waiting, {}), *origin);
-    return cloud_of(taken(waiting, most), *origin);
+    if (rows.size() <= most) return cloud_of(rows, *origin);
+    ParticleRows first = taken(rows, most);
+    return cloud_of(first, *origin);
+  }
+
+  void reuse(Cloud cloud) {
+    std::apply([](auto&... column) { (column.clear(), ...); }, columns_of(cloud));
+    cloud.farthest = cloud.box_size = 0;
+    used = std::move(cloud);
   }
 };
 
 }  // namespace
 
-void put_positions(const std::vector<double>& numbers, std::size_t width, ParticleRows& rows) {
+void put_positions(std::vector<double> numbers, std::size_t width, ParticleRows& rows) {
   const std::size_t count = numbers.size() / width;
-  rows.x.resize(count);
-  rows.y.resize(count);
-  rows.z.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    rows.x[i] = numbers[i * width];
-    rows.y[i] = numbers[i * width + 1];
-    rows.z[i] = numbers[i * width + 2];
-  }
+  for (std::size_t i = 1; width > 3 && i < count; ++i)
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(i * width), 3,
+                numbers.begin() + static_cast<std::ptrdiff_t>(i * 3));
+  numbers.resize(3 * count);
+  rows.points = std::move(numbers);
 }
 
-std::function<Cloud(std::size_t most)> cloud_reader(RowReader next, std::optional<std::array<double, 3>> origin) {
-  auto reading = std::make_shared<Reading>(Reading{.next = std::move(next), .origin = origin, .waiting = {}});
-  return [reading](std::size_t most) { return reading->read(most); };
+void give_rows(RowReader next, std::optional<std::array<double, 3>> origin, CloudSource& source) {
+  auto reading = std::make_shared<Reading>(Reading{.next = std::move(next), .origin = origin});
+  source.next = [reading](std::size_t most) { return reading->read(most); };
+  source.reuse = [reading](Cloud used) { reading->reuse(std::move(used)); };
 }
 
 float in_single_precision(double value) {

@@ -10,24 +10,28 @@
 
 namespace wheatstone {
 
-/// Particles as a reader finds them in a file: positions in double precision, and all else as a cloud has it.
+/// Particles as a reader finds them in a file: positions, in one of three ways, and all else as a cloud has it.
 struct ParticleRows {
   std::vector<double> x, y, z;
+  /// In place of these: x, y and z of one particle after the other, as most files hold them, in double precision or,
+  /// where the file has no more, in single precision.
+  std::vector<double> points;
+  std::vector<float> single_points;
   Cloud others;  ///< has no positions
 
-  std::size_t size() const { return x.size(); }
+  std::size_t size() const { return x.size() + (points.size() + single_points.size()) / 3; }
 };
 
-/// The next rows of a file, at most so many; none at the end.
-using RowReader = std::function<ParticleRows(std::size_t most)>;
+/// Puts the next rows of a file, at most so many, into rows that are empty but may have memory; none at the end.
+using RowReader = std::function<void(std::size_t most, ParticleRows& rows)>;
 
 /// Rows of x, y, z one after the other, as most files hold positions, each row `width` ≥ 3 numbers long.
-void put_positions(const std::vector<double>& numbers, std::size_t width, ParticleRows& rows);
+void put_positions(std::vector<double> numbers, std::size_t width, ParticleRows& rows);
 
-/// A reader of clouds, whose positions are relative to `origin`, and without one to a point that is chosen from the
-/// first thousand rows: 0 along an axis on which they lie around 0, or near enough for single precision, and else their
-/// median. It is the same however large the chunks are.
-std::function<Cloud(std::size_t most)> cloud_reader(RowReader next, std::optional<std::array<double, 3>> origin);
+/// Lets a source give the rows as clouds, whose positions are relative to `origin`, and without one to a point that is
+/// chosen from the first thousand rows: 0 along an axis on which they lie around 0, or near enough for single
+/// precision, and else their median. It is the same however large the chunks are.
+void give_rows(RowReader next, std::optional<std::array<double, 3>> origin, CloudSource& source);
 
 /// The nearest number of single precision that is finite and, where the value is not 0, not 0: what is too large or too
 /// small becomes the largest or the smallest number.

@@ -212,7 +212,7 @@ CloudSource open_ascii(const std::filesystem::path& path, const PlyHeader& heade
     refuse(path, fmt::format("is cut short: its header says {} vertices", header.vertices));
   CloudSource source{.format = "PLY ascii", .count = header.vertices, .fields = finder.names()};
   source.bytes = std::filesystem::file_size(path);
-  source.next = cloud_reader([vertices](std::size_t most) { return vertices->next(most); }, choice.origin);
+  give_rows([vertices](std::size_t most, ParticleRows& rows) { rows = vertices->next(most); }, choice.origin, source);
   return source;
 }
 

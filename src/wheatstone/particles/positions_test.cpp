@@ -60,14 +60,13 @@ void write_ply(const std::filesystem::path& path, const std::vector<double>& num
                              (ascii ? rows_of(numbers) : bytes_of(numbers)));
 }
 
-void write_hdf5(const std::filesystem::path& path, const std::vector<double>& numbers) {
+void write_hdf5(const std::filesystem::path& path, const std::vector<double>& numbers, hid_t type = H5T_IEEE_F64LE) {
   const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   const std::array<hsize_t, 2> size{numbers.size() / 3, 3};
   const Hdf5Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
   const Hdf5Handle group(H5Gcreate2(file, "PartType0", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   for (const char* name : {"points", "PartType0/Coordinates"}) {
-    const Hdf5Handle made(H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                          H5Dclose);
+    const Hdf5Handle made(H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
     H5Dwrite(made, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
   }
 }
@@ -122,6 +121,36 @@ TEST(Positions, OfDoublePrecisionKeepTheirPlacesFarFromZeroInEveryFormat) {
     expect_kept("a.hdf5", {.position = "/points"});
     write_gadget(folder / "snap", numbers);
     expect_kept("snap");
+  }
+}
+
+TEST(Positions, OfSinglePrecisionAreThoseOfTheSameNumbersInDouble) {
+  const TemporaryFolder folder;
+  const auto bits_of = [&](const std::vector<double>& numbers, hid_t type, const CloudChoice& choice) {
+    write_hdf5(folder / "a.hdf5", numbers, type);
+    Cloud cloud = read_cloud(folder / "a.hdf5", choice);
+    std::vector<double> all(cloud.origin.begin(), cloud.origin.end());
+    all.push_back(cloud.farthest);
+    for (const std::vector<float>* axis : {&cloud.x, &cloud.y, &cloud.z})
+      all.insert(all.end(), axis->begin(), axis->end());
+    std::vector<std::uint64_t> bits;
+    for (const double number : all)
+      bits.push_back(std::isnan(number) ? 0x7FF8000000000001u : std::bit_cast<std::uint64_t>(number));
+    return bits;
+  };
+  for (const double offset : {0., 3e5}) {
+    std::vector<double> numbers = cluster(1000, offset);
+    for (double& number : numbers) number = static_cast<double>(static_cast<float>(number));
+    // Once all are near, and once some are not.
+    for (const bool far : {false, true}) {
+      if (far) numbers[3000] = static_cast<double>(-3e30f);
+      if (far) numbers[3001] = static_cast<double>(std::nanf(""));
+      for (const CloudChoice& choice : {CloudChoice{}, CloudChoice{.origin = {{0.1, offset, 2e6}}}}) {
+        const auto in_double = bits_of(numbers, H5T_IEEE_F64LE, choice);
+        EXPECT_EQ(bits_of(numbers, H5T_IEEE_F32LE, choice), in_double);
+        EXPECT_EQ(bits_of(numbers, H5T_IEEE_F32BE, choice), in_double);
+      }
+    }
   }
 }
 

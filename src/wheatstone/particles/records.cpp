@@ -188,7 +188,8 @@ CloudSource open_records(const RecordLayout& layout, const std::string& format, 
   reading->file.open(layout.path, std::ios::binary);
   CloudSource source{.format = format, .count = layout.count, .fields = std::move(fields)};
   source.bytes = length;
-  source.next = cloud_reader([reading](std::size_t most) { return read_some(*reading, most); }, choice.origin);
+  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = read_some(*reading, most); }, choice.origin,
+            source);
   source.skip = [reading](std::size_t most) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, reading->layout.count - reading->at));
     reading->at += count;

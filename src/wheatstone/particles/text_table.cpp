@@ -179,7 +179,7 @@ CloudSource open_text_table(const std::filesystem::path& path, const CloudChoice
   table->chosen = choose_columns(table->path, table->names, choice);
   CloudSource source{.format = "text", .fields = table->names, .units = table->units};
   source.bytes = std::filesystem::file_size(path);
-  source.next = cloud_reader([table](std::size_t most) { return read_rows(*table, most); }, choice.origin);
+  give_rows([table](std::size_t most, ParticleRows& rows) { rows = read_rows(*table, most); }, choice.origin, source);
   return source;
 }
 

@@ -105,12 +105,12 @@ void add_missing_colours(std::vector<RegionMeans> accents, std::size_t most_colo
 
 }  // namespace
 
-void add_accents(const SpotsOfView& view, int most_colours, RegionPainting& painting) {
+void add_accents(const SpotsOfView& view, const Style& style, RegionPainting& painting) {
   if (painting.marks.empty()) return;
   const RegionMap regions = connected_regions(label_spots(view), view.disparity, view.depth_threshold_px);
   const std::vector<RegionMeans> means = means_of(regions, view.photograph, view.disparity);
   std::vector<Rgb8> palette = colours_of(painting);
-  add_missing_colours(means, static_cast<std::size_t>(most_colours), palette);
+  add_missing_colours(means, static_cast<std::size_t>(style.colours), palette);
   const std::size_t first = painting.marks.size(), first_point = painting.points.size();
   add_outlines(regions, view.disparity, view.view, {.depth_threshold_px = view.depth_threshold_px}, painting);
   for (std::size_t i = first_point; i < painting.points.size(); ++i)

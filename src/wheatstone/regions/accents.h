@@ -1,23 +1,13 @@
 #pragma once
 
-#include "wheatstone/image/image.h"
 #include "wheatstone/marks/region_painting.h"
+#include "wheatstone/marks/spots_of_view.h"
+#include "wheatstone/marks/style.h"
 
 namespace wheatstone {
 
-/// Where the painting of a view has a colour that its photograph has nowhere near, and what is there. All pictures are
-/// of one size.
-struct SpotsOfView {
-  ImageView<const Rgb8> photograph;
-  ImageView<const std::uint8_t> spots;  ///< 255 where the painting is wrong
-  ImageView<const float> disparity;     ///< of the marks that are to lie there, in pixels
-  ViewPosition view, reference_view;    ///< marks are planned in the reference view, that all others be told from it
-  ViewRange views;                      ///< in which the marks may be drawn
-  float depth_threshold_px = 2;         ///< marks end where disparity jumps by more
-};
-
 /// Lays small regions over the spots, each of one of the painting's colours, or of new ones as long as the painting has
-/// no more than `most_colours`.
-void add_accents(const SpotsOfView& spots, int most_colours, RegionPainting& painting);
+/// no more than the style wants.
+void add_accents(const SpotsOfView& spots, const Style& style, RegionPainting& painting);
 
 }  // namespace wheatstone

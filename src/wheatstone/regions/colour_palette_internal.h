@@ -12,6 +12,13 @@ namespace wheatstone {
 /// picture has fewer. The same for the same seed.
 std::vector<PaletteColour> find_palette(ImageView<const Rgb8> picture, int count, std::uint64_t seed);
 
+/// How many of a style's colours are found so. The others are left for small things whose colours are like none of them
+/// (regions/accents.h).
+constexpr int palette_size(int colours) {
+  constexpr int ninths = 2;
+  return colours - colours * ninths / 9;
+}
+
 /// Moves a palette towards the colours of the film's next picture: a few rounds of k-means from where it is, of which
 /// each colour takes a share, so that colours never jump.
 void follow_palette(ImageView<const Rgb8> picture, std::vector<PaletteColour>& palette);

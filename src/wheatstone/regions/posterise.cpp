@@ -180,7 +180,7 @@ Image<std::uint8_t> colours_of(const ColouredRegions& regions) {
 void cut_first(const ViewToCut& view, const Style& style, PosterisedMemory& memory, RegionPainting& painting) {
   memory.picture = begin_steady(view.photograph);
   const Image<Rgb8> picture = without_grain(view.photograph, view.scale);
-  memory.palette = find_palette(picture, style.colours, view.seed);
+  memory.palette = find_palette(picture, palette_size(style.colours), view.seed);
   memory.colour_of = colours_of(add_areas(view, picture, rounded(memory.palette), {}, painting));
 }
 
@@ -203,7 +203,8 @@ RegionPainting plan_posterised(const FilmFrame& frame, const Style& style, Poste
     if (view.number > 0) {
       const Image<Rgb8> picture = without_grain_quickly(view.photograph);
       const bool alone = style.propagation == Propagation::independent;
-      add_areas(view, picture, rounded(alone ? find_palette(picture, style.colours, view.seed) : memory.palette), {},
+      add_areas(view, picture,
+                rounded(alone ? find_palette(picture, palette_size(style.colours), view.seed) : memory.palette), {},
                 painting);
     } else if (frame.flow == nullptr || !same_size(memory.picture.frames, view.photograph)) {
       cut_first(view, style, memory, painting);

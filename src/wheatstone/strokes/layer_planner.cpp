@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/measures/wrong_spots.h"
@@ -23,14 +24,19 @@ ScaledStyle::ScaledStyle(const Style& style, int width, float reduction)
 }
 
 LayerPlanner::LayerPlanner(ImageView<const Rgb8> photograph_, ImageView<const float> disparity_, ViewPosition view_,
-                           const Style& style)
+                           const Style& style, Canvas begun)
     : photograph(photograph_),
       disparity(disparity_),
       disparity_steps(style.depth_test ? disparity_in_steps(disparity) : Image<std::int16_t>()),
       view(view_),
-      canvas(style.background == Background::photograph
-                 ? make_canvas(photograph)
-                 : Canvas(photograph.width(), photograph.height(), style.canvas_colour)) {}
+      canvas(std::move(begun)) {}
+
+LayerPlanner::LayerPlanner(ImageView<const Rgb8> photograph_, ImageView<const float> disparity_, ViewPosition view_,
+                           const Style& style)
+    : LayerPlanner(photograph_, disparity_, view_, style,
+                   style.background == Background::photograph
+                       ? make_canvas(photograph_)
+                       : Canvas(photograph_.width(), photograph_.height(), style.canvas_colour)) {}
 
 LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer) {
   const float radius = scaled.radii_px[layer], threshold = scaled.depth_threshold_px;

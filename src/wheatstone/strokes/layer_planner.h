@@ -21,6 +21,9 @@ struct ScaledStyle {
 struct LayerPlanner {
   LayerPlanner(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
                const Style& style);
+  /// On a canvas that is begun.
+  LayerPlanner(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
+               const Style& style, Canvas begun);
 
   ImageView<const Rgb8> photograph;
   ImageView<const float> disparity;

@@ -13,6 +13,7 @@ Opacities opacities_of(std::span<const Layer> layers) {
   Opacities opacities;
   for (const Layer& layer : layers)
     for (const Stroke& stroke : layer.strokes) {
+      if (stroke.number == 0) continue;
       float& opacity = opacities[stroke.number];
       opacity = std::max(opacity, stroke.opacity);
     }

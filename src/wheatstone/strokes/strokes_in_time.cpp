@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/reduced_view.h"
 #include "wheatstone/marks/resize_strokes.h"
-#include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/strokes/carried_points_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
 #include "wheatstone/strokes/cover_bare_internal.h"
@@ -21,6 +20,7 @@
 #include "wheatstone/strokes/layer_planner.h"
 #include "wheatstone/strokes/missing_strokes_internal.h"
 #include "wheatstone/strokes/seed_internal.h"
+#include "wheatstone/strokes/sized_view_internal.h"
 #include "wheatstone/strokes/visible_runs_internal.h"
 
 namespace wheatstone {
@@ -44,31 +44,28 @@ class StrokeNumbers {
   std::uint32_t next_, step_;
 };
 
-/// A view that is being painted: its planner, of a smaller size where only a part of the view is wanted.
+/// A view that is being painted: its planner, of a smaller size where the brush is wide or only a part is wanted.
 class ViewAtWork {
  public:
   /// `motion` is the reference view's flow to the frame before; none where a scene begins.
   ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, const Flow* motion,
              StrokeNumbers& numbers)
-      : part_(part_of(view, reference, style, motion == nullptr)),
-        reduction_(part_ ? part_->reduction : 1),
-        scaled_(style, view.picture.width(), static_cast<float>(reduction_)),
+      : part_(wanted_part(view, reference, style, motion == nullptr)),
+        radii_px_(ScaledStyle(style, view.picture.width()).radii_px),
         style_(style),
         motion_(motion),
         left_px_(static_cast<float>(view.left_px)),
         uncovered_(view.continued ? view.only_here : ImageView<const std::uint8_t>()),
         numbers_(numbers),
-        planner_(part_ ? part_->photograph.view() : view.picture, part_ ? part_->disparity.view() : view.disparity,
-                 view.position, style) {
-    planner_.avoid_mixed_colours = !part_;                // no other eye sees them
-    if (view.continued) planner_.least_edge_cell_px = 3;  // of what no photograph shows, edges need no detail
-  }
+        at_(std::make_unique<SizedView>(part_, style, factor_for(0), nullptr)) {}
 
   /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.
   void plan(int layer, const CarryOptions& options, TrackedLayer& tracked) {
-    if (planner_.photograph.empty()) return;
-    const LayerInputs inputs = make_layer_inputs(planner_, style_, scaled_, layer);
-    const ImageView<const std::uint8_t> part = part_ ? part_->seeds.view() : ImageView<const std::uint8_t>();
+    go_to_size(factor_for(layer));
+    LayerPlanner& planner = at_->planner;
+    if (planner.photograph.empty()) return;
+    const LayerInputs inputs = make_layer_inputs(planner, style_, at_->scaled, layer);
+    const ImageView<const std::uint8_t> part = at_->seeds();
     Image<std::uint8_t> seeds;
     const std::size_t carried = tracked.tracks.size();
     const bool compares = options.goes_on || carried != 0;
@@ -77,27 +74,27 @@ class ViewAtWork {
       end_wrong_colours(inputs, before, options, tracked);
       draw_on_canvas(shown(tracked, [](const StrokeTrack& track) { return track.ends == 0; }));
     }
-    const bool finest = layer + 1 == static_cast<int>(scaled_.radii_px.size());
-    const Image<std::uint8_t> misplaced = finest ? misplaced_paint(planner_, style_) : Image<std::uint8_t>();
+    const bool finest = layer + 1 == static_cast<int>(radii_px_.size());
+    const Image<std::uint8_t> misplaced = finest ? misplaced_paint(planner, style_) : Image<std::uint8_t>();
     if (!tracked.tracks.empty()) seeds = where_strokes_are_missing(inputs, before, misplaced, tracked);
-    Layer begun = plan_on(planner_, inputs, style_, scaled_, {seeds.empty() ? part : seeds.view(), misplaced});
+    Layer begun = plan_on(planner, inputs, style_, at_->scaled, {seeds.empty() ? part : seeds.view(), misplaced});
     numbers_.give(begun);
     sort_numbered_far_to_near(begun, style_.seed);
     add(begun, inputs, before, options, tracked);
-    rasterise(finest ? strokes_near_bare(begun, planner_.canvas) : begun, planner_.view, hiding(), planner_.canvas);
+    rasterise(finest ? strokes_near_bare(begun, planner.canvas) : begun, planner.view, hiding(), planner.canvas);
     if (!finest) return;
-    Layer dots = cover_bare(planner_, inputs, scaled_, style_, part);
-    if (part_) append_strokes(dots_left_out({tracked, carried}), dots);
+    Layer dots = cover_bare(planner, inputs, at_->scaled, style_, part);
+    if (!part_.is_whole()) append_strokes(dots_left_out({tracked, carried}), dots);
     numbers_.give(dots);
     add(std::move(dots), inputs, before, options, tracked);
   }
 
   /// Once all layers are planned: fading strokes whose paint the frame has nowhere near are gone at once.
   void drop_misplaced(std::span<TrackedLayer> layers) {
-    if (part_) return;
+    if (!part_.is_whole()) return;
     for (const TrackedLayer& tracked : layers)
       draw_on_canvas(shown(tracked, [](const StrokeTrack& track) { return track.ends != 0; }));
-    const Image<std::uint8_t> misplaced = misplaced_paint(planner_, style_);
+    const Image<std::uint8_t> misplaced = misplaced_paint(at_->planner, style_);
     if (misplaced.empty()) return;
     for (TrackedLayer& tracked : layers) {
       keep_if(tracked, [&](std::size_t i) {
@@ -111,54 +108,30 @@ class ViewAtWork {
   }
 
  private:
-  /// Half the size is enough for what an eye shows; what no eye shows is planned as small as its finest brush allows.
-  static int reduction_for(const SceneView& view, float finest_radius_px) {
-    constexpr int least = 2, most = 8;
-    constexpr float least_radius_px = 1.5f;
-    int reduction = least;
-    while (view.continued && reduction < most &&
-           finest_radius_px >= least_radius_px * static_cast<float>(2 * reduction))
-      reduction *= 2;
-    return reduction;
+  /// Where a scene begins, all strokes are new, and it shows where a few of them are less exact.
+  int factor_for(int layer) const {
+    if (motion_ == nullptr) return 1;
+    const auto number = static_cast<std::size_t>(layer);
+    return factor_for_layer(part_, radii_px_[number], number + 1 == radii_px_.size());
   }
 
-  /// What a view alone shows. Grown at first, so that its strokes reach under those of the reference view; later those
-  /// are there, and what they may show is theirs.
-  static std::optional<ReducedView> part_of(const SceneView& view, const SceneView& reference, const Style& style,
-                                            bool scene_begins) {
-    if (view.only_here.empty()) return {};
-    const ScaledStyle scaled(style, view.picture.width());
-    const int reduction = reduction_for(view, scaled.radii_px.back());
-    if (scene_begins) {
-      const auto growth_px = static_cast<int>(std::lround(style.occlusion_dilation * scaled.radii_px.front()));
-      return reduced(view.picture, view.disparity, dilate_occlusion(view.only_here, growth_px), reduction);
-    }
-    Image<std::uint8_t> alone(view.picture.width(), view.picture.height());
-    tbb::parallel_for(0, alone.height(), [&](int y) {
-      for (int x = 0; x < alone.width(); ++x) {
-        if (view.only_here(x, y) == 0) continue;
-        const ControlPoint point{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)};
-        const float column = column_in(point, view, reference);
-        const bool is_in_picture = column >= 0 && column < static_cast<float>(alone.width());
-        alone(x, y) = is_in_picture && is_visible(point, view, reference, scaled.depth_threshold_px) ? 0 : 255;
-      }
-    });
-    return reduced(view.picture, view.disparity, alone, reduction);
+  void go_to_size(int factor) {
+    if (factor != at_->factor) at_ = std::make_unique<SizedView>(part_, style_, factor, at_.get());
   }
 
-  float depth_threshold_px() const { return scaled_.depth_threshold_px * static_cast<float>(reduction_); }
+  float depth_threshold_px() const { return at_->scaled.depth_threshold_px * static_cast<float>(at_->reduction); }
 
   ColourFit fit(const LayerInputs& inputs, const Image<float>& before, const Layer& layer, const Stroke& stroke) const {
     return colour_fit(
         layer.points_of(stroke), stroke.colour,
-        {inputs.reference, before, planner_.disparity, static_cast<float>(reduction_), depth_threshold_px()});
+        {inputs.reference, before, at_->planner.disparity, static_cast<float>(at_->reduction), depth_threshold_px()});
   }
 
   /// True where a depth edge came under more than a quarter of a stroke's points, into the inner half of the brush.
   bool spills(const LayerInputs& inputs, const Layer& layer, const Stroke& stroke) const {
     if (inputs.edge_distance.empty()) return false;
     const std::span<const ControlPoint> points = layer.points_of(stroke);
-    const auto reduction = static_cast<float>(reduction_);
+    const auto reduction = static_cast<float>(at_->reduction);
     const float least_px = stroke.radius_px / reduction / 2 - 0.5f;
     const auto over_edge = std::ranges::count_if(points, [&](const ControlPoint& point) {
       const int column = static_cast<int>(point.x / reduction), row = static_cast<int>(point.y / reduction);
@@ -198,11 +171,11 @@ class ViewAtWork {
   }
 
   void draw_on_canvas(Layer layer) {
-    if (part_) resize_strokes(layer, 1.f / static_cast<float>(reduction_));
-    rasterise(layer, planner_.view, hiding(), planner_.canvas);
+    if (at_->reduction != 1) resize_strokes(layer, 1.f / static_cast<float>(at_->reduction));
+    rasterise(layer, at_->planner.view, hiding(), at_->planner.canvas);
   }
 
-  Hiding hiding() const { return {.surface = planner_.disparity, .tolerance_px = scaled_.depth_threshold_px}; }
+  Hiding hiding() const { return {.surface = at_->planner.disparity, .tolerance_px = at_->scaled.depth_threshold_px}; }
 
   /// By how many pixels a frame the place of a stroke's first point moves.
   float speed_at(const Layer& layer, std::size_t stroke) const {
@@ -214,21 +187,22 @@ class ViewAtWork {
 
   /// Squared errors of what is painted so far; −1 where nothing is wanted.
   Image<float> errors_left(const LayerInputs& inputs) const {
-    const int width = planner_.photograph.width(), height = planner_.photograph.height();
+    const int width = at_->planner.photograph.width(), height = at_->planner.photograph.height();
+    const ImageView<const std::uint8_t> seeds = at_->seeds();
     Image<float> errors(width, height);
     tbb::parallel_for(0, height, [&](int y) {
-      squared_errors(inputs.reference, planner_.canvas, {y, 0, width}, errors.row(y).data());
-      if (!part_) return;
+      squared_errors(inputs.reference, at_->planner.canvas, {y, 0, width}, errors.row(y).data());
+      if (seeds.empty()) return;
       for (int x = 0; x < width; ++x)
-        if (part_->seeds(x, y) == 0) errors(x, y) = -1;
+        if (seeds(x, y) == 0) errors(x, y) = -1;
     });
     return errors;
   }
 
   /// 255 within half a cell of where a stroke begins that stays.
   Image<std::uint8_t> where_strokes_begin(const TrackedLayer& tracked, float cell_px) const {
-    Image<std::uint8_t> begun(planner_.photograph.width(), planner_.photograph.height());
-    const auto reduction = static_cast<float>(reduction_);
+    Image<std::uint8_t> begun(at_->planner.photograph.width(), at_->planner.photograph.height());
+    const auto reduction = static_cast<float>(at_->reduction);
     for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
       if (tracked.tracks[i].ends != 0) continue;
       const Stroke& stroke = tracked.layer.strokes[i];
@@ -255,14 +229,14 @@ class ViewAtWork {
   Image<std::uint8_t> where_strokes_are_missing(const LayerInputs& inputs, const Image<float>& before,
                                                 ImageView<const std::uint8_t> misplaced,
                                                 const TrackedLayer& tracked) const {
-    const float cell_px = style_.grid * scaled_.radii_px[inputs.layer];
+    const float cell_px = style_.grid * at_->scaled.radii_px[inputs.layer];
     const Image<float> after = errors_left(inputs);
     const Image<std::uint8_t> begun = where_strokes_begin(tracked, cell_px);
     Image<std::uint8_t> seeds = missing_strokes({before, after, begun, inputs.depth_edges, cell_px, style_.threshold});
     const float squared_threshold = style_.threshold * style_.threshold;
     tbb::parallel_for(0, seeds.height(), [&](int y) {
       for (int x = 0; x < seeds.width(); ++x) {
-        if (planner_.canvas.coverage(x, y) < 0.5f) seeds(x, y) = before(x, y) > squared_threshold ? 255 : 0;
+        if (at_->planner.canvas.coverage(x, y) < 0.5f) seeds(x, y) = before(x, y) > squared_threshold ? 255 : 0;
         const bool may_begin = before(x, y) >= 0 && begun(x, y) == 0;
         if (may_begin && !misplaced.empty() && misplaced(x, y) != 0) seeds(x, y) = 255;
       }
@@ -273,9 +247,9 @@ class ViewAtWork {
   /// Dots for the thin edges of near surfaces that the smaller picture does not show, but where carried strokes have a
   /// point already. Around what no photograph shows, those surfaces have strokes of their own.
   Layer dots_left_out(const CarriedPoints& carried) const {
-    const auto reduction = static_cast<float>(reduction_);
-    Layer dots{scaled_.radii_px.back(), {}, {}};
-    for (const ReducedView::LeftOut& pixels : part_->left_out) {
+    const auto reduction = static_cast<float>(at_->reduction);
+    Layer dots{at_->scaled.radii_px.back(), {}, {}};
+    for (const ReducedView::LeftOut& pixels : part_.smaller->left_out) {
       if (!uncovered_.empty() && uncovered_(static_cast<int>(pixels.x), static_cast<int>(pixels.y)) == 0) continue;
       if (carried.any_at({pixels.x, pixels.y, pixels.disparity}, depth_threshold_px())) continue;
       const ControlPoint point{pixels.x / reduction, pixels.y / reduction, pixels.disparity / reduction};
@@ -285,7 +259,7 @@ class ViewAtWork {
                               .opacity = style_.opacity,
                               .colour = pixels.colour,
                               .disparity = point.disparity,
-                              .reference_view = planner_.view,
+                              .reference_view = at_->planner.view,
                               .views = all_views});
       dots.points.push_back(point);
     }
@@ -294,7 +268,7 @@ class ViewAtWork {
 
   void add(Layer begun, const LayerInputs& inputs, const Image<float>& before, const CarryOptions& options,
            TrackedLayer& tracked) const {
-    if (part_) resize_strokes(begun, static_cast<float>(reduction_));
+    if (at_->reduction != 1) resize_strokes(begun, static_cast<float>(at_->reduction));
     tracked.layer.radius_px = begun.radius_px;
     for (const Stroke& stroke : begun.strokes) {
       StrokeTrack& track = tracked.tracks.emplace_back();
@@ -308,15 +282,14 @@ class ViewAtWork {
     append_strokes(begun, tracked.layer);
   }
 
-  std::optional<ReducedView> part_;
-  int reduction_;
-  ScaledStyle scaled_;
+  WantedPart part_;
+  std::vector<float> radii_px_;  ///< in the view's own pixels
   const Style& style_;
   const Flow* motion_;
   float left_px_;
   ImageView<const std::uint8_t> uncovered_;  ///< what no photograph shows, of a view that goes on there
   StrokeNumbers& numbers_;
-  LayerPlanner planner_;
+  std::unique_ptr<SizedView> at_;
 };
 
 /// Plans the views at once and tells of each layer. What `progress` throws in one view is thrown when both have ended:

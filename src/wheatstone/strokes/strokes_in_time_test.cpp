@@ -15,6 +15,7 @@
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/measures/film_measures.h"
+#include "wheatstone/measures/view_measures.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
@@ -102,6 +103,22 @@ TEST(StrokesInTime, SurviveLeaveNothingBareAndDoNotPop) {
   }
   // Small pictures have small, hasty strokes; wide ones do better.
   EXPECT_GT(static_cast<double>(sum.survived) / static_cast<double>(sum.whole), 0.93);
+}
+
+// Layers of brushes so wide are planned in smaller pictures once strokes are carried.
+TEST(StrokesInTime, OfWideBrushesAreCarriedAndShowTheFrame) {
+  Style style;
+  style.radii_px = {60, 24, 4};  // for a picture 640 pixels wide
+  const std::vector<PaintedFrame> kept = painted(style, false), anew = painted(style, true);
+  for (std::size_t i = 1; i < kept.size(); ++i) {
+    const StrokeChanges changes = compare_strokes(layers_of(kept[i - 1]), layers_of(kept[i]), 0.5);
+    EXPECT_EQ(changes.popped, 0) << i;
+    EXPECT_GT(static_cast<double>(changes.survived), 0.8 * static_cast<double>(changes.whole)) << i;
+    const Image<Rgb8>& film_picture = film().frames[i].pictures.left;
+    EXPECT_GT(measure_view(kept[i].painted.pictures.left, film_picture).psnr_db,
+              measure_view(anew[i].painted.pictures.left, film_picture).psnr_db - 1)
+        << i;
+  }
 }
 
 TEST(StrokesInTime, FuseAsWellAsThoseOfAFrameAlone) {

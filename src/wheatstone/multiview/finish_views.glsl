@@ -1,26 +1,26 @@
-#version 450
-
 // One pixel of one view of a picture: its light, what the picture of half the size has there, and, of the view's own
 // picture, the colour that it is shown in. The twin of composite_simd.cpp.
 
 layout(local_size_x = 64) in;
 
 const int stretch_shift = 16;
+// What becomes of the light: it stays as it is; the thesis's look, which has no smaller pictures; ramp, or mean;
+// three channels.
+const int stays_light = 0, as_look = 1, as_mass = 2, as_colours = 3;
 
 // As struct FinishWork in gpu_finish_internal.h has them.
 layout(std430, binding = 0) readonly buffer Work {
   int channels, width, rows, pad;
   int base;  // of the picture's light
   int smaller_width, smaller_rows;  // 0: there is no smaller picture
-  int shown;                        // 0: stays light; 1: the thesis's look; 2: ramp or column; 3: mean; 4: colours
+  int shows_mean;
   int hues, table_size, stretch_size, first_index;
   float exposure, scale, offset;
 };
 layout(std430, binding = 1) readonly buffer Own { float own[]; };
 layout(std430, binding = 2) readonly buffer Smaller { float smaller[]; };
-layout(std430, binding = 3) buffer Light { float light[]; };
-layout(std430, binding = 4) buffer Colours { uint colours[]; };
-layout(std430, binding = 5) readonly buffer Tables { int tables[]; };  // sRGB, stretch, linear stretch, colours
+layout(std430, binding = 3) writeonly buffer Shown { uint shown[]; };  // colours, or light
+layout(std430, binding = 4) readonly buffer Tables { int tables[]; };  // sRGB, stretch, linear stretch, colours
 
 // The nearer and the farther pixel of the smaller picture, whose pad is 2, along one axis.
 ivec2 neighbours(int at) {
@@ -43,26 +43,27 @@ uint srgb_of(float linear) {
   return uint(tables[int(roundEven(clamp(linear, 0.0, 1.0) * float(table_size - 1)))]);
 }
 
+uint srgb_of(vec3 linear) { return srgb_of(linear.r) | srgb_of(linear.g) << 8 | srgb_of(linear.b) << 16; }
+
 int stretch_index(float value) {
   return clamp((floatBitsToInt(max(value * scale + offset, 0.0)) >> stretch_shift) - first_index, 0, stretch_size - 1);
 }
 
 uint colour_of(vec3 sum) {
-  if (shown == 1) {
+  if (SHOWN == as_look) {
     vec3 exposed = max(sum * exposure, 0.0);
-    vec3 toned = exposed / (exposed + 1.0);
-    return srgb_of(toned.r) | srgb_of(toned.g) << 8 | srgb_of(toned.b) << 16;
+    return srgb_of(exposed / (exposed + 1.0));
   }
-  if (shown == 4) {
+  if (SHOWN == as_colours) {
     float most = max(max(sum.r, sum.g), sum.b);
-    vec3 toned = sum * (intBitsToFloat(tables[table_size + stretch_size + stretch_index(most)]) / max(most, 1e-30));
-    return srgb_of(toned.r) | srgb_of(toned.g) << 8 | srgb_of(toned.b) << 16;
+    return srgb_of(sum * (intBitsToFloat(tables[table_size + stretch_size + stretch_index(most)]) / max(most, 1e-30)));
   }
-  if (!(sum.r > 1e-30)) return 0u;
-  float mean = sum.g / sum.r;
+  bool lit = sum.r > 1e-30;
+  float mean = lit ? sum.g / sum.r : 0;
   int hue = int(roundEven(clamp(mean * float(hues - 1), 0.0, float(hues - 1))));
-  int brightness = tables[table_size + stretch_index(shown == 3 ? mean : sum.r)];
-  return uint(tables[table_size + 2 * stretch_size + brightness + hue]);
+  int brightness = tables[table_size + stretch_index(shows_mean != 0 ? mean : sum.r)];
+  uint colour = uint(tables[table_size + 2 * stretch_size + brightness + hue]);
+  return lit ? colour : 0;
 }
 
 void main() {
@@ -71,11 +72,19 @@ void main() {
   int v = int(gl_GlobalInvocationID.z);
   if (x >= width) return;
   int pixel = (v * rows + y) * width + x;
-  vec3 sum = vec3(0);
-  for (int channel = 0; channel < channels; ++channel) {
-    sum[channel] = own[base + pixel * channels + channel];
-    if (smaller_width > 0) sum[channel] += enlarged(v, channel, neighbours(x), neighbours(y));
-    if (shown == 0) light[pixel * channels + channel] = sum[channel];
+  int at = pixel * channels;
+  vec3 sum = vec3(own[base + at], own[base + at + 1], channels == 3 ? own[base + at + 2] : 0);
+  if (SHOWN != as_look && smaller_width > 0) {
+    ivec2 columns = neighbours(x), lines = neighbours(y);
+    sum.r += enlarged(v, 0, columns, lines);
+    sum.g += enlarged(v, 1, columns, lines);
+    if (channels == 3) sum.b += enlarged(v, 2, columns, lines);
   }
-  if (shown != 0) colours[pixel] = colour_of(sum);
+  if (SHOWN == stays_light) {
+    shown[at] = floatBitsToUint(sum.r);
+    shown[at + 1] = floatBitsToUint(sum.g);
+    if (channels == 3) shown[at + 2] = floatBitsToUint(sum.b);
+  } else {
+    shown[pixel] = colour_of(sum);
+  }
 }

@@ -1,22 +1,15 @@
-#version 450
+// What programs that project particles are given, and a particle as the central view has it. The twin of
+// project_simd.cpp.
 
-// One particle: it is projected and lit once, then added to every view, or to the depth planes around it, in fixed
-// point, so that sums do not depend on the order. The twin of project_simd.cpp and deposit_simd.cpp.
-
-layout(local_size_x = 64) in;
+#include "wheatstone/gpu/views.glsl"
 
 const int most_pictures = 9;
-const int most_views = 64;
 const int parallax_entries = 1024;
 const int palette_entries = 256;
-const int most_rows = 33;  // of the widest splat
-
-const int into_views = 0, into_nearest_plane = 1, between_planes = 2;
 
 // As struct SplatWork in gpu_splats_internal.h has them.
 layout(std430, binding = 0) readonly buffer Work {
-  int particles, channels, pictures;
-  int targets;  // one of the three ways above
+  int particles, pictures;
   int column[9];  // where x, y, z, density, second, smoothing length, mass, presence, colour begin; -1: absent
   int by_mass, second_is_quantity, own_colours, logarithmic, from_density;
   int by_length, by_rank, larger_if_denser;
@@ -26,17 +19,10 @@ layout(std430, binding = 0) readonly buffer Work {
   float mean_mass, radius_factor, fixed_radius, quantity_scale, log2_density_middle, slope, opacity, least_opacity;
   float smallest_px, largest_px, largest_mass_px, size_depth, palette_first, palette_scale;
   float widest[most_pictures], scale[most_pictures], pad[most_pictures];
-  // Of each picture: its first column, its size, which views or planes are in the buffer, and where number 0 would be.
-  int left[most_pictures], width[most_pictures], rows[most_pictures];
-  int first_target[most_pictures], end_target[most_pictures], base[most_pictures];
-  float view[most_views];
-  float first_parallax, plane_spacing;
-  int planes[most_pictures];
   float parallax[parallax_entries], parallax_step[parallax_entries];
   float red[palette_entries], green[palette_entries], blue[palette_entries];
 };
 layout(std430, binding = 1) readonly buffer Columns { float columns[]; };
-layout(std430, binding = 2) buffer Sums { uint sums[]; };  // low and high words in turn
 
 float column_of(int which, uint particle) { return columns[column[which] + int(particle)]; }
 bool has(int which) { return column[which] >= 0; }
@@ -130,102 +116,4 @@ bool project(uint i, out Splat splat) {
   splat.light = by_mass != 0 ? light_of_mass(i, log2_density, nearness) : light_of_look(i, log2_density, splat.size);
   choose_picture(splat);
   return true;
-}
-
-// How much of a Gaussian lies between its middle and a distance, in √2 deviations; all of a half beyond its rim.
-// Abramowitz & Stegun 1964, 7.1.26.
-float half_within(float scaled) {
-  float x = abs(scaled);
-  float t = 1 / (0.3275911 * x + 1);
-  float tail = ((((1.061405429 * t - 1.453152027) * t + 1.421413741) * t - 0.284496736) * t + 0.254829592) * t;
-  float within = (1 - tail * exp2(x * x * -1.44269504)) * (0.5 / 0.994040);
-  return sign(scaled) * min(within, 0.5);
-}
-
-// The weight of a pixel whose centre is this far from the splat's.
-float weight_at(float away, float reach, float sharpness) {
-  if (by_mass != 0)
-    return half_within((away + 0.5) * sharpness) - half_within((away - 0.5) * sharpness);
-  return abs(away) <= reach ? exp2(-sharpness * away * away) : 0;
-}
-
-// Adds a number in steps of 2^-28 to two words, with a carry; a negative one as its complement.
-void add(int at, float value) {
-  float steps = min(abs(value) * 268435456.0, 2.0e18);
-  float blocks = floor(steps * (1.0 / 2147483648.0));
-  uint high = uint(blocks);
-  uint low = uint(steps - blocks * 2147483648.0 + 0.5);
-  uint carried = low + ((high & 1u) << 31);
-  high = (high >> 1) + uint(carried < low);
-  low = carried;
-  if (value < 0) {
-    low = ~low + 1;
-    high = ~high + uint(low == 0);
-  }
-  if (low != 0) {
-    uint before = atomicAdd(sums[2 * at], low);
-    high += uint(before + low < before);
-  }
-  if (high != 0) atomicAdd(sums[2 * at + 1], high);
-}
-
-struct Window {
-  int top, bottom;
-  float row_weight[most_rows];
-  float reach, sharpness;
-};
-
-void add_to_target(Splat splat, int target, float x, float share, Window window) {
-  int p = splat.picture;
-  if (target < first_target[p] || target >= end_target[p]) return;
-  x -= float(left[p]);
-  int first = max(int(ceil(x - window.reach - 0.5)), 0);
-  int last = min(int(floor(x + window.reach - 0.5)), width[p] - 1);
-  for (int column_x = first; column_x <= last; ++column_x) {
-    vec3 light = splat.light * (share * weight_at(float(column_x) + 0.5 - x, window.reach, window.sharpness));
-    for (int y = window.top; y <= window.bottom; ++y) {
-      int at = base[p] + ((target * rows[p] + y) * width[p] + column_x) * channels;
-      float weight = window.row_weight[y - window.top];
-      add(at, light.r * weight);
-      add(at + 1, light.g * weight);
-      if (channels == 3) add(at + 2, light.b * weight);
-    }
-  }
-}
-
-// A splat that is nearly in a plane goes there alone; another goes to both, by its distances.
-void add_to_planes(Splat splat, Window window) {
-  int p = splat.picture;
-  float at = (splat.parallax - first_parallax * scale[p]) / plane_spacing;
-  at = clamp(at, 0.0, float(planes[p] - 1));
-  float rest = fract(at);
-  if (targets == into_nearest_plane || rest <= 0.25 || rest >= 0.75) {
-    add_to_target(splat, int(roundEven(at)), splat.x, 1, window);
-  } else {
-    add_to_target(splat, int(at), splat.x, 1 - rest, window);
-    add_to_target(splat, int(at) + 1, splat.x, rest, window);
-  }
-}
-
-void main() {
-  uint i = gl_GlobalInvocationID.x;
-  Splat splat;
-  if (i >= uint(particles) || !project(i, splat)) return;
-  splat.x = clamp(splat.x, -1e8, 1e8);
-  splat.y = clamp(splat.y, -1e8, 1e8);
-  Window window;
-  window.reach = splat.size / 2 + 0.5;
-  window.sharpness = by_mass != 0 ? 5.5 * 0.70710678 / splat.size
-                                  : 0.72134752 / (splat.size * splat.size / 25 + 1.0 / 12);
-  window.top = max(int(ceil(splat.y - window.reach - 0.5)), 0);
-  window.bottom = min(int(floor(splat.y + window.reach - 0.5)), rows[splat.picture] - 1);
-  if (window.top > window.bottom) return;
-  for (int y = window.top; y <= window.bottom; ++y)
-    window.row_weight[y - window.top] = weight_at(float(y) + 0.5 - splat.y, window.reach, window.sharpness);
-  if (targets != into_views) {
-    add_to_planes(splat, window);
-    return;
-  }
-  for (int v = first_target[splat.picture]; v < end_target[splat.picture]; ++v)
-    add_to_target(splat, v, splat.x + splat.parallax * view[v], 1, window);
 }

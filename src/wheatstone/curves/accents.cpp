@@ -1,0 +1,40 @@
+#include "wheatstone/curves/accents.h"
+
+#include <cmath>
+
+#include "wheatstone/stereo/occlusion.h"
+
+namespace wheatstone {
+namespace {
+
+bool is_one_surface(const SpotsOfView& view, int x, int y, int other_x, int other_y) {
+  return std::abs(view.disparity(other_x, other_y) - view.disparity(x, y)) <= view.depth_threshold_px;
+}
+
+ColourPoint point_at(const SpotsOfView& view, int x, int y) {
+  ControlPoint at{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)};
+  at.x = x_in_view(at, view.view, view.reference_view);
+  return {at, view.photograph(x, y)};
+}
+
+}  // namespace
+
+void add_accents(const SpotsOfView& view, DiffusionPainting& painting) {
+  constexpr int rim_px = 2;
+  const Image<std::uint8_t> wanted = dilate_occlusion(view.spots, rim_px);
+  for (int y = 0; y < wanted.height(); ++y) {
+    bool goes_on = false;
+    for (int x = 0; x < wanted.width(); ++x) {
+      goes_on = goes_on && wanted(x, y) != 0 && is_one_surface(view, x, y, x - 1, y);
+      if (wanted(x, y) == 0) continue;
+      if (!goes_on)
+        painting.lines.push_back(
+            {static_cast<std::uint32_t>(painting.points.size()), 0, view.reference_view, view.views});
+      goes_on = true;
+      ++painting.lines.back().point_count;
+      painting.points.push_back(point_at(view, x, y));
+    }
+  }
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,111 @@
+// Eight pixels of one view of a picture: the depth planes, each moved by its parallax, are added. The twin of
+// composite_simd.cpp.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "wheatstone/gpu/views.glsl"
+
+// As struct CompositeWork in gpu_finish_internal.h has them.
+layout(std430, binding = 0) readonly buffer Work {
+  int channels, width, rows;
+  int left, texels_a_row;            // of the planes' columns
+  int first_plane, end_plane, base;  // those in the buffer, and where number 0 would be
+  int taps;                          // 1: nearest; 2: linear; 4: cubic
+  int again;                         // something was composited before
+  float first_parallax, plane_spacing;
+  float view[most_views];
+};
+layout(std430, binding = 1) buffer Light { float light[]; };
+layout(binding = 0) uniform usamplerBuffer planes;
+
+const int columns = 8;
+
+// How far a plane moves: whole pixels, and the weights of the pixels around the rest.
+vec4 weights_of(float pixels, out int whole) {
+  if (taps == 1) {
+    whole = int(floor(pixels + 0.5));
+    return vec4(1, 0, 0, 0);
+  }
+  whole = int(floor(pixels));
+  float f = pixels - floor(pixels);
+  if (taps == 2) return vec4(1 - f, f, 0, 0);
+  // Keys 1981, a = −1/2.
+  whole -= 1;
+  return vec4(((-0.5 * f + 1) * f - 0.5) * f, (1.5 * f - 2.5) * f * f + 1, ((-1.5 * f + 2) * f + 0.5) * f,
+              (0.5 * f - 0.5) * f * f);
+}
+
+// A texel is two pixels (pack_planes.comp): the channels of four pixels.
+vec4 first_of(uvec4 a, uvec4 b) {
+  uvec4 low = uvec4(a.xz, b.xz);
+  return uintBitsToFloat(CHANNELS == 2 ? low : low << 11 >> 1);
+}
+
+vec4 second_of(uvec4 a, uvec4 b) {
+  uvec4 low = uvec4(a.xz, b.xz), high = uvec4(a.yw, b.yw);
+  return uintBitsToFloat(CHANNELS == 2 ? high : (low >> 21 | (high & 0x3ffu) << 11) << 10);
+}
+
+vec4 third_of(uvec4 a, uvec4 b) { return uintBitsToFloat(uvec4(a.yw, b.yw) & 0xfffffc00u); }
+
+// The first pixel may be one too far to the left, which is half a texel: there is one weight more than taps.
+vec4 filtered(vec4 here, vec4 next, vec4 weights, float last_weight) {
+  vec4 sum = weights.x * here + weights.y * vec4(here.yzw, next.x) + weights.z * vec4(here.zw, next.xy);
+  if (TAPS > 2) sum += weights.w * vec4(here.w, next.xyz) + last_weight * next;
+  return sum;
+}
+
+uvec4 texel_at(int row, int x) {
+  bool there = x >= 0 && x < texels_a_row;
+  uvec4 texel = texelFetch(planes, row + (there ? x : 0));
+  return there ? texel : uvec4(0);
+}
+
+void put_one(int at, int x, int channel, float light_here) {
+  if (x >= width) return;
+  at = at * CHANNELS + channel;
+  light[at] = light_here + (again != 0 ? light[at] : 0);
+}
+
+void put(int at, int x, int channel, vec4 light_here) {
+  put_one(at, x, channel, light_here.x);
+  put_one(at + 1, x + 1, channel, light_here.y);
+  put_one(at + 2, x + 2, channel, light_here.z);
+  put_one(at + 3, x + 3, channel, light_here.w);
+}
+
+void main() {
+  int x = int(gl_GlobalInvocationID.x) * columns;
+  int y = int(gl_GlobalInvocationID.y);
+  int v = int(gl_GlobalInvocationID.z);
+  if (x >= width || y >= rows) return;
+  vec4 first_left = vec4(0), first_right = vec4(0), second_left = vec4(0), second_right = vec4(0), third_left = vec4(0),
+       third_right = vec4(0);
+  for (int plane = first_plane; plane < end_plane; ++plane) {
+    int whole;
+    vec4 weights = weights_of(-view[v] * (first_parallax + float(plane) * plane_spacing), whole);
+    int first = x + whole - left;
+    bool odd = (first & 1) != 0;
+    float last_weight = odd ? weights.w : 0;
+    if (odd) weights = vec4(0, weights.xyz);
+    int texel = first >> 1;
+    int row = base + (plane * rows + y) * texels_a_row;
+    uvec4 a = texel_at(row, texel), b = texel_at(row, texel + 1), c = texel_at(row, texel + 2), d = texel_at(row, texel + 3),
+          e = texel_at(row, texel + 4), f = TAPS > 2 ? texel_at(row, texel + 5) : uvec4(0);
+    first_left += filtered(first_of(a, b), first_of(c, d), weights, last_weight);
+    first_right += filtered(first_of(c, d), first_of(e, f), weights, last_weight);
+    second_left += filtered(second_of(a, b), second_of(c, d), weights, last_weight);
+    second_right += filtered(second_of(c, d), second_of(e, f), weights, last_weight);
+    if (CHANNELS == 2) continue;
+    third_left += filtered(third_of(a, b), third_of(c, d), weights, last_weight);
+    third_right += filtered(third_of(c, d), third_of(e, f), weights, last_weight);
+  }
+  int at = (v * rows + y) * width + x;
+  put(at, x, 0, first_left);
+  put(at + 4, x + 4, 0, first_right);
+  put(at, x, 1, second_left);
+  put(at + 4, x + 4, 1, second_right);
+  if (CHANNELS == 2) return;
+  put(at, x, 2, third_left);
+  put(at + 4, x + 4, 2, third_right);
+}

@@ -1,0 +1,53 @@
+// One splat: the lists that it stands in.
+
+layout(local_size_x = 64) in;
+
+#include "wheatstone/multiview/splat_lists.glsl"
+
+layout(std430, binding = 1) buffer Ends { uint ends[]; };
+layout(binding = 0) uniform usamplerBuffer splats_of;
+
+struct InLists {
+  vec4 at;     // place, parallax, size
+  vec4 light;  // and kind
+  int index, picture, first_band, end_band;
+  int first_slab, end_slab;
+  float rest;  // how far it lies beyond the first slab, of what two planes share
+};
+
+// False where it is in none.
+bool lists_of(uint i, out InLists splat) {
+  if (i >= uint(splats)) return false;
+  splat.at = uintBitsToFloat(texelFetch(splats_of, int(2 * i)));
+  splat.light = uintBitsToFloat(texelFetch(splats_of, int(2 * i + 1)));
+  uint kind = floatBitsToUint(splat.light.w);
+  if (kind == no_kind) return false;
+  splat.index = index_of[kind];
+  int p = int(kind) / kinds_a_picture;
+  splat.picture = p;
+  float reach = reach_in_lists(splat.at.w);
+  int top = max(int(ceil(splat.at.y - reach - 0.5)), 0);
+  int bottom = min(int(floor(splat.at.y + reach - 0.5)), rows[p] - 1);
+  splat.first_band = top / band_rows;
+  splat.end_band = top > bottom ? splat.first_band : bottom / band_rows + 1;
+  float at = clamp((splat.at.z - first_parallax[p]) / slab_parallax[p], 0.0, float(slabs[p] - 1));
+  splat.rest = targets == between_planes ? fract(at) : 0;
+  bool two = splat.rest > 0.25 && splat.rest < 0.75;
+  splat.first_slab = int(targets == into_views || two ? floor(at) : roundEven(at));
+  splat.end_slab = splat.first_slab + (two ? 2 : 1);
+  if (!two) splat.rest = 0;
+  return true;
+}
+
+int lists_in_all(InLists splat) {
+  return (splat.end_band - splat.first_band) * (splat.end_slab - splat.first_slab);
+}
+
+ivec2 band_and_slab(InLists splat, int number) {
+  int high = splat.end_band - splat.first_band;
+  return ivec2(splat.first_band + number % high, splat.first_slab + number / high);
+}
+
+int list_of(InLists splat, ivec2 at) {
+  return first_list_of(splat.index, splat.picture, at.y, at.x) + list_at(splat.picture, splat.at.x);
+}

@@ -1,0 +1,105 @@
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/strokes/sized_view_internal.h"
+#include "wheatstone/strokes/visible_runs_internal.h"
+
+namespace wheatstone {
+namespace {
+
+int least_reduction_for(const SceneView& view, float finest_radius_px) {
+  constexpr int least = 2, most = 8;
+  constexpr float least_radius_px = 1.5f;
+  int reduction = least;
+  while (view.continued && reduction < most && finest_radius_px >= least_radius_px * static_cast<float>(2 * reduction))
+    reduction *= 2;
+  return reduction;
+}
+
+}  // namespace
+
+WantedPart wanted_part(const SceneView& view, const SceneView& reference, const Style& style, bool scene_begins) {
+  if (view.only_here.empty()) return {view, {}};
+  const ScaledStyle scaled(style, view.picture.width());
+  const int reduction = least_reduction_for(view, scaled.radii_px.back());
+  if (scene_begins) {
+    const auto growth_px = static_cast<int>(std::lround(style.occlusion_dilation * scaled.radii_px.front()));
+    return {view, reduced(view.picture, view.disparity, dilate_occlusion(view.only_here, growth_px), reduction)};
+  }
+  Image<std::uint8_t> alone(view.picture.width(), view.picture.height());
+  tbb::parallel_for(0, alone.height(), [&](int y) {
+    for (int x = 0; x < alone.width(); ++x) {
+      if (view.only_here(x, y) == 0) continue;
+      const ControlPoint point{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, view.disparity(x, y)};
+      const float column = column_in(point, view, reference);
+      const bool is_in_picture = column >= 0 && column < static_cast<float>(alone.width());
+      alone(x, y) = is_in_picture && is_visible(point, view, reference, scaled.depth_threshold_px) ? 0 : 255;
+    }
+  });
+  return {view, reduced(view.picture, view.disparity, alone, reduction)};
+}
+
+namespace {
+
+/// What is on a smaller canvas, on one of another size; what the smaller picture left out at the border is as beside
+/// it.
+Canvas enlarged(const Canvas& smaller, int factor, int width, int height) {
+  Canvas canvas(width, height, {});
+  const auto enlarge = [&](const Image<float>& from, Image<float>& to) {
+    const cv::Mat small = as_mat(from).colRange(0, smaller.width);
+    const int columns = std::min(smaller.width * factor, width), rows = std::min(smaller.height * factor, height);
+    const cv::Mat all = as_mat(to);
+    cv::Mat large = all(cv::Rect(0, 0, smaller.width * factor, smaller.height * factor));
+    cv::resize(small, large, large.size(), 0, 0, cv::INTER_LINEAR);
+    for (int x = columns; x < width; ++x) all.col(columns - 1).copyTo(all.col(x));
+    for (int y = rows; y < height; ++y) all.row(rows - 1).copyTo(all.row(y));
+  };
+  tbb::parallel_invoke([&] { enlarge(smaller.red, canvas.red); }, [&] { enlarge(smaller.green, canvas.green); },
+                       [&] { enlarge(smaller.blue, canvas.blue); },
+                       [&] { enlarge(smaller.coverage, canvas.coverage); });
+  return canvas;
+}
+
+LayerPlanner planner_of(const WantedPart& part, const std::optional<ReducedView>& smaller, const Style& style,
+                        const SizedView* before, int factor) {
+  const ImageView<const Rgb8> photograph = smaller ? smaller->photograph.view() : part.photograph();
+  const ImageView<const float> disparity = smaller ? smaller->disparity.view() : part.disparity();
+  if (before == nullptr) return {photograph, disparity, part.view.position, style};
+  return {photograph, disparity, part.view.position, style,
+          enlarged(before->planner.canvas, before->factor / factor, photograph.width(), photograph.height())};
+}
+
+}  // namespace
+
+SizedView::SizedView(const WantedPart& part_, const Style& style, int factor_, const SizedView* before)
+    : part(part_),
+      factor(factor_),
+      reduction(part.reduction() * factor),
+      smaller(factor > 1 ? std::optional(reduced(part.photograph(), part.disparity(), part.seeds(), factor))
+                         : std::nullopt),
+      scaled(style, part.view.picture.width(), static_cast<float>(reduction)),
+      planner(planner_of(part, smaller, style, before, factor)) {
+  planner.avoid_mixed_colours = part.is_whole();            // no other eye sees those of a part
+  if (part.view.continued) planner.least_edge_cell_px = 3;  // of what no photograph shows, edges need no detail
+}
+
+int factor_for_layer(const WantedPart& part, float radius_px, bool is_finest) {
+  constexpr float least_radius_px = 6;
+  constexpr int least_side_px = 16;
+  const int side_px = std::min(part.photograph().width(), part.photograph().height());
+  const auto fits = [&](int factor) {
+    return radius_px >= least_radius_px * static_cast<float>(factor * part.reduction()) &&
+           side_px >= least_side_px * factor;
+  };
+  int factor = 1;
+  while (!is_finest && fits(2 * factor)) factor *= 2;
+  return factor;
+}
+
+}  // namespace wheatstone
