@@ -160,15 +160,21 @@ void compare_row(const ComparedRow& row, std::span<const std::int16_t> first, in
   }
 }
 
-/// The costs of one path to each pixel of a row. Beside each band lies room for disparities out of reach.
+/// The costs of one path to each pixel of a row, or to the last few. Beside each band lies room for disparities out of
+/// reach.
 struct PathRow {
-  PathRow(int width, int band, int room)
+  static constexpr int few = 8;  // a power of two
+
+  PathRow(int width, int band, int room, bool whole)
       : stride(band + room),
         beside(room),
-        values(static_cast<std::size_t>(width) * stride + room, unreachable),
-        least(width, 0) {}
-  std::uint16_t* at(int x) { return &values[static_cast<std::size_t>(x) * stride + beside]; }
+        kept(whole ? std::numeric_limits<int>::max() : few - 1),
+        values(static_cast<std::size_t>(whole ? width : few) * stride + room, unreachable),
+        least(whole ? width : few, 0) {}
+  std::uint16_t* at(int x) { return &values[static_cast<std::size_t>(x & kept) * stride + beside]; }
+  std::uint16_t& least_at(int x) { return least[x & kept]; }
   int stride, beside;
+  int kept;  ///< the bits of a column that tell its place
   std::vector<std::uint16_t> values;
   std::vector<std::uint16_t> least;
 };
@@ -215,7 +221,7 @@ constexpr std::array<std::uint16_t, 256> large_steps = [] {
   return steps;
 }();
 
-/// A strip being matched: its volumes, and the paths to the row at hand and the one before.
+/// A strip being matched: its volumes, and the paths to the rows at hand and the one before.
 class StripMatcher {
  public:
   StripMatcher(const ComparedPictures& pictures, const SearchBand& band, const Strip& strip, StripMemory& memory)
@@ -235,54 +241,88 @@ class StripMatcher {
   void match(BandMatch& result) {
     ComparedRow row(width_);
     begin_paths();
-    for (int y = strip_.top; y < strip_.bottom; ++y) {
-      row.take(pictures_, y);
-      compare_row(row, band_.first.row(y), band_.count, &memory_.costs[at(y)]);
-      add_paths<true>(y);
+    for (int y = strip_.top; y < strip_.bottom; y += rows_at_once) {
+      const int end = std::min(y + rows_at_once, strip_.bottom);
+      for (int i = y; i < end; ++i) {
+        row.take(pictures_, i);
+        compare_row(row, band_.first.row(i), band_.count, &memory_.costs[at(i)]);
+      }
+      // What leads paths upwards needs none downwards.
+      if (y < strip_.end) add_paths<true>(y, std::min(end, strip_.end) - y);
     }
     begin_paths();
-    for (int y = strip_.bottom - 1; y >= strip_.top; --y) {
-      add_paths<false>(y);
-      if (y >= strip_.begin && y < strip_.end) choose_row(y, result);
+    for (int y = strip_.bottom - 1; y >= strip_.begin; y -= rows_at_once) {
+      const int count = std::min(rows_at_once, y + 1 - strip_.begin);
+      add_paths<false>(y, count);
+      for (int i = y; i > y - count; --i)
+        if (i < strip_.end) choose_row(i, result);
     }
   }
 
  private:
+  static constexpr int rows_at_once = 4;
+  using Paths = std::vector<PathRow>;
+
+  /// A row and the paths to its pixels; none outside the strip.
+  struct RowOfPaths {
+    Paths* paths = nullptr;
+    const std::int16_t* first = nullptr;  ///< of each pixel's band
+    const std::uint8_t* grey = nullptr;
+    std::size_t place = 0;  ///< of its costs and sums
+  };
+
   std::size_t at(int y) const { return static_cast<std::size_t>(y - strip_.top) * width_ * rounded_; }
 
   void begin_paths() {
-    now_.assign(path_count, PathRow(width_, rounded_, farthest_ + 1));
+    now_.assign(path_count, PathRow(width_, rounded_, farthest_ + 1, true));
     before_ = now_;
+    between_.fill(Paths(path_count, PathRow(width_, rounded_, farthest_ + 1, false)));
   }
 
-  /// Adds the paths from above and from the left, `downwards`, or from below and from the right.
+  RowOfPaths row_of_paths(int y, Paths& paths) const {
+    if (y < strip_.top || y >= strip_.bottom) return {};
+    return {&paths, band_.first.row(y).data(), pictures_.left_grey.ptr<std::uint8_t>(y + census_down) + census_across,
+            at(y)};
+  }
+
+  /// Adds the paths from above and from the left, `downwards`, or from below and from the right, to `count` rows from
+  /// `y` on. Along a row each pixel waits for the one before it, but not for those of other rows: several rows are gone
+  /// along at once, each as far behind the one before it as its paths need.
   template <bool downwards>
-  void add_paths(int y) {
-    constexpr int direction = downwards ? 1 : -1;
-    for (int i = 0; i < width_; ++i) {
-      const int x = downwards ? i : width_ - 1 - i;
-      const std::array<PathStep, path_count> steps{step(x, y, x - direction, y), step(x, y, x, y - direction),
-                                                   step(x, y, x - direction, y - direction),
-                                                   step(x, y, x + direction, y - direction)};
-      const std::size_t pixel = at(y) + static_cast<std::size_t>(x) * rounded_;
-      extend_paths<downwards>(steps, &memory_.costs[pixel], rounded_, &memory_.sums[pixel]);
-      path_ = 0;
+  void add_paths(int y, int count) {
+    constexpr int direction = downwards ? 1 : -1, behind = 2;
+    static_assert(PathRow::few > behind + 1);
+    std::array<RowOfPaths, rows_at_once + 1> rows{row_of_paths(y - direction, before_)};
+    for (int i = 0; i < count; ++i) rows[i + 1] = row_of_paths(y + direction * i, i + 1 == count ? now_ : between_[i]);
+    for (int place = 0; place < width_ + behind * (count - 1); ++place) {
+      for (int i = 0; i < count; ++i) {
+        const int along = place - behind * i;
+        if (along >= 0 && along < width_)
+          extend_to<downwards>(downwards ? along : width_ - 1 - along, rows[i], rows[i + 1]);
+      }
     }
     std::swap(now_, before_);
   }
 
-  /// The next path's step to a pixel from the one before it.
-  HWY_INLINE PathStep step(int x, int y, int from_x, int from_y) {
-    const int path = path_++;
-    PathRow& to = now_[path];
-    if (from_x < 0 || from_x >= width_ || from_y < strip_.top || from_y >= strip_.bottom)
-      return {beginning_.data() + 1, to.at(x), &to.least[x], 0, 0};
-    PathRow& from = from_y == y ? to : before_[path];
-    const int shift = std::clamp(band_.first(x, y) - band_.first(from_x, from_y), -farthest_, farthest_);
-    const auto* grey = pictures_.left_grey.ptr<std::uint8_t>(y + census_down) + census_across;
-    const auto* from_grey = pictures_.left_grey.ptr<std::uint8_t>(from_y + census_down) + census_across;
-    return {from.at(from_x) + shift, to.at(x), &to.least[x], from.least[from_x],
-            large_steps[std::abs(grey[x] - from_grey[from_x])]};
+  template <bool downwards>
+  HWY_INLINE void extend_to(int x, const RowOfPaths& before, const RowOfPaths& row) {
+    constexpr int direction = downwards ? 1 : -1;
+    const std::array<PathStep, path_count> steps{step(0, x, row, x - direction, row), step(1, x, row, x, before),
+                                                 step(2, x, row, x - direction, before),
+                                                 step(3, x, row, x + direction, before)};
+    const std::size_t pixel = row.place + static_cast<std::size_t>(x) * rounded_;
+    extend_paths<downwards>(steps, &memory_.costs[pixel], rounded_, &memory_.sums[pixel]);
+  }
+
+  /// A path's step to a pixel of a row from the one before it.
+  HWY_INLINE PathStep step(int path, int x, const RowOfPaths& row, int from_x, const RowOfPaths& from_row) const {
+    PathRow& to = (*row.paths)[path];
+    if (from_row.paths == nullptr || from_x < 0 || from_x >= width_)
+      return {beginning_.data() + 1, to.at(x), &to.least_at(x), 0, 0};
+    PathRow& from = (*from_row.paths)[path];
+    const int shift = std::clamp(row.first[x] - from_row.first[from_x], -farthest_, farthest_);
+    return {from.at(from_x) + shift, to.at(x), &to.least_at(x), from.least_at(from_x),
+            large_steps[std::abs(row.grey[x] - from_row.grey[from_x])]};
   }
 
   /// The place of the least of a pixel's sums, the first of equal ones.
@@ -351,8 +391,8 @@ class StripMatcher {
   StripMemory& memory_;
   int width_, rounded_, farthest_;
   std::vector<std::uint16_t> beginning_;
-  std::vector<PathRow> now_, before_;
-  int path_ = 0;
+  Paths now_, before_;                           ///< the last row of those gone along at once, and of those before
+  std::array<Paths, rows_at_once - 1> between_;  ///< the others
 };
 
 void match_strip_part(const ComparedPictures& pictures, const SearchBand& band, const Strip& strip, StripMemory& memory,
