@@ -10,6 +10,7 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/binary_descriptors_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/seen_disparities_internal.h"
@@ -64,13 +65,10 @@ std::vector<float> sparse_disparities(const cv::Mat& left, const cv::Mat& right)
   orb->detectAndCompute(right, {}, right_corners, right_descriptors);
   std::vector<float> disparities;
   if (left_corners.empty() || right_corners.empty()) return disparities;
-  std::vector<cv::DMatch> matches;
-  constexpr bool each_others_best = true;
-  cv::BFMatcher(cv::NORM_HAMMING, each_others_best).match(left_descriptors, right_descriptors, matches);
-  constexpr float largest_distance_bits = 48;
-  for (const cv::DMatch& match : matches) {
-    const cv::Point2f offset = left_corners[match.queryIdx].pt - right_corners[match.trainIdx].pt;
-    if (match.distance <= largest_distance_bits && std::abs(offset.y) <= largest_vertical_px)
+  constexpr int largest_distance_bits = 48;
+  for (const BinaryMatch& match : match_binary_descriptors(left_descriptors, right_descriptors)) {
+    const cv::Point2f offset = left_corners[match.left].pt - right_corners[match.right].pt;
+    if (match.distance_bits <= largest_distance_bits && std::abs(offset.y) <= largest_vertical_px)
       disparities.push_back(offset.x);
   }
   return disparities;
