@@ -37,6 +37,12 @@ WrongSpots measure_of(const Count& count) {
   return {1e5 * count.spots / count.pixels, count.wrong / count.pixels};
 }
 
+bool is_like(Rgb8 a, Rgb8 b) {
+  constexpr int most = static_cast<int>(unlike_colours);
+  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
+  return red * red + green * green + blue * blue <= most * most;
+}
+
 }  // namespace
 
 Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph) {
@@ -47,7 +53,12 @@ Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const 
   const ColoursAround near(photograph);
   Image<std::uint8_t> wrong(painted.width(), painted.height());
   tbb::parallel_for(0, painted.height(), [&](int y) {
-    for (int x = 0; x < painted.width(); ++x) wrong(x, y) = near.has(painted(x, y), x, y) ? 0 : 255;
+    const auto colours = painted.row(y), wanted = photograph.row(y);
+    const auto marks = wrong.row(y);
+    // Nearly all pixels are like the one at their own place.
+    for (std::size_t x = 0; x < colours.size(); ++x) marks[x] = is_like(colours[x], wanted[x]) ? 0 : 255;
+    for (int x = 0; x < painted.width(); ++x)
+      if (marks[x] != 0 && near.has(colours[x], x, y)) marks[x] = 0;
   });
   return wrong;
 }

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 
 #include "wheatstone/error.h"
+#include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/warp.h"
 
@@ -140,6 +142,23 @@ TEST(Occlusion, LosesItsSpecksOnly) {
   remove_occlusion_specks(mask, 5);
   EXPECT_EQ(mask(2, 2), 0);
   EXPECT_EQ(mask(15, 12), 255);
+}
+
+TEST(Occlusion, LosesWhatOpenCvFindsToBeSmall) {
+  for (const int percent : {3, 20, 35, 50, 70}) {
+    Image<std::uint8_t> mask(97, 61);
+    cv::RNG random(7);
+    for (std::uint8_t& value : mask.pixels()) value = random.uniform(0, 100) < percent ? 255 : 0;
+    constexpr int least_px = 7;
+    cv::Mat labels, facts, centres;
+    cv::connectedComponentsWithStats(as_mat(mask), labels, facts, centres, 8);
+    Image<std::uint8_t> expected = mask;
+    for (int y = 0; y < mask.height(); ++y)
+      for (int x = 0; x < mask.width(); ++x)
+        if (facts.at<int>(labels.at<int>(y, x), cv::CC_STAT_AREA) < least_px) expected(x, y) = 0;
+    remove_occlusion_specks(mask, least_px);
+    EXPECT_EQ(mask, expected) << percent;
+  }
 }
 
 }  // namespace
