@@ -67,10 +67,38 @@ constexpr const char* light_source = R"(#version 450
 out vec4 light;
 void main() { light = vec4(0.1); })";
 
-GLuint program_of_points() {
+/// Splats as we draw them: a Gaussian in colour, as wide.
+constexpr const char* splat_source = R"(#version 450
+#extension GL_ARB_shader_viewport_layer_array : require
+layout(location = 0) in vec3 at;
+uniform float size;
+out vec3 colour;
+void main() {
+  gl_Layer = gl_InstanceID;
+  gl_Position = vec4(2 * at.x - 1 + at.z * (gl_InstanceID - 7.5) / 15, 2 * at.y - 1, 0, 1);
+  gl_PointSize = size + 1;
+  colour = vec3(at.xy, 0.5);
+})";
+constexpr const char* gaussian_source = R"(#version 450
+uniform float size;
+in vec3 colour;
+out vec4 light;
+void main() {
+  vec2 away = (gl_PointCoord - 0.5) * (size + 1);
+  light = vec4(colour * exp2(-0.72134752 / (size * size / 25 + 1.0 / 12) * dot(away, away)), 0);
+})";
+
+/// What is drawn into the layers, and what they hold.
+struct Points {
+  const char *vertex, *fragment;
+  GLenum format;
+  float size;
+};
+
+GLuint program_of(const Points& points) {
   const GLuint program = glCreateProgram();
   for (const auto& [kind, source] :
-       {std::pair{GL_VERTEX_SHADER, point_source}, std::pair{GL_FRAGMENT_SHADER, light_source}}) {
+       {std::pair{GL_VERTEX_SHADER, points.vertex}, std::pair{GL_FRAGMENT_SHADER, points.fragment}}) {
     const GLuint shader = glCreateShader(kind);
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);
@@ -84,14 +112,14 @@ GLuint program_of_points() {
   return program;
 }
 
-/// Draws each particle as a point into every layer of a framebuffer of floats, with additive blending.
-double seconds_of_layers(const Workload& work) {
+/// Draws each particle into every layer of a framebuffer of floats, with additive blending.
+double seconds_of_layers(const Workload& work, const Points& drawn) {
   std::vector<float> points;
   for (std::size_t i = 0; i < work.cloud.size(); ++i)
     points.insert(points.end(), {work.cloud.x[i], work.cloud.y[i], 0.05f * work.cloud.z[i]});
   double seconds = 0;
   on_gpu([&](const GpuFacts&) {
-    const GLuint program = program_of_points();
+    const GLuint program = program_of(drawn);
     GLuint buffer = 0, vertices = 0, texture = 0, frame = 0;
     glCreateBuffers(1, &buffer);
     glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(points.size() * sizeof(float)), points.data(), 0);
@@ -100,12 +128,14 @@ double seconds_of_layers(const Workload& work) {
     glEnableVertexArrayAttrib(vertices, 0);
     glVertexArrayAttribFormat(vertices, 0, 3, GL_FLOAT, GL_FALSE, 0);
     glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &texture);
-    glTextureStorage3D(texture, 1, GL_R32F, width, height, views);
+    glTextureStorage3D(texture, 1, drawn.format, width, height, views);
     glCreateFramebuffers(1, &frame);
     glNamedFramebufferTexture(frame, GL_COLOR_ATTACHMENT0, texture, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, frame);
     glBindVertexArray(vertices);
     glUseProgram(program);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glProgramUniform1f(program, glGetUniformLocation(program, "size"), drawn.size);
     glViewport(0, 0, width, height);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
@@ -153,7 +183,12 @@ struct Times {
   double cpu, gpu;
 };
 
-Times compare(const Workload& work, const char* name, Method method, double layers) {
+/// Seconds of a framebuffer of sixteen layers: of one number a particle, and of splats as ours.
+struct Layers {
+  double points, splats;
+};
+
+Times compare(const Workload& work, const char* name, Method method, const Layers& layers) {
   const std::vector<Image<Rgb8>> expected = views_of(work, method, Device::processor);
   const std::vector<Image<Rgb8>> found = views_of(work, method, Device::graphics);
   double psnr = std::numeric_limits<double>::infinity();
@@ -162,9 +197,10 @@ Times compare(const Workload& work, const char* name, Method method, double laye
                     median_seconds([&] { views_of(work, method, Device::graphics); }, 3)};
   fmt::print(
       "    {:<11} {:7.3f} s, {:5.2f} times the processor's {:.3f} s; {:.1f} million particles x views a second; "
-      "{:.1f} dB at least; a framebuffer of {} layers takes {:.1f} times as long\n",
+      "{:.1f} dB at least; a framebuffer of {} layers takes {:.1f} times as long, and {:.1f} times of bare points\n",
       name, times.gpu, times.gpu / times.cpu, times.cpu,
-      static_cast<double>(work.cloud.size()) * views / times.gpu / 1e6, psnr, views, layers / times.gpu);
+      static_cast<double>(work.cloud.size()) * views / times.gpu / 1e6, psnr, views, layers.splats / times.gpu,
+      layers.points / times.gpu);
   return times;
 }
 
@@ -195,9 +231,11 @@ void compare_with_exact(Workload work, float splat_px, double copy) {
   }
 }
 
-void compare(std::size_t particles, float splat_px, double layers, double copy) {
-  fmt::print("  splats of {:.0f} px\n", splat_px);
+void compare(std::size_t particles, float splat_px, double points, double copy) {
   const Workload work = workload_of(particles, splat_px);
+  const Layers layers{points, seconds_of_layers(work, {splat_source, gaussian_source, GL_RGBA32F, splat_px})};
+  fmt::print("  splats of {:.0f} px; the same in a framebuffer of {} layers, three numbers a pixel: {:.2f} s\n",
+             splat_px, views, layers.splats);
   const Times incremental = compare(work, "incremental", Method::incremental, layers);
   const Times layered = compare(work, "layered", Method::layered, layers);
   const double gpu = std::min(incremental.gpu, layered.gpu), cpu = std::min(incremental.cpu, layered.cpu);
@@ -209,10 +247,10 @@ void run(std::size_t particles) {
   const GpuFacts facts = gpu_facts();
   fmt::print("{} particles, {} views of {}x{}, on {}\n", particles, views, width, height, facts.name);
   const double copy = copied_bytes_a_second();
-  const double layers = seconds_of_layers(workload_of(particles, 1));
-  fmt::print("  points into a framebuffer of {} layers: {:.2f} s\n", views, layers);
-  compare(particles, 1, layers, copy);
-  compare(particles, 4, layers, copy);
+  const double points = seconds_of_layers(workload_of(particles, 1), {point_source, light_source, GL_R32F, 1});
+  fmt::print("  points of one pixel into a framebuffer of {} layers, one number a pixel: {:.2f} s\n", views, points);
+  compare(particles, 1, points, copy);
+  compare(particles, 4, points, copy);
 }
 
 }  // namespace

@@ -29,6 +29,11 @@ GpuBuffer::~GpuBuffer() {
 
 void GpuBuffer::clear() { glClearNamedBufferData(name_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
 
+void GpuBuffer::clear(std::size_t at, std::size_t bytes) {
+  glClearNamedBufferSubData(name_, GL_R32UI, static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), GL_RED_INTEGER,
+                            GL_UNSIGNED_INT, nullptr);
+}
+
 void GpuBuffer::bind(std::uint32_t binding) const {
   GLint64 most = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
@@ -39,6 +44,11 @@ void GpuBuffer::bind(std::uint32_t binding) const {
                     "needs no such room",
                     most >> 20, (bytes_ >> 20) + 1));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
+}
+
+void GpuBuffer::bind_uniforms() const {
+  constexpr std::size_t always_fits = 16384;
+  if (bytes_ <= always_fits) glBindBufferBase(GL_UNIFORM_BUFFER, 0, name_);
 }
 
 void GpuBuffer::bind_texels(std::uint32_t unit) const {

@@ -29,6 +29,8 @@ class GpuBuffer {
   std::size_t bytes() const { return bytes_; }
   /// Sets all bytes to 0.
   void clear();
+  /// Sets some bytes to 0, from that place on. Both are multiples of four.
+  void clear(std::size_t at, std::size_t bytes);
   /// Values are copied to the place that many bytes from the beginning, and must fit there.
   template <class Value>
   void write(std::span<const Value> values, std::size_t at = 0) {
@@ -42,6 +44,8 @@ class GpuBuffer {
   }
   /// For GpuProgram.
   void bind(std::uint32_t binding) const;
+  /// To binding 0 of uniform blocks, where it is small enough for one.
+  void bind_uniforms() const;
   /// The same as a usamplerBuffer of four words each: reading these is faster than reading four numbers one by one,
   /// where the processor imitates a graphics processor three times.
   void bind_texels(std::uint32_t unit) const;

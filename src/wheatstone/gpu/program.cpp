@@ -43,6 +43,7 @@ void GpuProgram::run(std::initializer_list<std::uint32_t> groups, std::initializ
   std::array<std::uint32_t, 3> count{1, 1, 1};
   std::ranges::copy(groups, count.begin());
   std::uint32_t binding = 0;
+  if (buffers.size() > 0) (*buffers.begin())->bind_uniforms();
   for (const GpuBuffer* const buffer : buffers) buffer->bind(binding++);
   std::uint32_t unit = 0;
   for (const GpuBuffer* const buffer : texels) buffer->bind_texels(unit++);

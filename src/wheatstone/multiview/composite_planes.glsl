@@ -6,14 +6,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "wheatstone/gpu/views.glsl"
 
 // As struct CompositeWork in gpu_finish_internal.h has them.
-layout(std430, binding = 0) readonly buffer Work {
-  int channels, width, rows;
+layout(std140, binding = 0) uniform Work {
+  int width, rows;
   int left, texels_a_row;            // of the planes' columns
   int first_plane, end_plane, base;  // those in the buffer, and where number 0 would be
   int taps;                          // 1: nearest; 2: linear; 4: cubic
   int again;                         // something was composited before
   float first_parallax, plane_spacing;
-  float view[most_views];
+  vec4 views[most_views];  // the first number of each
 };
 layout(std430, binding = 1) buffer Light { float light[]; };
 layout(binding = 0) uniform usamplerBuffer planes;
@@ -81,9 +81,10 @@ void main() {
   if (x >= width || y >= rows) return;
   vec4 first_left = vec4(0), first_right = vec4(0), second_left = vec4(0), second_right = vec4(0), third_left = vec4(0),
        third_right = vec4(0);
+  float view_here = views[v].x;
   for (int plane = first_plane; plane < end_plane; ++plane) {
     int whole;
-    vec4 weights = weights_of(-view[v] * (first_parallax + float(plane) * plane_spacing), whole);
+    vec4 weights = weights_of(-view_here * (first_parallax + float(plane) * plane_spacing), whole);
     int first = x + whole - left;
     bool odd = (first & 1) != 0;
     float last_weight = odd ? weights.w : 0;

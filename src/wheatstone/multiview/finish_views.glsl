@@ -9,7 +9,7 @@ const int stretch_shift = 16;
 const int stays_light = 0, as_look = 1, as_mass = 2, as_colours = 3;
 
 // As struct FinishWork in gpu_finish_internal.h has them.
-layout(std430, binding = 0) readonly buffer Work {
+layout(std140, binding = 0) uniform Work {
   int channels, width, rows, pad;
   int base;  // of the picture's light
   int smaller_width, smaller_rows;  // 0: there is no smaller picture

@@ -3,5 +3,5 @@
 // Gathers splats of mass in colours of their own.
 
 #define CHANNELS 3
-#define OF_MASS true
+#define KERNEL 1
 #include "wheatstone/multiview/gather_splats.glsl"

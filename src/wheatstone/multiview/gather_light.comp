@@ -3,5 +3,5 @@
 // Gathers splats of the thesis's look.
 
 #define CHANNELS 3
-#define OF_MASS false
+#define KERNEL 0
 #include "wheatstone/multiview/gather_splats.glsl"

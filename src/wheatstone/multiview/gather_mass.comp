@@ -3,5 +3,5 @@
 // Gathers splats of mass: light, and light times a second number.
 
 #define CHANNELS 2
-#define OF_MASS true
+#define KERNEL 1
 #include "wheatstone/multiview/gather_splats.glsl"

@@ -39,13 +39,13 @@ struct PackWork {
 
 /// What composite_planes.glsl reads of its work.
 struct CompositeWork {
-  std::int32_t channels = 0, width = 0, rows = 0;
+  std::int32_t width = 0, rows = 0;
   std::int32_t left = 0, texels_a_row = 0;
   std::int32_t first_plane = 0, end_plane = 0, base = 0;
   std::int32_t taps = 1;
   std::int32_t again = 0;
-  float first_parallax = 0, plane_spacing = 1;
-  std::array<float, most_gpu_views> view{};
+  float first_parallax = 0, plane_spacing = 1, unused = 0;
+  std::array<std::array<float, 4>, most_gpu_views> views{};
 };
 
 /// The tables of the tone map, one after the other, as finish_views.glsl reads them.
@@ -141,19 +141,19 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
     unpack(std::span(pixels).subspan(v * pictures.pixels(0), pictures.pixels(0)), views[v]);
 }
 
-GpuCompositor::GpuCompositor(const GpuPictures& planes, std::span<const TargetGroup> groups,
-                             std::span<const GpuBuffer> light, Resampling resampling)
-    : planes_(planes), groups_(groups), resampling_(resampling) {
-  for (std::size_t g = 0; g < groups.size(); ++g) {
+GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling)
+    : planes_(planes), groups_(std::move(light.groups)), resampling_(resampling) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
     std::vector<int>& first_texel = first_texel_.emplace_back();
     int texels = 0;
     for (std::size_t p = 0; p < planes.size(); ++p) {
       const int a_plane = texels_a_row(planes, p) * planes.orders[p].rows;
-      first_texel.push_back(texels - groups[g].first[p] * a_plane);
-      texels += (groups[g].end[p] - groups[g].first[p]) * a_plane;
+      first_texel.push_back(texels - groups_[g].first[p] * a_plane);
+      texels += (groups_[g].end[p] - groups_[g].first[p]) * a_plane;
     }
     packed_.push_back(GpuBuffer::of_any_bytes(static_cast<std::size_t>(texels) * texel_bytes));
-    for (std::size_t p = 0; p < planes.size(); ++p) pack(planes, groups[g], p, first_texel[p], light[g], packed_[g]);
+    for (std::size_t p = 0; p < planes.size(); ++p)
+      pack(planes, groups_[g], p, first_texel[p], light.light[g], packed_[g]);
   }
 }
 
@@ -164,15 +164,14 @@ GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_vi
   const bool cubic = taps_of(resampling_) > 2;
   const GpuSource& of_mass = cubic ? composite_mass_cubic_source : composite_mass_linear_source;
   const GpuSource& of_colours = cubic ? composite_colours_cubic_source : composite_colours_linear_source;
-  CompositeWork work{.channels = planes_.channels,
-                     .width = of_views.width[picture],
+  CompositeWork work{.width = of_views.width[picture],
                      .rows = order.rows,
                      .left = planes_.left[picture],
                      .texels_a_row = texels_a_row(planes_, picture),
                      .taps = taps_of(resampling_),
                      .first_parallax = order.first * order.scale,
-                     .plane_spacing = order.spacing,
-                     .view = gpu_views(views)};
+                     .plane_spacing = order.spacing};
+  for (std::size_t v = 0; v < views.size(); ++v) work.views[v][0] = views[v] - central_view;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     work.first_plane = groups_[g].first[picture];
     work.end_plane = groups_[g].end[picture];

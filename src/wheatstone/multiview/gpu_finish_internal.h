@@ -30,14 +30,13 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
 /// Composites views from the light of depth planes. Made and used within on_gpu().
 class GpuCompositor {
  public:
-  GpuCompositor(const GpuPictures& planes, std::span<const TargetGroup> groups, std::span<const GpuBuffer> light,
-                Resampling resampling);
+  GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling);
   /// The light of a picture's views.
   GpuBuffer composite(std::size_t picture, const GpuPictures& of_views, std::span<const ViewPosition> views) const;
 
  private:
   const GpuPictures& planes_;
-  std::span<const TargetGroup> groups_;
+  std::vector<TargetGroup> groups_;
   Resampling resampling_;
   std::vector<GpuBuffer> packed_;              // [group]
   std::vector<std::vector<int>> first_texel_;  // [group][picture]: where plane 0 would lie

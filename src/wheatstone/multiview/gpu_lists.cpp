@@ -6,11 +6,17 @@
 #include "begin_lists_source.h"
 #include "count_splats_source.h"
 #include "gather_colours_source.h"
+#include "gather_colours_spline_source.h"
 #include "gather_light_source.h"
 #include "gather_mass_source.h"
+#include "gather_mass_spline_source.h"
 #include "gather_opaque_source.h"
+#include "place_colours_source.h"
+#include "place_colours_spline_source.h"
+#include "place_light_source.h"
+#include "place_mass_source.h"
+#include "place_mass_spline_source.h"
 #include "place_opaque_source.h"
-#include "place_splats_source.h"
 #include "sum_lists_source.h"
 #include "wheatstone/gpu/program.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
@@ -19,8 +25,10 @@ namespace wheatstone {
 namespace {
 
 // As splat_lists.glsl and gather_splats.glsl have them.
-constexpr int band_rows = 2, list_columns = 4, gathered_columns = 8, group_side = 8;
+constexpr int band_rows = 2, list_columns = 2, gathered_columns = 4, group_side = 8;
 constexpr std::size_t entry_bytes = 32;
+/// Mesa's llvmpipe 22 ends the loops of an invocation after 65535 iterations in all.
+constexpr std::size_t most_iterations = 65000;
 /// Views move splats by this many pixels, beside those that a list has, before lists are cut by parallax.
 constexpr float moved_px = 6;
 
@@ -47,25 +55,44 @@ void set_pictures(const RenderJob& job, const GpuPictures& pictures, GpuTargets 
   const auto [nearest, farthest] = std::ranges::minmax(job.scene.mapping.points, {}, parallax);
   const float range = farthest.parallax_px - nearest.parallax_px;
   float farthest_view = 0;
-  for (const float view : work.view) farthest_view = std::max(farthest_view, std::abs(view));
+  for (const auto& view : work.views) farthest_view = std::max(farthest_view, std::abs(view[0]));
   for (std::size_t p = 0; p < pictures.size(); ++p) {
     const SplatOrder& order = pictures.orders[p];
     const Window here = window_in(window, order);
-    work.rows[p] = order.rows;
-    work.bands[p] = (order.rows + band_rows - 1) / band_rows;
-    work.lists_left[p] = here.left;
-    work.lists_a_band[p] = static_cast<int>((here.right - here.left) / list_columns) + 1;
-    work.left[p] = pictures.left[p];
-    work.width[p] = pictures.width[p];
+    ListWork::Picture& picture = work.pictures[p];
+    picture.rows = order.rows;
+    picture.bands = (order.rows + band_rows - 1) / band_rows;
+    picture.lists_left = here.left;
+    picture.lists_a_band = static_cast<int>((here.right - here.left) / list_columns) + 1;
+    picture.left = pictures.left[p];
+    picture.width = pictures.width[p];
     if (targets == GpuTargets::views || targets == GpuTargets::discs_in_views) {
-      work.slabs[p] = std::max(static_cast<int>(std::lround(range * order.scale * farthest_view / moved_px)), 1);
-      work.first_parallax[p] = nearest.parallax_px * order.scale;
-      work.slab_parallax[p] = std::max(range * order.scale / static_cast<float>(work.slabs[p]), 1e-6f);
+      picture.slabs = std::max(static_cast<int>(std::lround(range * order.scale * farthest_view / moved_px)), 1);
+      picture.first_parallax = nearest.parallax_px * order.scale;
+      picture.slab_parallax = std::max(range * order.scale / static_cast<float>(picture.slabs), 1e-6f);
     } else {
-      work.slabs[p] = order.parts;
-      work.first_parallax[p] = order.first * order.scale;
-      work.slab_parallax[p] = order.spacing;
+      picture.slabs = order.parts;
+      picture.first_parallax = order.first * order.scale;
+      picture.slab_parallax = order.spacing;
     }
+  }
+}
+
+std::size_t bytes_a_value(GpuWritten written) { return written == GpuWritten::light ? sizeof(float) : sum_bytes; }
+
+ListPrograms programs_for(Deposit deposit, bool opaque) {
+  if (opaque) return {place_opaque_source, gather_opaque_source, 1};
+  switch (deposit) {
+    case Deposit::mass:
+      return {place_mass_source, gather_mass_source};
+    case Deposit::mass_by_spline:
+      return {place_mass_spline_source, gather_mass_spline_source};
+    case Deposit::colours:
+      return {place_colours_source, gather_colours_source};
+    case Deposit::colours_by_spline:
+      return {place_colours_spline_source, gather_colours_spline_source};
+    default:
+      return {place_light_source, gather_light_source};
   }
 }
 
@@ -73,20 +100,21 @@ void set_pictures(const RenderJob& job, const GpuPictures& pictures, GpuTargets 
 
 SplatGatherer::SplatGatherer(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures,
                              GpuTargets targets, std::span<const ViewPosition> views,
-                             std::span<const TargetGroup> groups)
+                             std::span<const TargetGroup> groups, GpuWritten written)
     : pictures_(pictures),
       groups_(groups),
-      by_mass_(job.scene.splat_style.look == Look::mass),
-      opaque_(targets == GpuTargets::discs_in_views),
+      programs_(programs_for(deposit_of(job.scene.splat_style), targets == GpuTargets::discs_in_views)),
       most_entries_(std::min(facts.largest_buffer / entry_bytes, facts.most_texels / 2)),
+      most_by_one_(facts.imitated ? most_iterations * programs_.entries_at_once : most_entries_),
       splats_(GpuBuffer::of_any_bytes(most_gathered * entry_bytes)),
       reaches_(most_kinds * sizeof(float)) {
-  work_.targets = opaque_ ? GpuTargets::views : targets;
-  work_.by_mass = by_mass_;
+  work_.targets = targets == GpuTargets::discs_in_views ? GpuTargets::views : targets;
   work_.channels = pictures.channels;
-  work_.view = gpu_views(views);
+  for (std::size_t v = 0; v < views.size(); ++v) work_.views[v][0] = views[v] - central_view;
   set_pictures(job, pictures, targets, work_);
-  for (const TargetGroup& group : groups) sums_.emplace_back(group.values * sum_bytes);
+  work_.written = written;
+  for (const TargetGroup& group : groups)
+    sums_.push_back(GpuBuffer::of_any_bytes(group.values * bytes_a_value(written)));
   begun_.assign(groups.size(), std::vector<char>(pictures.size()));
 }
 
@@ -97,58 +125,97 @@ std::size_t SplatGatherer::number_lists() {
   int kinds = 0;
   int lists = 0;
   for (int kind = 0; kind < most_kinds; ++kind) {
-    work_.index_of[kind] = -1;
+    work_.kinds[kind].index = -1;
     if (reaches[kind] == 0) continue;
     const int picture = kind / kinds_a_picture;
-    work_.index_of[kind] = kinds;
-    work_.first_list[kinds] = lists;
-    work_.brightness[kinds] = kind % kinds_a_picture / splat_widths;
-    work_.reach[kinds] = reaches[kind];
-    lists += work_.slabs[picture] * work_.bands[picture] * work_.lists_a_band[picture];
+    work_.kinds[kind].index = kinds;
+    work_.kinds[kinds].first_list = lists;
+    work_.kinds[kinds].brightness = kind % kinds_a_picture / splat_widths;
+    work_.kinds[kinds].reach = reaches[kind];
+    lists += work_.pictures[picture].slabs * work_.pictures[picture].bands * work_.pictures[picture].lists_a_band;
     ++kinds;
   }
   return static_cast<std::size_t>(lists);
 }
 
-bool SplatGatherer::add(std::size_t count, bool all) {
+/// As many entries as one invocation may go through: those of a band, of all kinds, and of all slabs where views
+/// gather.
+std::size_t SplatGatherer::most_in_a_band(const GpuBuffer& begins, std::size_t in_lists) const {
+  std::vector<std::uint32_t> begin(begins.bytes() / sizeof(std::uint32_t));
+  begins.read(std::span(begin));
+  begin.push_back(static_cast<std::uint32_t>(in_lists));
+  const bool together = work_.targets == GpuTargets::views;
+  std::array<std::vector<std::size_t>, PictureTable::most> entries;
+  for (int kind = 0; kind < most_kinds; ++kind) {
+    if (work_.kinds[kind].index < 0) continue;
+    const ListWork::Picture& picture = work_.pictures[kind / kinds_a_picture];
+    std::vector<std::size_t>& of_picture = entries[kind / kinds_a_picture];
+    of_picture.resize(static_cast<std::size_t>(picture.bands) * (together ? 1 : picture.slabs));
+    std::size_t list = work_.kinds[work_.kinds[kind].index].first_list;
+    for (int i = 0; i < picture.slabs * picture.bands; ++i, list += picture.lists_a_band)
+      of_picture[i % of_picture.size()] += begin[list + picture.lists_a_band] - begin[list];
+  }
+  std::size_t most = 0;
+  for (const std::vector<std::size_t>& of_picture : entries)
+    for (const std::size_t count : of_picture) most = std::max(most, count);
+  return most;
+}
+
+bool SplatGatherer::add(std::size_t count) {
   const std::size_t lists = number_lists();
   reaches_.clear();
   if (lists == 0) return true;
   work_.splats = static_cast<std::int32_t>(count);
   const GpuBuffer of_work(std::span<const ListWork>(&work_, 1));
-  GpuBuffer ends(lists * sizeof(std::uint32_t));
+  GpuBuffer ends((lists + 3) / 4 * 4 * sizeof(std::uint32_t));
   kept_program(count_splats_source).run({groups_of(count, 64)}, {&of_work, &ends}, {&splats_});
   const std::size_t in_lists = begin_lists(ends);
   if (in_lists > most_entries_ && count > 1) return false;
+  if (in_lists > most_by_one_ && count > 1 && most_in_a_band(ends, in_lists) > most_by_one_) return false;
   const GpuBuffer entries = GpuBuffer::of_any_bytes((in_lists + 1) * entry_bytes);
-  kept_program(opaque_ ? place_opaque_source : place_splats_source)
-      .run({groups_of(count, 64)}, {&of_work, &ends, &entries}, {&splats_});
-  gather(ends, entries, all);
+  kept_program(programs_.place).run({groups_of(count, 64)}, {&of_work, &ends, &entries}, {&splats_});
+  gather(ends, entries);
   return true;
 }
 
-void SplatGatherer::gather(const GpuBuffer& ends, const GpuBuffer& entries, bool all) {
-  const GpuSource& of_mass = work_.channels == 3 ? gather_colours_source : gather_mass_source;
-  const GpuSource& source = opaque_ ? gather_opaque_source : by_mass_ ? of_mass : gather_light_source;
+void SplatGatherer::gather(const GpuBuffer& ends, const GpuBuffer& entries) {
+  const auto is_there = [](const ListWork::Kind& kind) { return kind.index >= 0; };
+  const GpuWritten written = work_.written;
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (std::size_t p = 0; p < pictures_.size(); ++p) {
-      const auto here = std::span(work_.index_of).subspan(p * kinds_a_picture, kinds_a_picture);
-      const auto kinds = static_cast<int>(std::ranges::count_if(here, [](int index) { return index >= 0; }));
+      const auto here = std::span(work_.kinds).subspan(p * kinds_a_picture, kinds_a_picture);
+      const auto kinds = static_cast<int>(std::ranges::count_if(here, is_there));
       const int targets = groups_[g].end[p] - groups_[g].first[p];
       if (kinds == 0 || targets == 0) continue;
-      work_.first_kind = *std::ranges::find_if(here, [](int index) { return index >= 0; });
+      work_.first_kind = std::ranges::find_if(here, is_there)->index;
       work_.end_kind = work_.first_kind + kinds;
       work_.picture = static_cast<std::int32_t>(p);
       work_.first_target = groups_[g].first[p];
       work_.end_target = groups_[g].end[p];
       work_.base = groups_[g].base[p];
-      work_.written = all ? GpuWritten::light : begun_[g][p] != 0 ? GpuWritten::more_sums : GpuWritten::sums;
+      work_.written = written == GpuWritten::sums && begun_[g][p] != 0 ? GpuWritten::more_sums : written;
       begun_[g][p] = 1;
       const GpuBuffer of_work(std::span<const ListWork>(&work_, 1));
-      kept_program(source).run({groups_of(work_.width[p], gathered_columns * group_side),
-                                groups_of(work_.bands[p], group_side), static_cast<std::uint32_t>(targets)},
-                               {&of_work, &ends, &sums_[g]}, {&entries});
+      const ListWork::Picture& picture = work_.pictures[p];
+      kept_program(programs_.gather)
+          .run({groups_of(picture.width, gathered_columns * group_side), groups_of(picture.bands, group_side),
+                static_cast<std::uint32_t>(targets)},
+               {&of_work, &ends, &sums_[g]}, {&entries, &ends});
     }
+  work_.written = written;
+}
+
+std::vector<GpuBuffer> SplatGatherer::gathered() && {
+  const std::size_t bytes = bytes_a_value(work_.written);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (std::size_t p = 0; p < pictures_.size(); ++p) {
+      const std::size_t values = pictures_.values(p);
+      const int targets = groups_[g].end[p] - groups_[g].first[p];
+      if (begun_[g][p] != 0 || targets == 0) continue;
+      const std::size_t first = groups_[g].base[p] + groups_[g].first[p] * values;
+      sums_[g].clear(first * bytes, targets * values * bytes);
+    }
+  return std::move(sums_);
 }
 
 }  // namespace wheatstone

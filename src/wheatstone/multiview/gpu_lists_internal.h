@@ -9,13 +9,14 @@
 
 #include "wheatstone/gpu/buffer.h"
 #include "wheatstone/gpu/gpu.h"
+#include "wheatstone/gpu/program.h"
 #include "wheatstone/gpu/views.h"
 #include "wheatstone/multiview/gpu_splats_internal.h"
 
 namespace wheatstone {
 
 /// Kinds of splats, as splat_kinds.glsl numbers them: by picture, brightness and width.
-constexpr int splat_widths = 3, splat_brightnesses = 7;
+constexpr int splat_widths = 3, splat_brightnesses = 8;
 constexpr int kinds_a_picture = splat_widths * splat_brightnesses;
 constexpr int most_kinds = PictureTable::most * kinds_a_picture;
 
@@ -27,42 +28,59 @@ constexpr std::size_t most_gathered = 1 << 20;
 struct ListWork {
   std::int32_t splats = 0;
   GpuTargets targets = GpuTargets::views;
-  std::int32_t by_mass = 0;
   std::int32_t picture = 0, first_target = 0, end_target = 0, base = 0;
   std::int32_t channels = 0, first_kind = 0, end_kind = 0;
   GpuWritten written = GpuWritten::sums;
-  std::array<std::int32_t, most_kinds> index_of{}, first_list{}, brightness{};
-  std::array<float, most_kinds> reach{};
-  std::array<std::int32_t, PictureTable::most> rows{}, bands{}, lists_a_band{}, slabs{}, left{}, width{};
-  std::array<float, PictureTable::most> lists_left{}, first_parallax{}, slab_parallax{};
-  std::array<float, most_gpu_views> view{};
+  std::array<std::int32_t, 2> unused{};
+  /// Of a kind its number among those that are there (-1: none), and of that number the rest.
+  struct Kind {
+    std::int32_t index = 0, first_list = 0, brightness = 0;
+    float reach = 0;
+  };
+  struct Picture {
+    std::int32_t rows = 0, bands = 0, lists_a_band = 0, slabs = 0;
+    std::int32_t left = 0, width = 0;
+    float lists_left = 0, first_parallax = 0;
+    float slab_parallax = 0;
+    std::array<std::int32_t, 3> unused{};
+  };
+  std::array<Kind, most_kinds> kinds{};
+  std::array<Picture, PictureTable::most> pictures{};
+  std::array<std::array<float, 4>, most_gpu_views> views{};
 };
 
-/// Adds splats to sums in fixed point, of 64 bits and with steps of 2^−28. Projected splats are sorted into lists once
-/// for all targets; then each invocation of a program owns a few pixels of one target, and gathers the lists that reach
-/// there. Made and used within on_gpu().
+/// What puts splats into lists, and what gathers these.
+struct ListPrograms {
+  const GpuSource &place, &gather;
+  std::size_t entries_at_once = 4;  ///< that an iteration of gathering takes
+};
+
+/// Adds splats to sums in fixed point, of 64 bits and with steps of 2^−28, or makes light of these at once. Projected
+/// splats are sorted into lists once for all targets; then each invocation of a program owns a few pixels of one
+/// target, and gathers the lists that reach there. Made and used within on_gpu().
 class SplatGatherer {
  public:
   SplatGatherer(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures, GpuTargets targets,
-                std::span<const ViewPosition> views, std::span<const TargetGroup> groups);
+                std::span<const ViewPosition> views, std::span<const TargetGroup> groups, GpuWritten written);
   /// Where project_splats.comp writes: splats, and how far the widest of each kind reaches.
   const GpuBuffer& splats() const { return splats_; }
   const GpuBuffer& reaches() const { return reaches_; }
-  /// Adds so many that were projected, or makes light of them where they are all there is. False where their lists do
-  /// not fit into a buffer.
-  bool add(std::size_t count, bool all);
+  /// Adds so many that were projected; where light is written, all there are. False where their lists do not fit into
+  /// a buffer.
+  bool add(std::size_t count);
   /// The sums or the light of each group.
-  std::vector<GpuBuffer> gathered() && { return std::move(sums_); }
+  std::vector<GpuBuffer> gathered() &&;
 
  private:
   std::size_t number_lists();
-  void gather(const GpuBuffer& ends, const GpuBuffer& entries, bool all);
+  std::size_t most_in_a_band(const GpuBuffer& begins, std::size_t in_lists) const;
+  void gather(const GpuBuffer& ends, const GpuBuffer& entries);
 
   const GpuPictures& pictures_;
   std::span<const TargetGroup> groups_;
-  bool by_mass_, opaque_;
+  ListPrograms programs_;
   ListWork work_;
-  std::size_t most_entries_;
+  std::size_t most_entries_, most_by_one_;
   GpuBuffer splats_, reaches_;
   std::vector<GpuBuffer> sums_;
   std::vector<std::vector<char>> begun_;  // [group][picture]

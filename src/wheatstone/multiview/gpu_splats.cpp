@@ -8,53 +8,52 @@
 
 #include "light_of_nearest_source.h"
 #include "light_of_sums_source.h"
-#include "project_splats_source.h"
+#include "project_look_source.h"
+#include "project_mass_source.h"
 #include "wheatstone/error.h"
 #include "wheatstone/gpu/program.h"
+#include "wheatstone/image/srgb.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/gpu_lists_internal.h"
 
 namespace wheatstone {
 namespace {
 
-/// What project_splats.comp reads of its work: numbers of four bytes, without gaps.
+/// What programs that project read of their work (splat_work.glsl): numbers of four bytes, in groups of four.
 struct SplatWork {
   std::int32_t particles = 0, pictures = 0;
-  std::array<std::int32_t, 9> column{};
-  std::int32_t by_mass = 0, second_is_quantity = 0, own_colours = 0, logarithmic = 0, from_density = 0;
+  std::int32_t second_is_quantity = 0, own_colours = 0, logarithmic = 0, from_density = 0;
   std::int32_t by_length = 0, by_rank = 0, larger_if_denser = 0;
-  std::array<float, 3> camera{}, right{}, down{}, forward{};
-  float focal_px = 0, centre_x_px = 0, centre_y_px = 0, nearest_depth = 0, orthographic_nearness = 0;
   float first_w = 0, entries_per_w = 0;
-  float mean_mass = 1, radius_factor = 0, fixed_radius = 0, quantity_scale = 1, log2_density_middle = 0, slope = 0,
-        opacity = 0, least_opacity = 0;
-  float smallest_px = 0, largest_px = 0, largest_mass_px = 0, size_depth = 0, palette_first = 0, palette_scale = 0;
-  std::array<float, PictureTable::most> widest{}, scale{}, pad{};
-  std::array<float, ParallaxTable::size> parallax{}, parallax_step{};
-  std::array<float, SplatStyle::palette_size> red{}, green{}, blue{};
+  float diameters = 0, spread = 0;
+  float orthographic_nearness = 0, mean_mass = 1, radius_factor = 0, fixed_radius = 0, quantity_scale = 1,
+        log2_density_middle = 0, slope = 0;
+  float opacity = 0, least_opacity = 0, smallest_px = 0, largest_px = 0, largest_mass_px = 0, size_depth = 0,
+        palette_first = 0, palette_scale = 0;
+  std::array<float, 4> camera{}, right{}, down{}, forward{};
+  std::array<std::int32_t, 12> column{};
+  std::array<std::array<float, 4>, PictureTable::most> fits{};
 };
-static_assert(sizeof(SplatWork) % 4 == 0);
+static_assert(sizeof(SplatWork) == 4 * 28 + 16 * (4 + 3 + PictureTable::most));
+
+/// Three numbers and a fourth.
+std::array<float, 4> four(const std::array<float, 3>& three, float fourth) {
+  return {three[0], three[1], three[2], fourth};
+}
 
 void set_camera(const Projection& projection, SplatWork& work) {
   const Camera& camera = projection.camera;
-  work.camera = camera.position;
-  work.right = camera.right;
-  work.down = camera.down;
-  work.forward = camera.forward;
-  work.focal_px = camera.focal_px;
-  work.centre_x_px = camera.centre_x_px;
-  work.centre_y_px = camera.centre_y_px;
-  work.nearest_depth = camera.nearest_depth;
+  work.camera = four(camera.position, camera.focal_px);
+  work.right = four(camera.right, camera.centre_x_px);
+  work.down = four(camera.down, camera.centre_y_px);
+  work.forward = four(camera.forward, camera.nearest_depth);
   work.orthographic_nearness = camera.orthographic_depth > 0 ? 1 / camera.orthographic_depth : 0;
   work.first_w = projection.table.first_w;
   work.entries_per_w = projection.table.entries_per_w;
-  std::ranges::copy(projection.table.value, work.parallax.begin());
-  std::ranges::copy(projection.table.step, work.parallax_step.begin());
 }
 
 void set_style(const Projection& projection, SplatWork& work) {
   const SplatStyle& style = projection.splat_style;
-  work.by_mass = style.look == Look::mass;
   work.second_is_quantity = style.colour_source == ColourSource::quantity;
   work.own_colours = style.colour_source == ColourSource::own;
   work.logarithmic = style.logarithmic;
@@ -73,9 +72,8 @@ void set_style(const Projection& projection, SplatWork& work) {
   work.size_depth = style.size_depth;
   work.palette_first = style.palette_first;
   work.palette_scale = style.palette_scale;
-  work.red = style.red;
-  work.green = style.green;
-  work.blue = style.blue;
+  work.diameters = mass_diameters(style.kernel) * deviations_a_radius;
+  work.spread = 0.2f * mass_diameters(style.kernel) * mass_diameters(style.kernel);
 }
 
 /// The rules of sizes that depend on which columns a cloud has.
@@ -117,7 +115,7 @@ void copy_columns(const Cloud& cloud, ParticleRange range, const SplatStyle& sty
   }
   if (style.colour_source == ColourSource::own) {
     const std::vector<std::uint32_t> packed = packed_colours(cloud, range);
-    work.column.back() = static_cast<std::int32_t>(next);
+    work.column[columns.size()] = static_cast<std::int32_t>(next);
     buffer.write(std::span(packed), next * sizeof(float));
   }
   work.particles = static_cast<std::int32_t>(range.count);
@@ -127,9 +125,18 @@ void copy_columns(const Cloud& cloud, ParticleRange range, const SplatStyle& sty
 void set_pictures(const SplatOrders& orders, SplatWork& work) {
   work.pictures = static_cast<std::int32_t>(orders.size());
   const PictureTable table(orders);
-  std::copy_n(table.widest.begin(), PictureTable::most, work.widest.begin());
-  std::copy_n(table.scale.begin(), PictureTable::most, work.scale.begin());
-  std::copy_n(table.pad.begin(), PictureTable::most, work.pad.begin());
+  for (std::size_t p = 0; p < PictureTable::most; ++p) work.fits[p] = {table.widest[p], table.scale[p], table.pad[p]};
+}
+
+/// What programs that project look up: the parallaxes, the palette, and the light of encoded bytes.
+GpuBuffer projection_tables(const Projection& projection) {
+  std::vector<std::array<float, 4>> tables;
+  for (std::size_t i = 0; i < projection.table.value.size(); ++i)
+    tables.push_back({projection.table.value[i], projection.table.step[i]});
+  const SplatStyle& style = projection.splat_style;
+  for (std::size_t i = 0; i < SplatStyle::palette_size; ++i)
+    tables.push_back({style.red[i], style.green[i], style.blue[i], linear_from_srgb(static_cast<std::uint8_t>(i))});
+  return GpuBuffer(std::span<const std::array<float, 4>>(tables));
 }
 
 /// Groups of 64 invocations in rows that no driver finds too long.
@@ -189,40 +196,74 @@ std::vector<TargetGroup> groups_of_targets(const GpuPictures& pictures, std::siz
   return groups;
 }
 
-std::vector<GpuBuffer> light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures,
-                                    GpuTargets targets, std::span<const ViewPosition> views,
-                                    std::span<const TargetGroup> groups) {
-  const Projection projection = projection_for(job, pictures.orders);
-  SplatWork work;
-  set_camera(projection, work);
-  set_style(projection, work);
-  set_pictures(pictures.orders, work);
-  SplatGatherer gatherer(job, facts, pictures, targets, views, groups);
-  bool at_once = false;
-  GpuBuffer columns = GpuBuffer::of_any_bytes(work.column.size() * most_gathered * sizeof(float));
-  const auto add = [&](const Cloud& cloud, ParticleRange range) {
-    copy_columns(cloud, range, job.scene.splat_style, columns, work);
-    const GpuBuffer of_work(std::span<const SplatWork>(&work, 1));
-    kept_program(project_splats_source)
-        .run({groups_of(range.count, 64)}, {&of_work, &columns, &gatherer.splats(), &gatherer.reaches()});
-    at_once = range.count == job.statistics.count;
-    return gatherer.add(range.count, at_once);
-  };
+namespace {
+
+/// Projects particles and gathers them.
+class ParticleGatherer {
+ public:
+  ParticleGatherer(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures, GpuTargets targets,
+                   std::span<const ViewPosition> views, std::span<const TargetGroup> groups, GpuWritten written)
+      : job_(job),
+        projecting_(job.scene.splat_style.look == Look::mass ? project_mass_source : project_look_source),
+        tables_(projection_tables(projection_for(job, pictures.orders))),
+        columns_(GpuBuffer::of_any_bytes(work_.column.size() * most_gathered * sizeof(float))),
+        gatherer_(job, facts, pictures, targets, views, groups, written) {
+    const Projection projection = projection_for(job, pictures.orders);
+    set_camera(projection, work_);
+    set_style(projection, work_);
+    set_pictures(pictures.orders, work_);
+  }
+
+  /// False where their lists do not fit into a buffer.
+  bool add(const Cloud& cloud, ParticleRange range) {
+    copy_columns(cloud, range, job_.scene.splat_style, columns_, work_);
+    const GpuBuffer of_work(std::span<const SplatWork>(&work_, 1));
+    kept_program(projecting_)
+        .run({groups_of(range.count, 64)}, {&of_work, &columns_, &gatherer_.splats(), &gatherer_.reaches()},
+             {&tables_});
+    return gatherer_.add(range.count);
+  }
+  std::vector<GpuBuffer> gathered() && { return std::move(gatherer_).gathered(); }
+
+ private:
+  const RenderJob& job_;
+  const GpuSource& projecting_;
+  SplatWork work_;
+  GpuBuffer tables_, columns_;
+  SplatGatherer gatherer_;
+};
+
+}  // namespace
+
+LightOnGpu light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures, GpuTargets targets,
+                        std::span<const ViewPosition> views) {
+  // Light that is gathered all at once needs no sums.
+  if (job.statistics.count <= most_gathered) {
+    LightOnGpu at_once{groups_of_targets(pictures, facts.largest_buffer / sizeof(float)), {}};
+    ParticleGatherer gatherer(job, facts, pictures, targets, views, at_once.groups, GpuWritten::light);
+    bool all = false;
+    job.chunks([&](const Cloud& cloud) {
+      if (cloud.size() == job.statistics.count) all = gatherer.add(cloud, {0, cloud.size()});
+    });
+    if (all) {
+      at_once.light = std::move(gatherer).gathered();
+      return at_once;
+    }
+  }
+  LightOnGpu light{groups_of_targets(pictures, facts.largest_buffer / sum_bytes), {}};
+  ParticleGatherer gatherer(job, facts, pictures, targets, views, light.groups, GpuWritten::sums);
   job.chunks([&](const Cloud& cloud) {
     std::size_t most = most_gathered;
     for (std::size_t first = 0; first < cloud.size();) {
       const ParticleRange range{first, std::min(most, cloud.size() - first)};
-      if (add(cloud, range)) {
+      if (gatherer.add(cloud, range)) {
         first += range.count;
       } else {
         most = (range.count + 1) / 2;  // wide splats stand in many lists
       }
     }
   });
-  std::vector<GpuBuffer> gathered = std::move(gatherer).gathered();
-  if (at_once) return gathered;
-  std::vector<GpuBuffer> light;
-  for (const GpuBuffer& sums : gathered) light.push_back(light_of(sums, targets));
+  for (const GpuBuffer& sums : std::move(gatherer).gathered()) light.light.push_back(light_of(sums, targets));
   return light;
 }
 

@@ -47,14 +47,17 @@ struct TargetGroup {
 /// Error{wrong_usage} where one target has more.
 std::vector<TargetGroup> groups_of_targets(const GpuPictures& pictures, std::size_t most_values);
 
-/// Words of a sum in fixed point.
-constexpr std::size_t words_a_sum = 2;
-constexpr std::size_t sum_bytes = words_a_sum * sizeof(std::uint32_t);
+/// A sum in fixed point is two words.
+constexpr std::size_t sum_bytes = 2 * sizeof(std::uint32_t);
 
-/// Adds every particle to the targets of all groups: copied, projected and lit once. Returns the light of each group.
-/// Within on_gpu().
-std::vector<GpuBuffer> light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures,
-                                    GpuTargets targets, std::span<const ViewPosition> views,
-                                    std::span<const TargetGroup> groups);
+/// The light of all targets, and which of the groups' buffers hold it.
+struct LightOnGpu {
+  std::vector<TargetGroup> groups;
+  std::vector<GpuBuffer> light;  ///< [group]
+};
+
+/// Adds every particle to all targets: copied, projected and lit once. Within on_gpu().
+LightOnGpu light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures, GpuTargets targets,
+                        std::span<const ViewPosition> views);
 
 }  // namespace wheatstone

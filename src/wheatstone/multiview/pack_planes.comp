@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 // As struct PackWork in gpu_finish_internal.h has them.
-layout(std430, binding = 0) readonly buffer Work {
+layout(std140, binding = 0) uniform Work {
   int channels, width, rows;
   int texels_a_row;
   int first_value, first_texel;

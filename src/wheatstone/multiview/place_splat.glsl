@@ -22,15 +22,15 @@ bool lists_of(uint i, out InLists splat) {
   splat.light = uintBitsToFloat(texelFetch(splats_of, int(2 * i + 1)));
   uint kind = floatBitsToUint(splat.light.w);
   if (kind == no_kind) return false;
-  splat.index = index_of[kind];
+  splat.index = kinds[kind].index;
   int p = int(kind) / kinds_a_picture;
   splat.picture = p;
   float reach = reach_in_lists(splat.at.w);
   int top = max(int(ceil(splat.at.y - reach - 0.5)), 0);
-  int bottom = min(int(floor(splat.at.y + reach - 0.5)), rows[p] - 1);
+  int bottom = min(int(floor(splat.at.y + reach - 0.5)), pictures[p].rows - 1);
   splat.first_band = top / band_rows;
   splat.end_band = top > bottom ? splat.first_band : bottom / band_rows + 1;
-  float at = clamp((splat.at.z - first_parallax[p]) / slab_parallax[p], 0.0, float(slabs[p] - 1));
+  float at = clamp((splat.at.z - pictures[p].first_parallax) / pictures[p].slab_parallax, 0.0, float(pictures[p].slabs - 1));
   splat.rest = targets == between_planes ? fract(at) : 0;
   bool two = splat.rest > 0.25 && splat.rest < 0.75;
   splat.first_slab = int(targets == into_views || two ? floor(at) : roundEven(at));
@@ -49,5 +49,6 @@ ivec2 band_and_slab(InLists splat, int number) {
 }
 
 int list_of(InLists splat, ivec2 at) {
-  return first_list_of(splat.index, splat.picture, at.y, at.x) + list_at(splat.picture, splat.at.x);
+  Picture here = pictures[splat.picture];
+  return kinds[splat.index].first_list + (at.y * here.bands + at.x) * here.lists_a_band + list_at(here, splat.at.x);
 }

@@ -79,8 +79,6 @@ void check_gpu_can(const Scene& scene, const RenderOptions& options) {
   if (scene.splat_style.blend == Blend::over)
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --blend over, expected --device cpu");
   if (options.focus) throw Error(ErrorKind::wrong_usage, "--device gpu does not render --focus, expected --device cpu");
-  if (scene.splat_style.look == Look::mass && scene.splat_style.kernel != Kernel::gaussian)
-    throw Error(ErrorKind::wrong_usage, "--device gpu does not render --kernel cubic-spline, expected --device cpu");
   if (scene.shine.lit())
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --shine, expected --device cpu");
   if (!options.ranks.alone())

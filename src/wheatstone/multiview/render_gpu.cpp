@@ -53,11 +53,10 @@ void render_incremental_on_gpu(const RenderJob& job, bool opaque, std::span<cons
     const GpuTargets targets = opaque ? GpuTargets::discs_in_views : GpuTargets::views;
     for_some_views(job, pictures, views_that_fit(sizes, sum_bytes, facts.largest_buffer), [&](const SomeViews& views) {
       std::ranges::fill(sizes.targets, static_cast<int>(views.positions.size()));
-      const std::vector<TargetGroup> groups = groups_of_targets(sizes, facts.largest_buffer / sum_bytes);
-      const std::vector<GpuBuffer> light = light_on_gpu(job, facts, sizes, targets, views.positions, groups);
+      const LightOnGpu gathered = light_on_gpu(job, facts, sizes, targets, views.positions);
       const auto light_of = [&](std::size_t p) {
-        const std::size_t g = group_of(groups, p);
-        return GpuLight{&light[g], groups[g].base[p]};
+        const std::size_t g = group_of(gathered.groups, p);
+        return GpuLight{&gathered.light[g], gathered.groups[g].base[p]};
       };
       finish_on_gpu(sizes, job.tone, light_of, views.pictures);
     });
@@ -70,10 +69,8 @@ void render_layered_on_gpu(const RenderJob& job, const DepthPlanes& planes, Slic
     const SplatOrders orders = orders_by_plane(job, planes, filter);
     const GpuPictures sizes = pictures_of_views(job, orders);
     const GpuPictures of_planes = gpu_pictures(orders, window_around(job.scene, job.rig), sizes.channels);
-    const std::vector<TargetGroup> groups = groups_of_targets(of_planes, facts.largest_buffer / sum_bytes);
     const GpuTargets targets = filter == SliceFilter::centroid ? GpuTargets::between_planes : GpuTargets::nearest_plane;
-    const GpuCompositor compositor(of_planes, groups, light_on_gpu(job, facts, of_planes, targets, {}, groups),
-                                   resampling_of(filter));
+    const GpuCompositor compositor(of_planes, light_on_gpu(job, facts, of_planes, targets, {}), resampling_of(filter));
     for_some_views(job, pictures, views_that_fit(sizes, sizeof(float), facts.largest_buffer),
                    [&](const SomeViews& views) {
                      std::optional<GpuBuffer> composited;

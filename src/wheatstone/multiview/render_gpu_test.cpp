@@ -112,6 +112,49 @@ TEST_F(RenderGpu, CountsTheFaintBesideTheBright) {
   }
 }
 
+TEST_F(RenderGpu, CountsTheFaintBesideSumsThatOneWordDoesNotHold) {
+  // Twenty overlap in the middle, which sums to 2^32 of a mean particle's light, of the 2^35 that two words hold; the
+  // faint ones lie there, over its rim, and beside it.
+  Cloud cloud = kernels(1000);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const bool bright = i % 50 == 1;
+    cloud.x[i] = bright ? 0.02f * cloud.x[i] : cloud.x[i];
+    cloud.y[i] = bright ? 0.02f * cloud.y[i] : cloud.y[i];
+    cloud.mass[i] = bright ? std::exp2(30.f) : 1.f;
+    cloud.smoothing_length[i] = 0.1f;
+  }
+  Case mass(cloud);
+  mass.stage.scene.splat_style.mean_mass = 1;
+  for (const float most : {10.f, std::exp2(32.f)}) {
+    mass.options.tone = {.least = 0, .most = most};
+    EXPECT_GT(worst_psnr(mass.views(Device::graphics), mass.views(Device::processor)), 55);
+  }
+}
+
+TEST_F(RenderGpu, GathersAllOfWhatLiesInOnePlace) {
+  // More than the iterations of a driver's loops.
+  const Cloud one = kernels(1);
+  Cloud cloud;
+  for_each_column(cloud, one, [](auto& to, const auto& from) {
+    if (!from.empty()) to.assign(280'000, from[0]);
+  });
+  Case mass(cloud);
+  mass.options.tone = {.least = 0, .most = 280'000};
+  EXPECT_GT(worst_psnr(mass.views(Device::graphics), mass.views(Device::processor)), 55);
+}
+
+TEST_F(RenderGpu, SpreadsMassByTheCubicSplineAsTheProcessorDoes) {
+  Cloud coloured = kernels(1000);
+  for (std::size_t i = 0; i < coloured.size(); ++i)
+    coloured.colour.push_back({static_cast<std::uint8_t>(i % 256), 120, static_cast<std::uint8_t>(i / 16 % 256)});
+  for (const Cloud& cloud : {kernels(1000), coloured}) {
+    Case spline(cloud, {.kernel = Kernel::cubic_spline});
+    const std::vector<Image<Rgb8>> found = spline.views(Device::graphics);
+    EXPECT_GT(worst_psnr(found, spline.views(Device::processor)), 55);
+    EXPECT_LT(worst_psnr(found, Case(cloud).views(Device::processor)), 52);
+  }
+}
+
 TEST_F(RenderGpu, CompositesDepthPlanesAsTheProcessorDoes) {
   for (const SliceFilter filter : {SliceFilter::nearest, SliceFilter::linear, SliceFilter::centroid}) {
     Case mass(kernels(1000));

@@ -87,8 +87,9 @@ void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter
                     std::span<const ImageView<Rgb8>> pictures);
 
 /// On a graphics processor, in fixed point (splat_kinds.glsl): sums are of 64 bits, with steps of 2^−28 of a mean
-/// particle's light, up to 2^35 of it. A splat's light is counted in steps of 2^−27 of itself or less, of mass in those
-/// of the sums where it is up to 2^23. Throw Error{wrong_usage} where there is no graphics processor.
+/// particle's light, up to 2^35 of it. A splat's light is counted in such steps, or in 2^−16 of itself where that is
+/// more; of mass what is left is counted, too, in steps of the sums where the light is up to 2^12. Throw
+/// Error{wrong_usage} where there is no graphics processor.
 void render_incremental_on_gpu(const RenderJob& job, bool opaque, std::span<const ImageView<Rgb8>> pictures);
 void render_layered_on_gpu(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                            std::span<const ImageView<Rgb8>> pictures);

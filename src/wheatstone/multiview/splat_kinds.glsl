@@ -3,16 +3,16 @@
 
 const uint no_kind = 0xffffffffu;
 const int widths = 3;
-const int brightnesses = 7;
+const int brightnesses = 8;
 const int kinds_a_picture = widths * brightnesses;
 const int most_kinds = 9 * kinds_a_picture;
 
-// The darkest splats' light is counted in steps of 2^-28, up to 2^27 of them, so that eight splats fit in a word. Of
-// brighter ones a step is 2^6 times as large, and so on, up to a light of 2^35.
+// The darkest splats' light is counted in steps of 2^-28, as sums are, up to 2^22 of them, so that 256 splats fit in a
+// word. Of brighter ones a step is 2^6 times as large, and so on, up to a light of 2^36.
 const int least_step_exponent = -28;
-const int steps_a_splat_exponent = 27;
+const int steps_a_splat_exponent = 22;
 const int bits_a_brightness = 6;
-const uint splats_at_once = 8;
+const uint splats_at_once = 256;
 
 float reach_of(float size) { return size / 2 + 0.5; }
 

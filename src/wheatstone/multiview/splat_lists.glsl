@@ -5,37 +5,39 @@
 #include "wheatstone/multiview/splat_kinds.glsl"
 
 const int band_rows = 2;
-const int list_columns = 4;
+const int list_columns = 2;
 const int most_pictures = 9;
 
 const int into_views = 0, into_nearest_plane = 1, between_planes = 2;
 const int writes_sums = 0, adds_sums = 1, writes_light = 2;
 
-// As struct ListWork in gpu_splats_internal.h has them.
-layout(std430, binding = 0) readonly buffer Work {
+// Of a kind: its number among those that are there (-1: none). And of this number: its first list, brightness, and
+// largest reach.
+struct Kind {
+  int index, first_list, brightness;
+  float reach;
+};
+
+struct Picture {
+  int rows, bands, lists_a_band, slabs;
+  int left, width;
+  float lists_left, first_parallax;
+  float slab_parallax;
+};
+
+// As struct ListWork in gpu_lists_internal.h has them.
+layout(std140, binding = 0) uniform Work {
   int splats;   // how many are put into lists
   int targets;  // one of the three ways above
-  int by_mass;
   // What is gathered: targets of a picture, from kinds that are there.
   int picture, first_target, end_target, base;
   int channels, first_kind, end_kind;
   int written;  // what: sums, what is added to sums, or light
-  int index_of[most_kinds];    // of a kind among those that are there; -1: none
-  int first_list[most_kinds];  // by this index, as what follows
-  int brightness[most_kinds];
-  float reach[most_kinds];  // the largest
-  // Of each picture.
-  int rows[most_pictures], bands[most_pictures], lists_a_band[most_pictures], slabs[most_pictures];
-  int left[most_pictures], width[most_pictures];
-  float lists_left[most_pictures];
-  float first_parallax[most_pictures], slab_parallax[most_pictures];
-  float view[most_views];
+  Kind kinds[most_kinds];
+  Picture pictures[most_pictures];
+  vec4 views[most_views];  // the first number of each
 };
 
-int list_at(int p, float x) {
-  return clamp(int(floor((x - lists_left[p]) * (1.0 / list_columns))), 0, lists_a_band[p] - 1);
-}
-
-int first_list_of(int index, int p, int slab, int band) {
-  return first_list[index] + (slab * bands[p] + band) * lists_a_band[p];
+int list_at(Picture here, float x) {
+  return clamp(int(floor((x - here.lists_left) * (1.0 / list_columns))), 0, here.lists_a_band - 1);
 }

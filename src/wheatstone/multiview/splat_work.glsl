@@ -1,31 +1,33 @@
 // What programs that project particles are given, and a particle as the central view has it. The twin of
 // project_simd.cpp.
 
-#include "wheatstone/gpu/views.glsl"
+#define OF_LOOK 0
+#define OF_MASS 1
 
 const int most_pictures = 9;
 const int parallax_entries = 1024;
 const int palette_entries = 256;
 
 // As struct SplatWork in gpu_splats_internal.h has them.
-layout(std430, binding = 0) readonly buffer Work {
+layout(std140, binding = 0) uniform Work {
   int particles, pictures;
-  int column[9];  // where x, y, z, density, second, smoothing length, mass, presence, colour begin; -1: absent
-  int by_mass, second_is_quantity, own_colours, logarithmic, from_density;
+  int second_is_quantity, own_colours, logarithmic, from_density;
   int by_length, by_rank, larger_if_denser;
-  float camera[3], right[3], down[3], forward[3];
-  float focal_px, centre_x_px, centre_y_px, nearest_depth, orthographic_nearness;
   float first_w, entries_per_w;
-  float mean_mass, radius_factor, fixed_radius, quantity_scale, log2_density_middle, slope, opacity, least_opacity;
-  float smallest_px, largest_px, largest_mass_px, size_depth, palette_first, palette_scale;
-  float widest[most_pictures], scale[most_pictures], pad[most_pictures];
-  float parallax[parallax_entries], parallax_step[parallax_entries];
-  float red[palette_entries], green[palette_entries], blue[palette_entries];
+  float diameters, spread;  // of a splat of mass its size over its radius; by what enlarging a picture spreads it
+  float orthographic_nearness, mean_mass, radius_factor, fixed_radius, quantity_scale, log2_density_middle, slope;
+  float opacity, least_opacity, smallest_px, largest_px, largest_mass_px, size_depth, palette_first, palette_scale;
+  vec4 camera, right, down, forward;  // and focal length, centre x, centre y, nearest depth
+  ivec4 columns_of[3];  // where x, y, z, density, second, smoothing length, mass, presence, colour begin; -1: absent
+  vec4 fits[most_pictures];  // widest splat, scale, pad
 };
 layout(std430, binding = 1) readonly buffer Columns { float columns[]; };
+// Parallaxes and from each to the next; then the palette's colours, and the light of each encoded byte.
+layout(binding = 0) uniform usamplerBuffer tables;
 
-float column_of(int which, uint particle) { return columns[column[which] + int(particle)]; }
-bool has(int which) { return column[which] >= 0; }
+int column(int which) { return columns_of[which >> 2][which & 3]; }
+float column_of(int which, uint particle) { return columns[column(which) + int(particle)]; }
+bool has(int which) { return column(which) >= 0; }
 
 struct Splat {
   float x, y, parallax, size;
@@ -47,15 +49,13 @@ float size_of(uint i, float log2_density, float nearness) {
   } else if (from_density != 0) {
     radius = radius_factor * exp2(-log2_density / 3);
   }
-  // Of mass: 5.5 deviations of the cubic spline kernel, each .27386 radii.
-  float diameters = by_mass != 0 ? 5.5 * 0.27386 : 2.0;
-  return min(max(radius * diameters * focal_px * nearness, smallest_px), by_mass != 0 ? largest_mass_px : largest_px);
+  return KIND_OF_LIGHT == OF_MASS ? clamp(radius * diameters * camera.w * nearness, smallest_px, largest_mass_px)
+                                  : clamp(radius * 2 * camera.w * nearness, smallest_px, largest_px);
 }
 
-float linear_of(uint byte) {
-  float encoded = float(byte) / 255;
-  return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-}
+vec4 table_entry(int entry) { return uintBitsToFloat(texelFetch(tables, entry)); }
+
+float linear_of(uint byte) { return table_entry(parallax_entries + int(byte)).a; }
 
 vec3 own_colour(uint i) {
   uint code = floatBitsToUint(column_of(8, i));
@@ -84,36 +84,39 @@ vec3 light_of_look(uint i, float log2_density, float size) {
   float shown = mix(least_opacity, opacity, sigmoid(log2_density)) * variance / (variance + 1.0 / 12);
   if (has(7)) shown *= column_of(7, i);
   if (own_colours != 0) return shown * own_colour(i);
-  int entry = int(roundEven(palette_entry(i, log2_density)));
-  return shown * vec3(red[entry], green[entry], blue[entry]);
+  return shown * table_entry(parallax_entries + int(roundEven(palette_entry(i, log2_density)))).rgb;
 }
 
 // Moves a splat that is too wide to the smaller picture that fits, and dims it as its pixels are larger.
 void choose_picture(inout Splat splat) {
   splat.picture = 0;
-  for (int p = 0; p + 1 < pictures; ++p) splat.picture += int(splat.size > widest[p]);
+  if (KIND_OF_LIGHT != OF_MASS) return;
+  for (int p = 0; p + 1 < pictures; ++p) splat.picture += int(splat.size > fits[p].x);
   if (splat.picture == 0) return;
-  float s = scale[splat.picture];
-  splat.x = splat.x * s + pad[splat.picture];
-  splat.y = splat.y * s + pad[splat.picture];
+  vec4 fit = fits[splat.picture];
+  float s = fit.y;
+  splat.x = splat.x * s + fit.z;
+  splat.y = splat.y * s + fit.z;
   splat.parallax *= s;
   splat.light *= s * s;
-  splat.size = sqrt(splat.size * splat.size * s * s - 0.2 * 5.5 * 5.5);
+  splat.size = sqrt(splat.size * splat.size * s * s - spread);
 }
 
 // False where the camera does not see it.
 bool project(uint i, out Splat splat) {
-  vec3 at = vec3(column_of(0, i) - camera[0], column_of(1, i) - camera[1], column_of(2, i) - camera[2]);
-  float depth = dot(at, vec3(forward[0], forward[1], forward[2]));
-  if (!(depth > nearest_depth)) return false;
+  vec3 at = vec3(column_of(0, i), column_of(1, i), column_of(2, i)) - camera.xyz;
+  float depth = dot(at, forward.xyz);
+  if (!(depth > forward.w)) return false;
   float nearness = orthographic_nearness > 0 ? orthographic_nearness : 1 / depth;
-  splat.x = dot(at, vec3(right[0], right[1], right[2])) * nearness * focal_px + centre_x_px;
-  splat.y = dot(at, vec3(down[0], down[1], down[2])) * nearness * focal_px + centre_y_px;
+  splat.x = dot(at, right.xyz) * nearness * camera.w + right.w;
+  splat.y = dot(at, down.xyz) * nearness * camera.w + down.w;
   float entry = clamp((1 / depth - first_w) * entries_per_w, 0.0, float(parallax_entries - 1));
-  splat.parallax = parallax[int(entry)] + fract(entry) * parallax_step[int(entry)];
+  vec4 of_table = table_entry(int(entry));
+  splat.parallax = of_table.x + fract(entry) * of_table.y;
   float log2_density = has(3) ? log2(max(column_of(3, i), 1.17549435e-38)) : 0;
   splat.size = size_of(i, log2_density, nearness);
-  splat.light = by_mass != 0 ? light_of_mass(i, log2_density, nearness) : light_of_look(i, log2_density, splat.size);
+  splat.light = KIND_OF_LIGHT == OF_MASS ? light_of_mass(i, log2_density, nearness)
+                                         : light_of_look(i, log2_density, splat.size);
   choose_picture(splat);
   return true;
 }

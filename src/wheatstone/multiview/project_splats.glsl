@@ -1,6 +1,4 @@
-#version 450
-
-// One particle: it is projected and lit once, and told what kind of splat it is.
+// One particle of KIND_OF_LIGHT: it is projected and lit once, and told what kind of splat it is.
 
 layout(local_size_x = 64) in;
 

@@ -1,11 +1,9 @@
-#version 450
-
 // One splat is written into every list that it belongs to, in the steps that its light is counted in.
 
 #include "wheatstone/multiview/place_splat.glsl"
 #include "wheatstone/multiview/splat_weights.glsl"
 
-// Its place, parallax, sharpness and reach; its light, and the weights of the band's rows: two floats, or packed where
+// Its place, parallax, scale and reach; its light, and the weights of the band's rows: two floats, or packed where
 // light has three channels.
 layout(std430, binding = 2) writeonly buffer Entries { vec4 entries[]; };
 
@@ -13,18 +11,17 @@ void main() {
   InLists splat;
   if (!lists_of(gl_GlobalInvocationID.x, splat)) return;
   float reach = reach_of(splat.at.w);
-  float sharpness = sharpness_of(splat.at.w, by_mass != 0);
-  float steps = exp2(float(-least_step_exponent - bits_a_brightness * brightness[splat.index]));
+  float scale = scale_of(splat.at.w);
+  float steps = exp2(float(-least_step_exponent - bits_a_brightness * kinds[splat.index].brightness));
   vec3 light = clamp(splat.light.rgb * steps, -exp2(float(steps_a_splat_exponent)), exp2(float(steps_a_splat_exponent)));
   int lists = lists_in_all(splat);
   for (int n = 0; n < lists; ++n) {
     ivec2 at = band_and_slab(splat, n);
-    vec4 away = float(at.x * band_rows) + vec4(0.5, 1.5, 0, 0) - splat.at.y;
-    vec4 weights = weights_at(away, reach, sharpness, by_mass != 0);
+    vec2 weights = weights_from(float(at.x * band_rows) + 0.5 - splat.at.y, reach, scale).xy;
     uint entry = atomicAdd(ends[list_of(splat, at)], 1u);
     float share = at.y > splat.first_slab ? splat.rest : 1 - splat.rest;
-    entries[2 * entry] = vec4(splat.at.x, splat.at.z, sharpness, reach);
-    entries[2 * entry + 1] = channels == 2 ? vec4(light.rg * share, weights.xy)
-                                           : vec4(light * share, uintBitsToFloat(packUnorm2x16(weights.xy)));
+    entries[2 * entry] = vec4(splat.at.x, splat.at.z, scale, reach);
+    entries[2 * entry + 1] = CHANNELS == 2 ? vec4(light.rg * share, weights)
+                                           : vec4(light * share, uintBitsToFloat(packUnorm2x16(weights)));
   }
 }
