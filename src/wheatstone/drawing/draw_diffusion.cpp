@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -172,13 +173,17 @@ void settle(const Image<Known>& lines, int rounds, Image<Known>& colours) {
         for (int x = (y + half) % 2; x < width; x += 2) {
           const Known& line = held[x];
           if (line.weight >= 1) continue;
-          Known& pixel = here[x];
-          const Known &left = here[std::max(x - 1, 0)], &right = here[std::min(x + 1, width - 1)];
-          for (std::size_t c = 0; c < 3; ++c) {
-            const float mean = (above[x].colour[c] + below[x].colour[c] + left.colour[c] + right.colour[c]) / 4;
-            const float wanted = mean + line.weight * (line.colour[c] - mean);
-            pixel.colour[c] += over_relaxation * (wanted - pixel.colour[c]);
+          // All four numbers of a pixel alike, the weight too, which nobody reads of `colours`: one vector.
+          const auto numbers = [](const Known& known) { return std::bit_cast<std::array<float, 4>>(known); };
+          const auto left = numbers(here[std::max(x - 1, 0)]), right = numbers(here[std::min(x + 1, width - 1)]);
+          const auto over = numbers(above[x]), under = numbers(below[x]), own = numbers(line);
+          auto pixel = numbers(here[x]);
+          for (std::size_t c = 0; c < 4; ++c) {
+            const float mean = (over[c] + under[c] + left[c] + right[c]) / 4;
+            const float wanted = mean + line.weight * (own[c] - mean);
+            pixel[c] += over_relaxation * (wanted - pixel[c]);
           }
+          here[x] = std::bit_cast<Known>(pixel);
         }
       }
     });

@@ -77,9 +77,6 @@ void add_accents_of(const SpotsOfView& found, const Style& style, Painting& pain
 void mend_displaced(std::span<const SceneView> views, const Style& style, Painting& painting) {
   if (style.marks == Marks::strokes && style.jitter != ColourJitter{}) return;
   const SceneView& reference = views.front();
-  constexpr int least_width_px =
-      160;  // in smaller pictures, what wrong_pixels takes for near is less than a pixel away
-  if (reference.picture.width() < least_width_px) return;
   for (const SceneView& view : views.subspan(1)) {
     if (view.continued) continue;
     const Image<std::uint8_t> spots = displaced_colours(view, reference);
@@ -89,6 +86,25 @@ void mend_displaced(std::span<const SceneView> views, const Style& style, Painti
     add_accents_of(
         {view.picture, spots, disparity, view.position, reference.position, about, painting.surfaces.tolerance_px},
         style, painting);
+  }
+}
+
+/// What has no edges of its own, as a soft light, or edges too short to follow, is missing between the lines: that is
+/// known only when their colours have spread. The reference view's is mended first, for all views. That suffices for
+/// eyes beside a central view, which are half as far from it and are moved towards it where depth is reduced; one eye
+/// lacks more of what the other shows.
+void mend_lines(std::span<const SceneView> views, Painting& painting) {
+  const ViewPosition reference = views.front().position;
+  const bool refers_to_eye = reference == left_eye || reference == right_eye;
+  for (const SceneView& view : views) {
+    const bool is_reference = view.position == reference;
+    if (view.continued || !(is_reference || refers_to_eye)) continue;
+    Image<std::uint8_t> spots = wrong_pixels(draw(painting, view.position).picture, view.picture);
+    remove_occlusion_specks(spots, least_px);
+    if (!has_any(spots)) continue;
+    add_accents({view.picture, spots, view.disparity, view.position, reference,
+                 is_reference ? all_views : views_about(view.position, reference), painting.surfaces.tolerance_px},
+                std::get<DiffusionPainting>(painting.marks));
   }
 }
 
@@ -116,7 +132,11 @@ void mend_regions(std::span<const SceneView> views, const Style& style, Painting
 void mend_spots(std::span<const SceneView> views, const Style& style, Painting& painting) {
   if (style.propagation == Propagation::independent) return;
   if (style.marks == Marks::regions) mend_regions(views, style, painting);
+  // In smaller pictures, what wrong_pixels takes for near is less than a pixel away.
+  constexpr int least_width_px = 160;
+  if (views.front().picture.width() < least_width_px) return;
   if (style.marks == Marks::strokes || style.marks == Marks::curves) mend_displaced(views, style, painting);
+  if (style.marks == Marks::curves) mend_lines(views, painting);
 }
 
 }  // namespace wheatstone

@@ -9,6 +9,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {
@@ -69,6 +70,39 @@ TEST_P(MendedSpots, AreMendedForTheViewsAboutTheOtherEyeOnly) {
 
 INSTANTIATE_TEST_SUITE_P(Of, MendedSpots, testing::Values("impressionist", "dual", "posterise", "diffusion"),
                          [](const auto& tested) { return std::string(tested.param); });
+
+/// A soft light that has no edge.
+Image<Rgb8> with_glow() {
+  Image<Rgb8> picture(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      constexpr float bright = 80, sigma_px = 16;
+      const float from_middle = std::hypot(static_cast<float>(x - width / 2), static_cast<float>(y - height / 2));
+      const float added = bright * std::exp(-0.5f * from_middle * from_middle / (sigma_px * sigma_px));
+      const auto level = static_cast<std::uint8_t>(80 + added);
+      picture(x, y) = {level, level, level};
+    }
+  return picture;
+}
+
+TEST(Diffusion, ShowsALightWithoutEdgesInAllViews) {
+  const StereoPair photographs{with_glow(), with_glow()};
+  const Painting painting = paint_flat(photographs, style_by_name("diffusion")).painting;
+  for (const float position : {-0.5f, -0.2f, 0.f, 0.5f, 1.f})
+    EXPECT_EQ(measure_wrong_spots(draw(painting, ViewPosition(position)).picture, photographs.left).share, 0)
+        << position;
+}
+
+TEST(Diffusion, ShowsALightWithoutEdgesInAFilm) {
+  const StereoPair photographs{with_glow(), with_glow()};
+  const StereoGeometry geometry = geometry_from_left(Image<float>(width, height, 0));
+  const CentralView centre = make_central_view(photographs, geometry);
+  const std::vector<SceneView> views = scene_from_centre(centre, photographs, geometry);
+  PaintingMemory nothing_before;
+  const StereoPair painted =
+      paint_frame(FilmFrame{.views = views}, style_by_name("diffusion"), {}, nothing_before).painted.pictures;
+  EXPECT_EQ(measure_wrong_spots(painted, photographs).share, 0);
+}
 
 TEST(Posterise, KeepsColoursForSmallThingsOfTheirOwn) {
   Image<Rgb8> picture(320, 160);
