@@ -67,6 +67,8 @@ struct KindAtWork {
 struct KindsAtWork {
   std::vector<KindAtWork> kinds;
   float* nearest_below;  ///< of the reference view's marks
+  float* most_of_rows;   ///< of that
+  int rows;
   float tolerance_px;
 };
 
@@ -77,6 +79,8 @@ void hide_columns(const SurfacesAt& surfaces, int row, int x, std::size_t at, Ki
   const auto nearest = hn::LoadU(f, surfaces.nearest);
   const auto below = hn::IfThenElse(hn::IsNaN(nearest), hn::Neg(all), hn::Sub(nearest, tolerance));
   hn::StoreU(below, f, at_work.nearest_below + at);
+  float& most = at_work.most_of_rows[x / HiddenBelow::block_px * at_work.rows + row];
+  most = std::max(most, hn::GetLane(hn::MaxOfLanes(f, below)));
   at_work.kinds[0].note(below, row, x);
   if (surfaces.reference == nullptr) return;
   const auto reference = hn::LoadU(f, surfaces.reference), photographed = hn::LoadU(f, surfaces.photographed);
@@ -110,10 +114,13 @@ void hide_band(const Hiding& hiding, const DistanceBand& band, int width, BandHi
   const ImageView<const float>& photographed = hiding.photographed.empty() ? hiding.reference : hiding.photographed;
   const bool has_others = !hiding.reference.empty();
   hides.nearest_below.resize(band.squared.size(), -everything);
-  KindsAtWork at_work{{}, hides.nearest_below.data(), hiding.tolerance_px};
+  const int blocks = (width + HiddenBelow::block_px - 1) / HiddenBelow::block_px;
+  hides.most_of_rows.resize(static_cast<std::size_t>(blocks * band.row_count) + Canvas::widest_vector, -everything);
+  KindsAtWork at_work{{}, hides.nearest_below.data(), hides.most_of_rows.data(), band.row_count, hiding.tolerance_px};
   const std::array<HiddenBelow*, 4> kinds{&hides.own, &hides.other, &hides.continued, &hides.gaps};
   for (HiddenBelow* below : std::span(kinds).first(has_others ? 4 : 1)) {
     below->pixels = hides.nearest_below;
+    below->most_of_rows = hides.most_of_rows;
     at_work.kinds.emplace_back(*below, band, width);
   }
   for (int row = 0; row < band.row_count; ++row) {

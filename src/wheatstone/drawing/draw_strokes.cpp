@@ -217,13 +217,16 @@ class BandOfViews {
         if (nearer >= FlatLayer::strokes_ahead) layer.ask_for_stroke(pieces[nearer - FlatLayer::strokes_ahead].stroke);
         if (nearer >= FlatLayer::vertices_ahead)
           layer.ask_for_vertices(pieces[nearer - FlatLayer::vertices_ahead].stroke);
-        for (const ViewAtWork& view : at_work) draw_piece(above, nearer, view, view.hides_at_first(pieces[nearer]));
+        draw_piece(above, nearer, at_work, [&piece = pieces[nearer]](const ViewAtWork& view) -> const HiddenBelow& {
+          return view.hides_at_first(piece);
+        });
       }
     }
     for (std::size_t above = layers_.size(); above-- > 0;) {
       const std::vector<std::uint32_t>& others = layers_[above].of_other_views;
       for (std::size_t nearer = others.size(); nearer-- > 0;)
-        for (const ViewAtWork& view : at_work) draw_piece(above, others[nearer], view, view.hides.gaps);
+        draw_piece(above, others[nearer], at_work,
+                   [](const ViewAtWork& view) -> const HiddenBelow& { return view.hides.gaps; });
     }
     for (std::size_t i = 0; i < views.size(); ++i) bare_pixels[i] = finish(at_work[i]);
   }
@@ -249,14 +252,29 @@ class BandOfViews {
     return {view, std::move(seen), std::move(hides), accumulator};
   }
 
-  /// `below`: what hides it.
-  void draw_piece(std::size_t above, std::size_t number, const ViewAtWork& at_work, const HiddenBelow& below) {
+  /// A piece that a view may see.
+  struct PieceInView {
+    const ViewAtWork* at_work;
+    const HiddenBelow* below;  ///< what hides it
+    ColumnRun columns;
+    std::uint32_t rows;    ///< that are open and shown: a bit each
+    std::uint32_t wanted;  ///< those of them that may have something to draw
+    bool may_be_hidden;
+  };
+
+  /// Draws a piece in all views that may see any of it. Which do is found out first, so that what they have drawn there
+  /// comes from memory meanwhile.
+  template <class HiddenBelowOf>
+  void draw_piece(std::size_t above, std::size_t number, std::span<const ViewAtWork> views, HiddenBelowOf below_of) {
+    in_views_.clear();
+    for (const ViewAtWork& view : views) find_in_view(layers_[above].pieces[number], view, below_of(view));
+    for (const PieceInView& in_view : in_views_) draw_in_view(above, number, in_view);
+  }
+
+  void find_in_view(const Piece& piece, const ViewAtWork& at_work, const HiddenBelow& below) {
     const ViewPosition view = at_work.view.position;
-    FrontToBackAccumulator& accumulator = at_work.accumulator;
-    PiecesOfLayer& of_layer = layers_[above];
-    const Piece& piece = of_layer.pieces[number];
-    const float shift = view - central_view;
-    const ColumnRun columns = piece.columns_in(shift, painting_.width);
+    const FrontToBackAccumulator& accumulator = at_work.accumulator;
+    const ColumnRun columns = piece.columns_in(view - central_view, painting_.width);
     if (columns.begin >= columns.end || !piece.views.contains(view)) return;
     std::uint32_t rows = piece.rows & accumulator.open_rows(columns.begin, columns.end);
     if (rows == 0) return;
@@ -266,16 +284,27 @@ class BandOfViews {
     const bool is_of_other = piece.planned_in != PlannedIn::reference_view && !below.pixels.empty();
     const std::uint32_t wanted = is_of_other ? rows_to_draw(piece, columns, below, accumulator) : rows;
     if (wanted == 0) return;
+    accumulator.ask_for(wanted, columns.begin, columns.end);
+    in_views_.push_back({&at_work, &below, columns, rows, wanted, may_be_hidden});
+  }
+
+  void draw_in_view(std::size_t above, std::size_t number, const PieceInView& in_view) {
+    const auto& [at_work, below, columns, rows, wanted, may_be_hidden] = in_view;
+    PiecesOfLayer& of_layer = layers_[above];
+    const Piece& piece = of_layer.pieces[number];
     const FlatLayer& layer = painting_.layers[above].flat;
+    const ViewPosition view = at_work->view.position;
     if (!piece.is_rigid) {
-      draw_stroke_under({SeenLayer(layer, view), layer.strokes[piece.stroke], below}, band_, accumulator);
+      draw_stroke_under({SeenLayer(layer, view), layer.strokes[piece.stroke], *below}, band_, at_work->accumulator);
       return;
     }
+    const float shift = view - central_view;
     const bool between = piece.lies_between(shift);
     Stamp& stamp = (between ? of_layer.stamps_between : of_layer.stamps)[number];
     // Other views want other rows: they are made at once.
     if ((wanted & ~stamp.made) != 0) make(layer, layer.strokes[piece.stroke], between, rows & ~stamp.made, stamp);
-    lay_stamp_under({stamp, stamps_, piece.paint, below, band_, shift, columns, wanted, may_be_hidden}, accumulator);
+    lay_stamp_under({stamp, stamps_, piece.paint, *below, band_, shift, columns, wanted, may_be_hidden},
+                    at_work->accumulator);
   }
 
   void make(const FlatLayer& layer, const FlatStroke& stroke, bool between, std::uint32_t rows, Stamp& stamp) {
@@ -315,6 +344,7 @@ class BandOfViews {
   HiddenBelow nothing_hides_;
   std::vector<PiecesOfLayer> layers_;
   Stamps stamps_;
+  std::vector<PieceInView> in_views_;  ///< of the piece at hand
   std::vector<FrontToBackAccumulator>& accumulators_;
 };
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -62,8 +65,9 @@ struct ColumnRun {
 /// Below which disparity paint of one kind is hidden, in a band; empty where nothing hides it.
 struct HiddenBelow {
   static constexpr int block_px = Canvas::widest_vector;
-  std::span<const float> pixels;   ///< row_count × stride of the band, for columns that are shown at all
-  std::vector<float> most, least;  ///< of each block of columns
+  std::span<const float> pixels;        ///< row_count × stride of the band, for columns that are shown at all
+  std::vector<float> most, least;       ///< of each block of columns
+  std::span<const float> most_of_rows;  ///< the most in each row of each block: row_count × blocks, and a vector more
 
   // Where not everything is hidden, a bit each, from the lowest.
   std::vector<std::uint16_t> shown_columns;  ///< of a block: row_count × blocks, and a vector more
@@ -108,6 +112,7 @@ struct BandHiding {
   BandHiding(BandHiding&&) = default;  // the kinds refer to what they share
 
   std::vector<float> nearest_below;  ///< the nearest surface's disparity, less the tolerance
+  std::vector<float> most_of_rows;   ///< of it
   HiddenBelow own;                   ///< those of the reference view
   HiddenBelow other;                 ///< those of other views that photographs show
   HiddenBelow continued;             ///< those of other views
@@ -163,6 +168,14 @@ class FrontToBackAccumulator {
   const std::uint16_t* open_columns_from(int row, int number) const {
     return &open_columns_[static_cast<std::size_t>(number * rows_ + row)];
   }
+  std::uint16_t* open_columns_of(int number) { return &open_columns_[static_cast<std::size_t>(number * rows_)]; }
+
+  /// Something was drawn in some rows of a block, and no light comes through some rows of it any more: bits, from the
+  /// lowest.
+  void note_rows(int number, std::uint32_t drawn, std::uint32_t closed) {
+    touched_rows_[static_cast<std::size_t>(number)] |= drawn;
+    open_rows_[static_cast<std::size_t>(number)] &= ~closed;
+  }
   void set_open_columns(int row, int number, std::uint32_t columns) {
     open_columns_[static_cast<std::size_t>(number * rows_ + row)] = static_cast<std::uint16_t>(columns);
     touched_rows_[static_cast<std::size_t>(number)] |= std::uint32_t{1} << row;
@@ -182,6 +195,16 @@ class FrontToBackAccumulator {
     for (int number = begin / block_px; number * block_px < end; ++number)
       rows |= open_rows_[static_cast<std::size_t>(number)];
     return rows;
+  }
+
+  /// Asks for some rows, a bit each, of the blocks of some columns, which are drawn to soon.
+  void ask_for(std::uint32_t rows, int begin, int end) const {
+    for (int number = begin / block_px; number * block_px < end; ++number)
+      for (std::uint32_t left = rows & open_rows(number); left != 0; left &= left - 1) {
+        const Block& asked = block(std::countr_zero(left), number);
+        hwy::Prefetch(asked.red);
+        hwy::Prefetch(asked.blue);
+      }
   }
 
   /// Shrinks the columns [begin, end) to those between the first and the last open block; begin ≥ end where none is.

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 
@@ -37,6 +38,11 @@ struct Cover {
 HWY_INLINE std::uint32_t bits_of(hn::Mask<Floats> lanes) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(Floats(), lanes, bytes);
+  if constexpr (std::endian::native == std::endian::little) {  // one instruction, which compilers do not find
+    std::uint16_t bits = 0;
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
+  }
   return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
 }
 
@@ -245,45 +251,45 @@ HWY_INLINE hn::Vec<Floats> interpolated(const float* weights, const std::uint16_
   return hn::Min(hn::Max(level, hn::Zero(f)), hn::Set(f, 1.f));
 }
 
-/// Where a view sees the rows of a stamp, in fixed point: they lie along a line.
-class RowPlaces {
- public:
-  explicit RowPlaces(const StampInBand& of) {
-    const double unit = 1 << unit_bits, view = of.view;
-    const double top = of.paint.disparity + of.paint.depth_slope * (of.band.top + 0.5);
-    first_ = static_cast<std::int64_t>((of.stamp.left - view * top) * unit) + (1 << (unit_bits - Fractions::bits - 1));
-    step_ = static_cast<std::int64_t>(-view * of.paint.depth_slope * unit);
+/// A stamp's lines as a view sees them, from its first row on. Their places lie along a line.
+struct SeenLines {
+  explicit SeenLines(const StampInBand& of)
+      : first_row(of.stamp.first_row), count(of.stamp.end_row - of.stamp.first_row) {
+    constexpr int unit_bits = 24;  // in fixed point
+    constexpr double unit = 1 << unit_bits;
+    const double view = of.view, top = of.paint.disparity + of.paint.depth_slope * (of.band.top + 0.5);
+    const auto step = static_cast<std::int64_t>(-view * of.paint.depth_slope * unit);
+    std::int64_t place = static_cast<std::int64_t>((of.stamp.left - view * top) * unit) +
+                         (1 << (unit_bits - Fractions::bits - 1)) + first_row * step;
+    const std::uint32_t* first_values = of.stamps.first_values.data() + of.stamp.first_line;
+    const std::int32_t* begins = of.stamps.begins.data() + of.stamp.first_line;
+    for (int i = 0; i < count; ++i, place += step) {
+      zeros[i] = static_cast<std::int32_t>(place >> unit_bits);
+      levels[i] = static_cast<std::int32_t>(first_values[i]) - zeros[i] - begins[i];
+      fraction[i] = static_cast<std::uint8_t>(place >> (unit_bits - Fractions::bits) & (Fractions::count - 1));
+    }
   }
 
-  int whole(int row) const { return static_cast<int>(place(row) >> unit_bits); }
-  const float* weights(int row) const {
-    return fractions.weights[place(row) >> (unit_bits - Fractions::bits) & (Fractions::count - 1)];
-  }
-
- private:
-  static constexpr int unit_bits = 24;
-  std::int64_t place(int row) const { return first_ + row * step_; }
-  std::int64_t first_, step_;
+  static constexpr std::size_t most = band_rows + Canvas::widest_vector;
+  int first_row, count;
+  std::array<std::int32_t, most> zeros;     ///< the columns of the picture from which lines are counted
+  std::array<std::int32_t, most> levels;    ///< of the picture's first column, if it were in the line
+  std::array<std::uint8_t, most> fraction;  ///< by which the lines lie farther to the right
+  std::array<float, most> disparities;      ///< where a surface may hide some
+  std::array<std::uint32_t, most> columns;  ///< in a block: those to be drawn, a bit each
 };
 
-/// A stamp's lines as a view sees them, from its first row on.
-struct SeenLines {
-  SeenLines(const StampInBand& of, const RowPlaces& places)
-      : first_row(of.stamp.first_row), count(of.stamp.end_row - of.stamp.first_row) {
-    for (int i = 0; i < count; ++i) zeros[i] = places.whole(first_row + i);
-  }
-
-  int first_row, count;
-  std::array<std::int32_t, band_rows + Canvas::widest_vector> zeros;     ///< the columns from which lines are counted
-  std::array<std::uint32_t, band_rows + Canvas::widest_vector> columns;  ///< in a block: those to be drawn, a bit each
+/// Rows of a block, a bit each.
+struct RowsToDraw {
+  std::uint32_t shown = 0, tested = 0;  ///< wholly; as far as no surface hides them
 };
 
 /// Finds the columns of a block that a stamp covers, and that are open and shown; `tested`: a surface may hide some.
-/// Returns the rows that have any, a bit each. All rows are looked at before any is drawn, without a branch for each:
-/// whether one has anything to draw cannot be foretold.
+/// All rows are looked at before any is drawn, without a branch for each: whether one has anything to draw cannot be
+/// foretold.
 template <bool tested>
-HWY_INLINE std::uint32_t find_columns_to_draw(const StampInBand& of, const FrontToBackAccumulator& accumulator,
-                                              int number, SeenLines& seen) {
+HWY_INLINE RowsToDraw find_columns_to_draw(const StampInBand& of, const FrontToBackAccumulator& accumulator, int number,
+                                           SeenLines& seen) {
   constexpr int block_px = FrontToBackAccumulator::block_px;
   const Floats f;
   const hn::RebindToSigned<Floats> integers;
@@ -292,13 +298,14 @@ HWY_INLINE std::uint32_t find_columns_to_draw(const StampInBand& of, const Front
   const std::int32_t *begins = of.stamps.begins.data() + of.stamp.first_line,
                      *ends = of.stamps.ends.data() + of.stamp.first_line;
   const std::uint16_t* open = accumulator.open_columns_from(seen.first_row, number);
-  const std::uint16_t* shown =
-      tested ? of.hidden_below.shown_columns.data() + number * accumulator.rows() + seen.first_row : nullptr;
+  const std::size_t first_of_block = static_cast<std::size_t>(number * accumulator.rows() + seen.first_row);
+  const std::uint16_t* shown = tested ? of.hidden_below.shown_columns.data() + first_of_block : nullptr;
+  const float* most_hidden = tested ? of.hidden_below.most_of_rows.data() + first_of_block : nullptr;
   const auto left = hn::Set(integers, number * block_px);
   const auto in_block = [&](auto column) {
     return hn::BitCast(words, hn::Min(hn::Max(column, hn::Zero(integers)), hn::Set(integers, block_px)));
   };
-  std::uint32_t rows = 0;
+  std::uint32_t rows = 0, hidden = 0;
   for (int i = 0; i < seen.count; i += static_cast<int>(hn::Lanes(f))) {
     const auto zero = hn::Sub(hn::LoadU(integers, seen.zeros.data() + i), left);
     const auto begin = in_block(hn::Add(zero, hn::LoadU(integers, begins + i)));
@@ -306,11 +313,47 @@ HWY_INLINE std::uint32_t find_columns_to_draw(const StampInBand& of, const Front
     const auto one = hn::Set(words, 1u);
     auto columns =
         hn::And(hn::Sub(hn::Shl(one, end), hn::Shl(one, begin)), hn::PromoteTo(words, hn::LoadU(halves, open + i)));
-    if constexpr (tested) columns = hn::And(columns, hn::PromoteTo(words, hn::LoadU(halves, shown + i)));
+    if constexpr (tested) {
+      columns = hn::And(columns, hn::PromoteTo(words, hn::LoadU(halves, shown + i)));
+      const auto disparity = hn::LoadU(f, seen.disparities.data() + i);
+      hidden |= bits_of(hn::Lt(disparity, hn::LoadU(f, most_hidden + i))) << i;
+    }
     hn::StoreU(columns, words, seen.columns.data() + i);
     rows |= bits_of(hn::RebindMask(f, hn::Ne(columns, hn::Zero(words)))) << i;
   }
-  return rows << seen.first_row;
+  return {(rows & ~hidden) << seen.first_row, (rows & hidden) << seen.first_row};
+}
+
+/// Slides what is to be drawn of some rows of a block under what is there. `tested`: as far as no surface hides it.
+template <bool tested>
+HWY_INLINE void lay_rows_under(const StampInBand& of, const SeenLines& seen, int number, std::uint32_t rows,
+                               FrontToBackAccumulator& accumulator) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
+  const Floats f;
+  const Paint paint(of.paint);
+  const std::uint16_t* levels = of.stamps.values.data() + number * block_px;
+  const float* hidden_below = tested ? of.hidden_below.pixels.data() + number * block_px : nullptr;
+  const std::ptrdiff_t stride = of.band.stride;
+  FrontToBackAccumulator::Block* blocks = &accumulator.block(0, number);
+  std::uint16_t* open_columns = accumulator.open_columns_of(number);
+  std::uint32_t closed = 0;
+  for (std::uint32_t left = rows; left != 0; left &= left - 1) {
+    const int row = std::countr_zero(left), i = row - seen.first_row;
+    const std::uint16_t* from = levels + seen.levels[i];
+    const float* weights = fractions.weights[seen.fraction[i]];
+    std::uint32_t open = 0;
+    for (int x = 0; x < block_px; x += static_cast<int>(hn::Lanes(f))) {
+      auto cover = interpolated(weights, from + x);
+      if constexpr (tested) {
+        const auto disparity = hn::Set(f, seen.disparities[i]);
+        cover = hn::IfThenElseZero(hn::Ge(disparity, hn::LoadU(f, hidden_below + row * stride + x)), cover);
+      }
+      open |= paint.slide_under(hn::IfThenElseZero(lanes_of(seen.columns[i] >> x), cover), blocks[row], x);
+    }
+    open_columns[row] = static_cast<std::uint16_t>(open);
+    closed |= (open == 0 ? std::uint32_t{1} : std::uint32_t{0}) << row;
+  }
+  accumulator.note_rows(number, rows, closed);
 }
 
 /// `tested`: a surface may hide some of the stamp.
@@ -318,30 +361,20 @@ template <bool tested>
 void lay_lines_under(const StampInBand& of, FrontToBackAccumulator& accumulator) {
   constexpr int block_px = FrontToBackAccumulator::block_px;
   const Floats f;
-  const Paint paint(of.paint);
-  const RowPlaces places(of);
-  SeenLines seen(of, places);
-  const std::uint32_t* first_values = of.stamps.first_values.data() + of.stamp.first_line;
-  const std::int32_t* begins = of.stamps.begins.data() + of.stamp.first_line;
+  SeenLines seen(of);
+  if constexpr (tested) {
+    const auto middle = static_cast<float>(of.band.top + seen.first_row) + 0.5f;
+    for (int i = 0; i < seen.count; i += static_cast<int>(hn::Lanes(f)))
+      hn::StoreU(hn::MulAdd(hn::Set(f, of.paint.depth_slope), hn::Iota(f, static_cast<float>(i) + middle),
+                            hn::Set(f, of.paint.disparity)),
+                 f, seen.disparities.data() + i);
+  }
   const std::uint32_t stamped = of.rows & of.stamp.rows();
   for (int number = of.columns.begin / block_px; number * block_px < of.columns.end; ++number) {
     if ((stamped & accumulator.open_rows(number)) == 0) continue;
-    std::uint32_t rows = stamped & find_columns_to_draw<tested>(of, accumulator, number, seen);
-    for (; rows != 0; rows &= rows - 1) {
-      const int row = std::countr_zero(rows), i = row - seen.first_row;
-      const std::uint16_t* values =
-          of.stamps.values.data() + first_values[i] + (number * block_px - seen.zeros[i] - begins[i]);
-      const float* hidden_below =
-          tested ? of.hidden_below.pixels.data() + static_cast<std::size_t>(row) * of.band.stride + number * block_px
-                 : nullptr;
-      const auto disparity =
-          hn::Set(f, of.paint.disparity + of.paint.depth_slope * (static_cast<float>(of.band.top + row) + 0.5f));
-      slide_under_block(paint, {row, number, seen.columns[i]}, accumulator, [&](int x) {
-        auto cover = interpolated(places.weights(row), values + x);
-        if constexpr (tested) cover = hn::IfThenElseZero(hn::Ge(disparity, hn::LoadU(f, hidden_below + x)), cover);
-        return cover;
-      });
-    }
+    const RowsToDraw rows = find_columns_to_draw<tested>(of, accumulator, number, seen);
+    lay_rows_under<false>(of, seen, number, rows.shown & stamped, accumulator);
+    if constexpr (tested) lay_rows_under<true>(of, seen, number, rows.tested & stamped, accumulator);
   }
 }
 
