@@ -114,47 +114,64 @@ void leave_out(const Block& block, const WholeView& view, float surface, std::ve
   }
 }
 
+/// Makes one row of a smaller view. `known_reduction` is the reduction, or 0: loops of a known length are fast.
+template <int known_reduction>
+void reduce_row(const WholeView& whole, const Mean& mean, int y, ReducedView& view,
+                std::vector<ReducedView::LeftOut>& left_out) {
+  const int reduction = known_reduction > 0 ? known_reduction : view.reduction, width = view.photograph.width();
+  const bool all_wanted = whole.seeds.empty();
+  const auto columns = static_cast<std::size_t>(width * reduction);
+  RowSums sums(columns);
+  for (int row = reduction * y; row < reduction * (y + 1); ++row)
+    sums.add(whole.photograph.row(row).first(columns), whole.disparity.row(row).first(columns),
+             all_wanted ? std::span<const std::uint8_t>() : whole.seeds.row(row).first(columns));
+  const auto from_disparity = whole.disparity.row(reduction * y);
+  const auto to_colours = view.photograph.row(y);
+  const auto to_disparity = view.disparity.row(y);
+  for (int x = 0; x < width; ++x) {
+    std::uint32_t red = 0, green = 0, blue = 0;
+    const auto begin = static_cast<std::size_t>(x * reduction);
+    float farthest = sums.farthest[begin], nearest = sums.nearest[begin];
+    for (std::size_t column = begin; column < begin + static_cast<std::size_t>(reduction); ++column) {
+      red += sums.colours[3 * column];
+      green += sums.colours[3 * column + 1];
+      blue += sums.colours[3 * column + 2];
+      farthest = std::min(farthest, sums.farthest[column]);
+      nearest = std::max(nearest, sums.nearest[column]);
+    }
+    to_colours[x] = {mean(red), mean(green), mean(blue)};
+    float surface = from_disparity[begin];
+    if (nearest - farthest > one_surface_px) {
+      const Block block{reduction * x, reduction * y, reduction};
+      surface = farthest_wanted(block, whole.disparity, whole.seeds);
+      to_colours[x] = colour_of_surface(block, whole.photograph, whole.disparity, surface);
+      if (!all_wanted) leave_out(block, whole, surface, left_out);
+    }
+    to_disparity[x] = surface / static_cast<float>(reduction);
+  }
+  if (all_wanted) return;
+  const auto to_seeds = view.seeds.row(y);
+  for (int x = 0; x < width; ++x)
+    for (int i = 0; i < reduction; ++i) to_seeds[x] |= sums.seeds[static_cast<std::size_t>(x * reduction + i)];
+}
+
 }  // namespace
 
 ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
                     ImageView<const std::uint8_t> seeds, int reduction) {
   const int width = photograph.width() / reduction, height = photograph.height() / reduction;
-  const bool all_wanted = seeds.empty();
   ReducedView view{reduction, Image<Rgb8>(width, height), Image<float>(width, height),
-                   all_wanted ? Image<std::uint8_t>() : Image<std::uint8_t>(width, height)};
+                   seeds.empty() ? Image<std::uint8_t>() : Image<std::uint8_t>(width, height)};
+  const WholeView whole{photograph, disparity, seeds};
   const Mean mean(reduction * reduction);
   std::vector<std::vector<ReducedView::LeftOut>> left_out(height);
   tbb::parallel_for(0, height, [&](int y) {
-    const auto columns = static_cast<std::size_t>(width * reduction);
-    RowSums sums(columns);
-    for (int row = reduction * y; row < reduction * (y + 1); ++row)
-      sums.add(photograph.row(row).first(columns), disparity.row(row).first(columns),
-               all_wanted ? std::span<const std::uint8_t>() : seeds.row(row).first(columns));
-    const auto from_disparity = disparity.row(reduction * y);
-    const auto to_colours = view.photograph.row(y);
-    const auto to_seeds = all_wanted ? std::span<std::uint8_t>() : view.seeds.row(y);
-    for (int x = 0, from = 0; x < width; ++x) {
-      std::uint32_t red = 0, green = 0, blue = 0;
-      const auto begin = static_cast<std::size_t>(from);
-      float farthest = sums.farthest[begin], nearest = sums.nearest[begin];
-      for (const int end = from + reduction; from < end; ++from) {
-        const auto column = static_cast<std::size_t>(from);
-        red += sums.colours[3 * column];
-        green += sums.colours[3 * column + 1];
-        blue += sums.colours[3 * column + 2];
-        if (!all_wanted) to_seeds[x] |= sums.seeds[column];
-        farthest = std::min(farthest, sums.farthest[column]);
-        nearest = std::max(nearest, sums.nearest[column]);
-      }
-      to_colours[x] = {mean(red), mean(green), mean(blue)};
-      float surface = from_disparity[begin];
-      if (nearest - farthest > one_surface_px) {
-        const Block block{reduction * x, reduction * y, reduction};
-        surface = farthest_wanted(block, disparity, seeds);
-        to_colours[x] = colour_of_surface(block, photograph, disparity, surface);
-        if (!all_wanted) leave_out(block, {photograph, disparity, seeds}, surface, left_out[y]);
-      }
-      view.disparity(x, y) = surface / static_cast<float>(reduction);
+    if (reduction == 2) {
+      reduce_row<2>(whole, mean, y, view, left_out[y]);
+    } else if (reduction == 4) {
+      reduce_row<4>(whole, mean, y, view, left_out[y]);
+    } else {
+      reduce_row<0>(whole, mean, y, view, left_out[y]);
     }
   });
   for (const std::vector<ReducedView::LeftOut>& of_row : left_out)

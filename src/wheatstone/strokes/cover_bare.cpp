@@ -44,19 +44,19 @@ void strike_out(int x, int y, float radius_px, Image<std::uint8_t>& bare) {
 
 /// The photograph's colour at a pixel, or where two surfaces' colours mix there, of the nearest pixel of its surface
 /// where they do not; its own where none is near.
-Rgb8 colour_of_surface(const LayerPlanner& planner, ImageView<const std::uint8_t> mixed_colours, int x, int y,
-                       const ScaledStyle& scaled) {
-  if (mixed_colours.empty() || mixed_colours(x, y) == 0) return planner.photograph(x, y);
+Rgb8 colour_of_surface(const BarePlaces& places, int x, int y, const ScaledStyle& scaled) {
+  const ImageView<const std::uint8_t> mixed_colours = places.mixed_colours;
+  if (mixed_colours.empty() || mixed_colours(x, y) == 0) return places.photograph(x, y);
   const int reach = static_cast<int>(std::ceil(scaled.radii_px.back()));
   int nearest = 2 * reach * reach + 1;
-  Rgb8 colour = planner.photograph(x, y);
+  Rgb8 colour = places.photograph(x, y);
   for (int row = std::max(y - reach, 0); row <= std::min(y + reach, mixed_colours.height() - 1); ++row) {
     for (int column = std::max(x - reach, 0); column <= std::min(x + reach, mixed_colours.width() - 1); ++column) {
       const int distance = (column - x) * (column - x) + (row - y) * (row - y);
       if (distance >= nearest || mixed_colours(column, row) != 0) continue;
-      if (std::abs(planner.disparity(column, row) - planner.disparity(x, y)) > scaled.depth_threshold_px) continue;
+      if (std::abs(places.disparity(column, row) - places.disparity(x, y)) > scaled.depth_threshold_px) continue;
       nearest = distance;
-      colour = planner.photograph(column, row);
+      colour = places.photograph(column, row);
     }
   }
   return colour;
@@ -100,23 +100,20 @@ namespace {
 class BareThread {
  public:
   /// In a style of dots it stays where it begins.
-  BareThread(const LayerPlanner& planner, const LayerInputs& inputs, const ScaledStyle& scaled, const Style& style,
-             Image<std::uint8_t>& bare)
-      : planner_(planner),
-        inputs_(inputs),
-        scaled_(scaled),
+  BareThread(const ScaledStyle& scaled, const Style& style, BarePlaces& places)
+      : scaled_(scaled),
         most_points_(static_cast<std::size_t>(std::clamp(style.max_length, 1, 8))),
-        bare_(bare) {}
+        places_(places),
+        bare_(places.bare) {}
 
-  Rgb8 colour_at(int x, int y) const { return colour_of_surface(planner_, inputs_.mixed_colours, x, y, scaled_); }
+  Rgb8 colour_at(int x, int y) const { return colour_of_surface(places_, x, y, scaled_); }
 
   /// Takes the pixels off the mask that the brush covers wholly on its way from a pixel on; adds its points.
   void follow(int x, int y, float radius_px, std::vector<ControlPoint>& points) {
-    const Begin begin{planner_.disparity(x, y), colour_at(x, y),
-                      std::max(static_cast<int>(whole_px(radius_px)), 0) + 1};
+    const Begin begin{places_.disparity(x, y), colour_at(x, y), std::max(static_cast<int>(whole_px(radius_px)), 0) + 1};
     const std::size_t first = points.size();
     do {
-      points.push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, planner_.disparity(x, y)});
+      points.push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, places_.disparity(x, y)});
       strike_out(x, y, radius_px, bare_);
     } while (points.size() - first < most_points_ && step(begin, x, y));
   }
@@ -146,20 +143,43 @@ class BareThread {
   bool is_alike(const Begin& begin, int x, int y) const {
     constexpr float most_disparity_px = 0.5f;  // strokes as good as flat are drawn fast
     constexpr int most_squared_difference = 30 * 30;
-    if (std::abs(planner_.disparity(x, y) - begin.disparity) > most_disparity_px) return false;
+    if (std::abs(places_.disparity(x, y) - begin.disparity) > most_disparity_px) return false;
     const Rgb8 there = colour_at(x, y);
     const int red = there.r - begin.colour.r, green = there.g - begin.colour.g, blue = there.b - begin.colour.b;
     return red * red + green * green + blue * blue <= most_squared_difference;
   }
 
-  const LayerPlanner& planner_;
-  const LayerInputs& inputs_;
   const ScaledStyle& scaled_;
   std::size_t most_points_;
+  const BarePlaces& places_;
   Image<std::uint8_t>& bare_;
 };
 
 }  // namespace
+
+Layer cover_places(BarePlaces places, const ScaledStyle& scaled, const Style& style) {
+  BareThread thread(scaled, style, places);
+  Layer cover{scaled.radii_px.back(), {}, {}};
+  const auto is_bare = [](std::uint8_t value) { return value != 0; };
+  for (int y = 0; y < places.bare.height(); ++y) {
+    const auto row = places.bare.row(y);
+    for (auto next = std::ranges::find_if(row, is_bare); next != row.end();
+         next = std::find_if(next, row.end(), is_bare)) {
+      const int x = static_cast<int>(next - row.begin());
+      Stroke stroke{.first_point = static_cast<std::uint32_t>(cover.points.size())};
+      stroke.radius_px = fitting_radius(places.disparity, x, y, scaled.radii_px.back(), scaled.depth_threshold_px);
+      stroke.opacity = style.opacity;
+      stroke.colour = thread.colour_at(x, y);
+      stroke.disparity = places.disparity(x, y);
+      stroke.reference_view = places.view;
+      stroke.views = all_views;
+      thread.follow(x, y, stroke.radius_px, cover.points);
+      stroke.point_count = static_cast<std::uint32_t>(cover.points.size()) - stroke.first_point;
+      cover.strokes.push_back(stroke);
+    }
+  }
+  return cover;
+}
 
 Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const ScaledStyle& scaled, const Style& style,
                  ImageView<const std::uint8_t> wanted) {
@@ -173,24 +193,8 @@ Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const S
     const auto wanted_here = wanted.row(y);
     for (int x = 0; x < width; ++x) marks[x] = wanted_here[x] != 0 ? marks[x] : std::uint8_t{0};
   });
-  BareThread thread(planner, inputs, scaled, style, bare);
-  Layer cover{scaled.radii_px.back(), {}, {}};
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (bare(x, y) == 0) continue;
-      Stroke stroke{.first_point = static_cast<std::uint32_t>(cover.points.size())};
-      stroke.radius_px = fitting_radius(planner.disparity, x, y, scaled.radii_px.back(), scaled.depth_threshold_px);
-      stroke.opacity = style.opacity;
-      stroke.colour = thread.colour_at(x, y);
-      stroke.disparity = planner.disparity(x, y);
-      stroke.reference_view = planner.view;
-      stroke.views = all_views;
-      thread.follow(x, y, stroke.radius_px, cover.points);
-      stroke.point_count = static_cast<std::uint32_t>(cover.points.size()) - stroke.first_point;
-      cover.strokes.push_back(stroke);
-    }
-  }
-  return cover;
+  return cover_places({planner.photograph, planner.disparity, planner.view, inputs.mixed_colours, std::move(bare)},
+                      scaled, style);
 }
 
 }  // namespace wheatstone
