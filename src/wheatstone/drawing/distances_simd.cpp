@@ -161,15 +161,21 @@ void lower_to_segment(std::size_t segment, const HiddenBelow& below, DistanceBan
   const auto along_x = hn::Set(f, chain.along_x[segment]);
   const auto zero = hn::Zero(f), one = hn::Set(f, 1.f), far = hn::Set(f, far_away);
   const auto step = hn::Set(f, static_cast<float>(lanes));
-  for (int row = chain.first_row[segment]; row < chain.end_row[segment]; ++row) {
-    const std::size_t run = segment * band_rows + static_cast<std::size_t>(row);
-    const int begin = std::max(chain.begin[run], band.begin[row]), end = std::min(chain.end[run], band.end[row]);
+  // What is stored might be any of these, for all that compilers know.
+  const int *begins = chain.begin.data() + segment * band_rows, *ends = chain.end.data() + segment * band_rows;
+  const int *band_begins = band.begin.data(), *band_ends = band.end.data();
+  const std::ptrdiff_t stride = band.stride;
+  float* const band_squared = band.squared.data();
+  const float* const all_hidden_below = below.pixels.data();
+  const float along_y_step = chain.along_y[segment];
+  const int end_row = chain.end_row[segment];
+  for (int row = chain.first_row[segment]; row < end_row; ++row) {
+    const int begin = std::max(begins[row], band_begins[row]), end = std::min(ends[row], band_ends[row]);
     const float pixel_y = static_cast<float>(row) + first_y;
     const auto py = hn::Set(f, pixel_y);
-    const auto along_y = hn::Set(f, pixel_y * chain.along_y[segment]);
-    const std::size_t offset = static_cast<std::size_t>(row) * band.stride;
-    float* squared = band.squared.data() + offset;
-    const float* hidden_below = tested ? below.pixels.data() + offset : nullptr;
+    const auto along_y = hn::Set(f, pixel_y * along_y_step);
+    float* const squared = band_squared + row * stride;
+    const float* const hidden_below = tested ? all_hidden_below + row * stride : nullptr;
     auto px = hn::Iota(f, static_cast<float>(begin) + first_x);
     const auto end_x = hn::Set(f, static_cast<float>(end) - 0.5f + first_x);
     for (int x = begin; x < end; x += lanes) {
@@ -207,8 +213,9 @@ void measure_band(const FlatStroke& stroke, const HiddenBelow& below, DistanceBa
   const int lanes = static_cast<int>(hn::Lanes(f));
   const auto far = hn::Set(f, far_away);
   for (int row = band.first_row; row < band.end_row; ++row) {
-    float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
-    for (int x = band.begin[row]; x < band.end[row]; x += lanes) hn::StoreU(far, f, squared + x);
+    float* const squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
+    const int end = band.end[row];
+    for (int x = band.begin[row]; x < end; x += lanes) hn::StoreU(far, f, squared + x);
   }
   const bool tested = may_be_hidden(stroke, below, band);
   const std::size_t segments = std::max(stroke.vertex_count, 2u) - 1;

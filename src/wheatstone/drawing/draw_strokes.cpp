@@ -24,23 +24,24 @@ FrontToBackAccumulator::FrontToBackAccumulator(int row_count, int canvas_width, 
       covers_(keeps_cover ? blocks_.size() : 0),
       open_columns_(blocks_.size() + Canvas::widest_vector),
       open_rows_(static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)),
-      touched_rows_(open_rows_.size()) {
+      touched_rows_(open_rows_.size(), ~std::uint32_t{0} >> (32 - rows_)) {
   clear();
 }
 
 void FrontToBackAccumulator::clear() {
-  std::ranges::fill(covers_, Cover{});
   for (int number = 0; number < block_count(); ++number) {
     // Nothing is to be drawn in the columns after the last one.
     const int columns = std::min(width_ - number * block_px, block_px);
-    for (int row = 0; row < rows_; ++row) {
+    std::uint32_t& touched = touched_rows_[static_cast<std::size_t>(number)];
+    for (; touched != 0; touched &= touched - 1) {
+      const int row = std::countr_zero(touched);
       Block& cleared = block(row, number);
       cleared = {};
       std::fill_n(cleared.light, columns, 1.f);
-      set_open_columns(row, number, (std::uint32_t{1} << columns) - 1);
+      open_columns_of(number)[row] = static_cast<std::uint16_t>((std::uint32_t{1} << columns) - 1);
+      if (Cover* const most = cover(row, number)) most->fill(0);
     }
     open_rows_[static_cast<std::size_t>(number)] = ~std::uint32_t{0} >> (32 - rows_);
-    touched_rows_[static_cast<std::size_t>(number)] = 0;
   }
 }
 

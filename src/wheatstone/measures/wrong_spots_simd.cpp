@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "wheatstone/measures/wrong_spots.h"
 
@@ -65,11 +66,16 @@ ColoursAround::ColoursAround(ImageView<const Rgb8> photograph) {
   tbb::parallel_for(0, photograph.height(), [&](int y) {
     const auto from = photograph.row(y);
     const auto to_red = red.row(y), to_green = green.row(y), to_blue = blue.row(y);
-    for (int x = 0; x < red.width(); ++x) {
-      const Rgb8 colour = from[static_cast<std::size_t>(std::clamp(x - reach, 0, width - 1))];
-      to_red[x] = colour.r;
-      to_green[x] = colour.g;
-      to_blue[x] = colour.b;
+    for (int x = 0; x < width; ++x) {
+      to_red[reach + x] = from[x].r;
+      to_green[reach + x] = from[x].g;
+      to_blue[reach + x] = from[x].b;
+    }
+    for (const auto& [plane, first, last] :
+         {std::tuple(to_red, from.front().r, from.back().r), std::tuple(to_green, from.front().g, from.back().g),
+          std::tuple(to_blue, from.front().b, from.back().b)}) {
+      std::fill_n(plane.begin(), reach, first);
+      std::fill(plane.begin() + reach + width, plane.end(), last);
     }
   });
 }
