@@ -1,39 +1,10 @@
-// Eight pixels of one view of a picture: the depth planes, each moved by its parallax, are added. The twin of
-// composite_simd.cpp.
+// Eight pixels of one view of a picture: the depth planes, each moved by its parallax, are added.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#include "wheatstone/gpu/views.glsl"
-
-// As struct CompositeWork in gpu_finish_internal.h has them.
-layout(std140, binding = 0) uniform Work {
-  int width, rows;
-  int left, texels_a_row;            // of the planes' columns
-  int first_plane, end_plane, base;  // those in the buffer, and where number 0 would be
-  int taps;                          // 1: nearest; 2: linear; 4: cubic
-  int again;                         // something was composited before
-  float first_parallax, plane_spacing;
-  vec4 views[most_views];  // the first number of each
-};
-layout(std430, binding = 1) buffer Light { float light[]; };
-layout(binding = 0) uniform usamplerBuffer planes;
+#include "wheatstone/multiview/moved_planes.glsl"
 
 const int columns = 8;
-
-// How far a plane moves: whole pixels, and the weights of the pixels around the rest.
-vec4 weights_of(float pixels, out int whole) {
-  if (taps == 1) {
-    whole = int(floor(pixels + 0.5));
-    return vec4(1, 0, 0, 0);
-  }
-  whole = int(floor(pixels));
-  float f = pixels - floor(pixels);
-  if (taps == 2) return vec4(1 - f, f, 0, 0);
-  // Keys 1981, a = −1/2.
-  whole -= 1;
-  return vec4(((-0.5 * f + 1) * f - 0.5) * f, (1.5 * f - 2.5) * f * f + 1, ((-1.5 * f + 2) * f + 0.5) * f,
-              (0.5 * f - 0.5) * f * f);
-}
 
 // A texel is two pixels (pack_planes.comp): the channels of four pixels.
 vec4 first_of(uvec4 a, uvec4 b) {
@@ -53,12 +24,6 @@ vec4 filtered(vec4 here, vec4 next, vec4 weights, float last_weight) {
   vec4 sum = weights.x * here + weights.y * vec4(here.yzw, next.x) + weights.z * vec4(here.zw, next.xy);
   if (TAPS > 2) sum += weights.w * vec4(here.w, next.xyz) + last_weight * next;
   return sum;
-}
-
-uvec4 texel_at(int row, int x) {
-  bool there = x >= 0 && x < texels_a_row;
-  uvec4 texel = texelFetch(planes, row + (there ? x : 0));
-  return there ? texel : uvec4(0);
 }
 
 void put_one(int at, int x, int channel, float light_here) {

@@ -8,6 +8,8 @@
 
 #include "composite_colours_cubic_source.h"
 #include "composite_colours_linear_source.h"
+#include "composite_focus_colours_source.h"
+#include "composite_focus_mass_source.h"
 #include "composite_mass_cubic_source.h"
 #include "composite_mass_linear_source.h"
 #include "finish_colours_source.h"
@@ -44,7 +46,9 @@ struct CompositeWork {
   std::int32_t first_plane = 0, end_plane = 0, base = 0;
   std::int32_t taps = 1;
   std::int32_t again = 0;
-  float first_parallax = 0, plane_spacing = 1, unused = 0;
+  float first_parallax = 0, plane_spacing = 1;
+  float focus_x = 0, focus_y = 0, focus_radius = 1, focus_gain = 1;
+  float unused = 0;
   std::array<std::array<float, 4>, most_gpu_views> views{};
 };
 
@@ -141,8 +145,9 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
     unpack(std::span(pixels).subspan(v * pictures.pixels(0), pictures.pixels(0)), views[v]);
 }
 
-GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling)
-    : planes_(planes), groups_(std::move(light.groups)), resampling_(resampling) {
+GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling,
+                             std::optional<Focus> focus)
+    : planes_(planes), groups_(std::move(light.groups)), resampling_(resampling), focus_(focus) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     std::vector<int>& first_texel = first_texel_.emplace_back();
     int texels = 0;
@@ -157,13 +162,17 @@ GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resamp
   }
 }
 
+const GpuSource& GpuCompositor::program() const {
+  const bool mass = planes_.channels == 2;
+  if (focus_) return mass ? composite_focus_mass_source : composite_focus_colours_source;
+  if (taps_of(resampling_) > 2) return mass ? composite_mass_cubic_source : composite_colours_cubic_source;
+  return mass ? composite_mass_linear_source : composite_colours_linear_source;
+}
+
 GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_views,
                                    std::span<const ViewPosition> views) const {
   const SplatOrder& order = planes_.orders[picture];
   GpuBuffer composited = GpuBuffer::of_any_bytes(of_views.values(picture) * views.size() * sizeof(float));
-  const bool cubic = taps_of(resampling_) > 2;
-  const GpuSource& of_mass = cubic ? composite_mass_cubic_source : composite_mass_linear_source;
-  const GpuSource& of_colours = cubic ? composite_colours_cubic_source : composite_colours_linear_source;
   CompositeWork work{.width = of_views.width[picture],
                      .rows = order.rows,
                      .left = planes_.left[picture],
@@ -171,16 +180,22 @@ GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_vi
                      .taps = taps_of(resampling_),
                      .first_parallax = order.first * order.scale,
                      .plane_spacing = order.spacing};
+  if (const std::optional<Focus> focus = focus_in(focus_, order)) {
+    work.focus_x = focus->x_px;
+    work.focus_y = focus->y_px;
+    work.focus_radius = focus->radius_px;
+    work.focus_gain = focus->gain;
+  }
   for (std::size_t v = 0; v < views.size(); ++v) work.views[v][0] = views[v] - central_view;
+  const std::uint32_t rows = focus_ ? static_cast<std::uint32_t>(work.rows) : groups_of(work.rows, 8);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     work.first_plane = groups_[g].first[picture];
     work.end_plane = groups_[g].end[picture];
     work.base = first_texel_[g][picture];
     if (work.first_plane == work.end_plane) continue;
     const GpuBuffer of_work(std::span<const CompositeWork>(&work, 1));
-    kept_program(planes_.channels == 3 ? of_colours : of_mass)
-        .run({groups_of(work.width, 64), groups_of(work.rows, 8), static_cast<std::uint32_t>(views.size())},
-             {&of_work, &composited}, {&packed_[g]});
+    kept_program(program()).run({groups_of(work.width, 64), rows, static_cast<std::uint32_t>(views.size())},
+                                {&of_work, &composited}, {&packed_[g]});
     work.again = 1;
   }
   return composited;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,14 +31,17 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
 /// Composites views from the light of depth planes. Made and used within on_gpu().
 class GpuCompositor {
  public:
-  GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling);
+  GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling, std::optional<Focus> focus);
   /// The light of a picture's views.
   GpuBuffer composite(std::size_t picture, const GpuPictures& of_views, std::span<const ViewPosition> views) const;
 
  private:
+  const GpuSource& program() const;
+
   const GpuPictures& planes_;
   std::vector<TargetGroup> groups_;
   Resampling resampling_;
+  std::optional<Focus> focus_;
   std::vector<GpuBuffer> packed_;              // [group]
   std::vector<std::vector<int>> first_texel_;  // [group][picture]: where plane 0 would lie
 };

@@ -50,7 +50,7 @@ std::uint32_t begin_lists(GpuBuffer& lists) {
 }
 
 void set_pictures(const RenderJob& job, const GpuPictures& pictures, GpuTargets targets, ListWork& work) {
-  const Window window = window_around(job.scene, job.rig);
+  const Window window = window_of_planes(job);
   const auto parallax = [](const DepthMapping::Point& point) { return point.parallax_px; };
   const auto [nearest, farthest] = std::ranges::minmax(job.scene.mapping.points, {}, parallax);
   const float range = farthest.parallax_px - nearest.parallax_px;
@@ -113,9 +113,12 @@ SplatGatherer::SplatGatherer(const RenderJob& job, const GpuFacts& facts, const 
   for (std::size_t v = 0; v < views.size(); ++v) work_.views[v][0] = views[v] - central_view;
   set_pictures(job, pictures, targets, work_);
   work_.written = written;
-  for (const TargetGroup& group : groups)
-    sums_.push_back(GpuBuffer::of_any_bytes(group.values * bytes_a_value(written)));
-  begun_.assign(groups.size(), std::vector<char>(pictures.size()));
+  const bool adds = written == GpuWritten::more_sums;
+  for (const TargetGroup& group : groups) {
+    const std::size_t bytes = group.values * bytes_a_value(written);
+    sums_.push_back(adds ? GpuBuffer(bytes) : GpuBuffer::of_any_bytes(bytes));
+  }
+  begun_.assign(groups.size(), std::vector<char>(pictures.size(), adds ? 1 : 0));
 }
 
 /// Numbers the kinds that are there, and their lists. Returns how many lists these are.
@@ -161,7 +164,7 @@ std::size_t SplatGatherer::most_in_a_band(const GpuBuffer& begins, std::size_t i
   return most;
 }
 
-bool SplatGatherer::add(std::size_t count) {
+bool SplatGatherer::add(std::size_t count, std::optional<int> target) {
   const std::size_t lists = number_lists();
   reaches_.clear();
   if (lists == 0) return true;
@@ -174,24 +177,25 @@ bool SplatGatherer::add(std::size_t count) {
   if (in_lists > most_by_one_ && count > 1 && most_in_a_band(ends, in_lists) > most_by_one_) return false;
   const GpuBuffer entries = GpuBuffer::of_any_bytes((in_lists + 1) * entry_bytes);
   kept_program(programs_.place).run({groups_of(count, 64)}, {&of_work, &ends, &entries}, {&splats_});
-  gather(ends, entries);
+  gather(ends, entries, target);
   return true;
 }
 
-void SplatGatherer::gather(const GpuBuffer& ends, const GpuBuffer& entries) {
+void SplatGatherer::gather(const GpuBuffer& ends, const GpuBuffer& entries, std::optional<int> target) {
   const auto is_there = [](const ListWork::Kind& kind) { return kind.index >= 0; };
   const GpuWritten written = work_.written;
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (std::size_t p = 0; p < pictures_.size(); ++p) {
       const auto here = std::span(work_.kinds).subspan(p * kinds_a_picture, kinds_a_picture);
       const auto kinds = static_cast<int>(std::ranges::count_if(here, is_there));
-      const int targets = groups_[g].end[p] - groups_[g].first[p];
-      if (kinds == 0 || targets == 0) continue;
+      const int first = target ? std::max(*target, groups_[g].first[p]) : groups_[g].first[p];
+      const int targets = (target ? std::min(*target + 1, groups_[g].end[p]) : groups_[g].end[p]) - first;
+      if (kinds == 0 || targets <= 0) continue;
       work_.first_kind = std::ranges::find_if(here, is_there)->index;
       work_.end_kind = work_.first_kind + kinds;
       work_.picture = static_cast<std::int32_t>(p);
-      work_.first_target = groups_[g].first[p];
-      work_.end_target = groups_[g].end[p];
+      work_.first_target = first;
+      work_.end_target = first + targets;
       work_.base = groups_[g].base[p];
       work_.written = written == GpuWritten::sums && begun_[g][p] != 0 ? GpuWritten::more_sums : written;
       begun_[g][p] = 1;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -65,16 +66,16 @@ class SplatGatherer {
   /// Where project_splats.comp writes: splats, and how far the widest of each kind reaches.
   const GpuBuffer& splats() const { return splats_; }
   const GpuBuffer& reaches() const { return reaches_; }
-  /// Adds so many that were projected; where light is written, all there are. False where their lists do not fit into
-  /// a buffer.
-  bool add(std::size_t count);
+  /// Adds so many that were projected, to all targets or to one; where light is written, all there are. False where
+  /// their lists do not fit into a buffer.
+  bool add(std::size_t count, std::optional<int> target = {});
   /// The sums or the light of each group.
   std::vector<GpuBuffer> gathered() &&;
 
  private:
   std::size_t number_lists();
   std::size_t most_in_a_band(const GpuBuffer& begins, std::size_t in_lists) const;
-  void gather(const GpuBuffer& ends, const GpuBuffer& entries);
+  void gather(const GpuBuffer& ends, const GpuBuffer& entries, std::optional<int> target);
 
   const GpuPictures& pictures_;
   std::span<const TargetGroup> groups_;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "add_light_source.h"
 #include "light_of_nearest_source.h"
 #include "light_of_sums_source.h"
 #include "project_look_source.h"
@@ -15,6 +17,7 @@
 #include "wheatstone/image/srgb.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/gpu_lists_internal.h"
+#include "wheatstone/multiview/shine_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -35,6 +38,9 @@ struct SplatWork {
   std::array<std::array<float, 4>, PictureTable::most> fits{};
 };
 static_assert(sizeof(SplatWork) == 4 * 28 + 16 * (4 + 3 + PictureTable::most));
+
+/// Columns of a cloud that a program reads.
+constexpr std::size_t most_columns = 9;
 
 /// Three numbers and a fourth.
 std::array<float, 4> four(const std::array<float, 3>& three, float fourth) {
@@ -206,7 +212,7 @@ class ParticleGatherer {
       : job_(job),
         projecting_(job.scene.splat_style.look == Look::mass ? project_mass_source : project_look_source),
         tables_(projection_tables(projection_for(job, pictures.orders))),
-        columns_(GpuBuffer::of_any_bytes(work_.column.size() * most_gathered * sizeof(float))),
+        columns_(GpuBuffer::of_any_bytes(most_columns * most_gathered * sizeof(float))),
         gatherer_(job, facts, pictures, targets, views, groups, written) {
     const Projection projection = projection_for(job, pictures.orders);
     set_camera(projection, work_);
@@ -214,14 +220,26 @@ class ParticleGatherer {
     set_pictures(pictures.orders, work_);
   }
 
-  /// False where their lists do not fit into a buffer.
-  bool add(const Cloud& cloud, ParticleRange range) {
+  /// Adds them to all targets, or to one. False where their lists do not fit into a buffer.
+  bool add(const Cloud& cloud, ParticleRange range, std::optional<int> target = {}) {
     copy_columns(cloud, range, job_.scene.splat_style, columns_, work_);
     const GpuBuffer of_work(std::span<const SplatWork>(&work_, 1));
     kept_program(projecting_)
         .run({groups_of(range.count, 64)}, {&of_work, &columns_, &gatherer_.splats(), &gatherer_.reaches()},
              {&tables_});
-    return gatherer_.add(range.count);
+    return gatherer_.add(range.count, target);
+  }
+  /// The same of all of a cloud, in as many parts as it takes.
+  void add_all(const Cloud& cloud, std::optional<int> target = {}) {
+    std::size_t most = most_gathered;
+    for (std::size_t first = 0; first < cloud.size();) {
+      const ParticleRange range{first, std::min(most, cloud.size() - first)};
+      if (add(cloud, range, target)) {
+        first += range.count;
+      } else {
+        most = (range.count + 1) / 2;  // wide splats stand in many lists
+      }
+    }
   }
   std::vector<GpuBuffer> gathered() && { return std::move(gatherer_).gathered(); }
 
@@ -233,12 +251,27 @@ class ParticleGatherer {
   SplatGatherer gatherer_;
 };
 
+/// Adds one light to another of the same groups.
+void add_light(const std::vector<GpuBuffer>& more, const std::vector<GpuBuffer>& to) {
+  for (std::size_t g = 0; g < to.size(); ++g) {
+    const auto [columns, rows] = rows_of_groups(to[g].bytes() / sizeof(float));
+    kept_program(add_light_source).run({columns, rows}, {&more[g], &to[g]});
+  }
+}
+
+std::vector<GpuBuffer> light_of(const std::vector<GpuBuffer>& sums, GpuTargets targets) {
+  std::vector<GpuBuffer> light;
+  for (const GpuBuffer& of_group : sums) light.push_back(light_of(of_group, targets));
+  return light;
+}
+
 }  // namespace
 
 LightOnGpu light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures, GpuTargets targets,
                         std::span<const ViewPosition> views) {
+  const bool shines = job.scene.shine.lit() && targets == GpuTargets::views;
   // Light that is gathered all at once needs no sums.
-  if (job.statistics.count <= most_gathered) {
+  if (job.statistics.count <= most_gathered && !shines) {
     LightOnGpu at_once{groups_of_targets(pictures, facts.largest_buffer / sizeof(float)), {}};
     ParticleGatherer gatherer(job, facts, pictures, targets, views, at_once.groups, GpuWritten::light);
     bool all = false;
@@ -252,18 +285,14 @@ LightOnGpu light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPi
   }
   LightOnGpu light{groups_of_targets(pictures, facts.largest_buffer / sum_bytes), {}};
   ParticleGatherer gatherer(job, facts, pictures, targets, views, light.groups, GpuWritten::sums);
-  job.chunks([&](const Cloud& cloud) {
-    std::size_t most = most_gathered;
-    for (std::size_t first = 0; first < cloud.size();) {
-      const ParticleRange range{first, std::min(most, cloud.size() - first)};
-      if (gatherer.add(cloud, range)) {
-        first += range.count;
-      } else {
-        most = (range.count + 1) / 2;  // wide splats stand in many lists
-      }
-    }
-  });
-  for (const GpuBuffer& sums : std::move(gatherer).gathered()) light.light.push_back(light_of(sums, targets));
+  std::optional<ParticleGatherer> highlights;
+  if (shines) highlights.emplace(job, facts, pictures, targets, views, light.groups, GpuWritten::more_sums);
+  // Those that shine are few: their light is each view's own, and the rest is not done again.
+  for_each_chunk_and_highlights(
+      job, shines ? views : std::span<const ViewPosition>(), [&](const Cloud& chunk) { gatherer.add_all(chunk); },
+      [&](const Cloud& shining, std::size_t view) { highlights->add_all(shining, static_cast<int>(view)); });
+  light.light = light_of(std::move(gatherer).gathered(), targets);
+  if (shines) add_light(light_of(std::move(*highlights).gathered(), targets), light.light);
   return light;
 }
 

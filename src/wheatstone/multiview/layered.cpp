@@ -91,13 +91,10 @@ void deposit_in_planes(const std::vector<SplatBlock>& blocks, const SplatOrders&
   });
 }
 
-namespace {
-
-Window window_of(const RenderJob& job) {
+Window window_of_planes(const RenderJob& job) {
   return window_around(job.scene, job.rig, job.focus ? job.focus->largest_gain() : 1.f);
 }
 
-/// A view's focus in the pixels of one of its pictures.
 std::optional<Focus> focus_in(const std::optional<Focus>& focus, const SplatOrder& order) {
   if (!focus) return {};
   const auto pad = static_cast<float>(order.pad);
@@ -106,6 +103,8 @@ std::optional<Focus> focus_in(const std::optional<Focus>& focus, const SplatOrde
                .radius_px = focus->radius_px * order.scale,
                .gain = focus->gain};
 }
+
+namespace {
 
 /// What is kept between reading particles and compositing: the light of all planes, or all splats, whichever is less.
 struct KeptForPlanes {
@@ -186,7 +185,7 @@ std::vector<std::vector<float>> shares_of_planes(const PlanesOfViews& planes, co
 void composite_picture(const RenderJob& job, const SplatOrders& orders, std::size_t picture, PlanesOfViews& planes,
                        const PictureOfViews& to) {
   const SplatOrder& order = orders[picture];
-  const Window window = window_in(window_of(job), order);
+  const Window window = window_in(window_of_planes(job), order);
   const int sets = static_cast<int>(planes.kept.size());
   std::vector<float> parallaxes;
   for (int set = 0; set < sets; ++set)
@@ -217,7 +216,7 @@ void composite_picture(const RenderJob& job, const SplatOrders& orders, std::siz
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures) {
   const SplatOrders orders = orders_by_plane(job, planes, filter);
-  PlanesOfViews kept = keep(job, orders, window_of(job));
+  PlanesOfViews kept = keep(job, orders, window_of_planes(job));
   ViewPyramid pyramid(orders, job.rig, pictures.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> targets = pyramid.targets(p, pictures);

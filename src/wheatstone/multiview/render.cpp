@@ -78,14 +78,16 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
 void check_gpu_can(const Scene& scene, const RenderOptions& options) {
   if (scene.splat_style.blend == Blend::over)
     throw Error(ErrorKind::wrong_usage, "--device gpu does not render --blend over, expected --device cpu");
-  if (options.focus) throw Error(ErrorKind::wrong_usage, "--device gpu does not render --focus, expected --device cpu");
-  if (scene.shine.lit())
-    throw Error(ErrorKind::wrong_usage, "--device gpu does not render --shine, expected --device cpu");
+  if (scene.shine.lit() && (options.method == Method::layered || options.focus))
+    throw Error(ErrorKind::wrong_usage,
+                "--device gpu does not render --shine with --method layered or --focus, expected --device cpu");
   if (!options.ranks.alone())
     throw Error(ErrorKind::wrong_usage, "--device gpu works in one process, expected --device cpu under mpirun");
-  if (options.opaque && (options.method == Method::layered || scene.splat_style.look == Look::mass))
-    throw Error(ErrorKind::wrong_usage,
-                "--device gpu does not render --opaque with --look mass or --method layered, expected --device cpu");
+  if (options.opaque && (options.method == Method::layered || options.focus || scene.splat_style.look == Look::mass))
+    throw Error(
+        ErrorKind::wrong_usage,
+        "--device gpu does not render --opaque with --look mass, --method layered or --focus, expected --device "
+        "cpu");
   if (options.method == Method::exact)
     throw Error(
         ErrorKind::wrong_usage,
@@ -139,6 +141,8 @@ Choice choose(const CloudStatistics& statistics, const Scene& scene, const Rig& 
 Choice choose_on_gpu(const RenderJob& job, const RenderOptions& options) {
   if (options.method != Method::automatic) return {options.method, "as asked for"};
   if (options.opaque) return {Method::incremental, "on a graphics processor, opaque: incremental"};
+  if (options.focus) return {Method::layered, "layered: the focus moves depth planes"};
+  if (job.scene.shine.lit()) return {Method::incremental, "on a graphics processor, with highlights: incremental"};
   return choose_gpu_method(workload_of(job.statistics, job.scene, job.rig, options));
 }
 

@@ -38,7 +38,7 @@ struct RenderOptions {
   Method method = Method::automatic;
   SliceFilter filter = SliceFilter::linear;
   int planes = 0;  ///< depth planes; 0: one for each pixel of parallax
-  /// A graphics processor renders by the incremental or the layered method, what is neither opaque nor absorbs.
+  /// A graphics processor renders by the incremental or the layered method, what does not absorb.
   Device device = Device::processor;
   std::optional<Focus> focus;  ///< of the layered method, which auto then chooses: where the depth differs
   bool opaque = false;         ///< the nearest particle hides the others, instead of adding its light to theirs

@@ -164,6 +164,24 @@ TEST_F(RenderGpu, CompositesDepthPlanesAsTheProcessorDoes) {
   }
 }
 
+TEST_F(RenderGpu, MovesPlanesFartherInTheFocus) {
+  Cloud coloured = kernels(1000);
+  for (std::size_t i = 0; i < coloured.size(); ++i)
+    coloured.colour.push_back({static_cast<std::uint8_t>(i % 256), 120, static_cast<std::uint8_t>(i / 16 % 256)});
+  for (const Cloud& cloud : {kernels(1000), coloured})
+    for (const SliceFilter filter : {SliceFilter::linear, SliceFilter::centroid}) {
+      Case mass(cloud);
+      mass.options.method = Method::automatic;
+      mass.options.filter = filter;
+      mass.options.focus = Focus{.x_px = 40, .y_px = 30, .radius_px = 40, .gain = 1.8f};
+      const std::vector<Image<Rgb8>> found = mass.views(Device::graphics);
+      EXPECT_GT(worst_psnr(found, mass.views(Device::processor)), 55);
+      mass.options.focus.reset();
+      mass.options.method = Method::layered;
+      EXPECT_LT(worst_psnr(found, mass.views(Device::processor)), 45);
+    }
+}
+
 TEST_F(RenderGpu, ShowsTheNearestOfOpaqueParticles) {
   Case look(kernels(1000), {.look = Look::thesis});
   look.options.exposure = 20;

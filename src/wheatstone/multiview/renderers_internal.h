@@ -38,6 +38,12 @@ Resampling resampling_of(SliceFilter filter);
 /// multiplied by up to `gain`.
 Window window_around(const Scene& scene, const Rig& rig, float gain = 1);
 
+/// What any view sees of depth planes.
+Window window_of_planes(const RenderJob& job);
+
+/// A view's focus in the pixels of one of its pictures.
+std::optional<Focus> focus_in(const std::optional<Focus>& focus, const SplatOrder& order);
+
 class GatheredLight;
 
 /// A plane of a band.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "needs_gpu.h"
+#include "psnr.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/shine_internal.h"
@@ -137,6 +139,21 @@ TEST(Shine, IsInterpolatedBetweenViewsThatAreCloseEnough) {
     EXPECT_NEAR(at, views[v].eye_separations(), 1e-5);
   }
   EXPECT_EQ(shine_keys({.strength = 1, .turn = 0.087f}, std::vector{central_view}).size(), 1u);
+}
+
+class ShineGpu : public NeedsGpu {};
+
+TEST_F(ShineGpu, ShinesAsTheProcessorDoes) {
+  const Cloud cloud = ball(4000);
+  Stage stage = stage_of(cloud, 8);
+  RenderOptions options{.device = Device::graphics, .tone = {.least = 0, .most = 40}};
+  const auto views = [&] { return render(chunks_of(cloud), stage.statistics, stage.scene, stage.rig, options).views; };
+  const std::vector<Image<Rgb8>> found = views();
+  options.device = Device::processor;
+  options.method = Method::incremental;
+  EXPECT_GT(worst_psnr(found, views()), 55);
+  stage.scene.shine = {};
+  EXPECT_LT(worst_psnr(found, views()), 45);
 }
 
 }  // namespace
