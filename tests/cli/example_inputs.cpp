@@ -156,6 +156,8 @@ const std::map<std::string, Maker>& makers() {
       {"path.toml",
        [](const fs::path& path) { put_bytes(path, "[[key]]\nat = 0\nazimuth = 30\n[[key]]\nat = 1\nazimuth = 60\n"); }},
       {"tour.txt", [](const fs::path& path) { put_bytes(path, "wait\nmode right\nwait\n"); }},
+      // A script waits for what plays, for ten seconds.
+      {"stop.txt", [](const fs::path& path) { put_bytes(path, "wait 0.4\npause\nmode right\nwait 1\npause\nwait\n"); }},
       {"rig", make_rig},
       {"film.mp4", make_film},
       {"painted.mp4", make_film},

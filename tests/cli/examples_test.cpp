@@ -52,6 +52,7 @@ const std::vector<Reduction> reductions{
     {{"synth", "universe"}, "", "--particles", "2000"}, {{"study", "stimuli"}, "", "--size", "160x120"},
     {{"paint"}, "--display", "--size", "36x48"},        {{"rotoscope"}, "--display", "--size", "36x48"},
     {{"render"}, ".hdf5", "--size", "48x36"},           {{"view"}, "", "--script", "tour.txt"},
+    {{"view"}, "--camera", "--script", "stop.txt"},
 };
 
 bool begins_with(const Words& words, const Words& beginning) {
