@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "gaze.h"
@@ -326,7 +327,12 @@ void Viewer::wait() {
   while (true) {
     collect();
     if (!is_busy()) return;
-    mailbox_.wait_for(std::chrono::milliseconds(10));
+    constexpr std::chrono::milliseconds step(10);
+    // What eases moves on with time alone: each picture that is done would only ask for the next, a moment later.
+    if (session_.zero_parallax_target_px || session_.depth_around_target)
+      std::this_thread::sleep_for(step);
+    else
+      mailbox_.wait_for(step);
   }
 }
 
