@@ -27,7 +27,6 @@ function(wheatstone_add_gtest name target)
   # optimised more. With sanitizers and -Og, GCC cannot tell what is initialised.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-Og>
     $<$<CONFIG:RelWithDebInfo>:-Wno-maybe-uninitialized>)
-  target_sources(${target} PRIVATE /tmp/spots/cpu_listener.cpp)
   foreach(shard RANGE 1 ${shards})
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND ${target})
