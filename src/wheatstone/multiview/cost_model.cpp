@@ -62,9 +62,9 @@ Costs estimate_gpu_costs(const Workload& workload) {
   // A plane of mass has smaller pictures, too. An invocation costs something though it gathers nothing.
   const double pictures = workload.mass ? 1.33 : 1;
   const double area = (workload.splat_px + 1) * (workload.splat_px + 1);
-  const double gathered = (workload.mass ? 80 + 5 * area : 40 + 2.5 * area) * ns;
+  const double gathered = (workload.mass ? 35 + 0.8 * area : 25 + 1.3 * area) * ns;
   const double list = 200 * ns;
-  const double begin = 26 * ns, finish = 14 * ns, pack = 8.5 * ns, composite = 4 * ns;
+  const double begin = 26 * ns, finish = 14 * ns, pack = 8.5 * ns, composite = 3 * ns;
   Costs costs;
   costs.exact = std::numeric_limits<double>::infinity();
   costs.incremental = particles * (list + views * gathered) + views * pictures * pixels * (begin + finish);

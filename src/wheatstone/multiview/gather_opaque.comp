@@ -61,7 +61,7 @@ void main() {
   float view_here = view_of(target);
   const Four nothing = Four(vec4(far_away), vec4(-1), vec4(0), vec4(0), vec4(0));
   Four upper = nothing, lower = nothing;
-  List list = before_lists(target);
+  List list = before_lists(here, target);
   bool gathering = gathers(here, x, band);
   for (; gathering && (list.at < list.end || !is_last(list, here)); ++list.at) {
     if (list.at >= list.end) list = next_list(list, here, view_here, target, band, first_x);

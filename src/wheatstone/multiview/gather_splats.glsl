@@ -117,7 +117,7 @@ void main() {
   const Channel dark = Channel(nothing, nothing);
   Channel first = dark, second = dark, third = dark;
   float view_here = view_of(target);
-  List list = before_lists(target);
+  List list = before_lists(here, target);
   bool gathering = gathers(here, x, band);
   while (gathering && (list.at < list.end || !is_last(list, here))) {
     if (list.at >= list.end) list = next_list(list, here, view_here, target, band, first_x);

@@ -19,10 +19,12 @@ struct List {
 };
 
 // Before the first of those that a target gathers.
-List before_lists(int target) { return List(0, 0, 0, first_kind - 1, targets == into_views ? 1 << 30 : target); }
+List before_lists(Picture here, int target) {
+  return List(0, 0, 0, here.first_kind - 1, targets == into_views ? 1 << 30 : target);
+}
 
 bool is_last(List list, Picture here) {
-  return list.kind + 1 >= end_kind && (targets != into_views || list.slab + 1 >= here.slabs);
+  return list.kind + 1 >= here.end_kind && (targets != into_views || list.slab + 1 >= here.slabs);
 }
 
 uint end_of_list(int number) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
 
 #include "begin_lists_source.h"
 #include "count_splats_source.h"
@@ -29,6 +32,10 @@ constexpr int band_rows = 2, list_columns = 2, gathered_columns = 4, group_side 
 constexpr std::size_t entry_bytes = 32;
 /// Mesa's llvmpipe 22 ends the loops of an invocation after 65535 iterations in all.
 constexpr std::size_t most_iterations = 65000;
+/// Kinds whose reaches differ by no more are gone through together.
+constexpr float joined_px = 2;
+/// Of splats less bright than this, all steps of sums are counted (most_rest_bits of gather_splats.glsl).
+constexpr int all_counted_below = 4;
 /// Views move splats by this many pixels, beside those that a list has, before lists are cut by parallax.
 constexpr float moved_px = 6;
 
@@ -81,7 +88,7 @@ void set_pictures(const RenderJob& job, const GpuPictures& pictures, GpuTargets 
 std::size_t bytes_a_value(GpuWritten written) { return written == GpuWritten::light ? sizeof(float) : sum_bytes; }
 
 ListPrograms programs_for(Deposit deposit, bool opaque) {
-  if (opaque) return {place_opaque_source, gather_opaque_source, 1};
+  if (opaque) return {place_opaque_source, gather_opaque_source, false, 1};
   switch (deposit) {
     case Deposit::mass:
       return {place_mass_source, gather_mass_source};
@@ -92,7 +99,7 @@ ListPrograms programs_for(Deposit deposit, bool opaque) {
     case Deposit::colours_by_spline:
       return {place_colours_spline_source, gather_colours_spline_source};
     default:
-      return {place_light_source, gather_light_source};
+      return {place_light_source, gather_light_source, false};
   }
 }
 
@@ -125,20 +132,49 @@ SplatGatherer::SplatGatherer(const RenderJob& job, const GpuFacts& facts, const 
 std::size_t SplatGatherer::number_lists() {
   std::array<float, most_kinds> reaches{};
   reaches_.read(std::span<float>(reaches));
-  int kinds = 0;
-  int lists = 0;
-  for (int kind = 0; kind < most_kinds; ++kind) {
-    work_.kinds[kind].index = -1;
-    if (reaches[kind] == 0) continue;
-    const int picture = kind / kinds_a_picture;
-    work_.kinds[kind].index = kinds;
-    work_.kinds[kinds].first_list = lists;
-    work_.kinds[kinds].brightness = kind % kinds_a_picture / splat_widths;
-    work_.kinds[kinds].reach = reaches[kind];
-    lists += work_.pictures[picture].slabs * work_.pictures[picture].bands * work_.pictures[picture].lists_a_band;
-    ++kinds;
+  next_kind_ = next_list_ = 0;
+  for (std::size_t p = 0; p < pictures_.size(); ++p) {
+    work_.pictures[p].first_kind = next_kind_;
+    const auto first = static_cast<int>(p) * kinds_a_picture;
+    for (int brightness = splat_brightnesses - 1; brightness >= 0; --brightness) {
+      // What is left of whole steps is counted: splats that are fainter can be counted in the same steps.
+      const bool joins = programs_.counts_rest && brightness < all_counted_below;
+      const int least = joins ? 0 : brightness;
+      number_kinds(static_cast<int>(p),
+                   std::span(reaches).subspan(first + least * splat_widths, (brightness + 1 - least) * splat_widths),
+                   first + least * splat_widths);
+      brightness = least;
+    }
+    work_.pictures[p].end_kind = next_kind_;
   }
-  return static_cast<std::size_t>(lists);
+  return static_cast<std::size_t>(next_list_);
+}
+
+/// Numbers kinds that are counted in the same steps: those that reach about as far have the same number.
+void SplatGatherer::number_kinds(int picture, std::span<const float> reaches, int first_kind) {
+  const auto last_there = std::ranges::find_if(reaches.rbegin(), reaches.rend(), [](float reach) { return reach > 0; });
+  if (last_there == reaches.rend()) {
+    for (std::size_t i = 0; i < reaches.size(); ++i) work_.kinds[first_kind + i].index = -1;
+    return;
+  }
+  const auto brightest = first_kind + static_cast<int>(reaches.rend() - last_there) - 1;
+  std::vector<int> widest_first(reaches.size());
+  std::iota(widest_first.begin(), widest_first.end(), 0);
+  std::ranges::stable_sort(widest_first, std::greater(), [&](int i) { return reaches[i]; });
+  float reach = std::numeric_limits<float>::infinity();
+  for (const int i : widest_first) {
+    work_.kinds[first_kind + i].index = reaches[i] > 0 ? next_kind_ - 1 : -1;
+    if (reaches[i] == 0 || reach - reaches[i] <= joined_px) continue;
+    reach = reaches[i];
+    const ListWork::Picture& of = work_.pictures[picture];
+    ListWork::Kind& numbered = work_.kinds[next_kind_];
+    numbered.first_list = next_list_;
+    numbered.brightness = brightest % kinds_a_picture / splat_widths;
+    numbered.reach = reach;
+    work_.kinds[first_kind + i].index = next_kind_;
+    next_list_ += of.slabs * of.bands * of.lists_a_band;
+    ++next_kind_;
+  }
 }
 
 /// As many entries as one invocation may go through: those of a band, of all kinds, and of all slabs where views
@@ -149,14 +185,14 @@ std::size_t SplatGatherer::most_in_a_band(const GpuBuffer& begins, std::size_t i
   begin.push_back(static_cast<std::uint32_t>(in_lists));
   const bool together = work_.targets == GpuTargets::views;
   std::array<std::vector<std::size_t>, PictureTable::most> entries;
-  for (int kind = 0; kind < most_kinds; ++kind) {
-    if (work_.kinds[kind].index < 0) continue;
-    const ListWork::Picture& picture = work_.pictures[kind / kinds_a_picture];
-    std::vector<std::size_t>& of_picture = entries[kind / kinds_a_picture];
-    of_picture.resize(static_cast<std::size_t>(picture.bands) * (together ? 1 : picture.slabs));
-    std::size_t list = work_.kinds[work_.kinds[kind].index].first_list;
-    for (int i = 0; i < picture.slabs * picture.bands; ++i, list += picture.lists_a_band)
-      of_picture[i % of_picture.size()] += begin[list + picture.lists_a_band] - begin[list];
+  for (std::size_t p = 0; p < pictures_.size(); ++p) {
+    const ListWork::Picture& picture = work_.pictures[p];
+    entries[p].resize(static_cast<std::size_t>(picture.bands) * (together ? 1 : picture.slabs));
+    for (int kind = picture.first_kind; kind < picture.end_kind; ++kind) {
+      std::size_t list = work_.kinds[kind].first_list;
+      for (int i = 0; i < picture.slabs * picture.bands; ++i, list += picture.lists_a_band)
+        entries[p][i % entries[p].size()] += begin[list + picture.lists_a_band] - begin[list];
+    }
   }
   std::size_t most = 0;
   for (const std::vector<std::size_t>& of_picture : entries)
@@ -182,17 +218,13 @@ bool SplatGatherer::add(std::size_t count, std::optional<int> target) {
 }
 
 void SplatGatherer::gather(const GpuBuffer& ends, const GpuBuffer& entries, std::optional<int> target) {
-  const auto is_there = [](const ListWork::Kind& kind) { return kind.index >= 0; };
   const GpuWritten written = work_.written;
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (std::size_t p = 0; p < pictures_.size(); ++p) {
-      const auto here = std::span(work_.kinds).subspan(p * kinds_a_picture, kinds_a_picture);
-      const auto kinds = static_cast<int>(std::ranges::count_if(here, is_there));
+      const int kinds = work_.pictures[p].end_kind - work_.pictures[p].first_kind;
       const int first = target ? std::max(*target, groups_[g].first[p]) : groups_[g].first[p];
       const int targets = (target ? std::min(*target + 1, groups_[g].end[p]) : groups_[g].end[p]) - first;
       if (kinds == 0 || targets <= 0) continue;
-      work_.first_kind = std::ranges::find_if(here, is_there)->index;
-      work_.end_kind = work_.first_kind + kinds;
       work_.picture = static_cast<std::int32_t>(p);
       work_.first_target = first;
       work_.end_target = first + targets;

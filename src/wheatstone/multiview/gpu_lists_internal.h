@@ -30,9 +30,8 @@ struct ListWork {
   std::int32_t splats = 0;
   GpuTargets targets = GpuTargets::views;
   std::int32_t picture = 0, first_target = 0, end_target = 0, base = 0;
-  std::int32_t channels = 0, first_kind = 0, end_kind = 0;
+  std::int32_t channels = 0;
   GpuWritten written = GpuWritten::sums;
-  std::array<std::int32_t, 2> unused{};
   /// Of a kind its number among those that are there (-1: none), and of that number the rest.
   struct Kind {
     std::int32_t index = 0, first_list = 0, brightness = 0;
@@ -43,7 +42,8 @@ struct ListWork {
     std::int32_t left = 0, width = 0;
     float lists_left = 0, first_parallax = 0;
     float slab_parallax = 0;
-    std::array<std::int32_t, 3> unused{};
+    std::int32_t first_kind = 0, end_kind = 0;  ///< numbers of the kinds that are there
+    std::int32_t unused = 0;
   };
   std::array<Kind, most_kinds> kinds{};
   std::array<Picture, PictureTable::most> pictures{};
@@ -53,6 +53,7 @@ struct ListWork {
 /// What puts splats into lists, and what gathers these.
 struct ListPrograms {
   const GpuSource &place, &gather;
+  bool counts_rest = true;          ///< what is left of whole steps
   std::size_t entries_at_once = 4;  ///< that an iteration of gathering takes
 };
 
@@ -74,6 +75,7 @@ class SplatGatherer {
 
  private:
   std::size_t number_lists();
+  void number_kinds(int picture, std::span<const float> reaches, int first_kind);
   std::size_t most_in_a_band(const GpuBuffer& begins, std::size_t in_lists) const;
   void gather(const GpuBuffer& ends, const GpuBuffer& entries, std::optional<int> target);
 
@@ -85,6 +87,7 @@ class SplatGatherer {
   GpuBuffer splats_, reaches_;
   std::vector<GpuBuffer> sums_;
   std::vector<std::vector<char>> begun_;  // [group][picture]
+  int next_kind_ = 0, next_list_ = 0;
 };
 
 }  // namespace wheatstone

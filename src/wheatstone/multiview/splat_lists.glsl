@@ -23,15 +23,16 @@ struct Picture {
   int left, width;
   float lists_left, first_parallax;
   float slab_parallax;
+  int first_kind, end_kind;  // numbers of the kinds that are there
 };
 
 // As struct ListWork in gpu_lists_internal.h has them.
 layout(std140, binding = 0) uniform Work {
   int splats;   // how many are put into lists
   int targets;  // one of the three ways above
-  // What is gathered: targets of a picture, from kinds that are there.
+  // What is gathered: targets of a picture.
   int picture, first_target, end_target, base;
-  int channels, first_kind, end_kind;
+  int channels;
   int written;  // what: sums, what is added to sums, or light
   Kind kinds[most_kinds];
   Picture pictures[most_pictures];
