@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -44,6 +45,19 @@ bool is_like(Rgb8 a, Rgb8 b) {
 }
 
 }  // namespace
+
+bool has_colour_near(ImageView<const Rgb8> photograph, Rgb8 colour, int x, int y) {
+  if (is_like(photograph(x, y), colour)) return true;
+  const double radius_px = nearness_px(photograph.width());
+  const int reach = static_cast<int>(radius_px);
+  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, photograph.height() - 1); ++row) {
+    const int away = row - y, half = static_cast<int>(std::sqrt(radius_px * radius_px - away * away));
+    const int left = std::max(x - half, 0), right = std::min(x + half + 1, photograph.width());
+    const auto about = photograph.row(row).subspan(left, right - left);
+    if (std::ranges::any_of(about, [&](Rgb8 there) { return is_like(there, colour); })) return true;
+  }
+  return false;
+}
 
 Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph) {
   if (painted.width() != photograph.width() || painted.height() != photograph.height())

@@ -10,13 +10,23 @@ namespace wheatstone {
 /// An RGB distance, 0..441, above which nobody takes one colour for the other.
 inline constexpr float unlike_colours = 60;
 
+/// The distance within which a colour is near, in pixels: 4 in a picture 640 wide, in proportion otherwise.
+inline double nearness_px(int width) { return 4.0 * width / 640; }
+
+/// In narrower pictures, what is taken for near is less than a pixel away: they are not mended.
+inline constexpr int least_judged_width_px = 160;
+
 /// Places of a painting whose colour its photograph has nowhere near, as where paint of one surface lies on another.
 struct WrongSpots {
   double spots_per_100000_px = 0;
   double share = 0;  ///< of the pixels, 0..1, that lie in a spot
 };
 
-/// The colours of a photograph around its pixels: those within 4 pixels of a picture 640 wide, in proportion otherwise.
+/// Whether a photograph has a colour like this one near a pixel of it. Where many pixels are asked for, ColoursAround
+/// is faster.
+bool has_colour_near(ImageView<const Rgb8> photograph, Rgb8 colour, int x, int y);
+
+/// The colours of a photograph that are near its pixels.
 class ColoursAround {
  public:
   explicit ColoursAround(ImageView<const Rgb8> photograph);

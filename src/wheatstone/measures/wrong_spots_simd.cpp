@@ -57,7 +57,7 @@ HWY_EXPORT(disc_has);
 
 ColoursAround::ColoursAround(ImageView<const Rgb8> photograph) {
   constexpr int widest_vector = 32;
-  const double radius_px = 4.0 * photograph.width() / 640;
+  const double radius_px = nearness_px(photograph.width());
   const int reach = static_cast<int>(radius_px), width = photograph.width();
   for (int y = 0; y <= reach; ++y)
     half_widths.push_back(static_cast<int>(std::sqrt(radius_px * radius_px - static_cast<double>(y) * y)));

@@ -78,6 +78,7 @@ TEST(WrongPixels, AreThoseOfTheDefinitionUpToTheBorders) {
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         ASSERT_EQ(wrong(x, y) != 0, is_wrong_by_definition(painted(x, y), photograph, x, y)) << x << ' ' << y;
+        ASSERT_EQ(wrong(x, y) == 0, has_colour_near(photograph, painted(x, y), x, y)) << x << ' ' << y;
         count += wrong(x, y) != 0 ? 1 : 0;
       }
     }

@@ -13,11 +13,14 @@
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/resize_strokes.h"
+#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/strokes/carried_points_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
 #include "wheatstone/strokes/cover_bare_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/misplaced_strokes_internal.h"
 #include "wheatstone/strokes/missing_strokes_internal.h"
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/sized_view_internal.h"
@@ -70,41 +73,43 @@ class ViewAtWork {
     const std::size_t carried = tracked.tracks.size();
     const bool compares = options.goes_on || carried != 0;
     const Image<float> before = compares ? errors_left(inputs) : Image<float>();
+    const bool finest = layer + 1 == static_cast<int>(radii_px_.size());
+    std::optional<Canvas> below;
+    if (carried != 0 && !finest) below = planner.canvas;
     if (!tracked.tracks.empty()) {
       end_wrong_colours(inputs, before, options, tracked);
-      draw_on_canvas(shown(tracked, [](const StrokeTrack& track) { return track.ends == 0; }));
+      draw_on_canvas(with_opacities(tracked, [&](std::size_t i) { return standing(tracked.tracks[i]); }));
     }
-    const bool finest = layer + 1 == static_cast<int>(radii_px_.size());
-    const Image<std::uint8_t> misplaced = finest ? misplaced_paint(planner, style_) : Image<std::uint8_t>();
+    Image<std::uint8_t> misplaced = finest ? misplaced_paint(planner, style_) : Image<std::uint8_t>();
     if (!tracked.tracks.empty()) seeds = where_strokes_are_missing(inputs, before, misplaced, tracked);
     Layer begun = plan_on(planner, inputs, style_, at_->scaled, {seeds.empty() ? part : seeds.view(), misplaced});
     numbers_.give(begun);
     sort_numbered_far_to_near(begun, style_.seed);
     add(begun, inputs, before, options, tracked);
+    if (below && !begun.strokes.empty()) {
+      // New strokes lie among the carried ones: what those hide of them is for the finer layers to mend.
+      planner.canvas = std::move(*below);
+      draw_on_canvas(
+          with_opacities(tracked, [&](std::size_t i) { return i < carried ? standing(tracked.tracks[i]) : 1; }));
+      return;
+    }
     rasterise(finest ? strokes_near_bare(begun, planner.canvas) : begun, planner.view, hiding(), planner.canvas);
     if (!finest) return;
     Layer dots = cover_bare(planner, inputs, at_->scaled, style_, part);
     if (!part_.is_whole()) append_strokes(dots_left_out({tracked, carried}), dots);
     numbers_.give(dots);
     add(std::move(dots), inputs, before, options, tracked);
+    misplaced_ = std::move(misplaced);
   }
 
-  /// Once all layers are planned: fading strokes whose paint the frame has nowhere near are gone at once.
-  void drop_misplaced(std::span<TrackedLayer> layers) {
-    if (!part_.is_whole()) return;
-    for (const TrackedLayer& tracked : layers)
-      draw_on_canvas(shown(tracked, [](const StrokeTrack& track) { return track.ends != 0; }));
-    const Image<std::uint8_t> misplaced = misplaced_paint(at_->planner, style_);
-    if (misplaced.empty()) return;
-    for (TrackedLayer& tracked : layers) {
-      keep_if(tracked, [&](std::size_t i) {
-        return tracked.tracks[i].ends == 0 ||
-               std::ranges::none_of(tracked.layer.points_of(tracked.layer.strokes[i]), [&](const ControlPoint& point) {
-                 const int x = static_cast<int>(std::floor(point.x)), y = static_cast<int>(std::floor(point.y));
-                 return misplaced.contains(x, y) && misplaced(x, y) != 0;
-               });
-      });
-    }
+  /// Once all layers are planned: marks for this frame alone where the carried strokes show what the frame has nowhere
+  /// near. What is new there may lie under them, and comes in slowly.
+  Layer accents() {
+    if (!part_.is_whole() || misplaced_.empty() || part_.view.picture.width() < least_judged_width_px) return {};
+    constexpr int least_px = 4;  // of a spot, as spots are counted
+    remove_occlusion_specks(misplaced_, least_px);
+    return cover_places({part_.view.picture, part_.view.disparity, part_.view.position, {}, std::move(misplaced_)},
+                        at_->scaled, style_);
   }
 
  private:
@@ -157,14 +162,18 @@ class ViewAtWork {
     });
   }
 
-  /// The strokes that `is_shown` holds for, as the planner's canvas is to have them.
-  template <class IsShown>
-  Layer shown(const TrackedLayer& tracked, IsShown is_shown) const {
+  /// Of a stroke's opacity, what the planner's canvas is to have: what fades away is no longer there.
+  static float standing(const StrokeTrack& track) { return track.ends == 0 ? track.shown : 0; }
+
+  /// The strokes in their order, each with a share of its opacity; those with none are left out.
+  template <class ShareOf>
+  Layer with_opacities(const TrackedLayer& tracked, ShareOf share_of) const {
     Layer layer{tracked.layer.radius_px, tracked.layer.points, {}};
     for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
-      if (!is_shown(tracked.tracks[i])) continue;
+      const float share = share_of(i);
+      if (share <= 0) continue;
       layer.strokes.push_back(tracked.layer.strokes[i]);
-      layer.strokes.back().opacity *= tracked.tracks[i].shown;
+      layer.strokes.back().opacity *= share;
     }
     sort_numbered_far_to_near(layer, style_.seed);
     return layer;
@@ -290,6 +299,7 @@ class ViewAtWork {
   ImageView<const std::uint8_t> uncovered_;  ///< what no photograph shows, of a view that goes on there
   StrokeNumbers& numbers_;
   std::unique_ptr<SizedView> at_;
+  Image<std::uint8_t> misplaced_;  ///< as misplaced_paint, of the carried strokes
 };
 
 /// Plans the views at once and tells of each layer. What `progress` throws in one view is thrown when both have ended:
@@ -426,6 +436,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
     result.counts.before = living_strokes(memory);
     carry(frame, style, options, memory);
   }
+  std::vector<Layer> accents(frame.views.size());
   ViewsPlan plan(progress, frame.views.size(), layers);
   plan.run([&](std::size_t view) {
     plan.report_step();
@@ -436,9 +447,11 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
       work.plan(static_cast<int>(i), options, memory.views[view][i]);
       plan.report_step();
     }
-    if (!scene_begins) work.drop_misplaced(memory.views[view]);
-    for (TrackedLayer& tracked : memory.views[view])
+    for (TrackedLayer& tracked : memory.views[view]) {
+      if (style.jitter == ColourJitter{}) drop_misplaced(frame.views[view], frame.views, depth_threshold_px, tracked);
       drop_needless(frame, view, memory.last_number, depth_threshold_px, tracked);
+    }
+    if (!scene_begins) accents[view] = work.accents();
   });
   result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;
@@ -449,6 +462,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
       std::ranges::copy(disparity.row(y), memory.reference_disparity.row(y).begin());
   }
   result.painting = shown_painting(frame, style, memory);
+  for (const Layer& marks : accents) append_strokes(marks, result.painting.layers.back());
   return result;
 }
 

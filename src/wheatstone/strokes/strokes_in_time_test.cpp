@@ -18,7 +18,9 @@
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint_frame.h"
+#include "wheatstone/random.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
+#include "wheatstone/strokes/misplaced_strokes_internal.h"
 #include "wheatstone/strokes/missing_strokes_internal.h"
 #include "wheatstone/strokes/strokes_between_frames.h"
 
@@ -190,6 +192,59 @@ TEST(StrokesInTime, WhereTheFlowIsWrongPaintDoesNotLinger) {
     wrong = measure_wrong_spots(frame.painted.pictures.left, picture).share;
   }
   EXPECT_LT(wrong, 0.02) << "the bar of the frame before takes .22 of the picture";
+}
+
+/// Squares of many colours and sizes, each time in other places.
+Image<Rgb8> scattered_squares(std::uint64_t time) {
+  Image<Rgb8> picture(320, 180, {120, 130, 120});
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const std::uint64_t look = hash_keys({i}), place = hash_keys({i, time});
+    const int side = 6 + static_cast<int>(look % 26);
+    const int left = static_cast<int>(place % (320 - side)), top = static_cast<int>((place >> 20) % (180 - side));
+    const Rgb8 colour{static_cast<std::uint8_t>(look >> 8), static_cast<std::uint8_t>(look >> 16),
+                      static_cast<std::uint8_t>(look >> 24)};
+    for (int y = top; y < top + side; ++y) std::fill_n(&picture(left, y), side, colour);
+  }
+  return picture;
+}
+
+TEST(StrokesInTime, ShowNothingButTheFrameWhateverTheFlowSays) {
+  const Image<float> flat(320, 180);
+  const FlowPair none{{flat, flat}, {flat, flat}};
+  PaintingMemory memory;
+  double carried = 0, anew = 0;
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const Image<Rgb8> picture = scattered_squares(i);
+    const std::vector<SceneView> scene{{picture, flat, {}, central_view}};
+    const PaintedFrame frame = paint_frame({scene, i == 0 ? nullptr : &none}, {}, {}, memory);
+    PaintingMemory nothing;
+    const PaintedFrame alone = paint_frame({scene, nullptr}, {}, {}, nothing);
+    if (i == 0) continue;
+    carried += measure_wrong_spots(frame.painted.pictures.left, picture).share;
+    anew += measure_wrong_spots(alone.painted.pictures.left, picture).share;
+  }
+  EXPECT_LE(carried, 4 * anew) << "thirty times, if carried strokes hid new ones, and those that fade were left";
+}
+
+TEST(DropMisplaced, AsksAllViewsThatShowAStroke) {
+  constexpr Rgb8 grey{120, 120, 120}, red{220, 30, 30};
+  Image<Rgb8> centre(160, 40, grey), right(160, 40, grey);
+  for (int y = 0; y < 40; ++y) std::fill_n(&centre(30, y), 12, red);
+  const Image<float> flat(160, 40);
+  const auto left_of = [&](const std::vector<SceneView>& views, std::uint32_t ends, float disparity) {
+    TrackedLayer tracked;
+    tracked.layer.points = {{36, 20, disparity}};
+    tracked.layer.strokes = {{.point_count = 1, .radius_px = 2, .colour = red, .reference_view = central_view}};
+    tracked.tracks = {{.ends = ends}};
+    drop_misplaced(views.front(), views, 1, tracked);
+    return tracked.tracks.size();
+  };
+  const std::vector<SceneView> alone{{centre, flat, {}, central_view}};
+  EXPECT_EQ(left_of(alone, 2, 0), 1u);
+  const std::vector<SceneView> both{alone.front(), {right, flat, {}, right_eye}};
+  EXPECT_EQ(left_of(both, 2, 0), 0u) << "the right eye sees nothing red there";
+  EXPECT_EQ(left_of(both, 0, 0), 1u) << "it does not fade";
+  EXPECT_EQ(left_of(both, 2, -8), 1u) << "it is hidden";
 }
 
 TEST(FadingFrames, AreFewerWhereAStrokeWouldLeaveATrail) {
