@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "wheatstone/depth/warp_row.h"
@@ -15,6 +16,12 @@
 namespace wheatstone {
 namespace {
 
+/// Disparities in whole steps, as paintings keep them.
+void round_to_steps(std::span<const float> from, std::span<float> to) {
+  for (std::size_t x = 0; x < from.size(); ++x)
+    to[x] = static_cast<float>(floor_of(from[x] * disparity_steps + 0.5f)) / disparity_steps;
+}
+
 /// What a view is the first to see.
 Surface surface_of(const SceneView& view) {
   const int width = view.disparity.width(), height = view.disparity.height();
@@ -22,14 +29,19 @@ Surface surface_of(const SceneView& view) {
   tbb::parallel_for(0, height, [&](int y) {
     const auto from = view.disparity.row(y);
     const auto to = surface.disparity.row(y);
-    if (!view.only_here.empty() && std::ranges::count(view.only_here.row(y), 0) == width) {
-      std::ranges::fill(to, std::numeric_limits<float>::quiet_NaN());
+    if (view.only_here.empty()) {
+      round_to_steps(from, to);
       return;
     }
-    for (int x = 0; x < width; ++x) {
-      const bool is_its_own = view.only_here.empty() || view.only_here(x, y) != 0;
-      to[x] = is_its_own ? static_cast<float>(floor_of(from[x] * disparity_steps + 0.5f)) / disparity_steps
-                         : std::numeric_limits<float>::quiet_NaN();
+    // Most of what other views than the reference show is not their own.
+    std::ranges::fill(to, std::numeric_limits<float>::quiet_NaN());
+    const auto own = view.only_here.row(y);
+    for (auto end = own.begin();;) {
+      const auto begin = std::find_if(end, own.end(), [](std::uint8_t value) { return value != 0; });
+      if (begin == own.end()) return;
+      end = std::find(begin, own.end(), std::uint8_t{0});
+      const auto first = static_cast<std::size_t>(begin - own.begin()), count = static_cast<std::size_t>(end - begin);
+      round_to_steps(from.subspan(first, count), to.subspan(first, count));
     }
   });
   return surface;

@@ -50,11 +50,13 @@ OuterView enlarged(const OuterView& view, int reduction, int width, int height) 
     const auto to_picture = whole.picture.row(first);
     const auto to_disparity = whole.disparity.row(first);
     const auto to_uncovered = whole.uncovered.row(first);
-    for (int x = 0; x < width; ++x) {
-      const int column = std::min(x / reduction, last_column);
-      to_picture[x] = picture[column];
-      to_disparity[x] = disparity[column] * static_cast<float>(reduction);
-      to_uncovered[x] = uncovered[column];
+    for (int column = 0, x = 0; column <= last_column; ++column) {
+      const float larger = disparity[column] * static_cast<float>(reduction);
+      for (const int end = column < last_column ? x + reduction : width; x < end; ++x) {
+        to_picture[x] = picture[column];
+        to_disparity[x] = larger;
+        to_uncovered[x] = uncovered[column];
+      }
     }
     for (int y = first + 1; y < end_of(row); ++y) {
       std::ranges::copy(to_picture, whole.picture.row(y).begin());
