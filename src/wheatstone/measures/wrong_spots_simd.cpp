@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <tuple>
 
 #include "wheatstone/measures/wrong_spots.h"
@@ -47,6 +49,25 @@ bool disc_has(const ColoursAround& colours, Rgb8 colour, int x, int y) {
   return false;
 }
 
+/// The channels of a row's colours.
+void separate_channels(std::span<const Rgb8> from, std::uint8_t* red, std::uint8_t* green, std::uint8_t* blue) {
+  const hn::CappedTag<std::uint8_t, 32> bytes;
+  const std::size_t lanes = hn::Lanes(bytes);
+  std::size_t x = 0;
+  for (; x + lanes <= from.size(); x += lanes) {
+    auto r = hn::Zero(bytes), g = r, b = r;
+    hn::LoadInterleaved3(bytes, &from[x].r, r, g, b);
+    hn::StoreU(r, bytes, red + x);
+    hn::StoreU(g, bytes, green + x);
+    hn::StoreU(b, bytes, blue + x);
+  }
+  for (; x < from.size(); ++x) {
+    red[x] = from[x].r;
+    green[x] = from[x].g;
+    blue[x] = from[x].b;
+  }
+}
+
 }  // namespace wheatstone::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -54,6 +75,7 @@ HWY_AFTER_NAMESPACE();
 namespace wheatstone {
 
 HWY_EXPORT(disc_has);
+HWY_EXPORT(separate_channels);
 
 ColoursAround::ColoursAround(ImageView<const Rgb8> photograph) {
   constexpr int widest_vector = 32;
@@ -66,11 +88,8 @@ ColoursAround::ColoursAround(ImageView<const Rgb8> photograph) {
   tbb::parallel_for(0, photograph.height(), [&](int y) {
     const auto from = photograph.row(y);
     const auto to_red = red.row(y), to_green = green.row(y), to_blue = blue.row(y);
-    for (int x = 0; x < width; ++x) {
-      to_red[reach + x] = from[x].r;
-      to_green[reach + x] = from[x].g;
-      to_blue[reach + x] = from[x].b;
-    }
+    HWY_DYNAMIC_DISPATCH(separate_channels)
+    (from, to_red.data() + reach, to_green.data() + reach, to_blue.data() + reach);
     for (const auto& [plane, first, last] :
          {std::tuple(to_red, from.front().r, from.back().r), std::tuple(to_green, from.front().g, from.back().g),
           std::tuple(to_blue, from.front().b, from.back().b)}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "wheatstone/strokes/seed_internal.h"
 
@@ -14,24 +15,30 @@ struct Cell {
   int left, right, top, bottom;
 };
 
-/// True where some pixel was wrong before the carried strokes and still is. Cells without one are the most by far, and
-/// whole rows of a cell are compared at once.
-bool is_wrong_still(const CarriedGround& ground, const Cell& cell, float squared_threshold) {
-  for (int y = cell.top; y < cell.bottom; ++y) {
-    const float* before = ground.before.row(y).data();
-    const float* after = ground.after.row(y).data();
-    int wrong = 0;
-    for (int x = cell.left; x < cell.right; ++x)
-      wrong |= static_cast<int>(before[x] > squared_threshold) & static_cast<int>(after[x] > squared_threshold);
-    if (wrong != 0) return true;
-  }
+/// 255 where a pixel was wrong before the carried strokes and still is.
+Image<std::uint8_t> wrong_still(const CarriedGround& ground) {
+  const float squared_threshold = ground.threshold * ground.threshold;
+  Image<std::uint8_t> wrong(ground.before.width(), ground.before.height());
+  tbb::parallel_for(0, wrong.height(), [&](int y) {
+    const auto before = ground.before.row(y), after = ground.after.row(y);
+    const auto marks = wrong.row(y);
+    for (std::size_t x = 0; x < marks.size(); ++x)
+      marks[x] = (before[x] > squared_threshold) & (after[x] > squared_threshold) ? 255 : 0;
+  });
+  return wrong;
+}
+
+/// Cells without anything wrong are the most by far.
+bool has_any(const Image<std::uint8_t>& mask, const Cell& cell) {
+  const auto size = static_cast<std::size_t>(cell.right - cell.left);
+  for (int y = cell.top; y < cell.bottom && size > 0; ++y)
+    if (std::memchr(&mask(cell.left, y), 255, size) != nullptr) return true;
   return false;
 }
 
 /// Looks at one cell among the pixels beside depth edges, or among the others.
 void look_at(const CarriedGround& ground, const Cell& cell, bool beside_edge, Image<std::uint8_t>& places) {
   const float squared_threshold = ground.threshold * ground.threshold;
-  if (!is_wrong_still(ground, cell, squared_threshold)) return;
   const auto each = [&](auto visit) {
     for (int y = cell.top; y < cell.bottom; ++y)
       for (int x = cell.left; x < cell.right; ++x)
@@ -53,17 +60,18 @@ void look_at(const CarriedGround& ground, const Cell& cell, bool beside_edge, Im
   });
 }
 
-void look_at_all(const CarriedGround& ground, float cell_px, bool beside_edge, Image<std::uint8_t>& places) {
+void look_at_all(const CarriedGround& ground, const Image<std::uint8_t>& wrong, float cell_px, bool beside_edge,
+                 Image<std::uint8_t>& places) {
   const auto cells = [&](int size) { return static_cast<int>(std::ceil(static_cast<float>(size) / cell_px)); };
   const auto bound = [&](int cell, int size) {
     return std::min(static_cast<int>(static_cast<float>(cell) * cell_px), size);
   };
   tbb::parallel_for(0, cells(places.height()), [&](int row) {
-    for (int column = 0; column < cells(places.width()); ++column)
-      look_at(ground,
-              {bound(column, places.width()), bound(column + 1, places.width()), bound(row, places.height()),
-               bound(row + 1, places.height())},
-              beside_edge, places);
+    for (int column = 0; column < cells(places.width()); ++column) {
+      const Cell cell{bound(column, places.width()), bound(column + 1, places.width()), bound(row, places.height()),
+                      bound(row + 1, places.height())};
+      if (has_any(wrong, cell)) look_at(ground, cell, beside_edge, places);
+    }
   });
 }
 
@@ -71,8 +79,9 @@ void look_at_all(const CarriedGround& ground, float cell_px, bool beside_edge, I
 
 Image<std::uint8_t> missing_strokes(const CarriedGround& ground) {
   Image<std::uint8_t> places(ground.before.width(), ground.before.height());
-  look_at_all(ground, std::max(ground.cell_px, 1.f), false, places);
-  if (!ground.beside.empty()) look_at_all(ground, std::max(ground.cell_px / 2, 1.f), true, places);
+  const Image<std::uint8_t> wrong = wrong_still(ground);
+  look_at_all(ground, wrong, std::max(ground.cell_px, 1.f), false, places);
+  if (!ground.beside.empty()) look_at_all(ground, wrong, std::max(ground.cell_px / 2, 1.f), true, places);
   return places;
 }
 
