@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/app/rotoscope.h"
@@ -18,11 +19,18 @@ namespace {
 
 constexpr int film_width = 320, film_height = 180;
 
+/// A frame by eyes that stand straight.
+const StereoPair& straight_frame(int frame) {
+  static std::map<int, StereoPair> made;
+  const auto [at, is_new] = made.try_emplace(frame);
+  const SyntheticFilmOptions options{
+      .still = {.width = film_width, .height = film_height, .samples_a_side = 1}, .frames = 12, .cut = 0};
+  if (is_new) at->second = make_synthetic_film_frame(options, frame).pictures;
+  return at->second;
+}
+
 StereoPair film_frame(int frame, double right_turn_degrees) {
-  SyntheticFilmOptions options{.still = {.width = film_width, .height = film_height, .samples_a_side = 1},
-                               .frames = 12};
-  options.cut = 0;
-  StereoPair pair = make_synthetic_film_frame(options, frame).pictures;
+  StereoPair pair = straight_frame(frame);
   if (right_turn_degrees == 0) return pair;
   const cv::Point2f middle(film_width / 2.f, film_height / 2.f);
   cv::Mat turned;
@@ -46,10 +54,11 @@ PaintedFilm paint_film(double right_turn_degrees, int frames, RectifyPolicy poli
   TemporalError error;
   Image<Rgb8> source, painted;
   for (int i = 0; i < frames; ++i) {
-    const RotoscopedFrame frame = rotoscope_frame(film_frame(i, right_turn_degrees), options, state);
+    const StereoPair eyes = film_frame(i, right_turn_degrees);
+    const RotoscopedFrame frame = rotoscope_frame(eyes, options, state);
     if (!frame.rows_note.empty()) film.note = frame.rows_note;
     EXPECT_EQ(frame.scene_begins, i == 0) << i;
-    const Image<Rgb8> rectified_source = rectified(film_frame(i, right_turn_degrees), state.rectification).left;
+    const Image<Rgb8> rectified_source = rectified(eyes, state.rectification).left;
     if (i > 0) error.add(painted, frame.painted.pictures.left, relate_frames(source, rectified_source));
     source = rectified_source;
     painted = frame.painted.pictures.left;

@@ -204,22 +204,40 @@ void DensityGrid::fill_densities() {
 
 namespace {
 
-/// Spreads values over their neighbours along one axis, a quarter to either side; values beyond the ends are as at
-/// them.
-void blur(std::vector<float>& values, std::size_t stride, std::size_t side) {
-  tbb::parallel_for(std::size_t{0}, side * side, [&](std::size_t line) {
-    // Lines along an axis begin wherever the other two coordinates put them.
-    float* const first = values.data() + (stride == 1      ? line * side
-                                          : stride == side ? line / side * side * side + line % side
-                                                           : line);
-    float before = first[0];
-    for (std::size_t i = 0; i < side; ++i) {
-      const float here = first[i * stride];
-      const float after = first[std::min(i + 1, side - 1) * stride];
-      first[i * stride] = (before + 2 * here + after) / 4;
-      before = here;
+/// Spreads a line of values over their neighbours, a quarter to either side; values beyond the ends are as at them.
+void blur_line(float* first, std::size_t side) {
+  float before = first[0];
+  for (std::size_t i = 0; i < side; ++i) {
+    const float here = first[i], after = first[std::min(i + 1, side - 1)];
+    first[i] = (before + 2 * here + after) / 4;
+    before = here;
+  }
+}
+
+/// The same along another axis, of `side` lines that lie side by side: they begin at `first`, and their values are
+/// `stride` apart.
+void blur_lines(float* first, std::size_t stride, std::size_t side) {
+  std::vector<float> before(first, first + side);
+  for (std::size_t i = 0; i < side; ++i) {
+    float* const here = first + i * stride;
+    const float* const after = first + std::min(i + 1, side - 1) * stride;
+    for (std::size_t line = 0; line < side; ++line) {
+      const float value = here[line];
+      here[line] = (before[line] + 2 * value + after[line]) / 4;
+      before[line] = value;
     }
+  }
+}
+
+/// Blurs a cube of values along its three axes.
+void blur(std::vector<float>& values, std::size_t side) {
+  float* const first = values.data();
+  const std::size_t plane = side * side;
+  tbb::parallel_for(std::size_t{0}, side, [&](std::size_t z) {
+    for (std::size_t y = 0; y < side; ++y) blur_line(first + z * plane + y * side, side);
+    blur_lines(first + z * plane, side, side);
   });
+  tbb::parallel_for(std::size_t{0}, side, [&](std::size_t y) { blur_lines(first + y * side, plane, side); });
 }
 
 }  // namespace
@@ -229,9 +247,7 @@ void DensityGrid::finish(int particles_a_kernel) {
   particles_a_kernel_ = particles_a_kernel;
   fill_densities();
   smooth_ = log2_density_;
-  constexpr std::size_t line = side;
-  for (int times = 0; times < 2; ++times)
-    for (const std::size_t stride : {std::size_t{1}, line, line * line}) blur(smooth_, stride, line);
+  for (int times = 0; times < 2; ++times) blur(smooth_, side);
 }
 
 std::array<float, 3> DensityGrid::in_cells(float x, float y, float z) const {
