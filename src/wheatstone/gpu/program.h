@@ -28,7 +28,7 @@ class GpuProgram {
 
   /// Runs groups × as many invocations as a group of the source has, in x, y and z. Buffer i is bound to binding i, and
   /// number i of the texels to the sampler there. The first buffer, which tells of the work, is bound to binding 0 of
-  /// uniform blocks, too: a driver that imitates a graphics processor reads these ten times as fast. What runs next
+  /// uniform blocks, too: a driver that imitates a graphics processor reads these four times as fast. What runs next
   /// sees what this wrote.
   void run(std::initializer_list<std::uint32_t> groups, std::initializer_list<const GpuBuffer*> buffers,
            std::initializer_list<const GpuBuffer*> texels = {}) const;

@@ -7,6 +7,6 @@
 void main() {
   InLists splat;
   if (!lists_of(gl_GlobalInvocationID.x, splat)) return;
-  int lists = lists_in_all(splat);
-  for (int n = 0; n < lists; ++n) atomicAdd(ends[list_of(splat, band_and_slab(splat, n))], 1u);
+  for (int slab = splat.first_slab; slab < splat.end_slab; ++slab)
+    for (int band = splat.first_band; band < splat.end_band; ++band) atomicAdd(ends[list_of(splat, slab, band)], 1u);
 }

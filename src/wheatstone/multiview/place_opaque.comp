@@ -16,9 +16,8 @@ void main() {
   vec2 red_green = halves(splat.light.rg);
   vec2 blue_size = halves(vec2(splat.light.b, splat.at.w));
   float rank = red_green.r + 2 * red_green.g + 4 * blue_size.x;
-  int lists = lists_in_all(splat);
-  for (int n = 0; n < lists; ++n) {
-    uint entry = atomicAdd(ends[list_of(splat, band_and_slab(splat, n))], 1u);
+  for (int band = splat.first_band; band < splat.end_band; ++band) {
+    uint entry = atomicAdd(ends[list_of(splat, splat.first_slab, band)], 1u);
     entries[2 * entry] = vec4(splat.at.x, splat.at.z, splat.at.y, max(blue_size.y / 2, least_radius));
     entries[2 * entry + 1] = vec4(red_green, blue_size.x, rank);
   }

@@ -39,16 +39,7 @@ bool lists_of(uint i, out InLists splat) {
   return true;
 }
 
-int lists_in_all(InLists splat) {
-  return (splat.end_band - splat.first_band) * (splat.end_slab - splat.first_slab);
-}
-
-ivec2 band_and_slab(InLists splat, int number) {
-  int high = splat.end_band - splat.first_band;
-  return ivec2(splat.first_band + number % high, splat.first_slab + number / high);
-}
-
-int list_of(InLists splat, ivec2 at) {
+int list_of(InLists splat, int slab, int band) {
   Picture here = pictures[splat.picture];
-  return kinds[splat.index].first_list + (at.y * here.bands + at.x) * here.lists_a_band + list_at(here, splat.at.x);
+  return kinds[splat.index].first_list + (slab * here.bands + band) * here.lists_a_band + list_at(here, splat.at.x);
 }

@@ -14,14 +14,14 @@ void main() {
   float scale = scale_of(splat.at.w);
   float steps = exp2(float(-least_step_exponent - bits_a_brightness * kinds[splat.index].brightness));
   vec3 light = clamp(splat.light.rgb * steps, -exp2(float(steps_a_splat_exponent)), exp2(float(steps_a_splat_exponent)));
-  int lists = lists_in_all(splat);
-  for (int n = 0; n < lists; ++n) {
-    ivec2 at = band_and_slab(splat, n);
-    vec2 weights = weights_from(float(at.x * band_rows) + 0.5 - splat.at.y, reach, scale).xy;
-    uint entry = atomicAdd(ends[list_of(splat, at)], 1u);
-    float share = at.y > splat.first_slab ? splat.rest : 1 - splat.rest;
-    entries[2 * entry] = vec4(splat.at.x, splat.at.z, scale, reach);
-    entries[2 * entry + 1] = CHANNELS == 2 ? vec4(light.rg * share, weights)
-                                           : vec4(light * share, uintBitsToFloat(packUnorm2x16(weights)));
+  for (int slab = splat.first_slab; slab < splat.end_slab; ++slab) {
+    float share = slab > splat.first_slab ? splat.rest : 1 - splat.rest;
+    for (int band = splat.first_band; band < splat.end_band; ++band) {
+      vec2 weights = weights_from(float(band * band_rows) + 0.5 - splat.at.y, reach, scale).xy;
+      uint entry = atomicAdd(ends[list_of(splat, slab, band)], 1u);
+      entries[2 * entry] = vec4(splat.at.x, splat.at.z, scale, reach);
+      entries[2 * entry + 1] = CHANNELS == 2 ? vec4(light.rg * share, weights)
+                                             : vec4(light * share, uintBitsToFloat(packUnorm2x16(weights)));
+    }
   }
 }
