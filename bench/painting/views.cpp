@@ -1,5 +1,10 @@
 // A painting seen from everywhere: what is bare, whether neighbouring views differ evenly, and how consistent pairs of
 // views are between and beyond the eyes, against ray-cast views of the same places.
+//
+//     bench_painting_views [FOLDER] [PART]...
+//
+// FOLDER has the photographs, ../shared/data/stereo by default. A part is a style, or "pairs"; without any, all are
+// measured, which takes some minutes.
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -12,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/measures/consistency.h"
@@ -52,10 +58,8 @@ double mean_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
 
 /// The painting with its middle disparity on the screen plane, as displays show it.
 PreparedPainting on_screen(const Painting& painting, const Subject& subject) {
-  std::vector<float> known(subject.geometry.left_disparity.pixels().begin(),
-                           subject.geometry.left_disparity.pixels().end());
-  const auto [least, most] = std::ranges::minmax(known);
-  return prepare(painting, {.placement = {.zero_parallax_px = (least + most) / 2}});
+  return prepare(painting,
+                 {.placement = {.zero_parallax_px = depth_ends(subject.geometry.left_disparity).middle_px()}});
 }
 
 void print_bare(const PreparedPainting& prepared, const std::vector<ViewPosition>& views, double limit) {
@@ -150,15 +154,19 @@ std::optional<Subject> read_teddy(const std::filesystem::path& shared) {
 
 int main(int argument_count, char** arguments) {
   using namespace wheatstone;
-  const std::filesystem::path shared = argument_count > 1 ? arguments[1] : "../shared/data/stereo";
+  const std::vector<std::string_view> given(arguments + 1, arguments + argument_count);
+  const std::filesystem::path shared = given.empty() ? "../shared/data/stereo" : given.front();
+  std::vector<std::string_view> parts(given.begin() + (given.empty() ? 0 : 1), given.end());
+  if (parts.empty()) parts = {"impressionist", "expressionist", "pointillist", "pairs"};
   const SyntheticStillOptions scene{.samples_a_side = 1};
   const bench::Subject still = bench::still_of(scene);
   const std::optional<bench::Subject> teddy = bench::read_teddy(shared);
-  const std::string_view styles[] = {"impressionist", "expressionist", "pointillist"};
-  for (const std::string_view style : styles) {
-    if (teddy) bench::print_coverage(*teddy, style);
-    bench::print_coverage(still, style);
+  for (const std::string_view part : parts) {
+    if (part == "pairs") continue;
+    if (teddy) bench::print_coverage(*teddy, part);
+    bench::print_coverage(still, part);
   }
+  if (std::ranges::find(parts, "pairs") == parts.end()) return 0;
   fmt::print("\nstill, impressionist, against ray-cast views\n");
   const PreparedPainting prepared = prepare(plan_painting(still.photographs, still.geometry, {}));
   bench::print_wrong_spots(scene, prepared);
