@@ -92,8 +92,9 @@ void expect_no_spilling(const Subject& subject, double untested_share) {
 
 TEST(PaintingQuality, SyntheticStillIsConsistent) { expect_consistent(synthetic_subject()); }
 
-// Reached without the depth test: .0091 of some ten thousand strokes, of which the count's own noise is a tenth.
-TEST(PaintingQuality, SyntheticStillDoesNotSpill) { expect_no_spilling(synthetic_subject(), 0.008); }
+// Reached without the depth test: .0068 to .0093 of some ten thousand strokes, by the order in which strokes of one
+// depth are drawn, which any change of planning moves. The limit is three standard deviations below the mean.
+TEST(PaintingQuality, SyntheticStillDoesNotSpill) { expect_no_spilling(synthetic_subject(), 0.006); }
 
 TEST(PaintingQuality, OfOnePictureAndItsDepthComesNearThatOfAPair) {
   const Subject& pair = synthetic_subject();
@@ -118,7 +119,7 @@ TEST(PaintingQuality, TeddyIsConsistent) {
 TEST(PaintingQuality, TeddyDoesNotSpill) {
   const auto teddy = shared_subject("teddy", 4.f);
   if (!teddy) GTEST_SKIP() << "no shared data: teddy";
-  expect_no_spilling(*teddy, 0.018);  // reached: .0208
+  expect_no_spilling(*teddy, 0.0135);  // reached: .0159 to .0209, in the same way
 }
 
 TEST(PaintingQuality, MotorcycleKeepsItsDepthWithOurOwnMatching) {

@@ -94,5 +94,23 @@ TEST(ReducedView, APixelOfSeveralSurfacesIsOfTheFarthestThatIsWanted) {
   EXPECT_EQ(half.left_out[0].colour, near_colour);
 }
 
+TEST(ReducedView, LeavesOutWhatMakesNoWholePixel) {
+  const Image<Rgb8> photograph(5, 3, Rgb8{1, 2, 3});
+  const Image<float> disparity(5, 3, -4.f);
+  Image<std::uint8_t> seeds(5, 3, 255);
+  seeds(4, 0) = 0;
+  const ReducedView half = reduced(photograph, disparity, seeds, 2);
+  EXPECT_EQ(half.photograph.width(), 2);
+  EXPECT_EQ(half.photograph.height(), 1);
+  std::vector<std::pair<float, float>> places;
+  for (const ReducedView::LeftOut& pixels : half.left_out) {
+    EXPECT_EQ(pixels.disparity, -4);
+    EXPECT_EQ(pixels.colour, photograph(0, 0));
+    places.emplace_back(pixels.x, pixels.y);
+  }
+  const std::vector<std::pair<float, float>> expected{{4.5f, 1.5f}, {1, 2.5f}, {3, 2.5f}, {4.5f, 2.5f}};
+  EXPECT_EQ(places, expected);
+}
+
 }  // namespace
 }  // namespace wheatstone

@@ -93,22 +93,25 @@ struct WholeView {
   ImageView<const std::uint8_t> seeds;
 };
 
-/// Notes what lies before a block's surface, for each two by two pixels.
+/// Notes the wanted pixels of a block, cut off by the picture's edge, that lie before a surface: for each two by two.
 void leave_out(const Block& block, const WholeView& view, float surface, std::vector<ReducedView::LeftOut>& left_out) {
   constexpr int step = 2;
-  for (int top = block.top; top < block.top + block.size; top += step) {
-    for (int left = block.left; left < block.left + block.size; left += step) {
-      const Block part{left, top, std::min({step, block.left + block.size - left, block.top + block.size - top})};
+  const int right = std::min(block.left + block.size, view.seeds.width());
+  const int bottom = std::min(block.top + block.size, view.seeds.height());
+  for (int top = block.top; top < bottom; top += step) {
+    for (int left = block.left; left < right; left += step) {
       ReducedView::LeftOut mean{};
       float count = 0;
-      part.visit_pixels([&](int x, int y) {
-        if (view.seeds(x, y) == 0 || view.disparity(x, y) - surface <= one_surface_px) return;
-        mean.x += static_cast<float>(x) + 0.5f;
-        mean.y += static_cast<float>(y) + 0.5f;
-        mean.disparity = std::max(mean.disparity, view.disparity(x, y));
-        mean.colour = view.photograph(x, y);
-        ++count;
-      });
+      for (int y = top; y < std::min(top + step, bottom); ++y) {
+        for (int x = left; x < std::min(left + step, right); ++x) {
+          if (view.seeds(x, y) == 0 || view.disparity(x, y) - surface <= one_surface_px) continue;
+          mean.x += static_cast<float>(x) + 0.5f;
+          mean.y += static_cast<float>(y) + 0.5f;
+          mean.disparity = count > 0 ? std::max(mean.disparity, view.disparity(x, y)) : view.disparity(x, y);
+          mean.colour = view.photograph(x, y);
+          ++count;
+        }
+      }
       if (count > 0) left_out.push_back({mean.x / count, mean.y / count, mean.disparity, mean.colour});
     }
   }
@@ -155,6 +158,16 @@ void reduce_row(const WholeView& whole, const Mean& mean, int y, ReducedView& vi
     for (int i = 0; i < reduction; ++i) to_seeds[x] |= sums.seeds[static_cast<std::size_t>(x * reduction + i)];
 }
 
+/// The rows and columns at the end that make no whole block.
+void leave_out_rest(const WholeView& view, int reduction, std::vector<ReducedView::LeftOut>& left_out) {
+  constexpr float nothing = -std::numeric_limits<float>::infinity();
+  const int width = view.seeds.width() / reduction * reduction, height = view.seeds.height() / reduction * reduction;
+  if (width < view.seeds.width())
+    for (int y = 0; y < height; y += reduction) leave_out({width, y, reduction}, view, nothing, left_out);
+  if (height < view.seeds.height())
+    for (int x = 0; x < view.seeds.width(); x += reduction) leave_out({x, height, reduction}, view, nothing, left_out);
+}
+
 }  // namespace
 
 ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
@@ -176,6 +189,7 @@ ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> dis
   });
   for (const std::vector<ReducedView::LeftOut>& of_row : left_out)
     view.left_out.insert(view.left_out.end(), of_row.begin(), of_row.end());
+  if (!seeds.empty()) leave_out_rest(whole, reduction, view.left_out);
   return view;
 }
 

@@ -8,11 +8,10 @@ namespace wheatstone {
 
 /// What a view sees, smaller: a part that only it sees is small, and its cost is mostly that of looking at pictures.
 /// Where pixels of several surfaces become one, it is of the farthest that is wanted, and has that one's colour: paint
-/// of a nearer one would spill over what lies behind it. A last row or column that is not whole is left to its
-/// neighbours' strokes.
+/// of a nearer one would spill over what lies behind it. A last row or column that is not whole is left out.
 struct ReducedView {
-  /// Wanted pixels, of the whole view, that lie before the surface of the pixel that they became part of: at most four
-  /// that touch each other.
+  /// Wanted pixels, of the whole view, that lie before the surface of the pixel that they became part of, or became
+  /// part of none: at most four that touch each other.
   struct LeftOut {
     float x, y;       ///< their middle
     float disparity;  ///< in the view's pixels

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/curves/plan_diffusion.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/still_scene.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
@@ -213,6 +215,31 @@ TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
     EXPECT_LT(differ, 0.3 * uncovered) << view.position.eye_separations();
     EXPECT_LT(off, 0.1 * known) << view.position.eye_separations();
   }
+}
+
+// Through a slit between two posts the eyes see different parts of the wall, and views between them see others.
+TEST(StillScene, WantsWhatIsSeenThroughASlit) {
+  constexpr int width = 100, height = 20, slit_begin = 40, slit_end = 46;  // in the right eye's view
+  constexpr float wall = 4, post = 16;
+  Image<float> left(width, height, wall);
+  for (int y = 0; y < height; ++y) {
+    std::fill_n(&left(40, y), 16, post);
+    std::fill_n(&left(62, y), 16, post);
+  }
+  const StereoGeometry geometry = geometry_from_left(std::move(left));
+  const StereoPair photographs{Image<Rgb8>(width, height), Image<Rgb8>(width, height)};
+  const StillScene scene = make_still_scene(photographs, geometry, {});
+  int told_to_be_hidden = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = slit_begin; x < slit_end; ++x) {
+      EXPECT_EQ(scene.views[1].only_here(x, y), 255) << x;
+      told_to_be_hidden += geometry.right_occlusion(x, y) != 0 ? 1 : 0;
+    }
+    EXPECT_EQ(scene.views[1].only_here(slit_begin - 1, y), 0) << "a post";
+  }
+  EXPECT_EQ(told_to_be_hidden, 0) << "as if it were as near as the posts";
+  EXPECT_EQ(scene.views.back().position, central_view);
+  EXPECT_TRUE(scene.views.back().continued);
 }
 
 TEST(EyesApart, HaveTwoViewsAndNoSurfaces) {

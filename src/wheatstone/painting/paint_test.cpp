@@ -164,7 +164,7 @@ TEST(Paint, EndsWhereverItsProgressThrows) {
       expect_error(ErrorKind::interrupted, "stopped",
                    [&] { paint(test_scene::photographs(), test_scene::geometry(), small_style(propagation), stop); });
       // Each of the scene's views, which are planned at once, is told of its end by one more report.
-      constexpr int views = 6;
+      constexpr int views = 7;
       EXPECT_LT(told, last + views);
     }
   }

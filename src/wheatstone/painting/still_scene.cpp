@@ -1,12 +1,17 @@
 #include "wheatstone/painting/still_scene.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "wheatstone/depth/convergence.h"
+#include "wheatstone/depth/warp_row.h"
 #include "wheatstone/image/reduced_view.h"
+#include "wheatstone/stereo/occlusion.h"
 
 namespace wheatstone {
 
@@ -67,15 +72,17 @@ OuterView enlarged(const OuterView& view, int reduction, int width, int height) 
   return whole;
 }
 
-}  // namespace
-
-std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
-                                        ViewRange wanted, float zero_parallax_px) {
-  std::vector<OuterView> outer;
-  std::vector<float> shares{1};
-  // What a view halfway uncovers, the outermost one may hide again. Large pictures would take too much memory.
+/// Beyond this, what few views need would take too much memory.
+bool is_large(ImageView<const Rgb8> photograph) {
   constexpr double large_px = 8e6;
-  if (static_cast<double>(photographs.left.width()) * photographs.left.height() <= large_px) shares.push_back(0.5f);
+  return static_cast<double>(photograph.width()) * photograph.height() > large_px;
+}
+
+/// The outermost of the wanted views, as far as they are beside the eyes, and views halfway there.
+std::vector<ViewPosition> positions_beside_eyes(ImageView<const Rgb8> photograph, ViewRange wanted) {
+  std::vector<float> shares{1};
+  // What a view halfway uncovers, the outermost one may hide again.
+  if (!is_large(photograph)) shares.push_back(0.5f);
   std::vector<ViewPosition> positions;
   for (const float share : shares) {
     for (const ViewPosition outermost : {wanted.first, wanted.last}) {
@@ -83,6 +90,12 @@ std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const
       if (view < left_eye || view > right_eye) positions.push_back(view);
     }
   }
+  return positions;
+}
+
+std::vector<OuterView> make_views_at(std::span<const ViewPosition> positions, const StereoPairView& photographs,
+                                     const StereoGeometryView& geometry, float zero_parallax_px) {
+  std::vector<OuterView> outer;
   const int width = photographs.left.width(), height = photographs.left.height(), reduction = reduction_for(width);
   if (reduction == 1 || height < reduction || positions.empty()) {
     for (const ViewPosition view : positions)
@@ -97,6 +110,34 @@ std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const
   return outer;
 }
 
+/// 255 for what only the right eye sees, and for gaps that the left eye's surfaces leave in its view: disparities of
+/// the two eyes, or of what is filled in, do not always fit together.
+Image<std::uint8_t> not_told_by_left(const StereoGeometryView& geometry) {
+  const int width = geometry.left_disparity.width(), height = geometry.left_disparity.height();
+  Image<std::uint8_t> mask(width, height);
+  tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
+    std::vector<float> nearest(static_cast<std::size_t>(width));
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      std::ranges::fill(nearest, std::numeric_limits<float>::quiet_NaN());
+      warp_disparity_row_over<false>(geometry.left_disparity.row(y), right_eye - left_eye, 0, nearest);
+      close_cracks(nearest);
+      const auto occlusion = geometry.right_occlusion.row(y);
+      const auto to = mask.row(y);
+      for (int x = 0; x < width; ++x) to[x] = occlusion[x] != 0 || std::isnan(nearest[x]) ? 255 : 0;
+    }
+  });
+  constexpr int least_px = 4;  // disparities have noise
+  remove_occlusion_specks(mask, least_px);
+  return mask;
+}
+
+}  // namespace
+
+std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                                        ViewRange wanted, float zero_parallax_px) {
+  return make_views_at(positions_beside_eyes(photographs.left, wanted), photographs, geometry, zero_parallax_px);
+}
+
 void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scene) {
   for (const OuterView& view : outer)
     scene.push_back({view.picture, view.disparity, view.uncovered, view.position, view.left_px, true});
@@ -105,7 +146,12 @@ void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scen
 StillScene make_still_scene(const StereoPairView& photographs, const StereoGeometryView& geometry, ViewRange wanted) {
   StillScene scene;
   scene.views = scene_from_left(photographs, geometry);
-  scene.outer = make_outer_views(photographs, geometry, wanted, depth_ends(geometry.left_disparity).middle_px());
+  scene.right_only = not_told_by_left(geometry);
+  scene.views.back().only_here = scene.right_only;
+  std::vector<ViewPosition> positions = positions_beside_eyes(photographs.left, wanted);
+  // Between two near things the eyes see different parts of what is behind, and views between them see the rest.
+  if (!is_large(photographs.left)) positions.push_back(central_view);
+  scene.outer = make_views_at(positions, photographs, geometry, depth_ends(geometry.left_disparity).middle_px());
   append_views(scene.outer, scene.views);
   return scene;
 }

@@ -17,10 +17,11 @@ std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const
 void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scene);
 
 /// A pair as the scene that its painting is planned from: the left eye as the reference view, what only the right eye
-/// sees, and what no photograph shows and views beside the eyes uncover.
+/// sees, and what no photograph shows and views beside the eyes, or halfway between them, uncover.
 struct StillScene {
+  Image<std::uint8_t> right_only;  ///< 255 for what the left eye's disparity does not tell of the right eye's view
   std::vector<OuterView> outer;
-  std::vector<SceneView> views;  ///< refer to `outer` and to the photographs
+  std::vector<SceneView> views;  ///< refer to these and to the photographs
 };
 
 /// A scene that can be seen from all `wanted` views.

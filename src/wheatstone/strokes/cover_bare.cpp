@@ -13,17 +13,17 @@ namespace wheatstone {
 namespace {
 
 /// The largest radius, halved as often as need be, with which a dot lies on one surface.
-float fitting_radius(ImageView<const float> disparity, int x, int y, float radius_px, float depth_threshold_px) {
-  constexpr float least_px = 1;
-  for (float radius = radius_px; radius > least_px; radius /= 2) {
+float fitting_radius(const BarePlaces& places, int x, int y, const ScaledStyle& scaled) {
+  const ImageView<const float>& disparity = places.disparity;
+  for (float radius = scaled.radii_px.back(); radius > places.least_dot_px; radius /= 2) {
     const int reach = static_cast<int>(std::ceil(radius));
     bool fits = true;
     for (int row = std::max(y - reach, 0); fits && row <= std::min(y + reach, disparity.height() - 1); ++row)
       for (int column = std::max(x - reach, 0); fits && column <= std::min(x + reach, disparity.width() - 1); ++column)
-        fits = std::abs(disparity(column, row) - disparity(x, y)) <= depth_threshold_px;
+        fits = std::abs(disparity(column, row) - disparity(x, y)) <= scaled.depth_threshold_px;
     if (fits) return radius;
   }
-  return least_px;
+  return places.least_dot_px;
 }
 
 /// How far from its middle a dot covers pixels wholly.
@@ -167,7 +167,7 @@ Layer cover_places(BarePlaces places, const ScaledStyle& scaled, const Style& st
          next = std::find_if(next, row.end(), is_bare)) {
       const int x = static_cast<int>(next - row.begin());
       Stroke stroke{.first_point = static_cast<std::uint32_t>(cover.points.size())};
-      stroke.radius_px = fitting_radius(places.disparity, x, y, scaled.radii_px.back(), scaled.depth_threshold_px);
+      stroke.radius_px = fitting_radius(places, x, y, scaled);
       stroke.opacity = style.opacity;
       stroke.colour = thread.colour_at(x, y);
       stroke.disparity = places.disparity(x, y);
@@ -193,7 +193,8 @@ Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const S
     const auto wanted_here = wanted.row(y);
     for (int x = 0; x < width; ++x) marks[x] = wanted_here[x] != 0 ? marks[x] : std::uint8_t{0};
   });
-  return cover_places({planner.photograph, planner.disparity, planner.view, inputs.mixed_colours, std::move(bare)},
+  return cover_places({planner.photograph, planner.disparity, planner.view, inputs.mixed_colours, std::move(bare),
+                       planner.least_dot_px},
                       scaled, style);
 }
 

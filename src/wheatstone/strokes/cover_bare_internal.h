@@ -15,6 +15,7 @@ struct BarePlaces {
   ViewPosition view;
   ImageView<const std::uint8_t> mixed_colours;
   Image<std::uint8_t> bare;
+  float least_dot_px = 1;  ///< radius
 };
 
 /// Dots and short threads of the photograph's colours for the bare pixels, row by row. Each lies on one surface and has

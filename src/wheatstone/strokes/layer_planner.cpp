@@ -47,7 +47,8 @@ LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, c
                          if (!style.depth_test) return;
                          inputs.depth_edges = near_depth_edge(planner.disparity_steps, radius, threshold);
                          if (!finest) return;
-                         inputs.edge_distance = distance_to_depth_edge(planner.disparity_steps, threshold, radius + 1);
+                         inputs.edge_distance = distance_to_depth_edge(planner.disparity_steps, threshold,
+                                                                       radius + known_edge_distance_px);
                          if (planner.avoid_mixed_colours)
                            inputs.mixed_colours = behind_depth_edge(planner.disparity_steps, radius / 2, threshold);
                        });
@@ -82,6 +83,7 @@ Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Styl
                        .view = planner.view,
                        .radius_px = scaled.radii_px[inputs.layer],
                        .layer = inputs.layer,
+                       .beside = planner.beside,
                        .depth_threshold_px = scaled.depth_threshold_px,
                        .least_edge_cell_px = planner.least_edge_cell_px,
                        .depth_edges = inputs.depth_edges,

@@ -6,6 +6,7 @@
 #include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
+#include "wheatstone/strokes/outline_disparity.h"
 #include "wheatstone/strokes/reference_picture.h"
 
 namespace wheatstone {
@@ -32,6 +33,8 @@ struct LayerPlanner {
   Canvas canvas;
   /// Strokes begin where two surfaces' colours mix only if there is no other place: the surfaces part in other views.
   bool avoid_mixed_colours = true;
+  ViewsBeside beside;            ///< from which the strokes will be seen
+  float least_dot_px = 1;        ///< radius of the smallest dots that cover what strokes leave bare
   float least_edge_cell_px = 1;  ///< strokes beside depth edges begin about so far apart, or farther
 };
 

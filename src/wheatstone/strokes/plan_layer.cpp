@@ -141,6 +141,21 @@ void smooth_disparities(std::span<ControlPoint> points) {
   }
 }
 
+/// Of the finest layer, which lies over the others. `points` are those of one stroke.
+void keep_within_outlines(const LayerPlan& plan, float radius_px, std::span<ControlPoint> points) {
+  const StrokeGround ground{plan.disparity, plan.depth_threshold_px, plan.beside};
+  const float far_px = plan.radius_px + known_edge_distance_px;
+  for (ControlPoint& point : points)
+    if (plan.edge_distance(static_cast<int>(point.x), static_cast<int>(point.y)) < far_px)
+      point.disparity = disparity_within_outline(ground, point, radius_px);
+  // The stroke stays on its surface.
+  const auto follow = [&](std::size_t i, std::size_t neighbour) {
+    points[i].disparity = std::max(points[i].disparity, points[neighbour].disparity - plan.depth_threshold_px);
+  };
+  for (std::size_t i = 1; i < points.size(); ++i) follow(i, i - 1);
+  for (std::size_t i = points.size(); i-- > 1;) follow(i - 1, i);
+}
+
 void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer& layer) {
   const auto& [plan, style, place, grid] = pass;
   Stroke stroke;
@@ -148,13 +163,15 @@ void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer&
   stroke.radius_px = stroke_radius(plan, place, seed);
   trace_stroke(plan, style, {seed, stroke.radius_px, (random & 1) != 0}, layer.points);
   stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
-  smooth_disparities(std::span(layer.points).subspan(stroke.first_point));
+  const std::span points = std::span(layer.points).subspan(stroke.first_point);
+  smooth_disparities(points);
+  if (!plan.edge_distance.empty()) keep_within_outlines(plan, stroke.radius_px, points);
   stroke.opacity = style.opacity;
   const ReferencePicture& reference = plan.reference;
   stroke.colour =
       jittered({reference.red(seed.x, seed.y), reference.green(seed.x, seed.y), reference.blue(seed.x, seed.y)},
                style.jitter, random);
-  stroke.disparity = plan.disparity(seed.x, seed.y);
+  stroke.disparity = points.front().disparity;
   stroke.reference_view = plan.view;
   stroke.views = all_views;
   layer.strokes.push_back(stroke);

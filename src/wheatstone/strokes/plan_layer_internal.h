@@ -3,9 +3,13 @@
 #include "wheatstone/drawing/canvas.h"
 #include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/marks/style.h"
+#include "wheatstone/strokes/outline_disparity.h"
 #include "wheatstone/strokes/reference_picture.h"
 
 namespace wheatstone {
+
+/// Beyond the brush's radius, distances to depth edges are known up to here.
+inline constexpr float known_edge_distance_px = 3;
 
 /// What one layer of one view is planned from; everything has the view's size.
 struct LayerPlan {
@@ -16,7 +20,8 @@ struct LayerPlan {
   ImageView<const std::uint8_t> misplaced;  ///< strokes are wanted first where it is not 0; empty: nowhere
   ViewPosition view = left_eye;
   float radius_px = 4;
-  int layer = 0;  ///< numbers the layer's random choices
+  int layer = 0;            ///< numbers the layer's random choices
+  ViewsBeside beside = {};  ///< from which its strokes will be seen
 
   // The depth test; all are empty where the style wants none.
   float depth_threshold_px = 2;                    ///< T_depth in pixels of this view

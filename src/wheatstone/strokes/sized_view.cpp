@@ -15,7 +15,9 @@ namespace {
 
 int least_reduction_for(const SceneView& view, float finest_radius_px) {
   constexpr int least = 2, most = 8;
-  constexpr float least_radius_px = 1.5f;
+  // What only views between the eyes show are slits, which need less detail.
+  const bool is_between = view.position > left_eye && view.position < right_eye;
+  const float least_radius_px = is_between ? 0.75f : 1.5f;
   int reduction = least;
   while (view.continued && reduction < most && finest_radius_px >= least_radius_px * static_cast<float>(2 * reduction))
     reduction *= 2;
@@ -85,7 +87,9 @@ SizedView::SizedView(const WantedPart& part_, const Style& style, int factor_, c
                          : std::nullopt),
       scaled(style, part.view.picture.width(), static_cast<float>(reduction)),
       planner(planner_of(part, smaller, style, before, factor)) {
-  planner.avoid_mixed_colours = part.is_whole();            // no other eye sees those of a part
+  planner.avoid_mixed_colours = part.is_whole();  // no other eye sees those of a part
+  planner.beside = part.beside;
+  if (reduction > 1) planner.least_dot_px = 0.6f;           // little wider than the pixel, which is several
   if (part.view.continued) planner.least_edge_cell_px = 3;  // of what no photograph shows, edges need no detail
 }
 

@@ -13,6 +13,7 @@ namespace wheatstone {
 struct WantedPart {
   const SceneView& view;
   std::optional<ReducedView> smaller;  ///< none: all of the view
+  ViewsBeside beside = {};             ///< from which its strokes will be seen
 
   bool is_whole() const { return !smaller; }
   int reduction() const { return smaller ? smaller->reduction : 1; }

@@ -50,17 +50,20 @@ class StrokeNumbers {
 /// A view that is being painted: its planner, of a smaller size where the brush is wide or only a part is wanted.
 class ViewAtWork {
  public:
-  /// `motion` is the reference view's flow to the frame before; none where a scene begins.
+  /// `motion` is the reference view's flow to the frame before; none where a scene begins. `beside`: from which views
+  /// its strokes will be seen.
   ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, const Flow* motion,
-             StrokeNumbers& numbers)
+             const ViewsBeside& beside, StrokeNumbers& numbers)
       : part_(wanted_part(view, reference, style, motion == nullptr)),
         radii_px_(ScaledStyle(style, view.picture.width()).radii_px),
         style_(style),
         motion_(motion),
         left_px_(static_cast<float>(view.left_px)),
         uncovered_(view.continued ? view.only_here : ImageView<const std::uint8_t>()),
-        numbers_(numbers),
-        at_(std::make_unique<SizedView>(part_, style, factor_for(0), nullptr)) {}
+        numbers_(numbers) {
+    part_.beside = beside;
+    at_ = std::make_unique<SizedView>(part_, style, factor_for(0), nullptr);
+  }
 
   /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.
   void plan(int layer, const CarryOptions& options, TrackedLayer& tracked) {
@@ -337,6 +340,17 @@ class ViewsPlan {
   std::mutex reporting_;
 };
 
+/// The views of a still to either side of the reference view. In films, whose paint follows noisy disparities, points
+/// keep to their surface, as they do in what few views show.
+ViewsBeside views_beside(std::span<const SceneView> views) {
+  ViewsBeside beside;
+  for (const SceneView& other : views) {
+    beside.left = std::max(beside.left, views.front().position - other.position);
+    beside.right = std::max(beside.right, other.position - views.front().position);
+  }
+  return beside;
+}
+
 std::int64_t living_strokes(const StrokeMemory& memory) {
   std::int64_t count = 0;
   for (const std::vector<TrackedLayer>& layers : memory.views)
@@ -442,7 +456,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
     plan.report_step();
     StrokeNumbers numbers(memory.last_number, view, frame.views.size());
     ViewAtWork work(frame.views[view], frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward,
-                    numbers);
+                    options.goes_on || view != 0 ? ViewsBeside() : views_beside(frame.views), numbers);
     for (std::size_t i = 0; i < layers; ++i) {
       work.plan(static_cast<int>(i), options, memory.views[view][i]);
       plan.report_step();
