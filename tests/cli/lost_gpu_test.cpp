@@ -31,7 +31,13 @@ std::string run(const TemporaryFolder& folder, const std::vector<std::string>& a
   return result.errors;
 }
 
-[[noreturn]] void render_and_lose() {
+[[noreturn]] void end_with(const std::string& errors) {
+  std::fputs(errors.c_str(), stderr);
+  std::exit(0);
+}
+
+/// What it says on standard error.
+std::string render_and_lose() {
   const TemporaryFolder folder;
   run(folder, {"synth", "universe", "--particles", "110000", "-o", "gas.hdf5", "--quiet"});
   const auto rendered = [&](const std::string& device) {
@@ -43,28 +49,25 @@ std::string run(const TemporaryFolder& folder, const std::vector<std::string>& a
   const std::string errors = rendered("auto");
   for (const char* const view : {"/view_000.png", "/view_099.png"})
     need(read_image(folder / ("auto" + std::string(view))) == read_image(folder / ("cpu" + std::string(view))), view);
-  std::fputs(errors.c_str(), stderr);
-  std::exit(0);
+  return errors;
 }
 
 TEST(LostGpuDeathTest, ViewsAreRenderedByTheProcessor) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
-  EXPECT_EXIT(render_and_lose(), testing::ExitedWithCode(0), finished);
+  EXPECT_EXIT(end_with(render_and_lose()), testing::ExitedWithCode(0), finished);
 }
 
-[[noreturn]] void paint_and_lose() {
+std::string paint_and_lose() {
   const TemporaryFolder folder;
   run(folder, {"synth", "film", "-o", "film", "--size", "272x256", "--frames", "3", "--samples", "1", "--quiet"});
   pass_for_real_and_be_lost_after(3);
-  const std::string errors = run(folder, {"rotoscope", "film/left_%04d.png", "film/right_%04d.png", "--style",
-                                          "posterise", "--device", "auto", "-o", "painted.mkv"});
-  std::fputs(errors.c_str(), stderr);
-  std::exit(0);
+  return run(folder, {"rotoscope", "film/left_%04d.png", "film/right_%04d.png", "--style", "posterise", "--device",
+                      "auto", "-o", "painted.mkv"});
 }
 
 TEST(LostGpuDeathTest, FilmsArePaintedToTheirEnd) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
-  EXPECT_EXIT(paint_and_lose(), testing::ExitedWithCode(0), finished);
+  EXPECT_EXIT(end_with(paint_and_lose()), testing::ExitedWithCode(0), finished);
 }
 
 }  // namespace
