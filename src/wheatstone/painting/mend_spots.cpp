@@ -132,9 +132,7 @@ void mend_regions(std::span<const SceneView> views, const Style& style, Painting
 void mend_spots(std::span<const SceneView> views, const Style& style, Painting& painting) {
   if (style.propagation == Propagation::independent) return;
   if (style.marks == Marks::regions) mend_regions(views, style, painting);
-  // In smaller pictures, what wrong_pixels takes for near is less than a pixel away.
-  constexpr int least_width_px = 160;
-  if (views.front().picture.width() < least_width_px) return;
+  if (views.front().picture.width() < least_judged_width_px) return;
   if (style.marks == Marks::strokes || style.marks == Marks::curves) mend_displaced(views, style, painting);
   if (style.marks == Marks::curves) mend_lines(views, painting);
 }
