@@ -5,7 +5,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
@@ -28,16 +27,39 @@ Value middle_of(std::vector<Value>& values) {
 
 constexpr int taps = 15;
 
-/// The median of the pixels along a line through a pixel; lines end in a mirror.
-float median_along(const cv::Mat& map, int x, int y, cv::Point step) {
-  std::array<float, taps> values{};
-  for (int i = 0; i < taps; ++i) {
-    const int j = cv::borderInterpolate(y + (i - taps / 2) * step.y, map.rows, cv::BORDER_REFLECT);
-    const int k = cv::borderInterpolate(x + (i - taps / 2) * step.x, map.cols, cv::BORDER_REFLECT);
-    values[i] = map.at<float>(j, k);
+/// How many of the values along lines through the pixels of a row lie beyond a tolerance, above the pixel's own value
+/// and below it. Where most do, so does their median.
+struct Beyond {
+  std::vector<int> above, below;
+  explicit Beyond(int columns) : above(columns, 0), below(columns, 0) {}
+
+  /// Counts one value of each line; `is_beyond` compares a difference with the tolerance.
+  template <class IsBeyond>
+  void count(const float* values, const float* own, IsBeyond is_beyond) {
+    for (std::size_t x = 0; x < above.size(); ++x) {
+      above[x] += is_beyond(values[x] - own[x]) ? 1 : 0;
+      below[x] += is_beyond(own[x] - values[x]) ? 1 : 0;
+    }
   }
-  std::ranges::nth_element(values, values.begin() + taps / 2);
-  return values[taps / 2];
+
+  bool has_median(std::size_t x) const { return above[x] > taps / 2 || below[x] > taps / 2; }
+};
+
+/// How many pixels of a row differ from the median of the column about them by more than a tolerance, but not from that
+/// of their row. `framed` goes on by taps / 2 beyond each side.
+int streaks_of_row(const cv::Mat& framed, int y, float tolerance) {
+  constexpr int reach = taps / 2;
+  const int columns = framed.cols - 2 * reach;
+  const float* const own = framed.ptr<float>(y + reach) + reach;
+  Beyond of_column(columns), of_row(columns);
+  for (int i = -reach; i <= reach; ++i) {
+    of_column.count(framed.ptr<float>(y + reach + i) + reach, own, [&](float by) { return by > tolerance; });
+    of_row.count(own + i, own, [&](float by) { return by >= tolerance; });
+  }
+  int streaks = 0;
+  for (std::size_t x = 0; x < of_row.above.size(); ++x)
+    streaks += of_column.has_median(x) && !of_row.has_median(x) ? 1 : 0;
+  return streaks;
 }
 
 /// Fine detail of a picture as it is matched: the mean magnitude of its Laplacian, above what noise makes of it.
@@ -134,13 +156,9 @@ double streak_share(ImageView<const float> disparity) {
   const double range = static_cast<double>(disparity_percentile(reduced, 0.98)) - disparity_percentile(reduced, 0.02);
   const auto tolerance = static_cast<float>(share_of_range * range);
   std::vector<int> streaks(rows, 0);
-  tbb::parallel_for(0, rows, [&](int y) {
-    for (int x = 0; x < columns; ++x) {
-      const float d = map.at<float>(y, x);
-      const bool unlike_column = std::abs(d - median_along(map, x, y, {0, 1})) > tolerance;
-      if (unlike_column && std::abs(d - median_along(map, x, y, {1, 0})) < tolerance) ++streaks[y];
-    }
-  });
+  cv::Mat framed;
+  cv::copyMakeBorder(map, framed, taps / 2, taps / 2, taps / 2, taps / 2, cv::BORDER_REFLECT);
+  tbb::parallel_for(0, rows, [&](int y) { streaks[y] = streaks_of_row(framed, y, tolerance); });
   int all = 0;
   for (const int count : streaks) all += count;
   return static_cast<double>(all) / (static_cast<double>(columns) * rows);
