@@ -18,6 +18,7 @@
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/plan_painting.h"
+#include "wheatstone/painting/still_scene.h"
 
 namespace wheatstone {
 namespace {
@@ -124,8 +125,8 @@ TEST_P(RegionsInTime, BeginASceneAsIfNothingHadBeenBefore) {
 
 TEST_P(RegionsInTime, BeginWithTheStill) {
   const SyntheticFilmFrame& frame = walk().frames[0];
-  const std::vector<SceneView> views = scene_from_left(frame.pictures, frame.geometry);
-  const Painting film = Painter(GetParam()).plan({views, nullptr});
+  const StillScene scene = make_still_scene(frame.pictures, frame.geometry, {});
+  const Painting film = Painter(GetParam()).plan({scene.views, nullptr});
   const Painting still = Painter(GetParam()).plan_still(frame.pictures, frame.geometry);
   EXPECT_EQ(draw(film, left_eye).picture, draw(still, left_eye).picture);
 }
