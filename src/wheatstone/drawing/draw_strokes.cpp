@@ -45,6 +45,32 @@ void FrontToBackAccumulator::clear() {
   }
 }
 
+bool FrontToBackAccumulator::open_only(int row, std::span<const std::uint8_t> mask) {
+  bool any = false;
+  for (int number = 0; number < block_count(); ++number) {
+    const auto columns = mask.subspan(static_cast<std::size_t>(number * block_px),
+                                      static_cast<std::size_t>(std::min(width_ - number * block_px, block_px)));
+    std::uint8_t any_column = 0;
+    for (const std::uint8_t value : columns) any_column |= value;
+    std::uint32_t open = 0;
+    if (any_column != 0) {
+      float* const through = block(row, number).light;
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        open |= std::uint32_t{columns[i] != 0} << i;
+        through[i] = columns[i] != 0 ? 1.f : 0.f;
+      }
+      any = true;
+    }
+    open_columns_of(number)[row] = static_cast<std::uint16_t>(open);
+    const std::uint32_t own = std::uint32_t{1} << row;
+    if (open != 0)
+      touched_rows_[static_cast<std::size_t>(number)] |= own;
+    else
+      open_rows_[static_cast<std::size_t>(number)] &= ~own;
+  }
+  return any;
+}
+
 void FrontToBackAccumulator::clamp(int row, int& begin, int& end) const {
   int first = begin / block_px, last = (end - 1) / block_px;
   while (first <= last && open_columns(row, first) == 0) ++first;

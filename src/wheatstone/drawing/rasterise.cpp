@@ -63,23 +63,30 @@ bool may_be_seen(const SeenLayer& seen, const FlatStroke& stroke, const Distance
   return (drawn.open_rows(begin, end) & rows) != 0;
 }
 
-}  // namespace
-
-void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas) {
+/// Draws a layer band by band, on a canvas of some size. Bands for which `begin(top, drawn)` is false are left out;
+/// `finish(top, drawn)` takes what was drawn.
+template <class Begin, class Finish>
+void draw_bands(const Layer& layer, ViewPosition view, const Hiding& hiding, int width, int height, Begin begin,
+                Finish finish) {
   const FlatLayer flat = flatten(layer);
   const SeenLayer seen(flat, view);
-  const auto bands = strokes_by_band(flat, canvas.height);
+  const auto bands = strokes_by_band(flat, height);
   tbb::concurrent_queue<FrontToBackAccumulator> kept;  // memory that is new is slow
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {
     if (bands[i].empty()) return;
-    DistanceBand band(i * band_rows, canvas.width, canvas.height);
-    const BandHiding hides(hiding, band, canvas.width);
+    const int top = i * band_rows, row_count = std::min(band_rows, height - top);
     FrontToBackAccumulator drawn;
-    if (kept.try_pop(drawn) && drawn.rows() == band.row_count) {
+    if (kept.try_pop(drawn) && drawn.rows() == row_count) {
       drawn.clear();
     } else {
-      drawn = FrontToBackAccumulator(band.row_count, canvas.width, true);
+      drawn = FrontToBackAccumulator(row_count, width, true);
     }
+    if (!begin(top, drawn)) {
+      kept.push(std::move(drawn));
+      return;
+    }
+    DistanceBand band(top, width, height);
+    const BandHiding hides(hiding, band, width);
     for (std::size_t nearer = bands[i].size(); nearer-- > 0;) {
       if (nearer >= FlatLayer::strokes_ahead) flat.ask_for_stroke(bands[i][nearer - FlatLayer::strokes_ahead]);
       if (nearer >= FlatLayer::vertices_ahead) flat.ask_for_vertices(bands[i][nearer - FlatLayer::vertices_ahead]);
@@ -87,9 +94,39 @@ void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canv
       if (stroke.views.contains(view) && may_be_seen(seen, stroke, band, drawn))
         draw_stroke_under({seen, stroke, hides.own}, band, drawn);
     }
-    lay_over(drawn, band.top, canvas);
+    finish(top, drawn);
     kept.push(std::move(drawn));
   });
+}
+
+}  // namespace
+
+void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas) {
+  draw_bands(
+      layer, view, hiding, canvas.width, canvas.height, [](int, const FrontToBackAccumulator&) { return true; },
+      [&](int top, FrontToBackAccumulator& drawn) { lay_over(drawn, top, canvas); });
+}
+
+Image<std::uint8_t> left_bare(const Layer& layer, ViewPosition view, const Hiding& hiding, Image<std::uint8_t> bare) {
+  constexpr float least_cover = 0.5f;  // of what is not bare
+  const auto begin = [&](int top, FrontToBackAccumulator& drawn) {
+    bool any = false;
+    for (int row = 0; row < drawn.rows(); ++row) any = drawn.open_only(row, bare.row(top + row)) || any;
+    return any;
+  };
+  const auto finish = [&](int top, FrontToBackAccumulator& drawn) {
+    for (int row = 0; row < drawn.rows(); ++row) {
+      const auto marks = bare.row(top + row);
+      for (int x = 0; x < drawn.width(); ++x) {
+        if (marks[x] == 0) continue;
+        constexpr int block_px = FrontToBackAccumulator::block_px;
+        const float most = (*drawn.cover(row, x / block_px))[static_cast<std::size_t>(x % block_px)];
+        if (most >= least_cover || drawn.light(row, x) <= FrontToBackAccumulator::dark) marks[x] = 0;
+      }
+    }
+  };
+  draw_bands(layer, view, hiding, bare.width(), bare.height(), begin, finish);
+  return bare;
 }
 
 }  // namespace wheatstone

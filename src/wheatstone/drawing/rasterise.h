@@ -11,4 +11,8 @@ namespace wheatstone {
 /// it is not darker. Parallel over bands of rows; the same bytes on any number of threads.
 void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas);
 
+/// What strokes would leave bare if they were drawn so over a canvas whose bare pixels are not 0 in `bare`. Costs
+/// little where few are.
+Image<std::uint8_t> left_bare(const Layer& layer, ViewPosition view, const Hiding& hiding, Image<std::uint8_t> bare);
+
 }  // namespace wheatstone

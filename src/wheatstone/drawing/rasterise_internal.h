@@ -148,6 +148,10 @@ class FrontToBackAccumulator {
   /// Nothing is drawn.
   void clear();
 
+  /// In a row in which nothing is drawn, light comes through where `mask` is not 0 alone. Returns whether it does
+  /// anywhere.
+  bool open_only(int row, std::span<const std::uint8_t> mask);
+
   int width() const { return width_; }
   int rows() const { return rows_; }
   int block_count() const { return static_cast<int>(open_rows_.size()); }

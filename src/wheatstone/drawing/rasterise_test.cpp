@@ -99,6 +99,41 @@ double mean_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
   return sum / (3.0 * static_cast<double>(a.pixels().size()));
 }
 
+/// A surface that hides the left half of what lies farther than 4 pixels of disparity.
+Image<float> surface_to_the_left(int width, int height) {
+  Image<float> surface(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width / 2; ++x) surface(x, y) = 4;
+  return surface;
+}
+
+TEST(Rasteriser, TellsWhatStrokesLeaveBareAsACanvasWould) {
+  for (const auto& [width, height] : {std::pair{97, 71}, {1, 1}, {16, 33}, {130, 64}}) {
+    const Image<float> surface = surface_to_the_left(width, height);
+    const Hiding hiding{.surface = surface, .tolerance_px = 1};
+    for (const float opacity : {1.f, 0.5f}) {
+      const Layer layer = random_layer(width, height, 40, opacity);
+      Canvas canvas(width, height, {});
+      Image<std::uint8_t> bare(width, height);
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) bare(x, y) = (x / 5 + y / 7) % 3 == 0 || y >= 64 ? 0 : 255;
+      rasterise(layer, central_view, hiding, canvas);
+      const Image<std::uint8_t> left = left_bare(layer, central_view, hiding, bare);
+      int was_bare = 0, is_bare = 0, differs = 0;
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          was_bare += bare(x, y) != 0;
+          is_bare += left(x, y) != 0;
+          differs += (left(x, y) != 0) != (bare(x, y) != 0 && canvas.coverage(x, y) < 0.5f);
+        }
+      EXPECT_EQ(differs, 0) << width << "x" << height << " opacity " << opacity;
+      if (width == 97) {
+        EXPECT_TRUE(0 < is_bare && is_bare < was_bare) << is_bare << " of " << was_bare;
+      }
+    }
+  }
+}
+
 TEST(Rasteriser, DrawsWhatTheObviousWayDraws) {
   for (const auto& [width, height] : {std::pair{97, 71}, {1, 1}, {16, 33}, {130, 5}}) {
     for (const float opacity : {1.f, 0.5f}) {

@@ -64,16 +64,28 @@ Rgb8 colour_of_surface(const BarePlaces& places, int x, int y, const ScaledStyle
 
 }  // namespace
 
-Layer strokes_near_bare(const Layer& layer, const Canvas& canvas) {
+Image<std::uint8_t> bare_pixels(const Canvas& canvas, ImageView<const std::uint8_t> wanted) {
+  Image<std::uint8_t> bare(canvas.width, canvas.height);
+  tbb::parallel_for(0, canvas.height, [&](int y) {
+    const auto coverage = canvas.coverage.row(y);
+    const auto marks = bare.row(y);
+    for (std::size_t x = 0; x < marks.size(); ++x) marks[x] = coverage[x] < 0.5f ? 255 : 0;
+    if (wanted.empty()) return;
+    const auto wanted_here = wanted.row(y);
+    for (std::size_t x = 0; x < marks.size(); ++x) marks[x] = wanted_here[x] != 0 ? marks[x] : std::uint8_t{0};
+  });
+  return bare;
+}
+
+Layer strokes_near_bare(const Layer& layer, ImageView<const std::uint8_t> bare) {
   constexpr int block_px = 16;
-  const int columns = canvas.width / block_px + 1, rows = canvas.height / block_px + 1;
+  const int columns = bare.width() / block_px + 1, rows = bare.height() / block_px + 1;
   Image<std::uint8_t> has_bare(columns, rows);
   tbb::parallel_for(0, rows, [&](int row) {
     const auto marks = has_bare.row(row);
-    for (int y = row * block_px; y < std::min((row + 1) * block_px, canvas.height); ++y) {
-      const auto coverage = canvas.coverage.row(y).first(static_cast<std::size_t>(canvas.width));
-      for (std::size_t x = 0; x < coverage.size(); ++x)
-        if (coverage[x] < 0.5f) marks[x / block_px] = 1;
+    for (int y = row * block_px; y < std::min((row + 1) * block_px, bare.height()); ++y) {
+      const auto here = bare.row(y);
+      for (std::size_t x = 0; x < here.size(); ++x) marks[x / block_px] |= here[x];
     }
   });
   const auto block = [](float place, int count) {
@@ -182,17 +194,7 @@ Layer cover_places(BarePlaces places, const ScaledStyle& scaled, const Style& st
 }
 
 Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const ScaledStyle& scaled, const Style& style,
-                 ImageView<const std::uint8_t> wanted) {
-  const int width = planner.photograph.width(), height = planner.photograph.height();
-  Image<std::uint8_t> bare(width, height);
-  tbb::parallel_for(0, height, [&](int y) {
-    const auto coverage = planner.canvas.coverage.row(y);
-    const auto marks = bare.row(y);
-    for (int x = 0; x < width; ++x) marks[x] = coverage[x] < 0.5f ? 255 : 0;
-    if (wanted.empty()) return;
-    const auto wanted_here = wanted.row(y);
-    for (int x = 0; x < width; ++x) marks[x] = wanted_here[x] != 0 ? marks[x] : std::uint8_t{0};
-  });
+                 Image<std::uint8_t> bare) {
   return cover_places({planner.photograph, planner.disparity, planner.view, inputs.mixed_colours, std::move(bare),
                        planner.least_dot_px},
                       scaled, style);

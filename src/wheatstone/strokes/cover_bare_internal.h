@@ -4,8 +4,11 @@
 
 namespace wheatstone {
 
-/// The strokes of a layer that may cover something of a canvas that is bare; they stand in the canvas's view.
-Layer strokes_near_bare(const Layer& layer, const Canvas& canvas);
+/// 255 where a canvas is bare, as far as it is wanted: `wanted` is not 0 there, or empty.
+Image<std::uint8_t> bare_pixels(const Canvas& canvas, ImageView<const std::uint8_t> wanted);
+
+/// The strokes of a layer that may cover something bare; they stand in the mask's view.
+Layer strokes_near_bare(const Layer& layer, ImageView<const std::uint8_t> bare);
 
 /// What is to be covered: a view, and its pixels that are bare. Where `mixed_colours` is not 0, the photograph mixes
 /// the colours of two surfaces; it may be empty.
@@ -22,9 +25,8 @@ struct BarePlaces {
 /// that surface's colour.
 Layer cover_places(BarePlaces places, const ScaledStyle& scaled, const Style& style);
 
-/// The same for the pixels of a planner's canvas that no stroke covers, as far as they are wanted: `wanted` is not 0
-/// there, or empty. `inputs` are the finest layer's.
+/// The same for the bare pixels of a planner's view. `inputs` are the finest layer's.
 Layer cover_bare(const LayerPlanner& planner, const LayerInputs& inputs, const ScaledStyle& scaled, const Style& style,
-                 ImageView<const std::uint8_t> wanted);
+                 Image<std::uint8_t> bare);
 
 }  // namespace wheatstone

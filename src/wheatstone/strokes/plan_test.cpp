@@ -225,7 +225,7 @@ TEST(CoverBare, ADotBehindADepthEdgeHasItsSurfacesColour) {
   const LayerInputs inputs = make_layer_inputs(planner, bench.style, scaled, 2);
   Image<std::uint8_t> wanted(80, 60);
   wanted(50, 30) = 255;
-  const Layer dots = cover_bare(planner, inputs, scaled, bench.style, wanted);
+  const Layer dots = cover_bare(planner, inputs, scaled, bench.style, bare_pixels(planner.canvas, wanted));
   ASSERT_EQ(dots.strokes.size(), 1u);
   EXPECT_EQ(dots.strokes[0].colour, (Rgb8{100, 100, 100}));
 }
@@ -238,7 +238,7 @@ TEST(CoverBare, BarePixelsOfOneColourAreCoveredByOneThread) {
   Image<std::uint8_t> wanted(80, 60);
   for (int y = 10; y < 16; ++y) wanted(20, y) = 255;
   wanted(60, 30) = 255;
-  const Layer cover = cover_bare(planner, inputs, scaled, bench.style, wanted);
+  const Layer cover = cover_bare(planner, inputs, scaled, bench.style, bare_pixels(planner.canvas, wanted));
   ASSERT_EQ(cover.strokes.size(), 2u);
   EXPECT_EQ(cover.strokes[1].point_count, 1u);
   EXPECT_NE(cover.strokes[0].colour, cover.strokes[1].colour);
@@ -247,7 +247,7 @@ TEST(CoverBare, BarePixelsOfOneColourAreCoveredByOneThread) {
   EXPECT_GE(thread.back().y + cover.strokes[0].radius_px, 15.5f);
 
   bench.style.max_length = bench.style.min_length = 0;
-  const Layer dots = cover_bare(planner, inputs, scaled, bench.style, wanted);
+  const Layer dots = cover_bare(planner, inputs, scaled, bench.style, bare_pixels(planner.canvas, wanted));
   EXPECT_GT(dots.strokes.size(), 2u);
   EXPECT_TRUE(std::ranges::all_of(dots.strokes, [](const Stroke& dot) { return dot.point_count == 1; }));
 }

@@ -96,9 +96,15 @@ class ViewAtWork {
           with_opacities(tracked, [&](std::size_t i) { return i < carried ? standing(tracked.tracks[i]) : 1; }));
       return;
     }
-    rasterise(finest ? strokes_near_bare(begun, planner.canvas) : begun, planner.view, hiding(), planner.canvas);
-    if (!finest) return;
-    Layer dots = cover_bare(planner, inputs, at_->scaled, style_, part);
+    if (!finest) {
+      rasterise(begun, planner.view, hiding(), planner.canvas);
+      return;
+    }
+    // Nothing is planned on what the finest strokes paint: only what they leave bare matters.
+    Image<std::uint8_t> bare = bare_pixels(planner.canvas, part);
+    const Layer near = strokes_near_bare(begun, bare);
+    bare = left_bare(near, planner.view, hiding(), std::move(bare));
+    Layer dots = cover_bare(planner, inputs, at_->scaled, style_, std::move(bare));
     if (!part_.is_whole()) append_strokes(dots_left_out({tracked, carried}), dots);
     numbers_.give(dots);
     add(std::move(dots), inputs, before, options, tracked);
