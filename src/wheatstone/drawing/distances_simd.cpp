@@ -14,6 +14,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, Canvas::widest_vector>;
 constexpr float far_away = 1e30f;
 
+/// `first`, and one more in each lane after it. Highway's Iota writes each lane to memory unless it begins with a
+/// constant.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> counted_from(Tag tag, hn::TFromD<Tag> first) {
+  return hn::Add(hn::Set(tag, first), hn::Iota(tag, 0));
+}
+
 /// Where the segments of a stroke lie.
 void place_chain(const SeenLayer& layer, const FlatStroke& stroke, int band_top, Chain& chain) {
   const Floats f;
@@ -68,7 +75,7 @@ void find_rectangles(std::size_t segments, float reach, DistanceBand& band) {
     const auto next_x = hn::LoadU(f, chain.course_x.data() + i + 1),
                next_y = hn::LoadU(f, chain.course_y.data() + i + 1);
     const auto length = hn::LoadU(f, chain.length.data() + i), next = hn::LoadU(f, chain.length.data() + i + 1);
-    const auto number = hn::Iota(f, static_cast<float>(i));
+    const auto number = counted_from(f, static_cast<float>(i));
     const auto turns = hn::Abs(hn::Sub(hn::Mul(course_x, next_y), hn::Mul(course_y, next_x)));
     const auto ahead = hn::MulAdd(course_x, next_x, hn::Mul(course_y, next_y));
     const auto is_dot = hn::Eq(length, zero);
@@ -111,7 +118,7 @@ void find_columns(std::size_t segment, int canvas_width, DistanceBand& band) {
   const auto zero = hn::Zero(f), width = hn::Set(f, static_cast<float>(canvas_width));
   const float first_y = 0.5f - chain.y[segment];
   for (int row = chain.first_row[segment]; row < chain.end_row[segment]; row += lanes) {
-    const auto y = hn::Iota(f, static_cast<float>(row) + first_y);
+    const auto y = counted_from(f, static_cast<float>(row) + first_y);
     const auto along = hn::MulAdd(y, along_slope, along_middle), across = hn::Mul(y, across_slope);
     const auto first = hn::Max(hn::Sub(along, along_half), hn::Sub(across, across_half));
     const auto last = hn::Min(hn::Add(along, along_half), hn::Add(across, across_half));
@@ -123,7 +130,7 @@ void find_columns(std::size_t segment, int canvas_width, DistanceBand& band) {
     hn::StoreU(begin, integers, chain.begin.data() + at);
     hn::StoreU(end, integers, chain.end.data() + at);
     const auto is_painted =
-        hn::And(hn::Lt(begin, end), hn::Lt(hn::Iota(integers, row), hn::Set(integers, band.end_row)));
+        hn::And(hn::Lt(begin, end), hn::Lt(counted_from(integers, row), hn::Set(integers, band.end_row)));
     const auto least = hn::LoadU(integers, band.begin.data() + row), most = hn::LoadU(integers, band.end.data() + row);
     hn::StoreU(hn::IfThenElse(is_painted, hn::Min(least, begin), least), integers, band.begin.data() + row);
     hn::StoreU(hn::IfThenElse(is_painted, hn::Max(most, end), most), integers, band.end.data() + row);
@@ -176,7 +183,7 @@ void lower_to_segment(std::size_t segment, const HiddenBelow& below, DistanceBan
     const auto along_y = hn::Set(f, pixel_y * along_y_step);
     float* const squared = band_squared + row * stride;
     const float* const hidden_below = tested ? all_hidden_below + row * stride : nullptr;
-    auto px = hn::Iota(f, static_cast<float>(begin) + first_x);
+    auto px = counted_from(f, static_cast<float>(begin) + first_x);
     const auto end_x = hn::Set(f, static_cast<float>(end) - 0.5f + first_x);
     for (int x = begin; x < end; x += lanes) {
       const auto t = hn::Min(hn::Max(hn::MulAdd(px, along_x, along_y), zero), one);

@@ -222,10 +222,15 @@ class BandOfViews {
     if (!accumulators_.empty() && accumulators_.front().rows() != band_.row_count) accumulators_.clear();
     for (const BandedLayer& layer : painting.layers) {
       PiecesOfLayer& of_layer = layers_.emplace_back();
-      for (const std::uint32_t index : layer.bands[static_cast<std::size_t>(number)]) {
-        const Piece& piece = of_layer.pieces.emplace_back(piece_of(layer.flat.strokes[index], index, surfaces, band_));
+      const std::vector<std::uint32_t>& strokes = layer.bands[static_cast<std::size_t>(number)];
+      of_layer.pieces.reserve(strokes.size());
+      for (std::size_t i = 0; i < strokes.size(); ++i) {
+        if (i + FlatLayer::strokes_ahead < strokes.size())
+          layer.flat.ask_for_stroke(strokes[i + FlatLayer::strokes_ahead]);
+        const FlatStroke& stroke = layer.flat.strokes[strokes[i]];
+        const Piece& piece = of_layer.pieces.emplace_back(piece_of(stroke, strokes[i], surfaces, band_));
         if (piece.planned_in != PlannedIn::reference_view)
-          of_layer.of_other_views.push_back(static_cast<std::uint32_t>(of_layer.pieces.size() - 1));
+          of_layer.of_other_views.push_back(static_cast<std::uint32_t>(i));
       }
       of_layer.stamps.resize(of_layer.pieces.size());
       of_layer.stamps_between.resize(of_layer.pieces.size());

@@ -25,10 +25,13 @@ class BendingSpline {
  public:
   void set(const ClampedSpline& spline) {
     spans_ = spline.span_count();
-    controls_.clear();
-    for (int i = 0; i < std::max(spans_ + 3, 1); ++i) controls_.push_back(spline.control(i));
-    bends_.assign(controls_.size(), 0);
-    for (std::size_t i = 1; i + 1 < controls_.size(); ++i)
+    const auto count = static_cast<std::size_t>(std::max(spans_ + 3, 1));
+    if (controls_.size() < count) {
+      controls_.resize(count);
+      bends_.resize(count);
+    }
+    for (std::size_t i = 0; i < count; ++i) controls_[i] = spline.control(static_cast<int>(i));
+    for (std::size_t i = 1; i + 1 < count; ++i)
       bends_[i] = squared_bend(controls_[i - 1], controls_[i], controls_[i + 1]);
   }
 
@@ -44,7 +47,7 @@ class BendingSpline {
   }
 
   int spans_ = 0;
-  std::vector<SpatialPoint> controls_;
+  std::vector<SpatialPoint> controls_;  ///< and more, of longer ones before
   std::vector<float> bends_;
 };
 
@@ -73,24 +76,31 @@ void visit_vertices(const BendingSpline& spline, float radius_px, Add add) {
   }
 }
 
-void add_vertices(const BendingSpline& spline, FlatStroke& stroke, FlatLayer& flat) {
-  stroke.first_vertex = static_cast<std::uint32_t>(flat.x.size());
-  const SpatialPoint begin = spline.control(0);
-  stroke.top = stroke.bottom = begin.y;
-  stroke.left = stroke.right = begin.x;
-  stroke.farthest_disparity = stroke.nearest_disparity = begin.disparity;
+/// `vertices` is used for a while.
+void add_vertices(const BendingSpline& spline, std::vector<SpatialPoint>& vertices, FlatStroke& stroke,
+                  FlatLayer& flat) {
+  vertices.clear();
+  SpatialPoint least = spline.control(0), greatest = least;
   visit_vertices(spline, stroke.radius_px, [&](const SpatialPoint& p) {
-    flat.x.push_back(p.x);
-    flat.y.push_back(p.y);
-    flat.disparity.push_back(p.disparity);
-    stroke.top = std::min(stroke.top, p.y);
-    stroke.bottom = std::max(stroke.bottom, p.y);
-    stroke.left = std::min(stroke.left, p.x);
-    stroke.right = std::max(stroke.right, p.x);
-    stroke.farthest_disparity = std::min(stroke.farthest_disparity, p.disparity);
-    stroke.nearest_disparity = std::max(stroke.nearest_disparity, p.disparity);
+    vertices.push_back(p);
+    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.disparity, p.disparity)};
+    greatest = {std::max(greatest.x, p.x), std::max(greatest.y, p.y), std::max(greatest.disparity, p.disparity)};
   });
-  stroke.vertex_count = static_cast<std::uint32_t>(flat.x.size()) - stroke.first_vertex;
+  const std::size_t first = flat.x.size();
+  for (std::vector<float>* values : {&flat.x, &flat.y, &flat.disparity}) values->resize(first + vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    flat.x[first + i] = vertices[i].x;
+    flat.y[first + i] = vertices[i].y;
+    flat.disparity[first + i] = vertices[i].disparity;
+  }
+  stroke.first_vertex = static_cast<std::uint32_t>(first);
+  stroke.vertex_count = static_cast<std::uint32_t>(vertices.size());
+  stroke.top = least.y;
+  stroke.bottom = greatest.y;
+  stroke.left = least.x;
+  stroke.right = greatest.x;
+  stroke.farthest_disparity = least.disparity;
+  stroke.nearest_disparity = greatest.disparity;
 }
 
 /// Fits a plane that slopes along the columns to a stroke's disparities.
@@ -130,16 +140,26 @@ FlatStroke without_vertices(const Stroke& source) {
   return stroke;
 }
 
+void ask_for_points(const Layer& layer, const Stroke& stroke) {
+  constexpr std::uint32_t points_of_a_line = 4;  // of memory
+  for (std::uint32_t i = 0; i < stroke.point_count; i += points_of_a_line)
+    hwy::Prefetch(&layer.points[stroke.first_point + i]);
+}
+
 /// Some neighbouring strokes of a layer.
 FlatLayer flatten(const Layer& layer, std::size_t first, std::size_t end) {
   FlatLayer part;
   part.strokes.reserve(end - first);
   BendingSpline spline;
+  std::vector<SpatialPoint> vertices;
   for (std::size_t i = first; i < end; ++i) {
+    // The points of strokes that are neighbours in drawing order lie far apart in memory.
+    constexpr std::size_t points_ahead = 6;
+    if (i + points_ahead < end) ask_for_points(layer, layer.strokes[i + points_ahead]);
     const Stroke& source = layer.strokes[i];
     FlatStroke& stroke = part.strokes.emplace_back(without_vertices(source));
     spline.set(ClampedSpline(layer.points_of(source), source.reference_view));
-    add_vertices(spline, stroke, part);
+    add_vertices(spline, vertices, stroke, part);
     fit_depth(part, stroke);
   }
   return part;

@@ -42,8 +42,11 @@ struct FlatLayer {
     hwy::Prefetch(&strokes[stroke].disparity);
   }
   void ask_for_vertices(std::size_t stroke) const {
-    for (const std::vector<float>* values : {&x, &y, &disparity})
-      hwy::Prefetch(values->data() + strokes[stroke].first_vertex);
+    const std::size_t first = strokes[stroke].first_vertex, last = first + strokes[stroke].vertex_count;
+    for (const std::vector<float>* values : {&x, &y, &disparity}) {
+      hwy::Prefetch(values->data() + first);
+      hwy::Prefetch(values->data() + last);
+    }
   }
 };
 

@@ -365,7 +365,8 @@ void lay_lines_under(const StampInBand& of, FrontToBackAccumulator& accumulator)
   if constexpr (tested) {
     const auto middle = static_cast<float>(of.band.top + seen.first_row) + 0.5f;
     for (int i = 0; i < seen.count; i += static_cast<int>(hn::Lanes(f)))
-      hn::StoreU(hn::MulAdd(hn::Set(f, of.paint.depth_slope), hn::Iota(f, static_cast<float>(i) + middle),
+      hn::StoreU(hn::MulAdd(hn::Set(f, of.paint.depth_slope),
+                            hn::Add(hn::Set(f, static_cast<float>(i) + middle), hn::Iota(f, 0)),
                             hn::Set(f, of.paint.disparity)),
                  f, seen.disparities.data() + i);
   }

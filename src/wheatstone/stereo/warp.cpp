@@ -81,23 +81,29 @@ void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> dis
   const float separation = composition.position - from;
   const int shown_width = composition.picture.width();
   constexpr float farthest = -std::numeric_limits<float>::infinity();
+  /// Between which pixels of the other picture's row a place lies, and how far.
+  struct Source {
+    int x;
+    float t;
+  };
   tbb::parallel_for(tbb::blocked_range<int>(0, picture.height()), [&](const tbb::blocked_range<int>& rows) {
     std::vector<float> nearest(shown_width);
-    std::vector<Rgb8> warped(shown_width);
+    std::vector<Source> sources(shown_width);
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::ranges::fill(nearest, farthest);
-      const auto colours = picture.row(y);
       warp_row<false>(disparity.row(y), separation, shown_width, -composition.left_px,
                       [&](int target, float d, int x, float t) {
                         if (d <= nearest[target]) return;
                         nearest[target] = d;
-                        warped[target] = t > 0 ? blend(colours[x], colours[x + 1], t) : colours[x];
+                        sources[target] = {x, t};
                       });
+      const auto colours = picture.row(y);
       const auto to = composition.picture.row(y);
       const auto there = composition.nearest.row(y);
       for (std::size_t x = 0; x < nearest.size(); ++x) {
         if (nearest[x] == farthest || there[x] + tolerance_px >= nearest[x]) continue;
-        to[x] = warped[x];
+        const auto [column, t] = sources[x];
+        to[x] = t > 0 ? blend(colours[column], colours[column + 1], t) : colours[column];
         there[x] = nearest[x];
       }
     }

@@ -77,13 +77,14 @@ void improve_seed(const Pass& pass, const RowPart& part, const float* errors, co
   // Nothing in a row is wanted more than a bare pixel right above or below the target.
   const float rows_away = static_cast<float>(part.row) - target.y;
   if (seed.error >= bare_error - rows_away * rows_away && rows_away * rows_away < bare_error / 2) return;
+  const ImageView<const std::uint8_t>& mask = pass.plan.misplaced;
+  const std::uint8_t* const misplaced = mask.empty() ? nullptr : mask.row(part.row).data();
   for (int x = part.begin; x < part.end; ++x) {
-    const bool misplaced = !pass.plan.misplaced.empty() && pass.plan.misplaced(x, part.row) != 0;
-    const bool is_bare = errors[x] >= bare_error;
-    const float own_error = errors[x] + (misplaced && !is_bare ? misplaced_error : 0);
-    if (own_error <= seed.error || !may_begin(pass.plan, pass.place, x, part.row)) continue;
+    const bool is_bare = errors[x] >= bare_error, is_misplaced = misplaced != nullptr && misplaced[x] != 0;
+    const float own_error = errors[x] + (is_misplaced && !is_bare ? misplaced_error : 0);
+    if (own_error <= seed.error) continue;
     const float error = desire(pass, own_error, x, part.row, target);
-    if (error > seed.error) seed = {error, x, part.row};
+    if (error > seed.error && may_begin(pass.plan, pass.place, x, part.row)) seed = {error, x, part.row};
   }
 }
 
@@ -190,7 +191,9 @@ Layer plan_cells(const Pass& pass, int row) {
   const std::vector<CellRun> runs = runs_of_active_cells(pass, row);
   Layer layer;
   if (runs.empty()) return layer;
-  std::vector<Seed> seeds(grid.columns());
+  // What is not wrong enough for a stroke is not looked at closely.
+  const float squared_threshold = style.threshold * style.threshold;
+  std::vector<Seed> seeds(grid.columns(), Seed{std::min(squared_threshold, bare_error / 4)});
   std::vector<Target> targets(grid.columns());
   for (const CellRun& run : runs)
     for (int column = run.first; column < run.end; ++column) targets[column] = target_of(pass, column, row);
@@ -204,7 +207,6 @@ Layer plan_cells(const Pass& pass, int row) {
                      seeds[column]);
     }
   }
-  const float squared_threshold = style.threshold * style.threshold;
   for (int column = 0; column < grid.columns(); ++column) {
     if (seeds[column].error > squared_threshold)
       add_stroke(pass, seeds[column], cell_hash(pass, column, row, stroke_choices), layer);
