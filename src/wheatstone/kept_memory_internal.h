@@ -11,7 +11,7 @@ namespace wheatstone {
 /// be in the way of pictures of other sizes, and painting 12 megapixels would take a tenth more memory.
 inline void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int large_bytes = 8 << 20, most_kept_bytes = 256 << 20;
+  constexpr int large_bytes = 9 << 20, most_kept_bytes = 256 << 20;
   mallopt(M_MMAP_THRESHOLD, large_bytes);
   mallopt(M_TRIM_THRESHOLD, most_kept_bytes);
 #endif

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -148,29 +149,6 @@ struct alignas(64) Piece {
   }
 };
 
-/// The rows of a piece in which some column is open and shown, a bit each; of what few columns show, most are culled
-/// so.
-std::uint32_t rows_to_draw(const Piece& piece, const ColumnRun& columns, const HiddenBelow& below,
-                           const FrontToBackAccumulator& accumulator) {
-  constexpr int block_px = FrontToBackAccumulator::block_px;
-  std::uint32_t rows = 0;
-  for (int number = columns.begin / block_px; number * block_px < columns.end; ++number) {
-    std::uint32_t candidates =
-        piece.rows & accumulator.open_rows(number) & below.shown_rows[static_cast<std::size_t>(number)] & ~rows;
-    const auto below_column = [=](int column) {
-      return (std::uint32_t{1} << std::clamp(column - number * block_px, 0, block_px)) - 1;
-    };
-    const std::uint32_t within = below_column(columns.end) & ~below_column(columns.begin);
-    for (; candidates != 0; candidates &= candidates - 1) {
-      const int row = std::countr_zero(candidates);
-      if ((accumulator.open_columns(row, number) & below.shown_columns_in(row, number, accumulator.rows()) & within) !=
-          0)
-        rows |= std::uint32_t{1} << row;
-    }
-  }
-  return rows;
-}
-
 Piece piece_of(const FlatStroke& stroke, std::uint32_t index, const PreparedSurfaces& surfaces,
                const DistanceBand& band) {
   constexpr float thin_px = 1.25f;
@@ -211,13 +189,16 @@ struct PiecesOfLayer {
 /// them.
 class BandOfViews {
  public:
-  /// `accumulators` are some of another band, or none.
-  BandOfViews(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, int number,
+  static constexpr std::size_t few_views = 2;  ///< of which parts of strokes are made only as far as they are seen
+
+  /// `accumulators` are some of another band, or none; `view_count` views will be drawn, all at once or not.
+  BandOfViews(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, int number, std::size_t view_count,
               std::vector<FrontToBackAccumulator>& accumulators)
       : painting_(painting),
         surfaces_(surfaces),
         band_(number * band_rows, painting.width, painting.height),
         scratch_(band_.top, 0, painting.height),
+        view_count_(view_count),
         accumulators_(accumulators) {
     if (!accumulators_.empty() && accumulators_.front().rows() != band_.row_count) accumulators_.clear();
     for (const BandedLayer& layer : painting.layers) {
@@ -289,8 +270,7 @@ class BandOfViews {
     const ViewAtWork* at_work;
     const HiddenBelow* below;  ///< what hides it
     ColumnRun columns;
-    std::uint32_t rows;    ///< that are open and shown: a bit each
-    std::uint32_t wanted;  ///< those of them that may have something to draw
+    std::uint32_t rows;  ///< that may have something to draw: a bit each
     bool may_be_hidden;
   };
 
@@ -300,7 +280,47 @@ class BandOfViews {
   void draw_piece(std::size_t above, std::size_t number, std::span<const ViewAtWork> views, HiddenBelowOf below_of) {
     in_views_.clear();
     for (const ViewAtWork& view : views) find_in_view(layers_[above].pieces[number], view, below_of(view));
-    for (const PieceInView& in_view : in_views_) draw_in_view(above, number, in_view);
+    std::uint32_t rows = 0;
+    for (const PieceInView& in_view : in_views_) rows |= in_view.rows;
+    const Piece& piece = layers_[above].pieces[number];
+    // Those of other views are drawn twice, and most rows of what many views show are seen by some.
+    const bool is_drawn_once = views.size() == view_count_ && piece.planned_in == PlannedIn::reference_view;
+    const bool leaves_out_columns = is_drawn_once && views.size() <= few_views && piece.is_rigid && rows != 0;
+    if (leaves_out_columns) find_columns_to_draw(piece, rows);
+    for (const PieceInView& in_view : in_views_)
+      draw_in_view(above, number, {rows, leaves_out_columns ? &columns_to_draw_ : nullptr}, in_view);
+  }
+
+  /// Of each of some rows, the columns of the central view that any of the views at hand may draw.
+  void find_columns_to_draw(const Piece& piece, std::uint32_t rows) {
+    constexpr int margin_px = Stamps::margin + 2;  // columns beside these tell how a rim goes on
+    for (std::uint32_t left = rows; left != 0; left &= left - 1) {
+      const int row = std::countr_zero(left);
+      ColumnRun run{std::numeric_limits<int>::max() / 2, std::numeric_limits<int>::min() / 2};
+      for (const PieceInView& in_view : in_views_) {
+        const ColumnRun seen = columns_in_row(in_view, row);
+        if (seen.begin >= seen.end) continue;
+        const float disparity =
+            piece.paint.disparity + piece.paint.depth_slope * (static_cast<float>(band_.top + row) + 0.5f);
+        const int shift = floor_of((in_view.at_work->view.position - central_view) * disparity);
+        run = {std::min(run.begin, seen.begin + shift - margin_px), std::max(run.end, seen.end + shift + margin_px)};
+      }
+      columns_to_draw_[static_cast<std::size_t>(row)] = run;
+    }
+  }
+
+  /// From the first to the last block of a row in which a piece may have something to draw.
+  static ColumnRun columns_in_row(const PieceInView& in_view, int row) {
+    constexpr int block_px = FrontToBackAccumulator::block_px;
+    const FrontToBackAccumulator& accumulator = in_view.at_work->accumulator;
+    const auto is_closed = [&](int number) {
+      return (accumulator.open_columns(row, number) &
+              in_view.below->shown_columns_in(row, number, accumulator.rows())) == 0;
+    };
+    int first = in_view.columns.begin / block_px, last = (in_view.columns.end - 1) / block_px;
+    while (first <= last && is_closed(first)) ++first;
+    while (last > first && is_closed(last)) --last;
+    return {first * block_px, (last + 1) * block_px};
   }
 
   void find_in_view(const Piece& piece, const ViewAtWork& at_work, const HiddenBelow& below) {
@@ -313,15 +333,15 @@ class BandOfViews {
     const bool may_be_hidden = !below.pixels.empty() && piece.may_be_hidden(columns, below);
     if (may_be_hidden) rows &= below.shown_rows_within(columns.begin, columns.end);
     if (rows == 0 || (may_be_hidden && piece.is_hidden(columns, below))) return;
-    const bool is_of_other = piece.planned_in != PlannedIn::reference_view && !below.pixels.empty();
-    const std::uint32_t wanted = is_of_other ? rows_to_draw(piece, columns, below, accumulator) : rows;
-    if (wanted == 0) return;
-    accumulator.ask_for(wanted, columns.begin, columns.end);
-    in_views_.push_back({&at_work, &below, columns, rows, wanted, may_be_hidden});
+    rows = rows_to_draw(rows, columns, below, accumulator);
+    if (rows == 0) return;
+    accumulator.ask_for(rows, columns.begin, columns.end);
+    in_views_.push_back({&at_work, &below, columns, rows, may_be_hidden});
   }
 
-  void draw_in_view(std::size_t above, std::size_t number, const PieceInView& in_view) {
-    const auto& [at_work, below, columns, rows, wanted, may_be_hidden] = in_view;
+  /// `of_views`: what any of the views at hand may draw, with columns of the central view.
+  void draw_in_view(std::size_t above, std::size_t number, const RowsOfStamp& of_views, const PieceInView& in_view) {
+    const auto& [at_work, below, columns, rows, may_be_hidden] = in_view;
     PiecesOfLayer& of_layer = layers_[above];
     const Piece& piece = of_layer.pieces[number];
     const FlatLayer& layer = painting_.layers[above].flat;
@@ -333,20 +353,30 @@ class BandOfViews {
     const float shift = view - central_view;
     const bool between = piece.lies_between(shift);
     Stamp& stamp = (between ? of_layer.stamps_between : of_layer.stamps)[number];
-    // Other views want other rows: they are made at once.
-    if ((wanted & ~stamp.made) != 0) make(layer, layer.strokes[piece.stroke], between, rows & ~stamp.made, stamp);
-    lay_stamp_under({stamp, stamps_, piece.paint, *below, band_, shift, columns, wanted, may_be_hidden},
+    if ((rows & ~stamp.made) != 0)
+      make({SeenLayer(layer, central_view), layer.strokes[piece.stroke], nothing_hides_}, between,
+           {of_views.rows & ~stamp.made, of_views.columns}, stamp);
+    lay_stamp_under({stamp, stamps_, piece.paint, *below, band_, shift, columns, rows, may_be_hidden},
                     at_work->accumulator);
   }
 
-  void make(const FlatLayer& layer, const FlatStroke& stroke, bool between, std::uint32_t rows, Stamp& stamp) {
+  /// `wanted.columns` are the central view's.
+  void make(const StrokeInBand& of, bool between, const RowsOfStamp& wanted, Stamp& stamp) {
+    const FlatStroke& stroke = of.stroke;
     const float reach = BrushProfile(stroke.radius_px).reach_px + Stamps::margin;
-    stamp.left = std::floor(stroke.left - reach) - (between ? 0.5f : 0);
+    const float left = std::floor(stroke.left - reach);
+    stamp.left = left - (between ? 0.5f : 0);
     const int width = static_cast<int>(std::ceil(stroke.right + reach - stamp.left)) + 1;
     if (scratch_.stride < width + 2 * Canvas::widest_vector)
       scratch_ = DistanceBand(band_.top, width, painting_.height);
-    make_stamp({SeenLayer(layer, central_view, stamp.left), stroke, nothing_hides_}, width, rows, scratch_, stamp,
-               stamps_);
+    if (wanted.columns != nullptr)
+      for (std::uint32_t rows = wanted.rows; rows != 0; rows &= rows - 1) {
+        const auto row = static_cast<std::size_t>(std::countr_zero(rows));
+        const auto [begin, end] = (*wanted.columns)[row];
+        columns_of_stamp_[row] = {begin - static_cast<int>(left), end - static_cast<int>(left)};
+      }
+    make_stamp({SeenLayer(of.layer.flat, central_view, stamp.left), stroke, of.hidden_below}, width,
+               {wanted.rows, wanted.columns != nullptr ? &columns_of_stamp_ : nullptr}, scratch_, stamp, stamps_);
   }
 
   std::size_t finish(const ViewAtWork& at_work) {
@@ -376,7 +406,10 @@ class BandOfViews {
   HiddenBelow nothing_hides_;
   std::vector<PiecesOfLayer> layers_;
   Stamps stamps_;
-  std::vector<PieceInView> in_views_;  ///< of the piece at hand
+  std::size_t view_count_;
+  std::vector<PieceInView> in_views_;                 ///< of the piece at hand
+  std::array<ColumnRun, band_rows> columns_to_draw_;  ///< of the piece at hand, in the central view
+  std::array<ColumnRun, band_rows> columns_of_stamp_;
   std::vector<FrontToBackAccumulator>& accumulators_;
 };
 
@@ -423,7 +456,7 @@ void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surface
   tbb::parallel_for(0, bands, [&](int i) {
     std::vector<FrontToBackAccumulator> accumulators;
     kept.try_pop(accumulators);
-    BandOfViews band(painting, surfaces, i, accumulators);
+    BandOfViews band(painting, surfaces, i, views.size(), accumulators);
     for (std::size_t first = 0; first < views.size(); first += at_once) {
       const std::size_t count = std::min(at_once, views.size() - first);
       band.draw(views.subspan(first, count), std::span(bare[static_cast<std::size_t>(i)]).subspan(first, count));

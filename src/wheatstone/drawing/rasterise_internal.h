@@ -287,9 +287,15 @@ struct Stamps {
   std::vector<std::uint16_t> values = std::vector<std::uint16_t>(2 * slack);
 };
 
+/// Rows of a band, a bit each, and in each those columns that matter.
+struct RowsOfStamp {
+  std::uint32_t rows;
+  const std::array<ColumnRun, band_rows>* columns;  ///< as the band counts them; null: all
+};
+
 /// Adds rows of a band to the stamp of a stroke, whose layer is seen in columns from stamp.left on; `band` is `width`
 /// columns wide.
-void make_stamp(const StrokeInBand& stroke, int width, std::uint32_t rows, DistanceBand& band, Stamp& stamp,
+void make_stamp(const StrokeInBand& stroke, int width, const RowsOfStamp& wanted, DistanceBand& band, Stamp& stamp,
                 Stamps& stamps);
 
 /// What of a stroke its stamps do not hold.
@@ -310,6 +316,10 @@ struct StampInBand {
   std::uint32_t rows;  ///< the open ones, a bit each
   bool tested;         ///< a surface may hide some of it
 };
+
+/// Those of some rows of a band, a bit each, in which one of the columns is open and shown.
+std::uint32_t rows_to_draw(std::uint32_t rows, const ColumnRun& columns, const HiddenBelow& below,
+                           const FrontToBackAccumulator& accumulator);
 
 /// Draws what is seen of a stamp under everything that was drawn before.
 void lay_stamp_under(const StampInBand& stamp, FrontToBackAccumulator& accumulator);

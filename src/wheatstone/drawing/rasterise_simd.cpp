@@ -192,20 +192,27 @@ std::size_t write_line(const float* squared, const BrushProfile& brush, const Co
   return first + 2 * Stamps::margin + static_cast<std::size_t>(to - columns.begin);
 }
 
-void make_stamp(const StrokeInBand& of, int width, std::uint32_t rows, DistanceBand& band, Stamp& stamp,
+void make_stamp(const StrokeInBand& of, int width, const RowsOfStamp& wanted, DistanceBand& band, Stamp& stamp,
                 Stamps& stamps) {
   const auto& [layer, stroke, below] = of;
   const BrushProfile brush(stroke.radius_px);
   find_extents(layer, stroke, width, Stamps::aside_px, band);
-  for (int row = band.first_row; row < band.end_row; ++row)
-    if ((rows >> row & 1) == 0) band.begin[row] = band.end[row] = 0;
+  for (int row = band.first_row; row < band.end_row; ++row) {
+    if ((wanted.rows >> row & 1) == 0) {
+      band.begin[row] = band.end[row] = 0;
+    } else if (wanted.columns != nullptr) {
+      const ColumnRun& columns = (*wanted.columns)[static_cast<std::size_t>(row)];
+      band.begin[row] = std::max(band.begin[row], columns.begin);
+      band.end[row] = std::min(band.end[row], columns.end);
+    }
+  }
   measure_distances(stroke, below, band);
   if (stamp.made == 0) {
     stamp.first_row = band.first_row;
     stamp.end_row = std::max(band.end_row, band.first_row);
     stamp.first_line = stamps.add_lines(static_cast<std::size_t>(stamp.end_row - stamp.first_row));
   }
-  stamp.made |= rows;
+  stamp.made |= wanted.rows;
   std::size_t next = stamps.values.size() - Stamps::slack, most = next + 2 * Stamps::slack;
   for (int row = band.first_row; row < band.end_row; ++row)
     most += 2 * Stamps::margin + static_cast<std::size_t>(std::max(band.end[row] - band.begin[row], 0));
@@ -259,25 +266,38 @@ struct SeenLines {
     constexpr double unit = 1 << unit_bits;
     const double view = of.view, top = of.paint.disparity + of.paint.depth_slope * (of.band.top + 0.5);
     const auto step = static_cast<std::int64_t>(-view * of.paint.depth_slope * unit);
-    std::int64_t place = static_cast<std::int64_t>((of.stamp.left - view * top) * unit) +
-                         (1 << (unit_bits - Fractions::bits - 1)) + first_row * step;
+    const std::int64_t first = static_cast<std::int64_t>((of.stamp.left - view * top) * unit) +
+                               (1 << (unit_bits - Fractions::bits - 1)) + first_row * step;
+    const auto whole = [](std::int64_t place) { return static_cast<std::int32_t>(place >> unit_bits); };
+    const auto rest = [](std::int64_t place) { return static_cast<std::int32_t>(place & ((1 << unit_bits) - 1)); };
+    const hn::RebindToSigned<Floats> integers;
     const std::uint32_t* first_values = of.stamps.first_values.data() + of.stamp.first_line;
-    const std::int32_t* begins = of.stamps.begins.data() + of.stamp.first_line;
-    for (int i = 0; i < count; ++i, place += step) {
-      zeros[i] = static_cast<std::int32_t>(place >> unit_bits);
-      levels[i] = static_cast<std::int32_t>(first_values[i]) - zeros[i] - begins[i];
-      fraction[i] = static_cast<std::uint8_t>(place >> (unit_bits - Fractions::bits) & (Fractions::count - 1));
+    const std::int32_t* line_begins = of.stamps.begins.data() + of.stamp.first_line;
+    const std::int32_t* line_ends = of.stamps.ends.data() + of.stamp.first_line;
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(integers))) {
+      const auto steps = hn::Add(hn::Set(integers, i), hn::Iota(integers, 0));
+      const auto part = hn::Add(hn::Mul(steps, hn::Set(integers, rest(step))), hn::Set(integers, rest(first)));
+      const auto whole_steps = hn::Add(hn::Mul(steps, hn::Set(integers, whole(step))), hn::Set(integers, whole(first)));
+      const auto zero = hn::Add(whole_steps, hn::ShiftRight<unit_bits>(part));
+      const auto begin = hn::Add(zero, hn::LoadU(integers, line_begins + i));
+      const auto value = hn::BitCast(integers, hn::LoadU(hn::RebindToUnsigned<Floats>(), first_values + i));
+      hn::StoreU(begin, integers, begins.data() + i);
+      hn::StoreU(hn::Add(zero, hn::LoadU(integers, line_ends + i)), integers, ends.data() + i);
+      hn::StoreU(hn::Sub(value, begin), integers, levels.data() + i);
+      hn::StoreU(hn::And(hn::ShiftRight<unit_bits - Fractions::bits>(part), hn::Set(integers, Fractions::count - 1)),
+                 integers, fraction.data() + i);
     }
   }
 
   static constexpr std::size_t most = band_rows + Canvas::widest_vector;
   int first_row, count;
-  std::array<std::int32_t, most> zeros;     ///< the columns of the picture from which lines are counted
-  std::array<std::int32_t, most> levels;    ///< of the picture's first column, if it were in the line
-  std::array<std::uint8_t, most> fraction;  ///< by which the lines lie farther to the right
-  std::array<float, most> disparities;      ///< where a surface may hide some
-  std::array<std::uint32_t, most> columns;  ///< in a block: those to be drawn, a bit each
+  std::array<std::int32_t, most> begins, ends;  ///< columns of the picture that the lines cover
+  std::array<std::int32_t, most> levels;        ///< of the picture's first column, if it were in the line
+  std::array<std::int32_t, most> fraction;      ///< by which the lines lie farther to the right
+  std::array<float, most> disparities;          ///< where a surface may hide some
+  std::array<std::uint32_t, most> columns;      ///< in a block: those to be drawn, a bit each
 };
+static_assert(SeenLines::most < 1 << 7);  // rows by parts of a pixel are below 2³¹
 
 /// Rows of a block, a bit each.
 struct RowsToDraw {
@@ -295,8 +315,6 @@ HWY_INLINE RowsToDraw find_columns_to_draw(const StampInBand& of, const FrontToB
   const hn::RebindToSigned<Floats> integers;
   const hn::RebindToUnsigned<Floats> words;
   const hn::Rebind<std::uint16_t, Floats> halves;
-  const std::int32_t *begins = of.stamps.begins.data() + of.stamp.first_line,
-                     *ends = of.stamps.ends.data() + of.stamp.first_line;
   const std::uint16_t* open = accumulator.open_columns_from(seen.first_row, number);
   const std::size_t first_of_block = static_cast<std::size_t>(number * accumulator.rows() + seen.first_row);
   const std::uint16_t* shown = tested ? of.hidden_below.shown_columns.data() + first_of_block : nullptr;
@@ -307,9 +325,8 @@ HWY_INLINE RowsToDraw find_columns_to_draw(const StampInBand& of, const FrontToB
   };
   std::uint32_t rows = 0, hidden = 0;
   for (int i = 0; i < seen.count; i += static_cast<int>(hn::Lanes(f))) {
-    const auto zero = hn::Sub(hn::LoadU(integers, seen.zeros.data() + i), left);
-    const auto begin = in_block(hn::Add(zero, hn::LoadU(integers, begins + i)));
-    const auto end = in_block(hn::Add(zero, hn::LoadU(integers, ends + i)));
+    const auto begin = in_block(hn::Sub(hn::LoadU(integers, seen.begins.data() + i), left));
+    const auto end = in_block(hn::Sub(hn::LoadU(integers, seen.ends.data() + i), left));
     const auto one = hn::Set(words, 1u);
     auto columns =
         hn::And(hn::Sub(hn::Shl(one, end), hn::Shl(one, begin)), hn::PromoteTo(words, hn::LoadU(halves, open + i)));
@@ -379,6 +396,36 @@ void lay_lines_under(const StampInBand& of, FrontToBackAccumulator& accumulator)
   }
 }
 
+std::uint32_t find_rows_to_draw(std::uint32_t rows, const ColumnRun& columns, const HiddenBelow& below,
+                                const FrontToBackAccumulator& accumulator) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
+  const hn::CappedTag<std::uint16_t, 16> words;
+  const bool all_shown = below.shown_columns.empty();
+  std::uint32_t found = 0;
+  for (int number = columns.begin / block_px; number * block_px < columns.end; ++number) {
+    std::uint32_t candidates = rows & accumulator.open_rows(number) & ~found;
+    if (!all_shown) candidates &= below.shown_rows[static_cast<std::size_t>(number)];
+    if (candidates == 0) continue;
+    const auto below_column = [=](int column) {
+      return (std::uint32_t{1} << std::clamp(column - number * block_px, 0, block_px)) - 1;
+    };
+    const auto within =
+        hn::Set(words, static_cast<std::uint16_t>(below_column(columns.end) & ~below_column(columns.begin)));
+    const std::uint16_t* open = accumulator.open_columns_from(0, number);
+    const std::uint16_t* shown = all_shown ? nullptr : below.shown_columns.data() + number * accumulator.rows();
+    std::uint32_t any = 0;
+    for (int row = 0; row < accumulator.rows(); row += static_cast<int>(hn::Lanes(words))) {
+      auto left = hn::And(hn::LoadU(words, open + row), within);
+      if (!all_shown) left = hn::And(left, hn::LoadU(words, shown + row));
+      std::uint8_t bytes[8] = {};
+      hn::StoreMaskBits(words, hn::Ne(left, hn::Zero(words)), bytes);
+      any |= static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8) << row;
+    }
+    found |= candidates & any;
+  }
+  return found;
+}
+
 void lay_stamp_under(const StampInBand& stamp, FrontToBackAccumulator& accumulator) {
   if (stamp.tested) {
     lay_lines_under<true>(stamp, accumulator);
@@ -396,6 +443,7 @@ namespace wheatstone {
 HWY_EXPORT(draw_under);
 HWY_EXPORT(lay_band_over);
 HWY_EXPORT(make_stamp);
+HWY_EXPORT(find_rows_to_draw);
 HWY_EXPORT(lay_stamp_under);
 
 void draw_stroke_under(const StrokeInBand& stroke, DistanceBand& band, FrontToBackAccumulator& accumulator) {
@@ -406,9 +454,14 @@ void lay_over(FrontToBackAccumulator& accumulator, int top, Canvas& canvas) {
   HWY_DYNAMIC_DISPATCH(lay_band_over)(accumulator, top, canvas);
 }
 
-void make_stamp(const StrokeInBand& stroke, int width, std::uint32_t rows, DistanceBand& band, Stamp& stamp,
+void make_stamp(const StrokeInBand& stroke, int width, const RowsOfStamp& wanted, DistanceBand& band, Stamp& stamp,
                 Stamps& stamps) {
-  HWY_DYNAMIC_DISPATCH(make_stamp)(stroke, width, rows, band, stamp, stamps);
+  HWY_DYNAMIC_DISPATCH(make_stamp)(stroke, width, wanted, band, stamp, stamps);
+}
+
+std::uint32_t rows_to_draw(std::uint32_t rows, const ColumnRun& columns, const HiddenBelow& below,
+                           const FrontToBackAccumulator& accumulator) {
+  return HWY_DYNAMIC_DISPATCH(find_rows_to_draw)(rows, columns, below, accumulator);
 }
 
 void lay_stamp_under(const StampInBand& stamp, FrontToBackAccumulator& accumulator) {

@@ -183,6 +183,21 @@ TEST(Rasteriser, GivesTheSameBytesOnAnyNumberOfThreads) {
   }
 }
 
+TEST(Rasteriser, DrawsAViewAloneAsAmongMany) {
+  for (const float opacity : {1.f, 0.6f}) {
+    const PreparedPainting painting = prepare(Painting{painting_of(150, 90, opacity)});
+    std::vector<ViewPosition> views;
+    for (int i = 0; i < 9; ++i) views.emplace_back(0.25f * static_cast<float>(i) - 1);
+    const std::vector<DrawnView> many = draw(painting, views);
+    for (std::size_t i = 0; i + 1 < views.size(); ++i) {
+      EXPECT_EQ(largest_difference(draw(painting, views[i]).picture, many[i].picture), 0) << i;
+      const std::vector<DrawnView> two = draw(painting, std::span(views).subspan(i, 2));
+      EXPECT_EQ(largest_difference(two[0].picture, many[i].picture), 0) << i;
+      EXPECT_EQ(largest_difference(two[1].picture, many[i + 1].picture), 0) << i;
+    }
+  }
+}
+
 TEST(Rasteriser, DrawsLayerByLayerWhatItDrawsFromTheFront) {
   const StrokePainting painting = painting_of(200, 150, 0.6f);
   Canvas canvas(200, 150, painting.canvas_colour);
