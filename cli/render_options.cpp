@@ -422,7 +422,7 @@ RenderArguments for_display(const RenderArguments& given, const CLI::App& comman
 
 std::optional<Focus> focus_in(const RenderArguments& arguments, const Size& size) {
   if (arguments.focus.empty()) return {};
-  const auto point = parse_numbers("--focus", arguments.focus, {',', 2, {0, 1}, "X,Y from 0 to 1"});
+  const auto point = parse_numbers("--focus", arguments.focus, {',', 2, {0, 1}, "X,Y"});
   const auto width = static_cast<float>(size.width);
   return Focus{.x_px = static_cast<float>(point[0]) * width,
                .y_px = static_cast<float>(point[1]) * static_cast<float>(size.height),

@@ -47,6 +47,27 @@ int fail(const Session& session, int code, std::string message) {
   return code;
 }
 
+/// What CLI11 found, in the words of our other messages.
+std::string in_our_words(const CLI::App& program, const CLI::ParseError& error) {
+  std::string found = error.what();
+  const std::string option = found.substr(0, found.find(": "));
+  if (dynamic_cast<const CLI::FileError*>(&error) != nullptr)
+    return fmt::format("--config: {}: cannot be read", found.substr(0, found.find(" was not readable")));
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    if (found.find("At Most 1 ") != std::string::npos)
+      return fmt::format("{}: is given {} times, expected once", option, found.substr(found.rfind(' ') + 1));
+    if (found.ends_with(" missing")) return fmt::format("{}: is given without a value", option);
+  }
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && found == "A subcommand is required") {
+    std::vector<std::string> kinds;
+    for (const CLI::App* kind : program.get_subcommands().front()->get_subcommands({}))
+      kinds.push_back(kind->get_name());
+    return fmt::format("{}: its kind is missing, expected {}", program.get_subcommands().front()->get_name(),
+                       fmt::join(kinds, ", "));
+  }
+  return found;
+}
+
 /// What is wrong with the line, and where to read on.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
   const auto commands = program.get_subcommands();
@@ -61,7 +82,7 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
     return words.empty() ? fmt::format("no command given; {}", hint)
                          : fmt::format("{}: no such command; {}", words.front(), hint);
   }
-  return fmt::format("{}; {}", found, hint);
+  return fmt::format("{}; {}", in_our_words(program, error), hint);
 }
 
 /// Says where the processor did what a graphics processor had begun.

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -58,9 +60,21 @@ std::vector<fs::path> files_that_are_read(const Arguments& arguments) {
   return files;
 }
 
+/// Most bytes of the page but for its words, as `page_bytes` counts them.
 std::optional<std::size_t> most_bytes(const Arguments& arguments) {
   if (arguments.max_size.empty()) return std::nullopt;
-  return parse_bytes("--max-size", arguments.max_size);
+  const std::size_t of_words = html_page({}, arguments.words).size() - html_page({}, {}).size();
+  const std::size_t most = parse_bytes("--max-size", arguments.max_size);
+  return most - std::min(most, of_words);
+}
+
+/// Numbers are rounded and pictures made smaller to a certain degree only.
+void refuse_too_large(const Arguments& arguments, const SharedPicture& picture) {
+  const std::optional<std::size_t> most = most_bytes(arguments);
+  if (!most || picture.has_file_beside || page_bytes(picture) <= *most) return;
+  throw Error(ErrorKind::wrong_usage,
+              fmt::format("--max-size: is '{}', but the smallest page of {} has {:.0f} kB", arguments.max_size,
+                          arguments.views.files.front(), std::ceil(static_cast<double>(page_bytes(picture)) / 1000)));
 }
 
 /// Whether the files are views that are shown as they are, and no photograph of two that is looked into.
@@ -156,6 +170,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   if (arguments.words.title.empty()) arguments.words.title = fs::path(arguments.views.files.front()).stem().string();
   report(session.progress, "reading", 0);
   const SharedPicture picture = share(arguments, command, session);
+  refuse_too_large(arguments, picture);
   const std::string page = html_page(picture, arguments.words);
   write_whole_file(arguments.output, page);
   if (!arguments.element.empty()) write_whole_file(arguments.element, page_element_code());

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "command.h"
@@ -15,11 +17,14 @@
 #include "study_kinds.h"
 #include "typed_options.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/unfinished_outputs.h"
 #include "wheatstone/study/simulate.h"
 #include "wheatstone/study/study_folder.h"
 
 namespace wheatstone::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct Arguments {
   std::string design;
@@ -62,12 +67,43 @@ void print_power(const StudyDesign& design, const Arguments& arguments, int subj
     fmt::print(session.output, "  {} on {}: {:.3f}\n", one.effect, one.measure, one.share);
 }
 
-void write_data(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
-  const StudyFolder folder(arguments.folder, design, true);
+void write_subjects(const fs::path& path, const StudyDesign& design, const Arguments& arguments, int subjects,
+                    const Session& session) {
+  const StudyFolder folder(path, design, true);
   for (int subject = 0; subject < subjects; ++subject) {
     report(session.progress, "simulating", static_cast<double>(subject) / subjects);
     write_subject(folder, simulate_subject(design, arguments.observers, subject, session.seed));
   }
+}
+
+/// A new study gets its name when all subjects are there.
+void write_new_study(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
+  fs::path wanted = fs::absolute(arguments.folder).lexically_normal();
+  if (!wanted.has_filename()) wanted = wanted.parent_path();
+  const fs::path growing = wanted.parent_path() / fmt::format(".{}.{}.partial", wanted.filename().string(), ::getpid());
+  const auto check = [&](const std::error_code& error) {
+    if (error)
+      throw Error(ErrorKind::cannot_read_write,
+                  fmt::format("{}: cannot be made: {}", arguments.folder, error.message()));
+  };
+  std::error_code error;
+  UnfinishedOutput unfinished;
+  unfinished.begin(growing, [&] {
+    fs::create_directories(growing, error);
+    check(error);
+  });
+  write_subjects(growing, design, arguments, subjects, session);
+  unfinished.finish([&] {
+    fs::rename(growing, wanted, error);
+    check(error);
+  });
+}
+
+void write_data(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
+  if (holds_study(arguments.folder))
+    write_subjects(arguments.folder, design, arguments, subjects, session);
+  else
+    write_new_study(design, arguments, subjects, session);
   if (session.json)
     print_facts({{"simulated", true}, {"folder", arguments.folder}, {"subjects", subjects}, {"seed", session.seed}},
                 session);

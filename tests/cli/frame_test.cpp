@@ -67,6 +67,11 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_refused(folder, {"--threads", "many", "info", "a.png"}, 2, "--threads");
   expect_refused(folder, {"info", "a.png", "--threads", "-1"}, 2, "--threads");
   expect_refused(folder, {"info", "a.png", "--verbose", "--quiet"}, 2, "excludes");
+  expect_refused(folder, {"--threads", "1", "info", "a.png", "--threads", "2"}, 2,
+                 "--threads: is given 2 times, expected once");
+  expect_refused(folder, {"match", "a.png", "b.png", "--output"}, 2, "--output: is given without a value");
+  expect_refused(folder, {"synth"}, 2, "synth: its kind is missing, expected film, still, universe");
+  expect_refused(folder, {"--config", "none.toml", "info", "a.png"}, 3, "--config: none.toml: cannot be read");
 }
 
 TEST(CommandLine, TakesSharedOptionsBeforeAndBehindTheCommand) {

@@ -207,6 +207,7 @@ TEST(RenderCommand, RefusesBadFilesAndLeavesNothing) {
   for (const std::string name :
        {"none.csv", "nan.csv", "letter.csv", "cut.hdf5", "cut.exr", "plain.exr", "missing.hdf5"})
     expect_refused(folder, {"render", name, "-o", "out"}, 3, name);
+  expect_refused(folder, {"render", "none.csv", "-o", "out"}, 3, "none.csv: no particles to draw, the file has none");
   put_bytes(folder / "good.csv", "x,y,z\n1,2,3\n4,5,6\n");
   expect_refused(folder, {"render", "good.csv", "--select", "sphere:100,0,0,1", "-o", "out"}, 3,
                  "no particle is inside the selected region");

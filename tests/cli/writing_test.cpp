@@ -75,6 +75,7 @@ std::vector<std::vector<std::string>> writers() {
   lines.push_back({"synth", "universe", "--particles", "2000", "-o", "u.hdf5"});
   lines.push_back({"synth", "still", "--size", "48x36", "-o", "still"});
   lines.push_back({"match", "left.png", "right.png", "-o", "matched"});
+  lines.push_back({"study", "simulate", "path-searching-2", "--subjects", "2", "-o", "simulated"});
   return lines;
 }
 

@@ -180,14 +180,15 @@ void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
                                 cloud.farthest != 0 ? cloud.farthest : static_cast<double>(value), largest));
 }
 
-void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts) {
+void refuse_nothing(const std::filesystem::path& file, const Selection& selection, const SelectionCounts& counts) {
   if (counts.weightless > 0)
     throw Error(ErrorKind::bad_input, fmt::format("{}: no particles to draw, {} have no mass or nothing to show",
                                                   file.string(), counts.weightless));
-  throw Error(ErrorKind::bad_input,
-              counts.dropped > 0
-                  ? fmt::format("{}: no particles to draw, {} have no finite position", file.string(), counts.dropped)
-                  : fmt::format("{}: no particles to draw, no particle is inside the selected region", file.string()));
+  const bool is_whole = std::holds_alternative<std::monostate>(selection.cut);
+  const std::string why = counts.dropped > 0 ? fmt::format("{} have no finite position", counts.dropped)
+                          : is_whole         ? "the file has none"
+                                             : "no particle is inside the selected region";
+  throw Error(ErrorKind::bad_input, fmt::format("{}: no particles to draw, {}", file.string(), why));
 }
 
 SurveyedParticles survey(const std::filesystem::path& file, const RenderParticlesOptions& options,
@@ -223,7 +224,7 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   surveyed.counts = for_each_chunk(file, options, "reading", progress, look_at);
   surveyed.statistics.share(ranks);
   surveyed.statistics.mass = mass;
-  if (surveyed.statistics.count == 0) refuse_nothing(file, surveyed.counts);
+  if (surveyed.statistics.count == 0) refuse_nothing(file, options.selection, surveyed.counts);
   surveyed.statistics.framed = framed_region(surveyed.statistics, options.fit);
   if (surveyed.density == DensitySource::neighbours && !surveyed.all_kept) surveyed.density = DensitySource::grid;
   if (grid) {

@@ -20,7 +20,8 @@ void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::st
 void check_positions(const std::filesystem::path& file, const Cloud& cloud);
 
 /// Says that nothing is left to draw, and why.
-[[noreturn]] void refuse_nothing(const std::filesystem::path& file, const SelectionCounts& counts);
+[[noreturn]] void refuse_nothing(const std::filesystem::path& file, const Selection& selection,
+                                 const SelectionCounts& counts);
 
 /// Particles of a file, of which all is known.
 struct SurveyedParticles {

@@ -175,6 +175,9 @@ std::vector<int> parse_frame_range(const std::string& text, int frames, const st
     if (!rest.starts_with(',')) refuse();
     rest.remove_prefix(1);
   }
+  if (numbers.empty())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: is '{}', but the film ends with frame {}", name, text, frames));
   return {numbers.begin(), numbers.end()};
 }
 

@@ -45,7 +45,7 @@ struct RenderedFilm {
 };
 
 /// "1-240x2,300" as 1, 3, … 239, 300: what of a film of so many frames there is; what lies beyond its end is left out.
-/// Throws Error{wrong_usage}, beginning with `name`, for any other text.
+/// Throws Error{wrong_usage}, beginning with `name`, for any other text, and where all lies beyond the end.
 std::vector<int> parse_frame_range(const std::string& text, int frames, const std::string& name);
 
 /// Writes a film (.mp4, .mov, .mkv), or numbered pictures ("frame_%04d.png", from 1 on), of which each is whole or not

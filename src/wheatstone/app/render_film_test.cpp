@@ -153,7 +153,7 @@ TEST(FrameRange, IsReadAsRenderFarmsWriteIt) {
   EXPECT_THAT(range("1-7x3,9"), ElementsAre(1, 4, 7, 9));
   EXPECT_THAT(range("9-2000000000"), ElementsAre(9, 10));
   EXPECT_THAT(range("3,3,1-3"), ElementsAre(1, 2, 3));
-  for (const char* wrong : {"", "0", "5-2", "1-", "1-5x0", "1,", "a", "1-5y2", "99999999999"})
+  for (const char* wrong : {"", "0", "5-2", "1-", "1-5x0", "1,", "a", "1-5y2", "99999999999", "11", "11-20"})
     expect_error(ErrorKind::wrong_usage, "--frame-range", [&] { range(wrong); });
 }
 

@@ -191,7 +191,7 @@ ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, c
   ReadyParticles ready{.cloud = std::move(cloud)};
   put_quantity(ready.cloud, file, options.quantity);
   ready.counts = select_particles(ready.cloud, options.selection);
-  if (ready.cloud.size() == 0) refuse_nothing(file, ready.counts);
+  if (ready.cloud.size() == 0) refuse_nothing(file, options.selection, ready.counts);
   check_positions(file, ready.cloud);
   if (ready.cloud.density.empty() && ready.cloud.colour.empty()) {
     estimate_density(ready.cloud, options.neighbours, progress, options.rendering.ranks);

@@ -120,17 +120,23 @@ void take_component(std::size_t width, int component, std::vector<float>& values
   values.resize(rows);
 }
 
-ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names,
-                             const CloudChoice& choice) {
-  const std::vector<std::string_view> axes =
-      choice.position.empty() ? std::vector<std::string_view>{"x", "y", "z"} : fields_of(choice.position);
+std::array<std::string, 3> position_names(const std::string& path, const CloudChoice& choice,
+                                          const std::array<std::string, 3>& usual) {
+  if (choice.position.empty()) return usual;
+  const std::vector<std::string_view> axes = fields_of(choice.position);
   if (axes.size() != 3)
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: '{}' is not a list of positions, expected three columns, for example x,y,z", path,
-                            choice.position));
+                fmt::format("{}: '{}' is not a list of positions, expected three columns, for example {}", path,
+                            choice.position, fmt::join(usual, ",")));
+  return {std::string(axes[0]), std::string(axes[1]), std::string(axes[2])};
+}
+
+ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names,
+                             const CloudChoice& choice) {
+  const std::array<std::string, 3> axes = position_names(path, choice);
   const NamedColumns columns{path, names};
   ChosenColumns chosen;
-  for (std::size_t axis = 0; axis < 3; ++axis) chosen.position[axis] = columns.required(std::string(axes[axis]));
+  for (std::size_t axis = 0; axis < 3; ++axis) chosen.position[axis] = columns.required(axes[axis]);
   chosen.density = columns.chosen(choice.density, {"density", "rho"});
   chosen.temperature = columns.chosen(choice.temperature, {"temperature", "temp", "t", "scalar", "intensity"});
   chosen.smoothing_length = columns.chosen(choice.smoothing_length, {"smoothing_length", "hsml", "h"});

@@ -21,6 +21,11 @@ struct ChosenColumns {
 /// letters or capitals. Throws Error{bad_input} with the file's name where a named one or the position is missing.
 ChosenColumns choose_columns(const std::string& path, const std::vector<std::string>& names, const CloudChoice& choice);
 
+/// The names of three columns of positions: those that the user named, "x,y,z", else the usual ones. Throws
+/// Error{bad_input} with the file's name where it is another number of names.
+std::array<std::string, 3> position_names(const std::string& path, const CloudChoice& choice,
+                                          const std::array<std::string, 3>& usual = {"x", "y", "z"});
+
 /// The name of a vector's dataset and the number of the component that a quantity asks for, "velocity-x": 0, 1 or 2; −1
 /// where it asks for none.
 struct QuantityName {

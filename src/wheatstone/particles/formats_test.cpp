@@ -189,6 +189,19 @@ TEST(Npy, ReadsHalfFloatsAndRecords) {
   }
 }
 
+TEST(Npy, PositionsAreInTheColumnsThatAreNamed) {
+  const TemporaryFolder folder;
+  Bytes rows;
+  for (const float x : {1.f, 4.f}) rows.put(x + 2).put(-1.f).put(x).put(x + 1);
+  write_whole_file(folder / "a.npy", npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 4), }", rows.text));
+  const Cloud cloud = read_cloud(folder / "a.npy", {.position = "2,3,0"});
+  EXPECT_THAT(cloud.x, ElementsAre(1, 4));
+  EXPECT_THAT(cloud.y, ElementsAre(2, 5));
+  EXPECT_THAT(cloud.z, ElementsAre(3, 6));
+  for (const char* wrong : {"x,y,z", "0,1,4", "1"})
+    expect_error(ErrorKind::bad_input, "a.npy: ", [&] { read_cloud(folder / "a.npy", {.position = wrong}); });
+}
+
 std::string ply_header(const std::string& format, int vertices) {
   return "ply\nformat " + format + " 1.0\ncomment by hand\nelement vertex " + std::to_string(vertices) +
          "\nproperty float x\nproperty double y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
@@ -201,6 +214,8 @@ TEST(Ply, ReadsAsciiAndBinaryOfEitherOrder) {
   const Cloud ascii = read_cloud(folder / "a.ply");
   expect_three_points(ascii);
   EXPECT_EQ(ascii.colour[2], (Rgb8{255, 0, 7}));
+  EXPECT_THAT(read_cloud(folder / "a.ply", {.position = "z,x,y"}).x, ElementsAre(3, 6, 9.5f));
+  expect_error(ErrorKind::bad_input, "no property 'w'", [&] { read_cloud(folder / "a.ply", {.position = "x,y,w"}); });
   for (const bool big : {false, true}) {
     Bytes data(big);
     for (const float x : {1.f, 4.f, 7.f})
@@ -263,6 +278,9 @@ TEST(Las, KeepsCentimetresFarFromTheOrigin) {
   EXPECT_EQ(chosen.z[2] + chosen.origin[2], 4'500'009.5);
   EXPECT_EQ(cloud.colour[1], (Rgb8{255, 0, 1}));
   EXPECT_THAT(read_cloud(folder / "a.las", {.temperature = "intensity"}).temperature, ElementsAre(100, 200, 300));
+  EXPECT_EQ(read_cloud(folder / "a.las", {.position = "x,y,z"}).x, chosen.x);
+  expect_error(ErrorKind::bad_input, "a.las: has no positions 'z,y,x', but x,y,z",
+               [&] { read_cloud(folder / "a.las", {.position = "z,y,x"}); });
   expect_truncations_refused(las(3), "cut.las");
 }
 

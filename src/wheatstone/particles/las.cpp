@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/records_internal.h"
 
@@ -93,6 +94,8 @@ CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choic
        {choice.density, choice.temperature, choice.smoothing_length, choice.mass, choice.quantity})
     if (!wanted.empty() && wanted != "intensity")
       throw Error(ErrorKind::bad_input, fmt::format("{}: has no field '{}', but x, y, z, intensity", name, wanted));
+  if (position_names(name, choice) != std::array<std::string, 3>{"x", "y", "z"})
+    throw Error(ErrorKind::bad_input, fmt::format("{}: has no positions '{}', but x,y,z", name, choice.position));
   if (!choice.density.empty()) layout.density = intensity;
   if (!choice.mass.empty()) layout.mass = intensity;
   if (!choice.quantity.empty()) layout.quantity = intensity;

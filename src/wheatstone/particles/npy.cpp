@@ -30,7 +30,8 @@ std::optional<std::uint64_t> column_given(const std::string& text, std::uint64_t
   return column;
 }
 
-/// Rows of numbers of one type: the columns are known by their numbers, and the first three are the position.
+/// Rows of numbers of one type: the columns are known by their numbers, and the first three are the position unless
+/// others are named.
 CloudSource open_rows(RecordLayout layout, const NpyElement& element, std::uint64_t columns,
                       const CloudChoice& choice) {
   const std::string name = layout.path.string();
@@ -40,7 +41,8 @@ CloudSource open_rows(RecordLayout layout, const NpyElement& element, std::uint6
     return RecordField{.at = static_cast<std::size_t>(by_column ? column : column * element.bytes),
                        .type = element.fields[0].type};
   };
-  for (std::size_t axis = 0; axis < 3; ++axis) layout.position[axis] = field(axis);
+  const std::array<std::string, 3> axes = position_names(name, choice, {"0", "1", "2"});
+  for (std::size_t axis = 0; axis < 3; ++axis) layout.position[axis] = field(*column_given(axes[axis], columns, name));
   if (const auto column = column_given(choice.density, columns, name)) layout.density = field(*column);
   if (const auto column = column_given(choice.temperature, columns, name)) layout.temperature = field(*column);
   if (const auto column = column_given(choice.smoothing_length, columns, name))

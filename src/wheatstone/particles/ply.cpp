@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/records_internal.h"
@@ -113,7 +114,7 @@ class Finder {
     if (!found) refuse(path_, fmt::format("has no property '{}', but {}", wanted, fmt::join(names_, ", ")));
     return found;
   }
-  RecordField need(const char* name) const { return *find(std::string(name), {}); }
+  RecordField need(const std::string& name) const { return *find(name, {}); }
 
  private:
   std::filesystem::path path_;
@@ -126,7 +127,8 @@ RecordLayout layout_of(const std::filesystem::path& path, const PlyHeader& heade
                        const CloudChoice& choice) {
   RecordLayout layout{
       .path = path, .begin = header.bytes, .record_bytes = finder.record_bytes(), .count = header.vertices};
-  layout.position = {finder.need("x"), finder.need("y"), finder.need("z")};
+  const std::array<std::string, 3> axes = position_names(path.string(), choice);
+  layout.position = {finder.need(axes[0]), finder.need(axes[1]), finder.need(axes[2])};
   layout.density = finder.find(choice.density, {"density"});
   layout.temperature = finder.find(choice.temperature, {"temperature", "scalar", "intensity", "scalar_Intensity"});
   layout.smoothing_length = finder.find(choice.smoothing_length, {"smoothing_length"});

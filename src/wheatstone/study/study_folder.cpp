@@ -121,12 +121,17 @@ std::vector<std::pair<std::string, int>> answers_of(const fs::path& folder, cons
 
 }  // namespace
 
+bool holds_study(const fs::path& folder) {
+  if (fs::exists(description_file(folder))) return true;
+  if (fs::exists(folder) && !fs::is_empty(folder))
+    throw Error(ErrorKind::bad_input, fmt::format("{}: is not empty and holds no study", folder.string()));
+  return false;
+}
+
 StudyFolder::StudyFolder(fs::path path, const StudyDesign& design, bool simulated)
     : path_(std::move(path)), design_(design), simulated_(simulated) {
-  if (fs::exists(description_file(path_)))
+  if (holds_study(path_))
     check_same();
-  else if (fs::exists(path_) && !fs::is_empty(path_))
-    throw Error(ErrorKind::bad_input, fmt::format("{}: is not empty and holds no study", path_.string()));
   else
     begin();
 }

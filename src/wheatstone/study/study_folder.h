@@ -8,6 +8,10 @@
 
 namespace wheatstone {
 
+/// Whether this folder holds a study already; false where it is missing or empty. Throws Error{bad_input} where it
+/// holds anything else.
+bool holds_study(const std::filesystem::path& folder);
+
 /// A study's folder, laid out as BIDS 1.9 has behavioural data: dataset_description.json, participants.tsv,
 /// task-LABEL_beh.json, sub-01/beh/sub-01_task-LABEL_beh.tsv, phenotype/questionnaire.tsv, stimuli/; the design lies in
 /// code/design.toml, heads' paths in sourcedata/.

@@ -44,6 +44,11 @@ void check_container(const std::filesystem::path& path, const FilmWriterOptions&
   if (options.codec == "ffv1" && container != Container::matroska) {
     throw Error(ErrorKind::wrong_usage, fmt::format("{}: only Matroska can hold ffv1, expected .mkv", path.string()));
   }
+  // Said before hours of work, at the end of which no name could be given.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error(ErrorKind::cannot_read_write,
+                fmt::format("{}: cannot write: is a folder, expected the name of a film", path.string()));
 }
 
 std::vector<std::string> side_streams_left_out(const std::filesystem::path& path, const FilmWriterOptions& options) {

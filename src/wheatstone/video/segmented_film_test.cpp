@@ -254,6 +254,14 @@ TEST(SegmentedFilm, ARestIsRefusedWhereItIsNotToBeGoneOnWith) {
                [&] { SegmentedFilm(folder / "a.mp4", {}, {.frames_per_segment = 8, .resume = false}); });
 }
 
+TEST(SegmentedFilm, AFolderInTheWayIsToldBeforeTheWork) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "a.mp4");
+  expect_error(ErrorKind::cannot_read_write, "a.mp4: cannot write: is a folder",
+               [&] { SegmentedFilm(folder / "a.mp4", {}, by_eight); });
+  EXPECT_FALSE(fs::exists(work_folder_of(folder / "a.mp4")));
+}
+
 TEST(SegmentedFilm, ADamagedSegmentIsNamed) {
   const TemporaryFolder folder;
   run(folder / "a.mp4", {}, 20);
