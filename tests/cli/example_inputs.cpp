@@ -24,13 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-// Large enough for features and checkerboards to be found.
-constexpr int photograph_width = 192, photograph_height = 144;
+// Large enough for a checkerboard to be found.
+constexpr int photograph_width = 144, photograph_height = 108;
 
-const StereoPair& photographs() {
-  static const StereoPair pair = still_for_test(photograph_width, photograph_height);
-  return pair;
-}
+StereoPair photographs() { return still_for_test(photograph_width, photograph_height); }
+
+/// Large enough for the features of a rectification.
+StereoPair detailed_photographs() { return still_for_test(192, 144); }
 
 void make_with_program(const Words& words) {
   const ProgramResult result = run_program(words);
@@ -45,7 +45,7 @@ void make_rig(const fs::path& folder) {
                         .square_mm = 30,
                         .width = photograph_width,
                         .height = photograph_height,
-                        .focal_px = 201.6,
+                        .focal_px = 151.2,
                         .distance_mm = 600};
   for (std::size_t i = 0; i < checkerboard_tilts.size(); ++i) {
     view.tilt_x = checkerboard_tilts[i][0];
@@ -94,8 +94,8 @@ void make_universe(const fs::path& path) {
 }
 
 void make_multi_picture(const fs::path& path) {
-  const std::array<ImageView<const Rgb8>, 2> views{photographs().left, photographs().right};
-  write_mpo(path, views);
+  const StereoPair pair = detailed_photographs();
+  write_mpo(path, std::array<ImageView<const Rgb8>, 2>{pair.left, pair.right});
 }
 
 /// Beside one of the size that others have, it need not be as large.
@@ -130,9 +130,9 @@ const std::map<std::string, Maker>& makers() {
   const static Maker right = [](const fs::path& path) { write_image(path, photographs().right); };
   const static std::map<std::string, Maker> all{
       {"left.png", left},
-      {"left.jpg", left},
+      {"left.jpg", [](const fs::path& path) { write_image(path, detailed_photographs().left); }},
       {"right.png", right},
-      {"right.jpg", right},
+      {"right.jpg", [](const fs::path& path) { write_image(path, detailed_photographs().right); }},
       {"photograph.mpo", make_multi_picture},
       {"card.png", [](const fs::path& path) { write_image(path, make_card(photographs(), {.width = 600}).picture); }},
       {"glasses.png",

@@ -46,7 +46,7 @@ struct Reduction {
   std::string option, value;
 };
 const std::vector<Reduction> reductions{
-    {{"synth", "still"}, "", "--size", "192x144"},      {{"synth", "still"}, "", "--samples", "1"},
+    {{"synth", "still"}, "", "--size", "144x108"},      {{"synth", "still"}, "", "--samples", "1"},
     {{"synth", "film"}, "", "--size", "96x64"},         {{"synth", "film"}, "", "--frames", "3"},
     {{"synth", "film"}, "", "--samples", "1"},          {{"synth", "film"}, "--cut", "--cut", "2"},
     {{"synth", "universe"}, "", "--particles", "2000"}, {{"study", "stimuli"}, "", "--size", "160x120"},

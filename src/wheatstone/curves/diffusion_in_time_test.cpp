@@ -34,6 +34,7 @@ std::vector<Shot> film_of(FilmMotion motion, float noise) {
   SyntheticFilmOptions options{.frames = frames, .cut = 0, .motion = motion, .noise = noise};
   options.still.width = width;
   options.still.height = height;
+  options.still.samples_a_side = 2;
   std::vector<Shot> film;
   for (int i = 0; i < frames; ++i) {
     Shot shot{make_synthetic_film_frame(options, i), {}, {}};

@@ -163,6 +163,7 @@ TEST(SyntheticFilm, TheFirstFrameIsTheStillWhereNothingMoves) {
 
 SyntheticFilmOptions small_scene(FilmScene scene) {
   SyntheticFilmOptions options = small();
+  options.still.samples_a_side = 2;
   options.scene = scene;
   return options;
 }
