@@ -19,12 +19,29 @@ namespace wheatstone {
 /// Coloured hills that wander with the frames; moderate detail, every frame differs from every other.
 inline Image<Rgb8> moving_picture(int width, int height, int frame, double shift = 0) {
   Image<Rgb8> picture(width, height);
-  const auto level = [](double value) { return static_cast<std::uint8_t>(std::lround(128 + 100 * value)); };
+  const auto level = [](double value) { return static_cast<std::uint8_t>(128.5 + 100 * value); };
+  // By the sines of sums, only columns and rows need sines.
+  struct Wave {
+    explicit Wave(double angle) : sine(std::sin(angle)), cosine(std::cos(angle)) {}
+    double sine, cosine;
+  };
+  struct Column {
+    double red;
+    Wave green, blue;
+  };
+  std::vector<Column> columns;
+  for (int x = 0; x < width; ++x) {
+    const double u = x + shift + 1.7 * frame;
+    columns.push_back({std::sin(u * 0.11), Wave(u * 0.05), Wave(frame * 0.2 - u * 0.03)});
+  }
   for (int y = 0; y < height; ++y) {
+    const double v = y + 0.6 * frame, red = std::cos(v * 0.07);
+    const Wave green(v * 0.09), blue(v * 0.13);
     for (int x = 0; x < width; ++x) {
-      const double u = x + shift + 1.7 * frame, v = y + 0.6 * frame;
-      picture(x, y) = {level(std::sin(u * 0.11) * std::cos(v * 0.07)), level(std::sin(u * 0.05 + v * 0.09)),
-                       level(std::cos(v * 0.13 - u * 0.03 + frame * 0.2))};
+      const Column& column = columns[static_cast<std::size_t>(x)];
+      picture(x, y) = {level(column.red * red),
+                       level(column.green.sine * green.cosine + column.green.cosine * green.sine),
+                       level(column.blue.cosine * blue.cosine - column.blue.sine * blue.sine)};
     }
   }
   return picture;
@@ -59,7 +76,7 @@ inline std::vector<std::int64_t> pts_of(const std::vector<Frame>& frames) {
 }
 
 inline bool has_program(const std::string& name) {
-  return std::system((name + " -version >/dev/null 2>&1").c_str()) == 0;  // NOLINT(bugprone-command-processor)
+  return std::system(("command -v " + name + " >/dev/null").c_str()) == 0;  // NOLINT(bugprone-command-processor)
 }
 
 /// Runs the ffmpeg program quietly; `arguments` as in a shell.
