@@ -37,7 +37,8 @@ void FrontToBackAccumulator::clear() {
     for (; touched != 0; touched &= touched - 1) {
       const int row = std::countr_zero(touched);
       Block& cleared = block(row, number);
-      cleared = {};
+      for (float* const plane : {cleared.red, cleared.green, cleared.blue, cleared.light})
+        std::fill_n(plane, block_px, 0.f);
       std::fill_n(cleared.light, columns, 1.f);
       open_columns_of(number)[row] = static_cast<std::uint16_t>((std::uint32_t{1} << columns) - 1);
       if (Cover* const most = cover(row, number)) most->fill(0);

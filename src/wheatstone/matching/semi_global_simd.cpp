@@ -374,7 +374,8 @@ class StripMatcher {
         std::uint16_t* to = &least[there + row_margin];
         std::uint16_t* to_chosen = &chosen[there + row_margin];
         const Sum sum = hn::LoadU(d, sums + k), other = hn::LoadU(d, to);
-        const Sum disparity = hn::Iota(d, static_cast<std::uint16_t>(first + k));
+        // Highway's Iota writes each lane to memory unless it begins with a constant.
+        const Sum disparity = hn::Add(hn::Set(d, static_cast<std::uint16_t>(first + k)), hn::Iota(d, 0));
         hn::StoreU(hn::IfThenElse(hn::Lt(sum, other), disparity, hn::LoadU(d, to_chosen)), d, to_chosen);
         hn::StoreU(hn::Min(sum, other), d, to);
       }

@@ -88,14 +88,26 @@ void improve_seed(const Pass& pass, const RowPart& part, const float* errors, co
   }
 }
 
-/// True where the mask has anything in the rectangle; an empty mask is a full one.
-bool has_any(ImageView<const std::uint8_t> mask, int left, int right, int top, int bottom) {
-  if (mask.empty()) return true;
-  for (int y = top; y < bottom; ++y)
-    for (const std::uint8_t value : mask.row(y).subspan(left, right - left))
-      if (value != 0) return true;
-  return false;
-}
+/// What a mask has in some rows, by columns; an empty mask is a full one.
+class MaskOfRows {
+ public:
+  MaskOfRows(ImageView<const std::uint8_t> mask, int top, int bottom) {
+    if (mask.empty()) return;
+    any_.resize(static_cast<std::size_t>(mask.width()));
+    for (int y = top; y < bottom; ++y) {
+      const auto row = mask.row(y);
+      for (std::size_t x = 0; x < any_.size(); ++x) any_[x] |= row[x];
+    }
+  }
+
+  bool has_any(int left, int right) const {
+    return any_.empty() ||
+           std::any_of(any_.begin() + left, any_.begin() + right, [](auto value) { return value != 0; });
+  }
+
+ private:
+  std::vector<std::uint8_t> any_;
+};
 
 /// A run of neighbouring cells in one row of cells.
 struct CellRun {
@@ -106,12 +118,13 @@ struct CellRun {
 std::vector<CellRun> runs_of_active_cells(const Pass& pass, int row) {
   const LayerPlan& plan = pass.plan;
   const Grid& grid = pass.grid;
+  const MaskOfRows seeds(plan.seeds, grid.top(row), grid.top(row + 1));
+  const MaskOfRows edges(pass.place == Place::beside_edge ? plan.depth_edges : ImageView<const std::uint8_t>(),
+                         grid.top(row), grid.top(row + 1));
   std::vector<CellRun> runs;
   for (int column = 0; column < grid.columns(); ++column) {
-    const auto holds = [&](ImageView<const std::uint8_t> mask) {
-      return has_any(mask, grid.left(column), grid.left(column + 1), grid.top(row), grid.top(row + 1));
-    };
-    if (!holds(plan.seeds) || (pass.place == Place::beside_edge && !holds(plan.depth_edges))) continue;
+    const int left = grid.left(column), right = grid.left(column + 1);
+    if (!seeds.has_any(left, right) || !edges.has_any(left, right)) continue;
     if (!runs.empty() && runs.back().end == column) {
       ++runs.back().end;
     } else {
