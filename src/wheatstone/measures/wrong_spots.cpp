@@ -38,12 +38,6 @@ WrongSpots measure_of(const Count& count) {
   return {1e5 * count.spots / count.pixels, count.wrong / count.pixels};
 }
 
-bool is_like(Rgb8 a, Rgb8 b) {
-  constexpr int most = static_cast<int>(unlike_colours);
-  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
-  return red * red + green * green + blue * blue <= most * most;
-}
-
 }  // namespace
 
 bool has_colour_near(ImageView<const Rgb8> photograph, Rgb8 colour, int x, int y) {

@@ -10,6 +10,12 @@ namespace wheatstone {
 /// An RGB distance, 0..441, above which nobody takes one colour for the other.
 inline constexpr float unlike_colours = 60;
 
+inline bool is_like(Rgb8 a, Rgb8 b) {
+  constexpr int most = static_cast<int>(unlike_colours);
+  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
+  return red * red + green * green + blue * blue <= most * most;
+}
+
 /// The distance within which a colour is near, in pixels: 4 in a picture 640 wide, in proportion otherwise.
 inline double nearness_px(int width) { return 4.0 * width / 640; }
 

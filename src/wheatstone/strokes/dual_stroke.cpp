@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/strokes/dual_stroke_internal.h"
 
 namespace wheatstone {
@@ -26,17 +29,40 @@ ControlPoint beside(const LayerPlan& plan, const ControlPoint& point, Direction 
   return moved;
 }
 
+Rgb8 colour_at(const ReferencePicture& reference, const ControlPoint& point) {
+  const int x = static_cast<int>(point.x), y = static_cast<int>(point.y);
+  return {reference.red(x, y), reference.green(x, y), reference.blue(x, y)};
+}
+
 Rgb8 mean_colour(const ReferencePicture& reference, std::span<const ControlPoint> points) {
   int red = 0, green = 0, blue = 0;
   for (const ControlPoint& point : points) {
-    const int x = static_cast<int>(point.x), y = static_cast<int>(point.y);
-    red += reference.red(x, y);
-    green += reference.green(x, y);
-    blue += reference.blue(x, y);
+    const Rgb8 colour = colour_at(reference, point);
+    red += colour.r;
+    green += colour.g;
+    blue += colour.b;
   }
   const auto count = static_cast<int>(points.size());
   const auto level = [&](int sum) { return static_cast<std::uint8_t>((sum + count / 2) / count); };
   return {level(red), level(green), level(blue)};
+}
+
+/// Adds strokes along the layer's last points, from `first` on: mostly one, more where its colour would be unlike that
+/// of one of its own places.
+void add_strokes(const ReferencePicture& reference, std::size_t first, Stroke stroke, Layer& layer) {
+  while (first < layer.points.size()) {
+    std::span<const ControlPoint> points = std::span(layer.points).subspan(first);
+    const auto suits_all = [&] {
+      stroke.colour = mean_colour(reference, points);
+      return std::ranges::all_of(
+          points, [&](const ControlPoint& point) { return is_like(colour_at(reference, point), stroke.colour); });
+    };
+    while (!suits_all()) points = points.first(points.size() - 1);
+    stroke.first_point = static_cast<std::uint32_t>(first);
+    stroke.point_count = static_cast<std::uint32_t>(points.size());
+    layer.strokes.push_back(stroke);
+    first += points.size();
+  }
 }
 
 }  // namespace
@@ -54,11 +80,10 @@ void make_dual(const LayerPlan& plan, Layer& layer) {
     // The soft rims of the two overlap, so that nothing shows through between them.
     constexpr float half_rim_px = 0.5f, middle_of_rim = 0.95f;
     half.radius_px = std::min((offset_px + half_rim_px) / middle_of_rim, whole.radius_px);
-    half.first_point = static_cast<std::uint32_t>(layer.points.size());
+    const std::size_t first = layer.points.size();
     for (std::size_t i = 0; i < points.size(); ++i)
       layer.points.push_back(beside(plan, points[i], normal_at(points, i), side));
-    half.colour = mean_colour(plan.reference, layer.points_of(half));
-    layer.strokes.push_back(half);
+    add_strokes(plan.reference, first, half, layer);
   }
 }
 

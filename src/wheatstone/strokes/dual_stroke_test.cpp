@@ -6,7 +6,9 @@
 
 #include "scenes/two_surfaces.h"
 #include "wheatstone/measures/consistency.h"
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/strokes/reference_picture.h"
 
 namespace wheatstone {
 namespace {
@@ -50,6 +52,39 @@ TEST(DualStroke, ReachesTheSameErrorWithFewerStrokes) {
   const Effort few = effort_of(false, 80);
   EXPECT_GT(few.error, 1.15 * dual.error);
   EXPECT_LT(few.strokes, dual.strokes);
+}
+
+/// Grey bars between bars of two colours that alternate, all about as light as each other.
+Image<Rgb8> bars_beside_changing_ones() {
+  Image<Rgb8> picture(200, 96);
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      constexpr Rgb8 grey{110, 110, 110}, red{200, 60, 60}, green{30, 140, 60};
+      picture(x, y) = y % 12 < 6 ? grey : x % 20 < 10 ? red : green;
+    }
+  return picture;
+}
+
+TEST(DualStroke, HasNoHalfOfAColourThatIsUnlikeOneOfItsPlaces) {
+  const Image<Rgb8> picture = bars_beside_changing_ones();
+  const Image<float> flat(picture.width(), picture.height(), 0);
+  const Style style = small_style(true, 30);
+  const StrokePainting painting = paint_view(picture, flat, left_eye, style).painting;
+  int halves = 0;
+  for (std::size_t i = 0; i < painting.layers.size(); ++i) {
+    const Layer& layer = painting.layers[i];
+    const ReferencePicture reference = make_reference(picture, style.radii_px[i], style);
+    for (const Stroke& stroke : layer.strokes) {
+      if (stroke.point_count < 2) continue;
+      ++halves;
+      for (const ControlPoint& point : layer.points_of(stroke)) {
+        const int x = static_cast<int>(point.x), y = static_cast<int>(point.y);
+        const Rgb8 wanted{reference.red(x, y), reference.green(x, y), reference.blue(x, y)};
+        EXPECT_TRUE(is_like(stroke.colour, wanted)) << "layer " << i << ", at " << point.x << ", " << point.y;
+      }
+    }
+  }
+  EXPECT_GT(halves, 100);
 }
 
 TEST(DualStroke, FusesWhereIndependentEyesDoNot) {
