@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/measures/wrong_spots.h"
@@ -66,6 +68,24 @@ TEST_P(MendedSpots, AreMendedForTheViewsAboutTheOtherEyeOnly) {
   EXPECT_FALSE(has_two_bars(-0.5f));
   EXPECT_FALSE(has_two_bars(0.f));
   EXPECT_FALSE(has_two_bars(0.5f));
+}
+
+/// Something near on the left; beside it the right eye sees a red part of what is behind.
+TEST_P(MendedSpots, AreNotOfWhatOnlyTheOtherEyeSees) {
+  constexpr int outline = 60, near_px = 16;
+  StereoPair photographs{with_bar(0, 0, 0, 0), with_bar(outline - near_px, 0, near_px, height)};
+  Image<float> left(width, height, 0), right(width, height, 0);
+  for (int y = 0; y < height; ++y) {
+    std::fill_n(&left(0, y), outline, float{near_px});
+    std::fill_n(&right(0, y), outline, float{near_px});  // as matching has it, which does not know what one eye sees
+  }
+  const PaintedPair painted =
+      paint(photographs, geometry_from_both(std::move(left), std::move(right)), style_by_name(GetParam()));
+  for (int y = 16; y < 80; y += 4) {
+    EXPECT_TRUE(is_red(painted.pictures.right(outline - near_px / 2, y))) << y;
+    for (int x = outline - near_px / 2; x < outline + near_px; x += 4)
+      EXPECT_FALSE(is_red(painted.pictures.left(x, y))) << x << ", " << y;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, MendedSpots, testing::Values("impressionist", "dual", "posterise", "diffusion"),

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/image/reduced_view.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/occlusion.h"
 
 namespace wheatstone {
@@ -131,6 +133,35 @@ Image<std::uint8_t> not_told_by_left(const StereoGeometryView& geometry) {
   return mask;
 }
 
+/// The disparity of a pixel of the right eye that the left eye does not see: it lies before nothing that the left eye
+/// shows. `left` is the left eye's disparity in the same row.
+float disparity_out_of_sight(std::span<const float> left, int x, float disparity) {
+  const float tolerance_px = GeometryOptions().occlusion_tolerance_px;
+  for (;;) {
+    const float column = std::floor(static_cast<float>(x) + 0.5f + disparity);
+    if (!(column >= 0 && column < static_cast<float>(left.size()))) return disparity;
+    const float shown = left[static_cast<std::size_t>(column)];
+    if (shown >= disparity - tolerance_px) return disparity;
+    disparity = shown;
+  }
+}
+
+/// The right eye's disparity. Paint of what only it sees, where `mask` is set, would otherwise lie before the left
+/// eye's surfaces, and on them in its view.
+Image<float> hidden_from_left(const StereoGeometryView& geometry, ImageView<const std::uint8_t> mask) {
+  const int width = mask.width();
+  Image<float> disparity(width, mask.height());
+  tbb::parallel_for(0, mask.height(), [&](int y) {
+    const auto marks = mask.row(y);
+    const auto left = geometry.left_disparity.row(y);
+    const auto to = disparity.row(y);
+    std::ranges::copy(geometry.right_disparity.row(y), to.begin());
+    for (int x = 0; x < width; ++x)
+      if (marks[x] != 0) to[x] = disparity_out_of_sight(left, x, to[x]);
+  });
+  return disparity;
+}
+
 }  // namespace
 
 std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
@@ -145,13 +176,15 @@ void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scen
 
 StillScene make_still_scene(const StereoPairView& photographs, const StereoGeometryView& geometry, ViewRange wanted) {
   StillScene scene;
-  scene.views = scene_from_left(photographs, geometry);
   scene.right_only = not_told_by_left(geometry);
-  scene.views.back().only_here = scene.right_only;
+  scene.right_disparity = hidden_from_left(geometry, scene.right_only);
+  const StereoGeometryView agreeing{geometry.left_disparity, scene.right_disparity, geometry.left_occlusion,
+                                    scene.right_only};
+  scene.views = scene_from_left(photographs, agreeing);
   std::vector<ViewPosition> positions = positions_beside_eyes(photographs.left, wanted);
   // Between two near things the eyes see different parts of what is behind, and views between them see the rest.
   if (!is_large(photographs.left)) positions.push_back(central_view);
-  scene.outer = make_views_at(positions, photographs, geometry, depth_ends(geometry.left_disparity).middle_px());
+  scene.outer = make_views_at(positions, photographs, agreeing, depth_ends(geometry.left_disparity).middle_px());
   append_views(scene.outer, scene.views);
   return scene;
 }

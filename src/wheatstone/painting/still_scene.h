@@ -20,6 +20,7 @@ void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scen
 /// sees, and what no photograph shows and views beside the eyes, or halfway between them, uncover.
 struct StillScene {
   Image<std::uint8_t> right_only;  ///< 255 for what the left eye's disparity does not tell of the right eye's view
+  Image<float> right_disparity;    ///< the right eye's, there not before what the left eye shows
   std::vector<OuterView> outer;
   std::vector<SceneView> views;  ///< refer to these and to the photographs
 };
