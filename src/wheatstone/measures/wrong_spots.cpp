@@ -19,14 +19,13 @@ struct Count {
 };
 
 Count count_spots(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph) {
-  constexpr int least_px = 4;
   const Image<std::uint8_t> wrong = wrong_pixels(painted, photograph);
   cv::Mat labels, facts, centres;
   const int components = cv::connectedComponentsWithStats(as_mat(wrong), labels, facts, centres);
   Count count{.pixels = static_cast<double>(painted.width()) * painted.height()};
   for (int i = 1; i < components; ++i) {  // 0 is what is not wrong
     const int size = facts.at<int>(i, cv::CC_STAT_AREA);
-    if (size < least_px) continue;
+    if (size < least_spot_px) continue;
     ++count.spots;
     count.wrong += size;
   }

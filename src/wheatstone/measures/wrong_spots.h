@@ -10,6 +10,7 @@ namespace wheatstone {
 /// An RGB distance, 0..441, above which nobody takes one colour for the other.
 inline constexpr float unlike_colours = 60;
 
+/// Whether they are at most that far from each other.
 inline bool is_like(Rgb8 a, Rgb8 b) {
   constexpr int most = static_cast<int>(unlike_colours);
   const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
@@ -18,6 +19,9 @@ inline bool is_like(Rgb8 a, Rgb8 b) {
 
 /// The distance within which a colour is near, in pixels: 4 in a picture 640 wide, in proportion otherwise.
 inline double nearness_px(int width) { return 4.0 * width / 640; }
+
+/// So many wrong pixels that touch each other, at sides or corners, are a spot.
+inline constexpr int least_spot_px = 4;
 
 /// In narrower pictures, what is taken for near is less than a pixel away: they are not mended.
 inline constexpr int least_judged_width_px = 160;
@@ -50,7 +54,7 @@ class ColoursAround {
 /// unlike colour. Throws Error{bad_input} where the sizes differ.
 Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph);
 
-/// A spot is a connected set (8 neighbours) of at least 4 wrong pixels. Throws as wrong_pixels.
+/// Throws as wrong_pixels.
 WrongSpots measure_wrong_spots(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph);
 
 /// Of both eyes together.

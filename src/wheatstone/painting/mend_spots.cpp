@@ -28,8 +28,6 @@ Image<float> disparity_before(const SceneView& view) {
   return nearest;
 }
 
-constexpr int least_px = 4;  ///< of a spot, as spots are counted
-
 /// Those that are nearer to a view than to the one halfway to the reference view, and as far beyond.
 ViewRange views_about(ViewPosition view, ViewPosition reference) {
   const float reach = std::abs(view - reference) / 4, at = view.eye_separations();
@@ -58,7 +56,7 @@ Image<Rgb8> colours_of_reference(const SceneView& view, const SceneView& referen
 Image<std::uint8_t> displaced_colours(const SceneView& view, const SceneView& reference) {
   constexpr int rim_px = 2;
   Image<std::uint8_t> spots = wrong_pixels(colours_of_reference(view, reference), view.picture);
-  remove_occlusion_specks(spots, least_px);
+  remove_occlusion_specks(spots, least_spot_px);
   return dilate_occlusion(spots, rim_px);
 }
 
@@ -100,7 +98,7 @@ void mend_lines(std::span<const SceneView> views, Painting& painting) {
     const bool is_reference = view.position == reference;
     if (view.continued || !(is_reference || refers_to_eye)) continue;
     Image<std::uint8_t> spots = wrong_pixels(draw(painting, view.position).picture, view.picture);
-    remove_occlusion_specks(spots, least_px);
+    remove_occlusion_specks(spots, least_spot_px);
     if (!has_any(spots)) continue;
     add_accents({view.picture, spots, view.disparity, view.position, reference,
                  is_reference ? all_views : views_about(view.position, reference), painting.surfaces.tolerance_px},

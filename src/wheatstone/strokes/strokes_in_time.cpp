@@ -115,8 +115,7 @@ class ViewAtWork {
   /// near. What is new there may lie under them, and comes in slowly.
   Layer accents() {
     if (!part_.is_whole() || misplaced_.empty() || part_.view.picture.width() < least_judged_width_px) return {};
-    constexpr int least_px = 4;  // of a spot, as spots are counted
-    remove_occlusion_specks(misplaced_, least_px);
+    remove_occlusion_specks(misplaced_, least_spot_px);
     return cover_places({part_.view.picture, part_.view.disparity, part_.view.position, {}, std::move(misplaced_)},
                         at_->scaled, style_);
   }
