@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.h"
@@ -14,14 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void view(ViewArguments arguments, const Session& session) {
+void view(const ViewArguments& arguments, const CLI::App& command, const Session& session) {
   for (const std::string& file : arguments.files)
     if (!fs::exists(file) && file.find_first_of("%,") == std::string::npos)
       throw Error(ErrorKind::bad_input, fmt::format("{}: no such file", file));
-  arguments.threads = session.threads;
-  arguments.seed = session.seed;
   session.output.flush();
-  if (const int code = run_window_program(view_words(arguments)); code != 0) throw ErrorTold{code};
+  std::vector<std::string> words{"--threads", std::to_string(session.threads), "--seed", std::to_string(session.seed)};
+  const std::vector<std::string> given = view_words(command);
+  words.insert(words.end(), given.begin(), given.end());
+  if (const int code = run_window_program(std::move(words)); code != 0) throw ErrorTold{code};
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ void add_view_command(CLI::App& program, const Session& session) {
       program.add_subcommand("view", "Open paintings, photographs, films, slices or particles in a window");
   const auto arguments = std::make_shared<ViewArguments>();
   add_view_options(*command, *arguments);
-  command->callback([arguments, &session] { view(*arguments, session); });
+  command->callback([arguments, command, &session] { view(*arguments, *command, session); });
 }
 
 }  // namespace wheatstone::cli

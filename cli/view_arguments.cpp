@@ -1,7 +1,5 @@
 #include "view_arguments.h"
 
-#include <fmt/format.h>
-
 namespace wheatstone::cli {
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
@@ -55,32 +53,22 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       "  wheatstone view universe.hdf5 --camera path.toml --quantity column-density");
 }
 
-std::vector<std::string> view_words(const ViewArguments& arguments) {
-  std::vector<std::string> words;
-  const auto add = [&words](const char* option, const std::string& value) {
-    if (!value.empty()) words.insert(words.end(), {option, value});
-  };
-  add("--mode", arguments.mode);
-  add("--style", arguments.style);
-  add("--display", arguments.display);
-  add("--camera", arguments.camera);
-  add("--quantity", arguments.quantity);
-  add("--focus", arguments.focus);
-  if (arguments.focus_radius) add("--focus-radius", fmt::format("{}", *arguments.focus_radius));
-  if (arguments.focus_gain) add("--focus-gain", fmt::format("{}", *arguments.focus_gain));
-  add("--size", arguments.size);
-  add("--script", arguments.script);
-  add("--control", arguments.control);
-  add("--bridge-calibration", arguments.bridge_calibration);
-  add("--threads", std::to_string(arguments.threads));
-  add("--seed", std::to_string(arguments.seed));
-  if (arguments.full_screen) words.emplace_back("--full-screen");
-  if (arguments.opengl) words.emplace_back("--opengl");
-  if (arguments.no_opengl) words.emplace_back("--no-opengl");
-  if (arguments.stereo) words.emplace_back("--stereo");
-  if (arguments.commands) words.emplace_back("--commands");
-  if (!arguments.files.empty()) words.emplace_back("--");
-  words.insert(words.end(), arguments.files.begin(), arguments.files.end());
+std::vector<std::string> view_words(const CLI::App& command) {
+  std::vector<std::string> words, files;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    const std::vector<std::string>& values = option->results();
+    if (!option->nonpositional()) {
+      files = values;
+      continue;
+    }
+    const bool is_flag = option->get_expected_max() == 0;
+    if (is_flag && !option->as<bool>()) continue;  // a file of options may say so
+    words.push_back(option->get_name());
+    if (!is_flag) words.insert(words.end(), values.begin(), values.end());
+  }
+  if (!files.empty()) words.emplace_back("--");
+  words.insert(words.end(), files.begin(), files.end());
   return words;
 }
 

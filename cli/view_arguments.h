@@ -22,7 +22,7 @@ struct ViewArguments {
 /// Adds the files and options of `wheatstone view`, which the window's own program takes as well.
 void add_view_options(CLI::App& command, ViewArguments& arguments);
 
-/// The words that add_view_options understands as these arguments.
-std::vector<std::string> view_words(const ViewArguments& arguments);
+/// What the command was given of these, as the words of another line.
+std::vector<std::string> view_words(const CLI::App& command);
 
 }  // namespace wheatstone::cli

@@ -41,7 +41,8 @@ layout(std430, binding = 5) readonly buffer Planes { float planes[]; };
 layout(std430, binding = 6) buffer Disparities { float disparities[]; };
 layout(std430, binding = 7) buffer Shown { uint shown[]; };
 
-// Every invocation goes round as often: Mesa's llvmpipe 22 loses values where nested loops end apart.
+// Borders are repeated, so that these loops have a constant length and are unrolled: they do not count to the 65 535
+// iterations after which Mesa's llvmpipe 22 ends all loops of an invocation.
 float farthest_about(int v, int x, int y) {
   float farthest = infinity;
   for (int down = -1; down <= 1; ++down)
