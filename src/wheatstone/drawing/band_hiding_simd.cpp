@@ -73,7 +73,7 @@ struct KindsAtWork {
 };
 
 /// What the marks of each kind must lie before, in a vector's columns: least_seen_disparity and least_seen_of_other.
-void hide_columns(const SurfacesAt& surfaces, int row, int x, std::size_t at, KindsAtWork& at_work) {
+HWY_INLINE void hide_columns(const SurfacesAt& surfaces, int row, int x, std::size_t at, KindsAtWork& at_work) {
   const Floats f;
   const auto tolerance = hn::Set(f, at_work.tolerance_px), all = hn::Set(f, everything);
   const auto nearest = hn::LoadU(f, surfaces.nearest);

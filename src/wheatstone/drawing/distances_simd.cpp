@@ -178,6 +178,7 @@ void lower_to_segment(std::size_t segment, const HiddenBelow& below, DistanceBan
   const int end_row = chain.end_row[segment];
   for (int row = chain.first_row[segment]; row < end_row; ++row) {
     const int begin = std::max(begins[row], band_begins[row]), end = std::min(ends[row], band_ends[row]);
+    if (begin >= end) continue;
     const float pixel_y = static_cast<float>(row) + first_y;
     const auto py = hn::Set(f, pixel_y);
     const auto along_y = hn::Set(f, pixel_y * along_y_step);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 #include "wheatstone/strokes/cover_bare_internal.h"
@@ -101,8 +101,17 @@ Layer strokes_near_bare(const Layer& layer, ImageView<const std::uint8_t> bare) 
         if (has_bare(column, row) != 0) return true;
     return false;
   };
-  Layer near{layer.radius_px, layer.points, {}};
-  std::ranges::copy_if(layer.strokes, std::back_inserter(near.strokes), may_cover);
+  std::vector<std::uint8_t> is_near(layer.strokes.size());
+  tbb::parallel_for(std::size_t{0}, is_near.size(), [&](std::size_t i) { is_near[i] = may_cover(layer.strokes[i]); });
+  Layer near{layer.radius_px, {}, {}};  // few strokes: all points would be many
+  for (std::size_t i = 0; i < is_near.size(); ++i) {
+    if (is_near[i] == 0) continue;
+    Stroke stroke = layer.strokes[i];
+    const std::span<const ControlPoint> points = layer.points_of(stroke);
+    stroke.first_point = static_cast<std::uint32_t>(near.points.size());
+    near.points.insert(near.points.end(), points.begin(), points.end());
+    near.strokes.push_back(stroke);
+  }
   return near;
 }
 
