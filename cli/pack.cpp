@@ -40,6 +40,10 @@ std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const Argument
                   fmt::format("--floating-window: is for two views, but there are {}", views.size()));
     const std::vector<int> strips =
         parse_integers("--floating-window", arguments.floating_window, {',', 2, {0, 65535}, "LEFT,RIGHT"});
+    const int width = views[0].width();
+    if (strips[0] + strips[1] >= width)
+      throw Error(ErrorKind::wrong_usage, fmt::format("--floating-window: is '{}', which leaves nothing of {} pixels",
+                                                      arguments.floating_window, width));
     StereoPair pair{std::move(views[0]), std::move(views[1])};
     put_floating_window(pair, strips[0], strips[1]);
     views[0] = std::move(pair.left);

@@ -93,6 +93,9 @@ TEST(PackCommand, MakesWhatScreensShow) {
                   "anaglyph.png"});
   EXPECT_EQ(read_image(folder / "anaglyph.png").width(), 231);
   EXPECT_EQ(read_image(folder / "anaglyph.png")(1, 90).r, 0);
+  expect_refused(folder,
+                 {"pack", "left.png", "right.png", "--to", "anaglyph", "--floating-window", "120,120", "-o", "a.png"},
+                 2, "--floating-window: is '120,120', which leaves nothing of 240 pixels");
   run_in(folder, {"pack", "left.png", "right.png", "--swap", "--to", "irl", "-o", "rows.png"});
   EXPECT_EQ(read_image(folder / "rows.png")(7, 0), still().right(7, 0));
   EXPECT_EQ(read_image(folder / "rows.png")(7, 1), still().left(7, 1));
