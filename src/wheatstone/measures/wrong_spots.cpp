@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/measures/wrong_spots_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -63,9 +65,13 @@ Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const 
     const auto colours = painted.row(y), wanted = photograph.row(y);
     const auto marks = wrong.row(y);
     // Nearly all pixels are like the one at their own place.
-    for (std::size_t x = 0; x < colours.size(); ++x) marks[x] = is_like(colours[x], wanted[x]) ? 0 : 255;
-    for (int x = 0; x < painted.width(); ++x)
-      if (marks[x] != 0 && near.has(colours[x], x, y)) marks[x] = 0;
+    mark_unlike_colours(colours, wanted, marks);
+    for (std::size_t x = 0; x < marks.size(); ++x) {
+      const void* const next = std::memchr(&marks[x], 255, marks.size() - x);
+      if (next == nullptr) break;
+      x = static_cast<std::size_t>(static_cast<const std::uint8_t*>(next) - marks.data());
+      if (near.has(colours[x], static_cast<int>(x), y)) marks[x] = 0;
+    }
   });
   return wrong;
 }

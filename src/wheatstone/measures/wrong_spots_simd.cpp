@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/measures/wrong_spots_internal.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "wheatstone/measures/wrong_spots_simd.cpp"
@@ -68,6 +69,35 @@ void separate_channels(std::span<const Rgb8> from, std::uint8_t* red, std::uint8
   }
 }
 
+/// As mark_unlike_colours.
+void mark_unlike_row(std::span<const Rgb8> a, std::span<const Rgb8> b, std::span<std::uint8_t> marks) {
+  const hn::CappedTag<std::uint16_t, 32> words;
+  const hn::Rebind<std::uint8_t, decltype(words)> bytes;
+  const hn::RebindToSigned<decltype(words)> integers;
+  constexpr auto most = static_cast<std::uint16_t>(unlike_colours * unlike_colours);
+  const auto white = hn::Set(words, std::uint16_t{255});
+  const std::size_t lanes = hn::Lanes(words);
+  std::size_t x = 0;
+  for (; x + lanes <= marks.size(); x += lanes) {
+    auto red = hn::Zero(bytes), green = red, blue = red, other_red = red, other_green = red, other_blue = red;
+    hn::LoadInterleaved3(bytes, &a[x].r, red, green, blue);
+    hn::LoadInterleaved3(bytes, &b[x].r, other_red, other_green, other_blue);
+    const auto squared = [&](auto level, auto other) {
+      const auto difference = hn::PromoteTo(words, hn::Sub(hn::Max(level, other), hn::Min(level, other)));
+      return hn::Mul(difference, difference);  // at most 255 squared, which a word holds
+    };
+    const auto sum = hn::SaturatedAdd(hn::SaturatedAdd(squared(red, other_red), squared(green, other_green)),
+                                      squared(blue, other_blue));
+    const auto is_like = hn::Eq(sum, hn::Min(sum, hn::Set(words, most)));
+    const auto unlike = hn::IfThenZeroElse(is_like, white);
+    hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(integers, unlike)), bytes, &marks[x]);
+  }
+  for (; x < marks.size(); ++x) {
+    const int red = a[x].r - b[x].r, green = a[x].g - b[x].g, blue = a[x].b - b[x].b;
+    marks[x] = red * red + green * green + blue * blue > most ? 255 : 0;
+  }
+}
+
 }  // namespace wheatstone::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -76,6 +106,11 @@ namespace wheatstone {
 
 HWY_EXPORT(disc_has);
 HWY_EXPORT(separate_channels);
+HWY_EXPORT(mark_unlike_row);
+
+void mark_unlike_colours(std::span<const Rgb8> a, std::span<const Rgb8> b, std::span<std::uint8_t> marks) {
+  HWY_DYNAMIC_DISPATCH(mark_unlike_row)(a, b, marks);
+}
 
 ColoursAround::ColoursAround(ImageView<const Rgb8> photograph) {
   constexpr int widest_vector = 32;
