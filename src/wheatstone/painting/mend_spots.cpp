@@ -3,36 +3,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "wheatstone/curves/accents.h"
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/painting/over_spots_internal.h"
 #include "wheatstone/regions/accents.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/strokes/accents.h"
 
 namespace wheatstone {
 namespace {
-
-/// The disparities that marks need to be seen where a near mark lies in a wrong place: they must lie before it.
-Image<float> disparity_before(const SceneView& view) {
-  constexpr int about_px = 9;
-  constexpr float before_px = 1.5f;
-  Image<float> nearest(view.disparity.width(), view.disparity.height());
-  cv::Mat to = as_mat(nearest);
-  cv::dilate(as_mat(view.disparity), to, cv::getStructuringElement(cv::MORPH_RECT, {about_px, about_px}));
-  for (float& value : nearest.pixels()) value += before_px;
-  return nearest;
-}
-
-/// Those that are nearer to a view than to the one halfway to the reference view, and as far beyond.
-ViewRange views_about(ViewPosition view, ViewPosition reference) {
-  const float reach = std::abs(view - reference) / 4, at = view.eye_separations();
-  return {ViewPosition(at - reach), ViewPosition(at + reach)};
-}
 
 /// What a view would show if it saw the reference view's colours where its disparities say so.
 Image<Rgb8> colours_of_reference(const SceneView& view, const SceneView& reference) {
@@ -79,7 +60,7 @@ void mend_displaced(std::span<const SceneView> views, const Style& style, Painti
     if (view.continued) continue;
     const Image<std::uint8_t> spots = displaced_colours(view, reference);
     if (!has_any(spots)) continue;
-    const Image<float> disparity = disparity_before(view);
+    const Image<float> disparity = disparity_before(view.disparity, spots);
     const ViewRange about = views_about(view.position, reference.position);
     add_accents_of(
         {view.picture, spots, disparity, view.position, reference.position, about, painting.surfaces.tolerance_px},
@@ -113,7 +94,7 @@ void mend_regions(std::span<const SceneView> views, const Style& style, Painting
     const bool is_reference = view.position == reference;
     const Image<std::uint8_t> spots = wrong_pixels(draw(painting, view.position).picture, view.picture);
     if (!has_any(spots)) continue;
-    const Image<float> before = is_reference ? Image<float>() : disparity_before(view);
+    const Image<float> before = is_reference ? Image<float>() : disparity_before(view.disparity, spots);
     const SpotsOfView found{view.picture,
                             spots,
                             is_reference ? view.disparity : before.view(),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone {
 namespace {
@@ -122,6 +124,36 @@ TEST(Diffusion, ShowsALightWithoutEdgesInAFilm) {
   const StereoPair painted =
       paint_frame(FilmFrame{.views = views}, style_by_name("diffusion"), {}, nothing_before).painted.pictures;
   EXPECT_EQ(measure_wrong_spots(painted, photographs).share, 0);
+}
+
+int largest_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  int largest = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
+    largest = std::max({largest, std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
+  }
+  return largest;
+}
+
+TEST(FrameOfStrokes, ShowsTheEyesNoColourThatTheyDoNotHave) {
+  SyntheticFilmOptions film{.still = {.width = 320, .height = 180, .samples_a_side = 2}, .frames = 2};
+  film.scene = FilmScene::beams;
+  const SyntheticFilmFrame frame = make_synthetic_film_frame(film, 0);
+  const CentralView centre = make_central_view(frame.pictures, frame.geometry);
+  const std::vector<SceneView> views = scene_from_centre(centre, frame.pictures, frame.geometry);
+  const Style style = style_by_name("impressionist");
+  PaintingMemory nothing_before;
+  const Painting planned = plan_painting(FilmFrame{.views = views}, style, {}, nothing_before).painting;
+  EXPECT_GT(measure_wrong_spots(draw(planned, left_eye).picture, frame.pictures.left).share, 0);
+  nothing_before = {};
+  const PaintedPair painted = paint_frame(FilmFrame{.views = views}, style, {}, nothing_before).painted;
+  EXPECT_EQ(measure_wrong_spots(painted.pictures, frame.pictures).share, 0);
+  // What mends the pictures belongs to the painting.
+  const PreparedPainting prepared = prepare(painted.painting);
+  constexpr int rounding = 2;
+  EXPECT_LE(largest_difference(draw(prepared, left_eye, frame.pictures.left).picture, painted.pictures.left), rounding);
+  EXPECT_LE(largest_difference(draw(prepared, right_eye, frame.pictures.right).picture, painted.pictures.right),
+            rounding);
 }
 
 TEST(Posterise, KeepsColoursForSmallThingsOfTheirOwn) {

@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "wheatstone/drawing/draw.h"
+#include "wheatstone/painting/mend_drawn_internal.h"
+#include "wheatstone/painting/mend_spots_internal.h"
+#include "wheatstone/painting/plan_unmended_internal.h"
 #include "wheatstone/stopwatch.h"
 
 namespace wheatstone {
@@ -58,14 +61,20 @@ PaintedFrame paint_frame(const FilmFrame& frame, const Style& style, const Carry
   const FrameTask task{frame, style, options, progress, device};
   PaintedFrame result;
   PaintedPair& painted = result.painted;
+  bool is_to_mend = false;
   {
     const Stopwatch watch(painted.times.planning_s);
-    PlannedFrame planned = plan_painting(frame, style, options, memory, progress);
+    PlannedFrame planned = plan_unmended(frame, style, options, memory, progress);
+    is_to_mend = is_mended_when_drawn(planned.painting, style);
+    if (!is_to_mend) mend_spots(frame.views, style, planned.painting);
     painted.painting = std::move(planned.painting);
     result.counts = planned.counts;
   }
   const Stopwatch watch(painted.times.rasterising_s);
-  take_pictures(draw_shown(task, shown_views(frame), painted.painting), painted);
+  const std::vector<std::size_t> shown = shown_views(frame);
+  std::vector<DrawnView> drawn = draw_shown(task, shown, painted.painting);
+  if (is_to_mend) mend_drawn(frame.views, shown, style, painted.painting, drawn);
+  take_pictures(std::move(drawn), painted);
   return result;
 }
 

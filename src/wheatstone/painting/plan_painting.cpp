@@ -11,6 +11,7 @@
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/painting/mend_spots_internal.h"
+#include "wheatstone/painting/plan_unmended_internal.h"
 #include "wheatstone/strokes/layer_planner.h"
 
 namespace wheatstone {
@@ -56,7 +57,7 @@ Surfaces surfaces_of(std::span<const SceneView> views, const Style& style) {
 
 }  // namespace
 
-PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+PlannedFrame plan_unmended(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                            PaintingMemory& memory, const Progress& progress) {
   check_style(style);
   check_fits(frame.views);
@@ -83,8 +84,14 @@ PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const Car
   for (const SceneView& view : frame.views)
     if (view.left_px != 0) shift_marks(view.position, static_cast<float>(view.left_px), painting);
   painting.surfaces = surfaces_of(frame.views, style);
-  mend_spots(frame.views, style, painting);
   painting.relief = relief_for(style, width_of(painting));
+  return planned;
+}
+
+PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                           PaintingMemory& memory, const Progress& progress) {
+  PlannedFrame planned = plan_unmended(frame, style, options, memory, progress);
+  mend_spots(frame.views, style, planned.painting);
   return planned;
 }
 
