@@ -103,6 +103,19 @@ void add_missing_colours(std::vector<RegionMeans> accents, std::size_t most_colo
   }
 }
 
+/// Accents come and go one after the other from view to view, not all at once: each is seen somewhat farther from its
+/// view than the range that is asked for, or less far.
+ViewRange range_of_accent(const SpotsOfView& spots, std::size_t number) {
+  if (spots.views == all_views) return all_views;
+  constexpr double golden_ratio = 0.6180339887498949;  // its multiples spread evenly
+  const double multiple = golden_ratio * static_cast<double>(number);
+  const auto share = static_cast<float>(0.5 + multiple - std::floor(multiple));
+  const auto towards = [&](ViewPosition end) {
+    return ViewPosition(spots.view.eye_separations() + share * (end - spots.view));
+  };
+  return {towards(spots.views.first), towards(spots.views.last)};
+}
+
 }  // namespace
 
 void add_accents(const SpotsOfView& view, const Style& style, RegionPainting& painting) {
@@ -120,7 +133,7 @@ void add_accents(const SpotsOfView& view, const Style& style, RegionPainting& pa
     mark.colour = palette[nearest_colour(palette, mean_colour(means[i]))];
     mark.disparity = static_cast<float>(means[i].disparity);
     mark.reference_view = view.reference_view;
-    mark.views = view.views;
+    mark.views = range_of_accent(view, i);
   }
   std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.ring_count == 0; });
 }

@@ -13,6 +13,7 @@
 #include "wheatstone/regions/colour_palette_internal.h"
 #include "wheatstone/regions/outline_internal.h"
 #include "wheatstone/regions/plan_regions_internal.h"
+#include "wheatstone/regions/surface_parts_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -142,6 +143,25 @@ struct ColouredRegions {
   std::vector<std::size_t> colours;
 };
 
+/// Adds the regions as marks that follow their surfaces.
+void add_parts(const ViewToCut& view, ImageView<const Rgb8> picture, const ColouredRegions& regions,
+               const std::vector<Rgb8>& palette, RegionPainting& painting) {
+  constexpr float off_surface_px = 1;
+  constexpr float least_off_surface_px = 16;  ///< of area, for a picture 640 pixels wide
+  const SurfaceParts cut =
+      cut_to_surfaces(regions.regions, view.disparity, view.depth_threshold_px, off_surface_px,
+                      static_cast<std::int64_t>(std::ceil(least_off_surface_px * view.scale * view.scale)));
+  const std::size_t first = painting.marks.size();
+  add_outlines(cut.parts, view.disparity, view.view, {.depth_threshold_px = view.depth_threshold_px}, painting);
+  const std::vector<RegionMeans> means = means_of(cut.parts, picture, view.disparity);
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    RegionMark& mark = painting.marks[first + i];
+    mark.colour = palette[regions.colours[static_cast<std::size_t>(cut.region[i])]];
+    mark.disparity = static_cast<float>(means[i].disparity);
+    mark.views = view.views;
+  }
+}
+
 /// Cuts a picture without grain into the palette's colours, and adds its regions.
 ColouredRegions add_areas(const ViewToCut& view, ImageView<const Rgb8> picture, const std::vector<Rgb8>& palette,
                           const CarriedColours& carried, RegionPainting& painting) {
@@ -150,21 +170,15 @@ ColouredRegions add_areas(const ViewToCut& view, ImageView<const Rgb8> picture, 
   const auto least_area = static_cast<std::int64_t>(least_area_px * view.scale * view.scale);
   regions.regions =
       without_small_regions(std::move(regions.regions), picture, view.disparity, view.depth_threshold_px, least_area);
-  const std::size_t first = painting.marks.size();
-  add_outlines(regions.regions, view.disparity, view.view, {.depth_threshold_px = view.depth_threshold_px}, painting);
   const std::vector<RegionMeans> means = means_of(regions.regions, picture, view.disparity);
   std::vector<std::uint32_t> counts;
   if (carried.any()) counts = count_labels(regions.regions, labels, palette.size());
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    RegionMark& mark = painting.marks[first + i];
+  for (std::size_t i = 0; i < means.size(); ++i)
     regions.colours.push_back(
         counts.empty() ? nearest_colour(palette, mean_colour(means[i]))
                        : colour_of_area(means[i], std::span(counts).subspan(i * palette.size(), palette.size()),
                                         palette, carried));
-    mark.colour = palette[regions.colours[i]];
-    mark.disparity = static_cast<float>(means[i].disparity);
-    mark.views = view.views;
-  }
+  add_parts(view, picture, regions, palette, painting);
   return regions;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "scenes/two_surfaces.h"
 #include "throws_error.h"
@@ -12,6 +13,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/regions/accents.h"
 #include "wheatstone/regions/colour_palette_internal.h"
 
 namespace wheatstone {
@@ -154,6 +156,50 @@ TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
   std::ranges::sort(colours);
   colours.erase(std::unique(colours.begin(), colours.end()), colours.end());
   EXPECT_EQ(colours.size(), 3u);
+}
+
+TEST(Posterise, CoversACurvedSurfaceOfOneColour) {
+  constexpr int width = 160, height = 60;
+  Image<float> disparity(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float from_middle = static_cast<float>(x) / (width / 2) - 1;
+      disparity(x, y) = 12 - 10 * from_middle * from_middle;
+    }
+  const Image<Rgb8> grey(width, height, {120, 120, 120});
+  const PreparedPainting prepared =
+      prepare(plan_painting({grey, grey}, geometry_from_left(std::move(disparity)), small_style("posterise")));
+  for (const ViewPosition view : {left_eye, ViewPosition(0.f), right_eye})
+    EXPECT_LT(draw(prepared, view).bare_share, 1e-3);
+}
+
+TEST(Posterise, HasAccentsThatComeAndGoOneAfterTheOther) {
+  constexpr int size = 60;
+  Image<Rgb8> photograph(size, size, {40, 60, 160});
+  Image<std::uint8_t> spots(size, size);
+  for (int y = 5; y < size; y += 15)
+    for (int x = 5; x < size; x += 15)
+      for (int i = 0; i < 16; ++i) {
+        photograph(x + i % 4, y + i / 4) = {220, 200, 60};
+        spots(x + i % 4, y + i / 4) = 255;
+      }
+  RegionPainting painting{size, size, {}, {}, {}};
+  painting.marks = {{.colour = {40, 60, 160}}, {.colour = {220, 200, 60}}};
+  const std::size_t before = painting.marks.size();
+  const Image<float> disparity(size, size, 0);
+  const ViewRange about{ViewPosition(0.25f), ViewPosition(0.75f)};
+  add_accents({photograph, spots, disparity, right_eye, left_eye, about}, small_style("posterise"), painting);
+  ASSERT_GE(painting.marks.size(), before + 16);
+  std::vector<float> first;
+  for (const RegionMark& mark : std::span(painting.marks).subspan(before)) {
+    EXPECT_TRUE(mark.views.contains(right_eye));
+    first.push_back(mark.views.first.eye_separations());
+  }
+  std::ranges::sort(first);
+  EXPECT_GE(first.front(), 0.125f - 1e-6f);
+  EXPECT_LE(first.back(), 0.375f + 1e-6f);
+  for (std::size_t i = 1; i < first.size(); ++i) EXPECT_LT(first[i] - first[i - 1], 0.05f);
+  EXPECT_GT(first.back() - first.front(), 0.15f);
 }
 
 /// How far the joints inside a diagonal stripe run along it or across: 1 all, 0 they stand anyhow, −1 none.
