@@ -1,6 +1,7 @@
 #include "wheatstone/regions/accents.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <opencv2/imgproc.hpp>
@@ -103,13 +104,12 @@ void add_missing_colours(std::vector<RegionMeans> accents, std::size_t most_colo
   }
 }
 
-/// Accents come and go one after the other from view to view, not all at once: each is seen somewhat farther from its
-/// view than the range that is asked for, or less far.
+/// Accents come and go in a few steps from view to view, not all at once: each is seen somewhat farther from its view
+/// than the range that is asked for, or less far. The steps are few, since files tell ranges apart.
 ViewRange range_of_accent(const SpotsOfView& spots, std::size_t number) {
   if (spots.views == all_views) return all_views;
-  constexpr double golden_ratio = 0.6180339887498949;  // its multiples spread evenly
-  const double multiple = golden_ratio * static_cast<double>(number);
-  const auto share = static_cast<float>(0.5 + multiple - std::floor(multiple));
+  constexpr std::array shares{0.5f, 0.8f, 1.1f, 1.4f};
+  const float share = shares[number % shares.size()];
   const auto towards = [&](ViewPosition end) {
     return ViewPosition(spots.view.eye_separations() + share * (end - spots.view));
   };

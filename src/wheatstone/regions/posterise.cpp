@@ -11,9 +11,9 @@
 #include "wheatstone/image/grain.h"
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/regions/colour_palette_internal.h"
+#include "wheatstone/regions/cut_to_surfaces_internal.h"
 #include "wheatstone/regions/outline_internal.h"
 #include "wheatstone/regions/plan_regions_internal.h"
-#include "wheatstone/regions/surface_parts_internal.h"
 
 namespace wheatstone {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheatstone/regions/surface_parts_internal.h"
+#include "wheatstone/regions/cut_to_surfaces_internal.h"
 
 #include <algorithm>
 #include <cmath>
