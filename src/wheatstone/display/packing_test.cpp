@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "largest_difference.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "wheatstone/display/anaglyph.h"
@@ -38,16 +39,6 @@ Image<Rgb8> noise(int width, int height, unsigned seed) {
 }
 
 StereoPair noisy_pair() { return {noise(64, 48, 1), noise(64, 48, 2)}; }
-
-int largest_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
-  if (!same_size(a, b)) return 256;
-  int most = 0;
-  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
-    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
-    most = std::max({most, std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
-  }
-  return most;
-}
 
 bool has_ffmpeg() { return std::system("command -v ffmpeg >/dev/null") == 0; }
 

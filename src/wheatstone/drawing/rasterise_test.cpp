@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "largest_difference.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/rasterise_internal.h"
 #include "wheatstone/random.h"
@@ -71,15 +72,6 @@ Image<Rgb8> draw_plainly(const StrokePainting& painting, ViewPosition view) {
     }
   }
   return picture;
-}
-
-int largest_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
-  int largest = 0;
-  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
-    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
-    largest = std::max({largest, std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
-  }
-  return largest;
 }
 
 StrokePainting painting_of(int width, int height, float opacity) {

@@ -88,14 +88,11 @@ void mark_unlike_row(std::span<const Rgb8> a, std::span<const Rgb8> b, std::span
     };
     const auto sum = hn::SaturatedAdd(hn::SaturatedAdd(squared(red, other_red), squared(green, other_green)),
                                       squared(blue, other_blue));
-    const auto is_like = hn::Eq(sum, hn::Min(sum, hn::Set(words, most)));
-    const auto unlike = hn::IfThenZeroElse(is_like, white);
+    const auto alike = hn::Eq(sum, hn::Min(sum, hn::Set(words, most)));
+    const auto unlike = hn::IfThenZeroElse(alike, white);
     hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(integers, unlike)), bytes, &marks[x]);
   }
-  for (; x < marks.size(); ++x) {
-    const int red = a[x].r - b[x].r, green = a[x].g - b[x].g, blue = a[x].b - b[x].b;
-    marks[x] = red * red + green * green + blue * blue > most ? 255 : 0;
-  }
+  for (; x < marks.size(); ++x) marks[x] = is_like(a[x], b[x]) ? 0 : 255;
 }
 
 }  // namespace wheatstone::HWY_NAMESPACE

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "largest_difference.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
@@ -124,15 +125,6 @@ TEST(Diffusion, ShowsALightWithoutEdgesInAFilm) {
   const StereoPair painted =
       paint_frame(FilmFrame{.views = views}, style_by_name("diffusion"), {}, nothing_before).painted.pictures;
   EXPECT_EQ(measure_wrong_spots(painted, photographs).share, 0);
-}
-
-int largest_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
-  int largest = 0;
-  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
-    const Rgb8 p = a.pixels()[i], q = b.pixels()[i];
-    largest = std::max({largest, std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
-  }
-  return largest;
 }
 
 TEST(FrameOfStrokes, ShowsTheEyesNoColourThatTheyDoNotHave) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "largest_difference.h"
 #include "throws_error.h"
 
 namespace wheatstone {
@@ -24,15 +25,6 @@ Image<Rgb8> hills(int width, int height, double shift) {
     }
   }
   return picture;
-}
-
-int largest_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
-  int most = 0;
-  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
-    most = std::max({most, std::abs(a.pixels()[i].r - b.pixels()[i].r), std::abs(a.pixels()[i].g - b.pixels()[i].g),
-                     std::abs(a.pixels()[i].b - b.pixels()[i].b)});
-  }
-  return most;
 }
 
 StereoLayout first_eye_right(StereoLayout layout, bool right) { return right ? with_eyes_swapped(layout) : layout; }
