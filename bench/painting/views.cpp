@@ -14,12 +14,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/drawing/draw.h"
+#include "wheatstone/error.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/measures/wrong_spots.h"
@@ -149,26 +152,35 @@ std::optional<Subject> read_teddy(const std::filesystem::path& shared) {
                  geometry_from_left(read_disparity(folder / "disp_left.png", 4.f))};
 }
 
+void print_all(std::span<const std::string_view> given) {
+  const std::filesystem::path shared = given.empty() ? "../shared/data/stereo" : given.front();
+  std::vector<std::string_view> parts(given.begin() + (given.empty() ? 0 : 1), given.end());
+  if (parts.empty())
+    parts = {"impressionist", "expressionist", "pointillist", "posterise", "mosaic", "dual", "diffusion", "pairs"};
+  const SyntheticStillOptions scene{.samples_a_side = 1};
+  const Subject still = still_of(scene);
+  const std::optional<Subject> teddy = read_teddy(shared);
+  for (const std::string_view part : parts) {
+    if (part == "pairs") continue;
+    if (teddy) print_coverage(*teddy, part);
+    print_coverage(still, part);
+  }
+  if (std::ranges::find(parts, "pairs") == parts.end()) return;
+  fmt::print("\nstill, impressionist, against ray-cast views\n");
+  const PreparedPainting prepared = prepare(plan_painting(still.photographs, still.geometry, {}));
+  print_wrong_spots(scene, prepared);
+  print_pairs(scene, prepared);
+}
+
 }  // namespace
 }  // namespace wheatstone::bench
 
 int main(int argument_count, char** arguments) {
-  using namespace wheatstone;
-  const std::vector<std::string_view> given(arguments + 1, arguments + argument_count);
-  const std::filesystem::path shared = given.empty() ? "../shared/data/stereo" : given.front();
-  std::vector<std::string_view> parts(given.begin() + (given.empty() ? 0 : 1), given.end());
-  if (parts.empty()) parts = {"impressionist", "expressionist", "pointillist", "pairs"};
-  const SyntheticStillOptions scene{.samples_a_side = 1};
-  const bench::Subject still = bench::still_of(scene);
-  const std::optional<bench::Subject> teddy = bench::read_teddy(shared);
-  for (const std::string_view part : parts) {
-    if (part == "pairs") continue;
-    if (teddy) bench::print_coverage(*teddy, part);
-    bench::print_coverage(still, part);
+  try {
+    const std::vector<std::string_view> given(arguments + 1, arguments + argument_count);
+    wheatstone::bench::print_all(given);
+  } catch (const wheatstone::Error& error) {
+    fmt::print(stderr, "bench_painting_views: {}\n", error.what());
+    return 1;
   }
-  if (std::ranges::find(parts, "pairs") == parts.end()) return 0;
-  fmt::print("\nstill, impressionist, against ray-cast views\n");
-  const PreparedPainting prepared = prepare(plan_painting(still.photographs, still.geometry, {}));
-  bench::print_wrong_spots(scene, prepared);
-  bench::print_pairs(scene, prepared);
 }

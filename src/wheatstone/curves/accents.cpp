@@ -1,6 +1,8 @@
 #include "wheatstone/curves/accents.h"
 
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 
 #include "wheatstone/stereo/occlusion.h"
 
@@ -17,6 +19,12 @@ ColourPoint point_at(const SpotsOfView& view, int x, int y) {
   return {at, view.photograph(x, y)};
 }
 
+/// Evenly over a half to one and a half, whatever the number of lines: multiples of the golden ratio.
+float share_of_range(std::size_t number) {
+  const double turns = static_cast<double>(number) * std::numbers::phi;
+  return static_cast<float>(0.5 + turns - std::floor(turns));
+}
+
 }  // namespace
 
 void add_accents(const SpotsOfView& view, DiffusionPainting& painting) {
@@ -28,8 +36,8 @@ void add_accents(const SpotsOfView& view, DiffusionPainting& painting) {
       goes_on = goes_on && wanted(x, y) != 0 && is_one_surface(view, x, y, x - 1, y);
       if (wanted(x, y) == 0) continue;
       if (!goes_on)
-        painting.lines.push_back(
-            {static_cast<std::uint32_t>(painting.points.size()), 0, view.reference_view, view.views});
+        painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()), 0, view.reference_view,
+                                  range_of_accent(view, share_of_range(painting.lines.size()))});
       goes_on = true;
       ++painting.lines.back().point_count;
       painting.points.push_back(point_at(view, x, y));

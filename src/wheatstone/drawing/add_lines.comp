@@ -9,12 +9,11 @@ layout(local_size_x = 64) in;
 #include "wheatstone/gpu/views.glsl"
 
 const float unknown = -1e30;
-const float nothing_shown = 1e30;
 const float same_surface_px = 1;
 
 // As struct LineWork in draw_diffusion_gpu.cpp has them.
 layout(std430, binding = 0) readonly buffer Work {
-  int width, height, pieces;
+  int width, height, margin, pieces;
   int adds;  // 0: the nearest; 1: the sums
   int has_surfaces;
   float first_photographed, last_photographed, tolerance_px;
@@ -24,6 +23,7 @@ struct Piece {
   float ax, ay, a_disparity, bx, by, b_disparity;
   float a_red, a_green, a_blue, b_red, b_green, b_blue;
   float reference_view, first_view, last_view;
+  float a_overhang_px, b_overhang_px;
   int is_continued, is_dot;
 };
 layout(std430, binding = 1) readonly buffer Pieces { Piece piece[]; };
@@ -51,20 +51,22 @@ bool hidden_at(float x, float y, float disparity, int v, bool gives_way) {
   return surface != unknown && disparity < surface - tolerance_px;
 }
 
-// Lines lie a pixel beside the edges of surfaces, which are known to a pixel or two.
-bool hidden(vec2 place, float disparity, int v, bool is_continued) {
-  const float beside_px = 2;
+bool hidden(vec2 place, float disparity, int v, Piece of) {
+  const float half_px = 0.5;
   if (has_surfaces == 0) return false;
-  bool gives_way = is_continued && view[v] >= first_photographed && view[v] <= last_photographed;
-  return hidden_at(place.x, place.y, disparity, v, gives_way) &&
-         hidden_at(place.x - beside_px, place.y, disparity, v, gives_way) &&
-         hidden_at(place.x + beside_px, place.y, disparity, v, gives_way);
+  bool gives_way = of.is_continued != 0 && view[v] >= first_photographed && view[v] <= last_photographed;
+  float offsets[4] = float[4](-half_px, half_px, of.a_overhang_px, of.b_overhang_px);
+  for (int i = 0; i < 4; ++i)
+    if (offsets[i] != 0 && !hidden_at(place.x + offsets[i], place.y, disparity, v, gives_way)) return false;
+  return true;
 }
 
 void tell(int x, int y, int v, float share, float disparity, vec3 colour, float length_px) {
   const float least_share = 0.25;
-  if (share <= 0 || x < 0 || y < 0 || x >= width || y >= height) return;
-  int at = (v * height + y) * width + x;
+  int wide = width + 2 * margin;
+  x += margin;
+  if (share <= 0 || x < 0 || y < 0 || x >= wide || y >= height) return;
+  int at = (v * height + y) * wide + x;
   if (adds == 0) {
     if (share >= least_share) atomicMax(nearest[at], ordered(disparity));
     return;
@@ -76,7 +78,7 @@ void tell(int x, int y, int v, float share, float disparity, vec3 colour, float 
 
 void spread(vec2 place, int v, float disparity, vec3 colour, float length_px) {
   vec2 corner = place - 0.5;
-  if (!(corner.x > -1 && corner.y > -1 && corner.x < width && corner.y < height)) return;
+  if (!(corner.x > -1 - margin && corner.y > -1 && corner.x < width + margin && corner.y < height)) return;
   ivec2 at = ivec2(floor(corner));
   vec2 part = corner - floor(corner);
   tell(at.x, at.y, v, (1 - part.x) * (1 - part.y), disparity, colour, length_px);
@@ -107,7 +109,6 @@ void main() {
   for (int s = 0; s < steps; ++s) {
     float t = torn ? 0 : (float(s) + 0.5) / float(steps);
     vec3 place = a + t * (b - a);
-    if (!hidden(place.xy, place.z, v, of.is_continued != 0))
-      spread(place.xy, v, place.z, from + t * (to - from), step_px);
+    if (!hidden(place.xy, place.z, v, of)) spread(place.xy, v, place.z, from + t * (to - from), step_px);
   }
 }

@@ -41,6 +41,8 @@ PreparedPainting prepared(const Painting& painting, Device device) {
   tbb::parallel_invoke(
       [&] { marks = std::visit([](const auto& kind) -> Marks { return prepare_marks(kind); }, painting.marks); },
       [&] { surfaces.emplace(painting.surfaces); });
+  if (auto* const lines = std::get_if<PreparedLines>(&*marks))
+    lines->overhangs_px = overhangs_of(lines->painting, *surfaces);
   auto contents = std::make_unique<PreparedPainting::Contents>(PreparedPainting::Contents{
       width_of(painting), height_of(painting), *std::move(marks), *std::move(surfaces), painting.relief});
   hand_over(*contents, device);

@@ -26,11 +26,13 @@ struct LinePlace {
   std::array<float, 3> colour;
   float length_px;  ///< of the line, that it stands for
   ViewPosition planned_in;
+  std::array<float, 2> overhangs_px;  ///< of the points at both ends, see PreparedLines
 };
 
 /// Calls `use(place)` along every line that the view shows, some places to a pixel.
 template <class Use>
-void walk_lines(const DiffusionPainting& painting, ViewPosition view, Use use) {
+void walk_lines(const PreparedLines& prepared, ViewPosition view, Use use) {
+  const DiffusionPainting& painting = prepared.painting;
   const auto channels = [](Rgb8 c) {
     return std::array{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
   };
@@ -38,7 +40,10 @@ void walk_lines(const DiffusionPainting& painting, ViewPosition view, Use use) {
     if (!line.views.contains(view)) continue;
     const auto points = painting.points_of(line);
     for (std::size_t i = 0; i < std::max<std::size_t>(points.size() - 1, 1); ++i) {
-      const ColourPoint &a = points[i], &b = points[std::min(i + 1, points.size() - 1)];
+      const std::size_t next = std::min(i + 1, points.size() - 1);
+      const ColourPoint &a = points[i], &b = points[next];
+      const std::array overhangs_px{prepared.overhang_px(line.first_point + i),
+                                    prepared.overhang_px(line.first_point + next)};
       const float ax = x_in_view(a.at, line.reference_view, view), bx = x_in_view(b.at, line.reference_view, view);
       const auto from = channels(a.colour), to = channels(b.colour);
       constexpr float steps_a_px = 2, longest_px = 8, most_stretched = 2.5f;
@@ -53,7 +58,8 @@ void walk_lines(const DiffusionPainting& painting, ViewPosition view, Use use) {
         std::array<float, 3> colour;
         for (std::size_t c = 0; c < 3; ++c) colour[c] = from[c] + t * (to[c] - from[c]);
         use(LinePlace{ax + t * (bx - ax), a.at.y + t * (b.at.y - a.at.y),
-                      a.at.disparity + t * (b.at.disparity - a.at.disparity), colour, step_px, line.reference_view});
+                      a.at.disparity + t * (b.at.disparity - a.at.disparity), colour, step_px, line.reference_view,
+                      overhangs_px});
       }
     }
   }
@@ -71,34 +77,40 @@ void spread(const LinePlace& place, int width, int height, Use use) {
     if (share > 0 && x >= 0 && y >= 0 && x < width && y < height) use(x, y, share);
 }
 
-/// Whether surfaces hide a place of a line. Lines lie a pixel beside the edges of surfaces, which are known to a pixel
-/// or two: what is not hidden that far to one side is seen. Every view has lines of its own beside what hides
-/// something; in those that photographs show, the lines of the others give way.
+/// Whether surfaces hide a place of a line, and not only because they reach over it in the view where it was planned,
+/// too. Every view has lines of its own beside what hides something; in those that photographs show, the lines of the
+/// others give way.
 bool is_hidden(const LinePlace& place, ViewPosition view, const Hiding& hiding) {
-  constexpr float beside_px = 2;
   const bool gives_way = hiding.photographed_views.contains(view) && hiding.is_continued(place.planned_in);
   const ViewPosition planned_in = gives_way ? place.planned_in : hiding.reference_view;
   const auto hidden_at = [&](float x) { return is_hidden(x, place.y, place.disparity, planned_in, hiding); };
-  return hidden_at(place.x) && hidden_at(place.x - beside_px) && hidden_at(place.x + beside_px);
+  constexpr float half_px = 0.5f;  // surfaces are known to it
+  return hidden_at(place.x - half_px) && hidden_at(place.x + half_px) &&
+         std::ranges::all_of(place.overhangs_px,
+                             [&](float overhang_px) { return overhang_px == 0 || hidden_at(place.x + overhang_px); });
 }
 
 /// What the lines say about each pixel. A line gives its colour wholly to a pixel through whose middle it runs, and
 /// less to those up to a pixel away, so that an edge between two lines lies where it lies, not on a pixel's side. The
-/// nearest surface's lines count where they disagree, and their mean where they lie on one surface.
-Image<Known> draw_lines(const DiffusionPainting& painting, ViewPosition view, const Hiding& hiding) {
+/// nearest surface's lines count where they disagree, and their mean where they lie on one surface. The picture has a
+/// margin on both sides.
+Image<Known> draw_lines(const PreparedLines& lines, ViewPosition view, const Hiding& hiding) {
   constexpr float same_surface_px = 1;
-  const int width = painting.width, height = painting.height;
+  const int margin = diffusion_margin_px(lines.painting.width);
+  const int width = lines.painting.width + 2 * margin, height = lines.painting.height;
   Image<float> nearest(width, height, -std::numeric_limits<float>::infinity());
-  walk_lines(painting, view, [&](const LinePlace& place) {
+  walk_lines(lines, view, [&](LinePlace place) {
     if (is_hidden(place, view, hiding)) return;
+    place.x += static_cast<float>(margin);
     spread(place, width, height, [&](int x, int y, float share) {
       constexpr float least_share = 0.25f;
       if (share >= least_share) nearest(x, y) = std::max(nearest(x, y), place.disparity);
     });
   });
   Image<Known> known(width, height);
-  walk_lines(painting, view, [&](const LinePlace& place) {
+  walk_lines(lines, view, [&](LinePlace place) {
     if (is_hidden(place, view, hiding)) return;
+    place.x += static_cast<float>(margin);
     spread(place, width, height, [&](int x, int y, float share) {
       if (place.disparity < nearest(x, y) - same_surface_px) return;
       Known& pixel = known(x, y);
@@ -206,30 +218,34 @@ void spread_colours(Image<Known>& known) {
   known = std::move(coarser);
 }
 
-DrawnView draw_view(const DiffusionPainting& painting, ViewPosition view, const Hiding& hiding) {
+DrawnView draw_view(const PreparedLines& lines, ViewPosition view, const Hiding& hiding) {
+  const DiffusionPainting& painting = lines.painting;
   DrawnView drawn{Image<Rgb8>(painting.width, painting.height, {128, 128, 128}), 1,
                   Image<std::uint8_t>(painting.width, painting.height, 255)};
-  Image<Known> known = draw_lines(painting, view, hiding);
+  Image<Known> known = draw_lines(lines, view, hiding);
   const bool any = std::ranges::any_of(known.pixels(), [](const Known& pixel) { return pixel.weight > 0; });
   if (!any) return drawn;
   spread_colours(known);
   const auto level = [](float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); };
-  for (std::size_t i = 0; i < known.pixels().size(); ++i) {
-    const auto& c = known.pixels()[i].colour;
-    drawn.picture.pixels()[i] = {level(c[0]), level(c[1]), level(c[2])};
-    drawn.bare.pixels()[i] = 0;
+  const int margin = diffusion_margin_px(painting.width);
+  for (int y = 0; y < painting.height; ++y) {
+    for (int x = 0; x < painting.width; ++x) {
+      const auto& c = known(x + margin, y).colour;
+      drawn.picture(x, y) = {level(c[0]), level(c[1]), level(c[2])};
+    }
   }
+  std::ranges::fill(drawn.bare.pixels(), std::uint8_t{0});
   drawn.bare_share = 0;
   return drawn;
 }
 
 }  // namespace
 
-void draw_marks(const DiffusionPainting& painting, const PreparedSurfaces& surfaces,
-                std::span<const ViewToDraw> views) {
+void draw_marks(const PreparedLines& lines, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views) {
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-    const SeenSurfaces seen = seen_surfaces(surfaces, views[i].position, {painting.width, 0, painting.height});
-    views[i].drawn = draw_view(painting, views[i].position, seen.hiding);
+    const SeenSurfaces seen =
+        seen_surfaces(surfaces, views[i].position, {lines.painting.width, 0, lines.painting.height});
+    views[i].drawn = draw_view(lines, views[i].position, seen.hiding);
   });
 }
 

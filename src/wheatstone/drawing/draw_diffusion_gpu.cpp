@@ -16,7 +16,7 @@ namespace {
 
 /// What add_lines.comp reads of its work: numbers of four bytes, without gaps.
 struct LineWork {
-  std::int32_t width = 0, height = 0, pieces = 0;
+  std::int32_t width = 0, height = 0, margin = 0, pieces = 0;
   std::int32_t adds = 0, has_surfaces = 0;
   float first_photographed = 0, last_photographed = 0, tolerance_px = 0;
   std::array<float, most_gpu_views> view{};
@@ -33,6 +33,7 @@ struct Piece {
   Place a, b;
   Colour a_colour, b_colour;
   float reference_view, first_view, last_view;
+  float a_overhang_px, b_overhang_px;
   std::int32_t is_continued, is_dot;
 };
 
@@ -40,22 +41,25 @@ struct Piece {
 struct LevelWork {
   std::int32_t width = 0, height = 0, coarse_width = 0, coarse_height = 0;
   std::int32_t odd = 0;
+  std::int32_t margin = 0;  ///< columns on both sides that the view does not show
 };
 
-std::vector<Piece> pieces_of(const DiffusionPainting& painting, const PreparedSurfaces& surfaces) {
+std::vector<Piece> pieces_of(const PreparedLines& lines, const PreparedSurfaces& surfaces) {
   const auto place = [](const ColourPoint& point) { return Piece::Place{point.at.x, point.at.y, point.at.disparity}; };
   const auto colour = [](Rgb8 c) {
     return Piece::Colour{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
   };
   std::vector<Piece> pieces;
-  for (const ColourLine& line : painting.lines) {
-    const auto points = painting.points_of(line);
+  for (const ColourLine& line : lines.painting.lines) {
+    const auto points = lines.painting.points_of(line);
     const std::int32_t is_continued = kind_of(line.reference_view, surfaces) == PlannedIn::other_view ? 1 : 0;
     for (std::size_t i = 0; i < std::max<std::size_t>(points.size() - 1, 1); ++i) {
-      const ColourPoint &a = points[i], &b = points[std::min(i + 1, points.size() - 1)];
+      const std::size_t next = std::min(i + 1, points.size() - 1);
+      const ColourPoint &a = points[i], &b = points[next];
       pieces.push_back({place(a), place(b), colour(a.colour), colour(b.colour), line.reference_view - central_view,
-                        line.views.first - central_view, line.views.last - central_view, is_continued,
-                        points.size() == 1 ? 1 : 0});
+                        line.views.first - central_view, line.views.last - central_view,
+                        lines.overhang_px(line.first_point + i), lines.overhang_px(line.first_point + next),
+                        is_continued, points.size() == 1 ? 1 : 0});
     }
   }
   return pieces;
@@ -76,8 +80,8 @@ GpuBuffer buffer_of(const LevelWork& work) { return GpuBuffer(std::span<const Le
 
 }  // namespace
 
-GpuDiffusion::GpuDiffusion(const DiffusionPainting& painting, const PreparedSurfaces& surfaces)
-    : painting_(painting),
+GpuDiffusion::GpuDiffusion(const PreparedLines& lines, const PreparedSurfaces& surfaces)
+    : painting_(lines.painting),
       photographed_(surfaces.photographed),
       add_lines_(add_lines_source),
       know_lines_(know_lines_source),
@@ -85,17 +89,19 @@ GpuDiffusion::GpuDiffusion(const DiffusionPainting& painting, const PreparedSurf
       fill_known_(fill_known_source),
       settle_colours_(settle_colours_source),
       finish_diffusion_(finish_diffusion_source) {
-  const std::vector<Piece> pieces = pieces_of(painting, surfaces);
+  const std::vector<Piece> pieces = pieces_of(lines, surfaces);
   piece_count_ = pieces.size();
   pieces_.emplace(std::span<const Piece>(pieces));
 }
 
 GpuBuffer GpuDiffusion::lines(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) const {
-  const std::size_t pixels =
-      static_cast<std::size_t>(painting_.width) * static_cast<std::size_t>(painting_.height) * views.positions.size();
+  const int margin = diffusion_margin_px(painting_.width);
+  const std::size_t pixels = static_cast<std::size_t>(painting_.width + 2 * margin) *
+                             static_cast<std::size_t>(painting_.height) * views.positions.size();
   const GpuBuffer nearest(pixels * sizeof(std::uint32_t)), sums(4 * pixels * sizeof(std::uint32_t));
   LineWork work{.width = painting_.width,
                 .height = painting_.height,
+                .margin = margin,
                 .pieces = static_cast<std::int32_t>(piece_count_),
                 .has_surfaces = surfaces.empty() ? 0 : 1,
                 .first_photographed = photographed_.first - central_view,
@@ -115,8 +121,9 @@ GpuBuffer GpuDiffusion::lines(const GpuSurfaces& surfaces, const GpuBuffer& plan
 
 GpuBuffer GpuDiffusion::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) const {
   constexpr int rounds = 40;
+  const int margin = diffusion_margin_px(painting_.width);
   const auto count = static_cast<std::uint32_t>(views.positions.size());
-  const std::vector<LevelWork> levels = levels_of(painting_.width, painting_.height);
+  const std::vector<LevelWork> levels = levels_of(painting_.width + 2 * margin, painting_.height);
   const auto pixels_of = [count](const LevelWork& level) {
     return static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height) * count;
   };
@@ -145,8 +152,11 @@ GpuBuffer GpuDiffusion::draw(const GpuSurfaces& surfaces, const GpuBuffer& plane
     colours.emplace(std::move(*finer));
     settled = &*colours;
   }
-  GpuBuffer pixels(pixels_of(levels[0]) * sizeof(std::uint32_t));
-  const GpuBuffer work = buffer_of(levels[0]);
+  GpuBuffer pixels(static_cast<std::size_t>(painting_.width) * static_cast<std::size_t>(painting_.height) * count *
+                   sizeof(std::uint32_t));
+  LevelWork finest = levels[0];
+  finest.margin = margin;
+  const GpuBuffer work = buffer_of(finest);
   finish_diffusion_.run({groups_of(painting_.width, 64), static_cast<std::uint32_t>(painting_.height), count},
                         {&work, settled, &known.back(), &pixels});
   return pixels;

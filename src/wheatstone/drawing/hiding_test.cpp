@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -112,6 +113,39 @@ TEST(Hiding, TakesLinesOffWhatLiesBeforeThem) {
     EXPECT_EQ(drawn(22 + shift, 12), red) << view.eye_separations();
     EXPECT_EQ(drawn(38 + shift, 12), red) << view.eye_separations();
   }
+}
+
+/// A red line on the wall and a blue one on the post, from top to bottom.
+Painting upright_lines(float on_wall, float on_post) {
+  DiffusionPainting curves{width, height, {}, {}};
+  for (const ColourPoint& at : {ColourPoint{{on_wall, 4, wall}, red}, ColourPoint{{on_post, 4, post}, blue}}) {
+    curves.lines.push_back({static_cast<std::uint32_t>(curves.points.size()), 2, central_view, all_views});
+    curves.points.push_back(at);
+    curves.points.push_back({{at.at.x, 20, at.at.disparity}, at.colour});
+  }
+  return {.marks = curves, .surfaces = wall_and_post()};
+}
+
+TEST(Hiding, TakesALineAwayOnceASurfaceHasComeOverIt) {
+  const auto is_seen = [](float on_wall, float from) {
+    const Image<Rgb8> drawn = draw(upright_lines(on_wall, 30.5f), ViewPosition(from)).picture;
+    return std::ranges::any_of(drawn.row(12), [](Rgb8 colour) { return colour.r > 100; });
+  };
+  // From view to view the post, which ends at 34, moves by 10 pixels more than the wall.
+  EXPECT_TRUE(is_seen(35, 0) && is_seen(35, -0.05f));
+  EXPECT_FALSE(is_seen(35, -0.3f)) << "its colour would spread over the post from within";
+  // A line that lies a pixel within the surface's edge is seen where it was planned, since edges are not known better.
+  EXPECT_TRUE(is_seen(33, 0) && is_seen(33, 0.2f));
+  EXPECT_FALSE(is_seen(33, -0.2f));
+}
+
+TEST(Hiding, LetsALineBesideTheViewColourIt) {
+  Painting painting = upright_lines(2.5f, 30.5f);
+  painting.surfaces = {};
+  const auto at_the_left = [&](float from) { return draw(painting, ViewPosition(from)).picture(0, 12).r; };
+  EXPECT_GT(at_the_left(0.5f), 150);
+  EXPECT_GT(at_the_left(3 / wall), 150) << "the line lies half a pixel beside the view";
+  EXPECT_LT(at_the_left(12 / wall), 100);
 }
 
 TEST(Hiding, WithoutSurfacesAMarkIsDrawnInTheViewsThatItNames) {

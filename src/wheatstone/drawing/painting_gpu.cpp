@@ -23,7 +23,7 @@ GpuStrokes on_gpu_of(const PreparedStrokes& marks, const PreparedPainting::Conte
   return {marks, of.surfaces, of.relief};
 }
 GpuRegions on_gpu_of(const RegionPainting& marks, const PreparedPainting::Contents& of) { return {marks, of.surfaces}; }
-GpuDiffusion on_gpu_of(const DiffusionPainting& marks, const PreparedPainting::Contents& of) {
+GpuDiffusion on_gpu_of(const PreparedLines& marks, const PreparedPainting::Contents& of) {
   return {marks, of.surfaces};
 }
 
@@ -83,7 +83,7 @@ PaintingOnGpu::~PaintingOnGpu() {
 
 std::size_t PaintingOnGpu::views_at_once(const GpuFacts& facts) const {
   constexpr std::size_t most_bytes = std::size_t{1} << 29;
-  constexpr std::size_t words_a_pixel = 4;  // of the largest buffer: of lines of colour
+  constexpr std::size_t words_a_pixel = 5;  // of the largest buffer: four of lines of colour, and those of their margin
   const std::size_t bytes_a_view = words_a_pixel * sizeof(float) * pixels_of(contents_);
   return std::clamp<std::size_t>(std::min(facts.largest_buffer, most_bytes) / bytes_a_view, 1, most_gpu_views);
 }

@@ -144,7 +144,7 @@ class GpuRegions {
 /// Lines of colour on the graphics processor. Made and used within on_gpu(); what it was made of must stay.
 class GpuDiffusion {
  public:
-  GpuDiffusion(const DiffusionPainting& painting, const PreparedSurfaces& surfaces);
+  GpuDiffusion(const PreparedLines& lines, const PreparedSurfaces& surfaces);
   GpuBuffer draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) const;
 
  private:

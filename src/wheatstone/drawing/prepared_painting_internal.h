@@ -3,10 +3,12 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/hiding.h"
+#include "wheatstone/drawing/prepared_lines_internal.h"
 #include "wheatstone/drawing/prepared_strokes_internal.h"
 #include "wheatstone/drawing/seen_surface_internal.h"
 
@@ -16,7 +18,7 @@ class PaintingOnGpu;
 
 struct PreparedPainting::Contents {
   int width, height;
-  std::variant<PreparedStrokes, RegionPainting, DiffusionPainting> marks;
+  std::variant<PreparedStrokes, RegionPainting, PreparedLines> marks;
   PreparedSurfaces surfaces;
   Relief relief;
   std::shared_ptr<PaintingOnGpu> on_gpu = {};  ///< what draws it, where the processor does not
@@ -27,7 +29,8 @@ struct PreparedPainting::Contents {
 
 PreparedStrokes prepare_marks(const StrokePainting& painting);
 inline RegionPainting prepare_marks(RegionPainting painting) { return painting; }
-inline DiffusionPainting prepare_marks(DiffusionPainting painting) { return painting; }
+/// What surfaces make of the lines is told once they are ready, too.
+inline PreparedLines prepare_marks(DiffusionPainting painting) { return {std::move(painting), {}}; }
 
 /// A view that is to be drawn.
 struct ViewToDraw {
@@ -38,7 +41,7 @@ struct ViewToDraw {
 
 void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
 void draw_marks(const RegionPainting& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
-void draw_marks(const DiffusionPainting& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
+void draw_marks(const PreparedLines& lines, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
 
 // The same as SVG (svg.h). What has a ground shows between its marks what only a picture of the view can.
 

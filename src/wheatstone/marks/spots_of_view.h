@@ -18,4 +18,14 @@ struct SpotsOfView {
   float depth_threshold_px = 2;         ///< marks end where disparity jumps by more
 };
 
+/// The views in which one of the marks may be drawn, so that the marks come and go one after the other and not all at
+/// once: `share` of the range on both sides of the view whose spots these are, which may be more than 1.
+inline ViewRange range_of_accent(const SpotsOfView& spots, float share) {
+  if (spots.views == all_views) return all_views;
+  const auto towards = [&](ViewPosition end) {
+    return ViewPosition(spots.view.eye_separations() + share * (end - spots.view));
+  };
+  return {towards(spots.views.first), towards(spots.views.last)};
+}
+
 }  // namespace wheatstone

@@ -21,6 +21,9 @@ namespace {
 /// regions have the mean of their pixels and outlines are smooth.
 constexpr int alike = 45;
 
+/// Of the views in which accents may be drawn. They are few, since files tell ranges apart.
+constexpr std::array shares_of_range{0.5f, 0.8f, 1.1f, 1.4f};
+
 int squared_distance(Rgb8 a, Rgb8 b) {
   const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
   return red * red + green * green + blue * blue;
@@ -104,18 +107,6 @@ void add_missing_colours(std::vector<RegionMeans> accents, std::size_t most_colo
   }
 }
 
-/// Accents come and go in a few steps from view to view, not all at once: each is seen somewhat farther from its view
-/// than the range that is asked for, or less far. The steps are few, since files tell ranges apart.
-ViewRange range_of_accent(const SpotsOfView& spots, std::size_t number) {
-  if (spots.views == all_views) return all_views;
-  constexpr std::array shares{0.5f, 0.8f, 1.1f, 1.4f};
-  const float share = shares[number % shares.size()];
-  const auto towards = [&](ViewPosition end) {
-    return ViewPosition(spots.view.eye_separations() + share * (end - spots.view));
-  };
-  return {towards(spots.views.first), towards(spots.views.last)};
-}
-
 }  // namespace
 
 void add_accents(const SpotsOfView& view, const Style& style, RegionPainting& painting) {
@@ -133,7 +124,7 @@ void add_accents(const SpotsOfView& view, const Style& style, RegionPainting& pa
     mark.colour = palette[nearest_colour(palette, mean_colour(means[i]))];
     mark.disparity = static_cast<float>(means[i].disparity);
     mark.reference_view = view.reference_view;
-    mark.views = range_of_accent(view, i);
+    mark.views = range_of_accent(view, shares_of_range[i % shares_of_range.size()]);
   }
   std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.ring_count == 0; });
 }
