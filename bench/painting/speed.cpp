@@ -118,7 +118,7 @@ int main(int argument_count, char** arguments) {
   cv::setNumThreads(threads);
   wheatstone::keep_freed_memory();  // as the program does
   fmt::print(
-      "StrokePainting the synthetic still, impressionist, disparity given, {} threads.\n"
+      "Painting the synthetic still, impressionist, disparity given, {} threads.\n"
       "Both eyes as multiples of one eye's time; P planning, R rasterising of one eye.\n\n",
       threads);
   fmt::print("size         one eye  strokes raster  each    paper   (P+2R)/(P+R)\n");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 namespace wheatstone {
@@ -32,6 +33,9 @@ struct MovedRow {
   float separation, first_centre;
 };
 
+/// At the fraction t from one pixel to the next; at its end exactly what is there.
+inline float disparity_between(float here, float next, float t) { return t < 1 ? here + t * (next - here) : next; }
+
 /// Calls `land(x_in_other, disparity, x, t)` for every pixel centre of another view's scan line that the surface of
 /// this one covers: between the pixels x and x + 1, at the fraction t. The other view is `separation` eye separations
 /// to the right. Not z-tested; a pixel may be landed on often. Every pixel lands at least where it is (`every_pixel`),
@@ -59,49 +63,32 @@ void warp_row(std::span<const float> disparity, float separation, int shown_widt
     const int last = MovedRow::last_centre_to(next);
     for (int target = MovedRow::first_centre_from(here); target <= last; ++target) {
       const float t = next > here ? (static_cast<float>(target) + 0.5f - here) / (next - here) : 0;
-      land_inside(target, disparity[x] + t * (disparity[x + 1] - disparity[x]), x, t);
+      land_inside(target, disparity_between(disparity[x], disparity[x + 1], t), x, t);
     }
   }
 }
 
 /// The disparity of a part of a scan line, whose first pixel is the column `left_px` of another view's line, carried
 /// over what is there already: what is nearer stays; NaN is farther than anything. That view is `separation` eye
-/// separations to the right. What lands is what warp_row lands; pixels of equal disparity move as one.
+/// separations to the right. What lands is what warp_row<every_pixel> lands.
 template <bool every_pixel = true>
-void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px,
-                             std::span<float> nearest) {
-  const MovedRow moved(separation, left_px);
-  const int width = static_cast<int>(disparity.size()), last_column = static_cast<int>(nearest.size()) - 1;
-  const auto land = [&](int first, int last, float d) {
-    last = std::min(last, last_column);
-    for (int target = std::max(first, 0); target <= last; ++target)
-      nearest[target] = nearest[target] >= d ? nearest[target] : d;
-  };
-  bool joined_before = false;
-  for (int begin = 0, end = 0; begin < width; begin = end) {
-    const float d = disparity[begin];
-    end = begin + 1;
-    while (end < width && disparity[end] == d) ++end;
-    const bool joined_after = end < width && std::abs(disparity[end] - d) <= joined_px;
-    const bool is_single = begin + 1 == end;
-    const bool first_at_edge = !joined_before || (is_single && !joined_after);
-    const bool last_at_edge = !is_single && !joined_after;
-    joined_before = joined_after;
-    const float from = moved.place_of(begin, d), to = moved.place_of(end - 1, d);
-    if (!MovedRow::is_near(from) || !MovedRow::is_near(to)) continue;
-    if (every_pixel || first_at_edge) land(floor_of(from), floor_of(from), d);
-    if (every_pixel || last_at_edge) land(floor_of(to), floor_of(to), d);
-    if (!is_single) land(MovedRow::first_centre_from(from), MovedRow::last_centre_to(to), d);
-    if (!joined_after) continue;
+void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px, std::span<float> nearest);
+template <>
+void warp_disparity_row_over<true>(std::span<const float> disparity, float separation, int left_px,
+                                   std::span<float> nearest);
+template <>
+void warp_disparity_row_over<false>(std::span<const float> disparity, float separation, int left_px,
+                                    std::span<float> nearest);
 
-    const float next = moved.place_of(end, disparity[end]);
-    const int last = MovedRow::last_centre_to(next);
-    for (int target = MovedRow::first_centre_from(to); target <= last; ++target) {
-      const float t = next > to ? (static_cast<float>(target) + 0.5f - to) / (next - to) : 0;
-      land(target, target, d + t * (disparity[end] - d));
-    }
-  }
-}
+/// For each pixel of a scan line that others land on: between which pixels of another line it lies, and how far.
+struct LandedFrom {
+  std::span<std::int32_t> x;
+  std::span<float> t;
+};
+
+/// The same as warp_disparity_row_over<false>, and where from; that stays where nothing lands.
+void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px, std::span<float> nearest,
+                             const LandedFrom& from);
 
 /// Gives unknown runs of a scan line of at most two pixels, which a surface that is stretched leaves, the smaller
 /// disparity of their two neighbours.

@@ -49,12 +49,11 @@ struct KindAtWork {
   void sum_up_blocks(int width) {
     for (int first = 0, number = 0; first < width; first += HiddenBelow::block_px, ++number) {
       const int end = std::min(first + HiddenBelow::block_px, width);
-      below.most.push_back(*std::max_element(most.begin() + first, most.begin() + end));
-      below.least.push_back(*std::min_element(least.begin() + first, least.begin() + end));
       std::uint32_t shown = 0;
       for (int row = 0; row < rows; ++row)
         if (below.shown_columns[static_cast<std::size_t>(number * rows + row)] != 0) shown |= std::uint32_t{1} << row;
-      below.shown_rows.push_back(shown);
+      below.blocks.push_back({*std::max_element(most.begin() + first, most.begin() + end),
+                              *std::min_element(least.begin() + first, least.begin() + end), shown});
     }
   }
 

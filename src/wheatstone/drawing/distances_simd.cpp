@@ -212,7 +212,7 @@ bool may_be_hidden(const FlatStroke& stroke, const HiddenBelow& below, const Dis
     end = std::max(end, band.end[row]);
   }
   for (int block = begin / HiddenBelow::block_px; block * HiddenBelow::block_px < end; ++block)
-    if (stroke.farthest_disparity < below.most[static_cast<std::size_t>(block)]) return true;
+    if (stroke.farthest_disparity < below.blocks[static_cast<std::size_t>(block)].most) return true;
   return false;
 }
 

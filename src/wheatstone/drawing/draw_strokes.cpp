@@ -133,29 +133,16 @@ struct alignas(64) Piece {
     const float fraction = moved - static_cast<float>(floor_of(moved));
     return fraction > 0.25f && fraction < 0.75f;
   }
-
-  /// Whether surfaces may hide some of it, or hide all.
-  bool may_be_hidden(const ColumnRun& columns, const HiddenBelow& below) const {
-    return std::any_of(blocks(below.most, columns.begin), blocks(below.most, columns.end - 1) + 1,
-                       [this](float most) { return farthest < most; });
-  }
-  bool is_hidden(const ColumnRun& columns, const HiddenBelow& below) const {
-    return std::all_of(blocks(below.least, columns.begin), blocks(below.least, columns.end - 1) + 1,
-                       [this](float least) { return nearest < least; });
-  }
-
- private:
-  static std::vector<float>::const_iterator blocks(const std::vector<float>& of, int column) {
-    return of.begin() + column / HiddenBelow::block_px;
-  }
 };
 
 Piece piece_of(const FlatStroke& stroke, std::uint32_t index, const PreparedSurfaces& surfaces,
                const DistanceBand& band) {
   constexpr float thin_px = 1.25f;
-  const float reach = BrushProfile(stroke.radius_px).reach_px + 1;
-  const int first = std::max(static_cast<int>(stroke.top - reach) - band.top, 0);
-  const int end = std::min(static_cast<int>(stroke.bottom + reach) - band.top + 1, band.row_count);
+  const float reach_px = BrushProfile(stroke.radius_px).reach_px, reach = reach_px + 1;
+  // Rows have their centres half a pixel down.
+  const int first = std::max(static_cast<int>(std::ceil(stroke.top - reach_px - 0.5f)) - band.top, 0);
+  const int end =
+      std::min(static_cast<int>(std::floor(stroke.bottom + reach_px - 0.5f)) - band.top + 1, band.row_count);
   Piece piece{
       .stroke = index,
       .rows = 0,
@@ -275,8 +262,7 @@ class BandOfViews {
     bool may_be_hidden;
   };
 
-  /// Draws a piece in all views that may see any of it. Which do is found out first, so that what they have drawn there
-  /// comes from memory meanwhile.
+  /// Draws a piece in all views that may see any of it. Which do is found out first: a stamp is made of what they see.
   template <class HiddenBelowOf>
   void draw_piece(std::size_t above, std::size_t number, std::span<const ViewAtWork> views, HiddenBelowOf below_of) {
     in_views_.clear();
@@ -329,14 +315,24 @@ class BandOfViews {
     const FrontToBackAccumulator& accumulator = at_work.accumulator;
     const ColumnRun columns = piece.columns_in(view - central_view, painting_.width);
     if (columns.begin >= columns.end || !piece.views.contains(view)) return;
-    std::uint32_t rows = piece.rows & accumulator.open_rows(columns.begin, columns.end);
+    constexpr int block_px = FrontToBackAccumulator::block_px;
+    std::uint32_t rows = 0;
+    bool may_be_hidden = false;
+    if (below.pixels.empty()) {
+      for (int number = columns.begin / block_px; number * block_px < columns.end; ++number)
+        rows |= accumulator.open_rows(number);
+    } else {
+      for (int number = columns.begin / block_px; number * block_px < columns.end; ++number) {
+        const HiddenBelow::Block& block = below.blocks[static_cast<std::size_t>(number)];
+        const std::uint32_t seen = piece.nearest < block.least ? 0 : block.shown_rows;
+        rows |= seen & accumulator.open_rows(number);
+        may_be_hidden |= piece.farthest < block.most;
+      }
+    }
+    rows &= piece.rows;
+    // Of what many views show, nearly every row is seen by some.
+    if (rows != 0 && view_count_ <= few_views) rows = rows_to_draw(rows, columns, below, accumulator);
     if (rows == 0) return;
-    const bool may_be_hidden = !below.pixels.empty() && piece.may_be_hidden(columns, below);
-    if (may_be_hidden) rows &= below.shown_rows_within(columns.begin, columns.end);
-    if (rows == 0 || (may_be_hidden && piece.is_hidden(columns, below))) return;
-    rows = rows_to_draw(rows, columns, below, accumulator);
-    if (rows == 0) return;
-    accumulator.ask_for(rows, columns.begin, columns.end);
     in_views_.push_back({&at_work, &below, columns, rows, may_be_hidden});
   }
 

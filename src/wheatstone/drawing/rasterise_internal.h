@@ -65,23 +65,19 @@ struct ColumnRun {
 /// Below which disparity paint of one kind is hidden, in a band; empty where nothing hides it.
 struct HiddenBelow {
   static constexpr int block_px = Canvas::widest_vector;
+  struct Block {
+    float most, least;         ///< of its pixels
+    std::uint32_t shown_rows;  ///< in which not everything is hidden: bits, from the lowest
+  };
   std::span<const float> pixels;        ///< row_count × stride of the band, for columns that are shown at all
-  std::vector<float> most, least;       ///< of each block of columns
+  std::vector<Block> blocks;            ///< of columns
   std::span<const float> most_of_rows;  ///< the most in each row of each block: row_count × blocks, and a vector more
-
-  // Where not everything is hidden, a bit each, from the lowest.
-  std::vector<std::uint16_t> shown_columns;  ///< of a block: row_count × blocks, and a vector more
-  std::vector<std::uint32_t> shown_rows;     ///< of each block
+  /// Of a block, where not everything is hidden, a bit each, from the lowest: row_count × blocks, and a vector more.
+  std::vector<std::uint16_t> shown_columns;
 
   /// In a row of a band.
   std::uint32_t shown_columns_in(int row, int number, int row_count) const {
     return shown_columns.empty() ? 0xffff : shown_columns[static_cast<std::size_t>(number * row_count + row)];
-  }
-  std::uint32_t shown_rows_within(int begin, int end) const {
-    std::uint32_t rows = 0;
-    for (int number = begin / block_px; number * block_px < end; ++number)
-      rows |= shown_rows[static_cast<std::size_t>(number)];
-    return rows;
   }
 };
 
@@ -199,16 +195,6 @@ class FrontToBackAccumulator {
     for (int number = begin / block_px; number * block_px < end; ++number)
       rows |= open_rows_[static_cast<std::size_t>(number)];
     return rows;
-  }
-
-  /// Asks for some rows, a bit each, of the blocks of some columns, which are drawn to soon.
-  void ask_for(std::uint32_t rows, int begin, int end) const {
-    for (int number = begin / block_px; number * block_px < end; ++number)
-      for (std::uint32_t left = rows & open_rows(number); left != 0; left &= left - 1) {
-        const Block& asked = block(std::countr_zero(left), number);
-        hwy::Prefetch(asked.red);
-        hwy::Prefetch(asked.blue);
-      }
   }
 
   /// Shrinks the columns [begin, end) to those between the first and the last open block; begin ≥ end where none is.

@@ -404,7 +404,7 @@ std::uint32_t find_rows_to_draw(std::uint32_t rows, const ColumnRun& columns, co
   std::uint32_t found = 0;
   for (int number = columns.begin / block_px; number * block_px < columns.end; ++number) {
     std::uint32_t candidates = rows & accumulator.open_rows(number) & ~found;
-    if (!all_shown) candidates &= below.shown_rows[static_cast<std::size_t>(number)];
+    if (!all_shown) candidates &= below.blocks[static_cast<std::size_t>(number)].shown_rows;
     if (candidates == 0) continue;
     const auto below_column = [=](int column) {
       return (std::uint32_t{1} << std::clamp(column - number * block_px, 0, block_px)) - 1;

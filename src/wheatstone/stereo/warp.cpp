@@ -5,25 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "wheatstone/depth/warp_row.h"
+#include "wheatstone/stereo/compose_row_internal.h"
 
 namespace wheatstone {
 namespace {
 
-template <bool every_pixel = true, class Land>
+template <class Land>
 void warp_row(std::span<const float> disparity, float separation, Land land) {
-  warp_row<every_pixel>(disparity, separation, static_cast<int>(disparity.size()), 0, land);
-}
-
-Rgb8 blend(Rgb8 a, Rgb8 b, float t) {
-  const int share = static_cast<int>(256 * t + 0.5f);
-  const auto mix = [share](int from, int to) {
-    return static_cast<std::uint8_t>((256 * from + share * (to - from) + 128) >> 8);
-  };
-  return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
+  warp_row(disparity, separation, static_cast<int>(disparity.size()), 0, land);
 }
 
 }  // namespace
@@ -79,33 +73,16 @@ WarpedColumns warp_columns(ImageView<const float> disparity, ViewPosition from, 
 void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> disparity, ViewPosition from,
                        float tolerance_px, Composition& composition) {
   const float separation = composition.position - from;
-  const int shown_width = composition.picture.width();
-  constexpr float farthest = -std::numeric_limits<float>::infinity();
-  /// Between which pixels of the other picture's row a place lies, and how far.
-  struct Source {
-    int x;
-    float t;
-  };
+  const auto shown_width = static_cast<std::size_t>(composition.picture.width());
   tbb::parallel_for(tbb::blocked_range<int>(0, picture.height()), [&](const tbb::blocked_range<int>& rows) {
-    std::vector<float> nearest(shown_width);
-    std::vector<Source> sources(shown_width);
+    std::vector<float> nearest(shown_width), fractions(shown_width);
+    std::vector<std::int32_t> columns(shown_width);
+    const LandedFrom landed_from{columns, fractions};
     for (int y = rows.begin(); y < rows.end(); ++y) {
-      std::ranges::fill(nearest, farthest);
-      warp_row<false>(disparity.row(y), separation, shown_width, -composition.left_px,
-                      [&](int target, float d, int x, float t) {
-                        if (d <= nearest[target]) return;
-                        nearest[target] = d;
-                        sources[target] = {x, t};
-                      });
-      const auto colours = picture.row(y);
-      const auto to = composition.picture.row(y);
-      const auto there = composition.nearest.row(y);
-      for (std::size_t x = 0; x < nearest.size(); ++x) {
-        if (nearest[x] == farthest || there[x] + tolerance_px >= nearest[x]) continue;
-        const auto [column, t] = sources[x];
-        to[x] = t > 0 ? blend(colours[column], colours[column + 1], t) : colours[column];
-        there[x] = nearest[x];
-      }
+      std::ranges::fill(nearest, -std::numeric_limits<float>::infinity());
+      warp_disparity_row_over(disparity.row(y), separation, -composition.left_px, nearest, landed_from);
+      compose_row({picture.row(y), nearest, landed_from}, tolerance_px, composition.picture.row(y),
+                  composition.nearest.row(y));
     }
   });
 }
