@@ -21,7 +21,7 @@ namespace {
 
 /// How much smaller what no photograph shows may be made: as small as its finest strokes are planned.
 int reduction_for(int width) {
-  constexpr int halved_px = 480, quartered_px = 3840;
+  constexpr int halved_px = 480, quartered_px = 1920;
   return width < halved_px ? 1 : width < quartered_px ? 2 : 4;
 }
 
@@ -95,20 +95,47 @@ std::vector<ViewPosition> positions_beside_eyes(ImageView<const Rgb8> photograph
   return positions;
 }
 
+/// Whether a view beyond another shows the other's uncovered pixel, too, as something that is uncovered.
+bool shows(const OuterView& beyond, const OuterView& view, int x, int y) {
+  constexpr float one_surface_px = 1;
+  const float disparity = view.disparity(x, y);
+  const float place = static_cast<float>(x + view.left_px - beyond.left_px) + 0.5f -
+                      (beyond.position - view.position) * disparity;
+  const int column = floor_of(place);
+  return beyond.uncovered.contains(column, y) && beyond.uncovered(column, y) != 0 &&
+         std::abs(beyond.disparity(column, y) - disparity) <= one_surface_px;
+}
+
+/// Of views between others and the eyes, what those beyond them do not uncover, too: else it would be painted twice.
+void leave_out_what_others_uncover(std::vector<OuterView>& outer) {
+  for (OuterView& view : outer) {
+    for (const OuterView& beyond : outer) {
+      const bool is_beyond = view.position > central_view ? beyond.position > view.position
+                                                          : view.position < central_view && beyond.position < view.position;
+      if (!is_beyond) continue;
+      tbb::parallel_for(0, view.uncovered.height(), [&](int y) {
+        for (int x = 0; x < view.uncovered.width(); ++x)
+          if (view.uncovered(x, y) != 0 && shows(beyond, view, x, y)) view.uncovered(x, y) = 0;
+      });
+    }
+  }
+}
+
 std::vector<OuterView> make_views_at(std::span<const ViewPosition> positions, const StereoPairView& photographs,
                                      const StereoGeometryView& geometry, float zero_parallax_px) {
+  const int width = photographs.left.width(), height = photographs.left.height();
+  const bool is_reduced = reduction_for(width) > 1 && height >= reduction_for(width) && !positions.empty();
+  const int reduction = is_reduced ? reduction_for(width) : 1;
+  ReducedScene reduced;
+  if (is_reduced) reduced = reduced_scene(photographs, geometry, reduction);
   std::vector<OuterView> outer;
-  const int width = photographs.left.width(), height = photographs.left.height(), reduction = reduction_for(width);
-  if (reduction == 1 || height < reduction || positions.empty()) {
-    for (const ViewPosition view : positions)
-      outer.push_back(make_outer_view(photographs, geometry, view, zero_parallax_px));
-    return outer;
-  }
-  const ReducedScene scene = reduced_scene(photographs, geometry, reduction);
   for (const ViewPosition view : positions)
-    outer.push_back(enlarged(
-        make_outer_view(scene.photographs, scene.geometry, view, zero_parallax_px / static_cast<float>(reduction)),
-        reduction, width, height));
+    outer.push_back(is_reduced ? make_outer_view(reduced.photographs, reduced.geometry, view,
+                                                 zero_parallax_px / static_cast<float>(reduction))
+                               : make_outer_view(photographs, geometry, view, zero_parallax_px));
+  leave_out_what_others_uncover(outer);
+  if (is_reduced)
+    for (OuterView& view : outer) view = enlarged(view, reduction, width, height);
   return outer;
 }
 
