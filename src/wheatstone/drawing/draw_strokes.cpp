@@ -1,12 +1,16 @@
+#include <tbb/blocked_range.h>
 #include <tbb/concurrent_queue.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -439,6 +443,23 @@ PreparedStrokes prepare_marks(const StrokePainting& painting) {
   return prepared;
 }
 
+namespace {
+
+/// The bands, those with the most to draw first: what is begun last decides how long some threads wait for others.
+std::vector<int> bands_by_cost(const PreparedStrokes& painting) {
+  std::vector<int> bands(static_cast<std::size_t>((painting.height + band_rows - 1) / band_rows));
+  std::iota(bands.begin(), bands.end(), 0);
+  const auto cost = [&](int band) {
+    std::size_t strokes = 0;
+    for (const BandedLayer& layer : painting.layers) strokes += layer.bands[static_cast<std::size_t>(band)].size();
+    return strokes;
+  };
+  std::ranges::stable_sort(bands, std::greater{}, cost);
+  return bands;
+}
+
+}  // namespace
+
 void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views) {
   for (const ViewToDraw& view : views) {
     assert(view.background.empty() ||
@@ -446,11 +467,13 @@ void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surface
     view.drawn.picture = Image<Rgb8>(painting.width, painting.height);
     view.drawn.bare = Image<std::uint8_t>(painting.width, painting.height);
   }
-  const int bands = (painting.height + band_rows - 1) / band_rows;
+  const std::vector<int> bands = bands_by_cost(painting);
   const std::size_t at_once = views_at_once(painting.width);
-  std::vector<std::vector<std::size_t>> bare(static_cast<std::size_t>(bands), std::vector<std::size_t>(views.size()));
+  std::vector<std::vector<std::size_t>> bare(bands.size(), std::vector<std::size_t>(views.size()));
   tbb::concurrent_queue<std::vector<FrontToBackAccumulator>> kept;  // memory that is new is slow
-  tbb::parallel_for(0, bands, [&](int i) {
+  std::atomic<std::size_t> next = 0;
+  const auto draw_next = [&](const auto&) {
+    const int i = bands[next++];
     std::vector<FrontToBackAccumulator> accumulators;
     kept.try_pop(accumulators);
     BandOfViews band(painting, surfaces, i, views.size(), accumulators);
@@ -459,7 +482,8 @@ void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surface
       band.draw(views.subspan(first, count), std::span(bare[static_cast<std::size_t>(i)]).subspan(first, count));
     }
     kept.push(std::move(accumulators));
-  });
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bands.size()), draw_next, tbb::simple_partitioner());
   for (std::size_t v = 0; v < views.size(); ++v) {
     std::size_t bare_pixels = 0;
     for (const std::vector<std::size_t>& of_band : bare) bare_pixels += of_band[v];

@@ -99,8 +99,8 @@ std::vector<ViewPosition> positions_beside_eyes(ImageView<const Rgb8> photograph
 bool shows(const OuterView& beyond, const OuterView& view, int x, int y) {
   constexpr float one_surface_px = 1;
   const float disparity = view.disparity(x, y);
-  const float place = static_cast<float>(x + view.left_px - beyond.left_px) + 0.5f -
-                      (beyond.position - view.position) * disparity;
+  const float place =
+      static_cast<float>(x + view.left_px - beyond.left_px) + 0.5f - (beyond.position - view.position) * disparity;
   const int column = floor_of(place);
   return beyond.uncovered.contains(column, y) && beyond.uncovered(column, y) != 0 &&
          std::abs(beyond.disparity(column, y) - disparity) <= one_surface_px;
@@ -110,8 +110,9 @@ bool shows(const OuterView& beyond, const OuterView& view, int x, int y) {
 void leave_out_what_others_uncover(std::vector<OuterView>& outer) {
   for (OuterView& view : outer) {
     for (const OuterView& beyond : outer) {
-      const bool is_beyond = view.position > central_view ? beyond.position > view.position
-                                                          : view.position < central_view && beyond.position < view.position;
+      const bool is_beyond = view.position > central_view
+                                 ? beyond.position > view.position
+                                 : view.position < central_view && beyond.position < view.position;
       if (!is_beyond) continue;
       tbb::parallel_for(0, view.uncovered.height(), [&](int y) {
         for (int x = 0; x < view.uncovered.width(); ++x)
