@@ -188,7 +188,8 @@ TEST_P(AnyView, BesideTheEyesIsWorthItsMarks) {
 INSTANTIATE_TEST_SUITE_P(Of, AnyView, testing::Values("impressionist", "posterise", "mosaic", "diffusion"),
                          [](const auto& tested) { return std::string(tested.param); });
 
-// Beside the eyes a large picture is made smaller: what is uncovered there, and how far it is, stay the same.
+// Beside the eyes a large picture is made smaller: what is uncovered there, and how far it is, stay the same. Views
+// between the outermost and the eyes leave to it what both uncover.
 TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
   const SyntheticStill large = make_synthetic_still({.width = 1920, .height = 240, .samples_a_side = 1});
   const float middle_px = 72;
@@ -197,14 +198,15 @@ TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
   for (const OuterView& view : views) {
     const OuterView whole = make_outer_view(large.pictures, large.geometry, view.position, middle_px);
     ASSERT_EQ(view.picture.width(), whole.picture.width());
-    const int shift = view.left_px - whole.left_px;  // both are rounded
-    ASSERT_LE(std::abs(shift), 1);
+    const int shift = view.left_px - whole.left_px;  // both are rounded, one of them to four pixels
+    ASSERT_LE(std::abs(shift), 2);
+    const bool is_outermost = view.position == range.first || view.position == range.last;
     int uncovered = 0, differ = 0, known = 0, off = 0;
     for (int y = 0; y < whole.picture.height(); ++y) {
       for (int x = 1; x < whole.picture.width() - 1; ++x) {
         const bool at_full_size = whole.uncovered(x + shift, y) != 0, made_smaller = view.uncovered(x, y) != 0;
         uncovered += at_full_size ? 1 : 0;
-        differ += at_full_size != made_smaller ? 1 : 0;
+        differ += made_smaller ? !at_full_size : at_full_size && is_outermost;
         if (!at_full_size || !made_smaller) continue;
         ++known;
         off += std::abs(whole.disparity(x + shift, y) - view.disparity(x, y)) > 4 ? 1 : 0;
@@ -214,6 +216,8 @@ TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
                    std::to_string(static_cast<double>(differ) / uncovered));
     EXPECT_LT(differ, 0.3 * uncovered) << view.position.eye_separations();
     EXPECT_LT(off, 0.1 * known) << view.position.eye_separations();
+    if (is_outermost) continue;
+    EXPECT_LT(known, 0.3 * uncovered) << view.position.eye_separations();
   }
 }
 
