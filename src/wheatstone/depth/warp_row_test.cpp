@@ -3,6 +3,7 @@
 #include "wheatstone/depth/warp_row.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <limits>
 #include <vector>
@@ -57,9 +58,43 @@ void expect_the_plain_way() {
   }
 }
 
-TEST(WarpRow, PixelsOfEqualDisparityLandWhereEachWouldAlone) {
-  expect_the_plain_way<true>();
-  expect_the_plain_way<false>();
+TEST(WarpRow, LandsPixelsOfWholeVectorsWhereEachWouldAlone) {
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    SCOPED_TRACE(hwy::TargetName(target));
+    expect_the_plain_way<true>();
+    expect_the_plain_way<false>();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+/// Slopes on which a vector of pixels lands side by side for a while.
+std::vector<float> sloping_line(std::uint64_t seed) {
+  std::vector<float> line = uneven_line(seed);
+  for (std::size_t x = 100; x < 200; ++x) line[x] = 6 + 0.013f * static_cast<float>(x + seed);
+  return line;
+}
+
+TEST(WarpRow, TellsWhereWhatLandsComesFrom) {
+  constexpr float nothing = -std::numeric_limits<float>::infinity();
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const std::vector<float> line = sloping_line(seed);
+      std::vector<float> nearest(280, nothing), t(280), plain(280, nothing), plain_from(280);
+      std::vector<std::int32_t> x(280);
+      warp_disparity_row_over(line, 0.7f, -7, nearest, {x, t});
+      warp_row<false>(line, 0.7f, 280, -7, [&](int at, float d, int from, float fraction) {
+        if (plain[at] >= d) return;
+        plain[at] = d;
+        plain_from[at] = static_cast<float>(from) + fraction;
+      });
+      EXPECT_EQ(nearest, plain) << hwy::TargetName(target) << ' ' << seed;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        EXPECT_NEAR(static_cast<float>(x[i]) + t[i], plain_from[i], 1e-4) << hwy::TargetName(target) << ' ' << seed;
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 }  // namespace
