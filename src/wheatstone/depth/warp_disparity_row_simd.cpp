@@ -157,16 +157,13 @@ HWY_EXPORT(warp_every_pixel);
 HWY_EXPORT(warp_edges_and_surfaces);
 HWY_EXPORT(warp_keeping_sources);
 
-template <>
-void warp_disparity_row_over<true>(std::span<const float> disparity, float separation, int left_px,
-                                   std::span<float> nearest) {
-  HWY_DYNAMIC_DISPATCH(warp_every_pixel)(disparity, MovedRow(separation, left_px), nearest);
-}
-
-template <>
-void warp_disparity_row_over<false>(std::span<const float> disparity, float separation, int left_px,
-                                    std::span<float> nearest) {
-  HWY_DYNAMIC_DISPATCH(warp_edges_and_surfaces)(disparity, MovedRow(separation, left_px), nearest);
+void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px, std::span<float> nearest,
+                             Landing landing) {
+  const MovedRow moved(separation, left_px);
+  if (landing == Landing::every_pixel)
+    HWY_DYNAMIC_DISPATCH(warp_every_pixel)(disparity, moved, nearest);
+  else
+    HWY_DYNAMIC_DISPATCH(warp_edges_and_surfaces)(disparity, moved, nearest);
 }
 
 void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px, std::span<float> nearest,

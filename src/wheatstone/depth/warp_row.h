@@ -68,17 +68,13 @@ void warp_row(std::span<const float> disparity, float separation, int shown_widt
   }
 }
 
+enum class Landing : bool { every_pixel, edges_and_surfaces };
+
 /// The disparity of a part of a scan line, whose first pixel is the column `left_px` of another view's line, carried
 /// over what is there already: what is nearer stays; NaN is farther than anything. That view is `separation` eye
-/// separations to the right. What lands is what warp_row<every_pixel> lands.
-template <bool every_pixel = true>
-void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px, std::span<float> nearest);
-template <>
-void warp_disparity_row_over<true>(std::span<const float> disparity, float separation, int left_px,
-                                   std::span<float> nearest);
-template <>
-void warp_disparity_row_over<false>(std::span<const float> disparity, float separation, int left_px,
-                                    std::span<float> nearest);
+/// separations to the right. What lands is what warp_row lands.
+void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px, std::span<float> nearest,
+                             Landing landing);
 
 /// For each pixel of a scan line that others land on: between which pixels of another line it lies, and how far.
 struct LandedFrom {
@@ -86,7 +82,7 @@ struct LandedFrom {
   std::span<float> t;
 };
 
-/// The same as warp_disparity_row_over<false>, and where from; that stays where nothing lands.
+/// The same of edges and surfaces, and where it comes from; that stays where nothing lands.
 void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px, std::span<float> nearest,
                              const LandedFrom& from);
 

@@ -52,7 +52,8 @@ void expect_the_plain_way() {
       std::vector<float> nearest(280, unknown);
       std::fill_n(nearest.begin() + 40, 50, 10.f);
       std::vector<float> moved = nearest;
-      warp_disparity_row_over<every_pixel>(line, separation, -7, moved);
+      warp_disparity_row_over(line, separation, -7, moved,
+                              every_pixel ? Landing::every_pixel : Landing::edges_and_surfaces);
       EXPECT_TRUE(are_equal(moved, plainly_warped<every_pixel>(line, separation, -7, nearest))) << seed << separation;
     }
   }

@@ -72,7 +72,8 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, 
     const auto warp = [&](const PreparedSurfaces::KnownPart& part, std::span<float> over) {
       if (y >= part.rows()) return;
       for (const PreparedSurfaces::Run& run : part.runs_of(y))
-        warp_disparity_row_over<false>(part.disparities_of(run), view - part.view, part.left_px + run.begin, over);
+        warp_disparity_row_over(part.disparities_of(run), view - part.view, part.left_px + run.begin, over,
+                                Landing::edges_and_surfaces);
     };
     warp(surfaces.seen.front(), reference);
     close_cracks(reference);

@@ -149,7 +149,8 @@ Image<std::uint8_t> not_told_by_left(const StereoGeometryView& geometry) {
     std::vector<float> nearest(static_cast<std::size_t>(width));
     for (int y = rows.begin(); y < rows.end(); ++y) {
       std::ranges::fill(nearest, std::numeric_limits<float>::quiet_NaN());
-      warp_disparity_row_over<false>(geometry.left_disparity.row(y), right_eye - left_eye, 0, nearest);
+      warp_disparity_row_over(geometry.left_disparity.row(y), right_eye - left_eye, 0, nearest,
+                              Landing::edges_and_surfaces);
       close_cracks(nearest);
       const auto occlusion = geometry.right_occlusion.row(y);
       const auto to = mask.row(y);

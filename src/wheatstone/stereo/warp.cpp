@@ -23,8 +23,9 @@ void warp_row(std::span<const float> disparity, float separation, Land land) {
 }  // namespace
 
 void warp_disparity_over(ImageView<const float> disparity, ViewPosition from, ViewPosition to, Image<float>& nearest) {
-  tbb::parallel_for(0, disparity.height(),
-                    [&](int y) { warp_disparity_row_over(disparity.row(y), to - from, 0, nearest.row(y)); });
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    warp_disparity_row_over(disparity.row(y), to - from, 0, nearest.row(y), Landing::every_pixel);
+  });
 }
 
 Image<float> warp_disparity(ImageView<const float> disparity, ViewPosition from, ViewPosition to) {
