@@ -7,6 +7,6 @@ namespace wheatstone {
 
 /// Draws lines of the photograph's colours over the spots, row by row, and over a rim about them: what spreads from
 /// there is what belongs beside them.
-void add_accents(const SpotsOfView& spots, DiffusionPainting& painting);
+void add_accents(const SpotsOfView& view, DiffusionPainting& painting);
 
 }  // namespace wheatstone

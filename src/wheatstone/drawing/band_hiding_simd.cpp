@@ -41,7 +41,7 @@ struct KindAtWork {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(f, hn::Lt(value, hn::Set(f, everything)), bits);
     const int number = x / HiddenBelow::block_px, first = x % HiddenBelow::block_px;
-    std::uint16_t& shown = below.shown_columns[static_cast<std::size_t>(number * rows + row)];
+    std::uint16_t& shown = below.shown_columns[place_in_blocks(row, number, rows)];
     shown = static_cast<std::uint16_t>(shown | (bits[0] | bits[1] << 8) << first);
   }
 
@@ -51,7 +51,7 @@ struct KindAtWork {
       const int end = std::min(first + HiddenBelow::block_px, width);
       std::uint32_t shown = 0;
       for (int row = 0; row < rows; ++row)
-        if (below.shown_columns[static_cast<std::size_t>(number * rows + row)] != 0) shown |= std::uint32_t{1} << row;
+        if (below.shown_columns[place_in_blocks(row, number, rows)] != 0) shown |= std::uint32_t{1} << row;
       below.blocks.push_back({*std::max_element(most.begin() + first, most.begin() + end),
                               *std::min_element(least.begin() + first, least.begin() + end), shown});
     }

@@ -54,7 +54,7 @@ void FrontToBackAccumulator::clear() {
 bool FrontToBackAccumulator::open_only(int row, std::span<const std::uint8_t> mask) {
   bool any = false;
   for (int number = 0; number < block_count(); ++number) {
-    const auto columns = mask.subspan(static_cast<std::size_t>(number * block_px),
+    const auto columns = mask.subspan(static_cast<std::size_t>(number) * block_px,
                                       static_cast<std::size_t>(std::min(width_ - number * block_px, block_px)));
     std::uint8_t any_column = 0;
     for (const std::uint8_t value : columns) any_column |= value;

@@ -30,7 +30,8 @@ struct FlatStroke {
 /// The strokes of one layer, in drawing order, for any view; vertices as a structure of arrays. A vertex at x in the
 /// central view stands at x − v · disparity in the view at v.
 struct FlatLayer {
-  static constexpr std::size_t values_after = 2 * Canvas::widest_vector;  ///< the last vertex: vectors may be loaded
+  static constexpr std::size_t values_after =
+      2 * std::size_t{Canvas::widest_vector};  ///< the last vertex: vectors may be loaded
   std::vector<float> x, y, disparity;
   std::vector<FlatStroke> strokes;
 

@@ -62,6 +62,11 @@ struct ColumnRun {
   int begin, end;
 };
 
+/// Where a row of a block of columns stands among those of a band, block by block.
+inline std::size_t place_in_blocks(int row, int number, int row_count) {
+  return static_cast<std::size_t>(number) * static_cast<std::size_t>(row_count) + static_cast<std::size_t>(row);
+}
+
 /// Below which disparity paint of one kind is hidden, in a band; empty where nothing hides it.
 struct HiddenBelow {
   static constexpr int block_px = Canvas::widest_vector;
@@ -77,7 +82,7 @@ struct HiddenBelow {
 
   /// In a row of a band.
   std::uint32_t shown_columns_in(int row, int number, int row_count) const {
-    return shown_columns.empty() ? 0xffff : shown_columns[static_cast<std::size_t>(number * row_count + row)];
+    return shown_columns.empty() ? 0xffff : shown_columns[place_in_blocks(row, number, row_count)];
   }
 };
 
@@ -151,24 +156,22 @@ class FrontToBackAccumulator {
   int width() const { return width_; }
   int rows() const { return rows_; }
   int block_count() const { return static_cast<int>(open_rows_.size()); }
-  Block& block(int row, int number) { return blocks_[static_cast<std::size_t>(number * rows_ + row)]; }
-  const Block& block(int row, int number) const { return blocks_[static_cast<std::size_t>(number * rows_ + row)]; }
+  Block& block(int row, int number) { return blocks_[place_in_blocks(row, number, rows_)]; }
+  const Block& block(int row, int number) const { return blocks_[place_in_blocks(row, number, rows_)]; }
   Cover* cover(int row, int number) {
-    return covers_.empty() ? nullptr : &covers_[static_cast<std::size_t>(number * rows_ + row)];
+    return covers_.empty() ? nullptr : &covers_[place_in_blocks(row, number, rows_)];
   }
   float light(int row, int x) const { return block(row, x / block_px).light[x % block_px]; }
 
   // Where light still comes through: bits, from the lowest.
 
   /// The columns of a block.
-  std::uint32_t open_columns(int row, int number) const {
-    return open_columns_[static_cast<std::size_t>(number * rows_ + row)];
-  }
+  std::uint32_t open_columns(int row, int number) const { return open_columns_[place_in_blocks(row, number, rows_)]; }
   /// From a row of a block on; after the last row, there may be others for a vector more.
   const std::uint16_t* open_columns_from(int row, int number) const {
-    return &open_columns_[static_cast<std::size_t>(number * rows_ + row)];
+    return &open_columns_[place_in_blocks(row, number, rows_)];
   }
-  std::uint16_t* open_columns_of(int number) { return &open_columns_[static_cast<std::size_t>(number * rows_)]; }
+  std::uint16_t* open_columns_of(int number) { return &open_columns_[place_in_blocks(0, number, rows_)]; }
 
   /// Something was drawn in some rows of a block, and no light comes through some rows of it any more: bits, from the
   /// lowest.
@@ -177,7 +180,7 @@ class FrontToBackAccumulator {
     open_rows_[static_cast<std::size_t>(number)] &= ~closed;
   }
   void set_open_columns(int row, int number, std::uint32_t columns) {
-    open_columns_[static_cast<std::size_t>(number * rows_ + row)] = static_cast<std::uint16_t>(columns);
+    open_columns_[place_in_blocks(row, number, rows_)] = static_cast<std::uint16_t>(columns);
     touched_rows_[static_cast<std::size_t>(number)] |= std::uint32_t{1} << row;
     if (columns == 0) open_rows_[static_cast<std::size_t>(number)] &= ~(std::uint32_t{1} << row);
   }
@@ -261,7 +264,8 @@ struct Stamp {
 struct Stamps {
   static constexpr int margin = 2;      ///< columns beside a line that tell how its rim goes on
   static constexpr float aside_px = 1;  ///< beyond a rim cover is below nothing so far
-  static constexpr std::size_t slack = 2 * Canvas::widest_vector;  ///< values before the first and after the last one
+  static constexpr std::size_t slack =
+      2 * std::size_t{Canvas::widest_vector};  ///< values before the first and after the last one
 
   /// Makes room for the lines of a stamp, which cover nothing yet. Returns the first one's number.
   std::uint32_t add_lines(std::size_t count);

@@ -316,7 +316,7 @@ HWY_INLINE RowsToDraw find_columns_to_draw(const StampInBand& of, const FrontToB
   const hn::RebindToUnsigned<Floats> words;
   const hn::Rebind<std::uint16_t, Floats> halves;
   const std::uint16_t* open = accumulator.open_columns_from(seen.first_row, number);
-  const std::size_t first_of_block = static_cast<std::size_t>(number * accumulator.rows() + seen.first_row);
+  const std::size_t first_of_block = place_in_blocks(seen.first_row, number, accumulator.rows());
   const std::uint16_t* shown = tested ? of.hidden_below.shown_columns.data() + first_of_block : nullptr;
   const float* most_hidden = tested ? of.hidden_below.most_of_rows.data() + first_of_block : nullptr;
   const auto left = hn::Set(integers, number * block_px);
@@ -412,7 +412,8 @@ std::uint32_t find_rows_to_draw(std::uint32_t rows, const ColumnRun& columns, co
     const auto within =
         hn::Set(words, static_cast<std::uint16_t>(below_column(columns.end) & ~below_column(columns.begin)));
     const std::uint16_t* open = accumulator.open_columns_from(0, number);
-    const std::uint16_t* shown = all_shown ? nullptr : below.shown_columns.data() + number * accumulator.rows();
+    const std::uint16_t* shown =
+        all_shown ? nullptr : &below.shown_columns[place_in_blocks(0, number, accumulator.rows())];
     std::uint32_t any = 0;
     for (int row = 0; row < accumulator.rows(); row += static_cast<int>(hn::Lanes(words))) {
       auto left = hn::And(hn::LoadU(words, open + row), within);

@@ -18,7 +18,7 @@ class GpuBuffer {
     write(values);
   }
   /// Its bytes are what they happen to be.
-  static GpuBuffer of_any_bytes(std::size_t bytes) { return GpuBuffer(bytes, false); }
+  static GpuBuffer of_any_bytes(std::size_t bytes) { return {bytes, false}; }
   ~GpuBuffer();
   GpuBuffer(GpuBuffer&& other) noexcept
       : name_(std::exchange(other.name_, 0)), texels_(std::exchange(other.texels_, 0)), bytes_(other.bytes_) {}
