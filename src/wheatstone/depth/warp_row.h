@@ -74,7 +74,7 @@ enum class Landing : bool { every_pixel, edges_and_surfaces };
 /// over what is there already: what is nearer stays; NaN is farther than anything. That view is `separation` eye
 /// separations to the right. What lands is what warp_row lands.
 void warp_disparity_row_over(std::span<const float> disparity, float separation, int left_px, std::span<float> nearest,
-                             Landing landing);
+                             Landing landing = Landing::every_pixel);
 
 /// For each pixel of a scan line that others land on: between which pixels of another line it lies, and how far.
 struct LandedFrom {
