@@ -4,22 +4,44 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 #include <vector>
 
 namespace wheatstone::bench {
+
+template <class Call>
+double seconds_of(Call call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+inline double median(std::vector<double> times) {
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::ranges::nth_element(times, middle);
+  return *middle;
+}
 
 /// The median time of one call in seconds, over some calls after one that is not counted.
 template <class Call>
 double median_seconds(Call call, int calls = 5) {
   call();
   std::vector<double> times;
+  for (int i = 0; i < calls; ++i) times.push_back(seconds_of(call));
+  return median(times);
+}
+
+/// The same of two that are to be compared, by turns: a machine is faster at one time than at another.
+template <class First, class Second>
+std::pair<double, double> median_seconds_by_turns(First first, Second second, int calls = 9) {
+  first();
+  second();
+  std::vector<double> of_first, of_second;
   for (int i = 0; i < calls; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    of_first.push_back(seconds_of(first));
+    of_second.push_back(seconds_of(second));
   }
-  std::ranges::nth_element(times, times.begin() + calls / 2);
-  return times[static_cast<std::size_t>(calls / 2)];
+  return {median(of_first), median(of_second)};
 }
 
 /// Seconds that all threads of this process have computed.

@@ -51,12 +51,13 @@ OneEye time_of_one_eye(const SyntheticStill& still) {
   return time;
 }
 
-double time_of_sgbm(const StereoPair& pair) {
+/// OpenCV's semi-global matching of a pair.
+void match(const StereoPair& pair) {
   constexpr int block = 5, disparities = 128;
   const auto matcher = cv::StereoSGBM::create(0, disparities, block, 8 * 3 * block * block, 32 * 3 * block * block, 1,
                                               63, 10, 100, 2, cv::StereoSGBM::MODE_SGBM);
   cv::Mat disparity;
-  return median_seconds([&] { matcher->compute(as_mat(pair.left), as_mat(pair.right), disparity); }, 3);
+  matcher->compute(as_mat(pair.left), as_mat(pair.right), disparity);
 }
 
 const char* verdict(bool holds) { return holds ? "holds" : "does not hold"; }
@@ -78,11 +79,10 @@ void print_row(const Size& size) {
 /// Planning included: a painting for one view alone, against a painting for 48.
 void print_many_views() {
   const SyntheticStill still = make_synthetic_still({.width = 560, .height = 420, .samples_a_side = 1});
-  const double one =
-      median_seconds([&] { paint_view(still.pictures.left, still.geometry.left_disparity, central_view, {}); });
   const Rig rig = evenly_spaced(560, 420, 48, 2);
-  const double many =
-      median_seconds([&] { draw(prepare(plan_painting(still.pictures, still.geometry, {})), rig.positions); });
+  const auto [one, many] =
+      median_seconds_by_turns([&] { paint_view(still.pictures.left, still.geometry.left_disparity, central_view, {}); },
+                              [&] { draw(prepare(plan_painting(still.pictures, still.geometry, {})), rig.positions); });
   const PreparedPainting open = prepare(plan_painting(still.pictures, still.geometry, {}));
   const double more = median_seconds([&] { draw(open, ViewPosition(0.3f)); });
   fmt::print(
@@ -94,7 +94,8 @@ void print_many_views() {
 
 void print_against_matching() {
   const SyntheticStill still = make_synthetic_still({.width = 1920, .height = 1080, .samples_a_side = 1});
-  const double ours = time_of(still, Propagation::strokes), matching = time_of_sgbm(still.pictures);
+  const auto [ours, matching] =
+      median_seconds_by_turns([&] { paint(still.pictures, still.geometry, {}); }, [&] { match(still.pictures); });
   fmt::print(
       "\n1920x1080, both eyes: painting {:.0f} ms, OpenCV StereoSGBM (MODE_SGBM, 128 disparities) {:.0f} ms: "
       "{:.2f} x, <= 0.5 {}\n",

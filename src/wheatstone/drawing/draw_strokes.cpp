@@ -219,9 +219,7 @@ class BandOfViews {
       const std::vector<Piece>& pieces = layers_[above].pieces;
       const FlatLayer& layer = painting_.layers[above].flat;
       for (std::size_t nearer = pieces.size(); nearer-- > 0;) {
-        if (nearer >= FlatLayer::strokes_ahead) layer.ask_for_stroke(pieces[nearer - FlatLayer::strokes_ahead].stroke);
-        if (nearer >= FlatLayer::vertices_ahead)
-          layer.ask_for_vertices(pieces[nearer - FlatLayer::vertices_ahead].stroke);
+        if (is_first_time_) ask_ahead(layer, pieces, nearer);
         draw_piece(above, nearer, at_work, [&piece = pieces[nearer]](const ViewAtWork& view) -> const HiddenBelow& {
           return view.hides_at_first(piece);
         });
@@ -234,9 +232,16 @@ class BandOfViews {
                    [](const ViewAtWork& view) -> const HiddenBelow& { return view.hides.gaps; });
     }
     for (std::size_t i = 0; i < views.size(); ++i) bare_pixels[i] = finish(at_work[i]);
+    is_first_time_ = false;
   }
 
  private:
+  /// The strokes themselves are needed to make stamps of, which later views find there.
+  static void ask_ahead(const FlatLayer& layer, const std::vector<Piece>& pieces, std::size_t nearer) {
+    if (nearer >= FlatLayer::strokes_ahead) layer.ask_for_stroke(pieces[nearer - FlatLayer::strokes_ahead].stroke);
+    if (nearer >= FlatLayer::vertices_ahead) layer.ask_for_vertices(pieces[nearer - FlatLayer::vertices_ahead].stroke);
+  }
+
   /// One view of the band, before it is finished.
   struct ViewAtWork {
     const HiddenBelow& hides_at_first(const Piece& piece) const {
@@ -408,6 +413,7 @@ class BandOfViews {
   std::vector<PiecesOfLayer> layers_;
   Stamps stamps_;
   std::size_t view_count_;
+  bool is_first_time_ = true;
   std::vector<PieceInView> in_views_;                 ///< of the piece at hand
   std::array<ColumnRun, band_rows> columns_to_draw_;  ///< of the piece at hand, in the central view
   std::array<ColumnRun, band_rows> columns_of_stamp_;
@@ -416,7 +422,7 @@ class BandOfViews {
 
 /// How many views of a band are drawn stroke by stroke: more, and they would not stay in the second-level cache.
 std::size_t views_at_once(int width) {
-  constexpr std::size_t most_bytes = 2u << 20, bytes_a_pixel = 4 * sizeof(float);
+  constexpr std::size_t most_bytes = 3u << 18, bytes_a_pixel = 4 * sizeof(float);
   return std::max<std::size_t>(most_bytes / (bytes_a_pixel * band_rows * static_cast<std::size_t>(width)), 1);
 }
 
@@ -461,12 +467,13 @@ std::vector<int> bands_by_cost(const PreparedStrokes& painting) {
 }  // namespace
 
 void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views) {
-  for (const ViewToDraw& view : views) {
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    const ViewToDraw& view = views[i];
     assert(view.background.empty() ||
            (view.background.width() == painting.width && view.background.height() == painting.height));
     view.drawn.picture = Image<Rgb8>(painting.width, painting.height);
     view.drawn.bare = Image<std::uint8_t>(painting.width, painting.height);
-  }
+  });
   const std::vector<int> bands = bands_by_cost(painting);
   const std::size_t at_once = views_at_once(painting.width);
   std::vector<std::vector<std::size_t>> bare(bands.size(), std::vector<std::size_t>(views.size()));

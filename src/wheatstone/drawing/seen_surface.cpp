@@ -64,7 +64,8 @@ SeenSurfaces seen_surfaces(const PreparedSurfaces& surfaces, ViewPosition view, 
   SeenSurfaces seen;
   if (surfaces.seen.empty()) return seen;
   seen.reference = Image<float>(rows.width, rows.row_count, unknown);
-  seen.nearest = seen.photographed = seen.reference;
+  seen.photographed = Image<float>(rows.width, rows.row_count);
+  seen.nearest = Image<float>(rows.width, rows.row_count);
   const auto see_row = [&](int row, std::vector<float>& continued) {
     const int y = rows.first_row + row;
     const auto reference = seen.reference.row(row), nearest = seen.nearest.row(row),
