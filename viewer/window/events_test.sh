@@ -195,7 +195,12 @@ does 'mode left' wait 'save-picture left.png' 'mode right' wait 'save-picture ri
 "$wheatstone" pack right.png left.png --to even-odd-rows -o odd.png --quiet >made.txt
 id=$(xdotool search --pid "$window" --onlyvisible | head -1)
 for top in 40 41; do
+  before=$(value screen_y)
   xdotool windowmove --sync "$id" 30 "$top"
+  for _ in {1..30}; do  # the window learns of it a little later
+    [[ $(value screen_y) != "$before" ]] && break
+    sleep 0.1
+  done
   top_of_picture=$(value screen_y)
   does wait "save-picture moved-$top.png"
   rows=even
