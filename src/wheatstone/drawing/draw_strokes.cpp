@@ -328,8 +328,7 @@ class BandOfViews {
     std::uint32_t rows = 0;
     bool may_be_hidden = false;
     if (below.pixels.empty()) {
-      for (int number = columns.begin / block_px; number * block_px < columns.end; ++number)
-        rows |= accumulator.open_rows(number);
+      rows = accumulator.open_rows(columns.begin, columns.end);
     } else {
       for (int number = columns.begin / block_px; number * block_px < columns.end; ++number) {
         const HiddenBelow::Block& block = below.blocks[static_cast<std::size_t>(number)];
