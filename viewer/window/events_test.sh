@@ -98,7 +98,9 @@ start() {
 
 # A screen of its own, whose number the server chooses.
 mkfifo number
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>number 2>server.txt &
+# Without -noreset the server begins anew, and ends new connections, whenever its last program leaves: xdotool does so
+# while the window opens.
+Xvfb -displayfd 3 -noreset -screen 0 1280x800x24 -nolisten tcp 3>number 2>server.txt &
 server=$!
 read -r number <number
 export DISPLAY=:$number

@@ -136,13 +136,25 @@ int run(const ViewArguments& arguments) {
   return exit_code;
 }
 
+/// What Qt's platforms lack is not told. What ends the program is told in one line: a screen that cannot be opened,
+/// above all.
+void on_message_of_qt(QtMsgType type, const QMessageLogContext& /*context*/, const QString& message) {
+  if (type != QtFatalMsg) return;
+  const QByteArray wayland = qgetenv("WAYLAND_DISPLAY"), screen = wayland.isEmpty() ? qgetenv("DISPLAY") : wayland;
+  if (QApplication::startingUp())
+    fmt::print(stderr, "wheatstone: the screen '{}' cannot be opened; DISPLAY and WAYLAND_DISPLAY name it\n",
+               screen.toStdString());
+  else
+    fmt::print(stderr, "wheatstone: the window failed: {}\n", message.simplified().toStdString());
+  std::_Exit(static_cast<int>(ErrorKind::cannot_read_write));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  // What Qt's platforms lack is not told; what goes wrong here is one line of ours.
-  qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
+  qInstallMessageHandler(on_message_of_qt);
   if (argc > 1 && std::string_view(argv[1]) == "study") {
     try {
       return run_study(argc - 1, argv + 1);

@@ -19,7 +19,9 @@ end() {
 }
 trap end EXIT
 
-Xvfb -displayfd 3 -screen 0 480x360x24 -nolisten tcp 3>display.txt 2>xvfb.txt &
+# Without -noreset the server begins anew, and ends new connections, whenever its last program leaves: xdotool does so
+# while the window opens.
+Xvfb -displayfd 3 -noreset -screen 0 480x360x24 -nolisten tcp 3>display.txt 2>xvfb.txt &
 server=$!
 for _ in {1..200}; do
   [[ -s display.txt ]] && break

@@ -6,6 +6,7 @@
 set -euo pipefail
 view=$1 wheatstone=$2 bridge=$3
 source "$(dirname "$0")/scratch_folder.sh"
+unset DISPLAY WAYLAND_DISPLAY
 
 "$wheatstone" synth still --size 160x120 --samples 1 -o still --quiet >made.txt
 "$wheatstone" paint still/left.png still/right.png -o painted --quiet >made.txt
@@ -33,6 +34,10 @@ code=0
 code=0
 "$wheatstone" view painted/painting.wst 2>err.txt || code=$?
 [[ $code == 4 ]] && grep --quiet 'there is no screen' err.txt || fail "without a screen it ends with $code: $(cat err.txt)"
+code=0
+DISPLAY=:54321 "$wheatstone" view painted/painting.wst 2>err.txt || code=$?
+[[ $code == 4 && $(wc -l <err.txt) == 1 ]] && grep --quiet "the screen ':54321' cannot be opened" err.txt ||
+  fail "where the screen cannot be opened it ends with $code: $(cat err.txt)"
 
 # The calibration of a Looking Glass comes from Bridge where that is installed.
 export HOME=$folder XDG_CACHE_HOME=$folder/cache
