@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <utility>
 #include <vector>
 
 namespace wheatstone::bench {
@@ -31,17 +30,22 @@ double median_seconds(Call call, int calls = 5) {
   return median(times);
 }
 
-/// The same of two that are to be compared, by turns: a machine is faster at one time than at another.
+/// Two median times and the first as a multiple of the second.
+struct Compared {
+  double first_s, second_s, ratio;
+};
+
+/// Times two calls in rounds, one after the other: a machine is faster at one time than at another, and both of a round
+/// meet the same. The medians of all rounds, and of the rounds' ratios.
 template <class First, class Second>
-std::pair<double, double> median_seconds_by_turns(First first, Second second, int calls = 9) {
-  first();
-  second();
-  std::vector<double> of_first, of_second;
-  for (int i = 0; i < calls; ++i) {
-    of_first.push_back(seconds_of(first));
-    of_second.push_back(seconds_of(second));
+Compared compare_times(First first, Second second, int rounds = 5, int calls = 3) {
+  std::vector<double> of_first, of_second, ratios;
+  for (int i = 0; i < rounds; ++i) {
+    of_first.push_back(median_seconds(first, calls));
+    of_second.push_back(median_seconds(second, calls));
+    ratios.push_back(of_first.back() / of_second.back());
   }
-  return {median(of_first), median(of_second)};
+  return {median(of_first), median(of_second), median(ratios)};
 }
 
 /// Seconds that all threads of this process have computed.

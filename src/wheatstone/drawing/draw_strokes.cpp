@@ -217,9 +217,8 @@ class BandOfViews {
     for (std::size_t i = 0; i < views.size(); ++i) at_work.push_back(begin(views[i], accumulators_[i]));
     for (std::size_t above = layers_.size(); above-- > 0;) {
       const std::vector<Piece>& pieces = layers_[above].pieces;
-      const FlatLayer& layer = painting_.layers[above].flat;
       for (std::size_t nearer = pieces.size(); nearer-- > 0;) {
-        if (is_first_time_) ask_ahead(layer, pieces, nearer);
+        ask_ahead(painting_.layers[above].flat, layers_[above], nearer);
         draw_piece(above, nearer, at_work, [&piece = pieces[nearer]](const ViewAtWork& view) -> const HiddenBelow& {
           return view.hides_at_first(piece);
         });
@@ -232,14 +231,15 @@ class BandOfViews {
                    [](const ViewAtWork& view) -> const HiddenBelow& { return view.hides.gaps; });
     }
     for (std::size_t i = 0; i < views.size(); ++i) bare_pixels[i] = finish(at_work[i]);
-    is_first_time_ = false;
   }
 
  private:
-  /// The strokes themselves are needed to make stamps of, which later views find there.
-  static void ask_ahead(const FlatLayer& layer, const std::vector<Piece>& pieces, std::size_t nearer) {
-    if (nearer >= FlatLayer::strokes_ahead) layer.ask_for_stroke(pieces[nearer - FlatLayer::strokes_ahead].stroke);
-    if (nearer >= FlatLayer::vertices_ahead) layer.ask_for_vertices(pieces[nearer - FlatLayer::vertices_ahead].stroke);
+  /// What is drawn soon lies far apart in memory: it is asked for in good time.
+  static HWY_INLINE void ask_ahead(const FlatLayer& layer, const PiecesOfLayer& of_layer, std::size_t nearer) {
+    if (nearer < FlatLayer::strokes_ahead) return;
+    layer.ask_for_stroke(of_layer.pieces[nearer - FlatLayer::strokes_ahead].stroke);
+    layer.ask_for_vertices(of_layer.pieces[nearer - FlatLayer::vertices_ahead].stroke);
+    hwy::Prefetch(&of_layer.stamps[nearer - FlatLayer::vertices_ahead]);
   }
 
   /// One view of the band, before it is finished.
@@ -412,7 +412,6 @@ class BandOfViews {
   std::vector<PiecesOfLayer> layers_;
   Stamps stamps_;
   std::size_t view_count_;
-  bool is_first_time_ = true;
   std::vector<PieceInView> in_views_;                 ///< of the piece at hand
   std::array<ColumnRun, band_rows> columns_to_draw_;  ///< of the piece at hand, in the central view
   std::array<ColumnRun, band_rows> columns_of_stamp_;

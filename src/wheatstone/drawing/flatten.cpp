@@ -140,10 +140,11 @@ FlatStroke without_vertices(const Stroke& source) {
   return stroke;
 }
 
-void ask_for_points(const Layer& layer, const Stroke& stroke) {
-  constexpr std::uint32_t points_of_a_line = 4;  // of memory
-  for (std::uint32_t i = 0; i < stroke.point_count; i += points_of_a_line)
-    hwy::Prefetch(&layer.points[stroke.first_point + i]);
+HWY_INLINE void ask_for_points(const Layer& layer, const Stroke& stroke) {
+  const ControlPoint* const points = &layer.points[stroke.first_point];
+  hwy::Prefetch(points);
+  hwy::Prefetch(points + stroke.point_count / 2);
+  hwy::Prefetch(points + stroke.point_count);
 }
 
 /// Some neighbouring strokes of a layer.

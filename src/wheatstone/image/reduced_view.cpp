@@ -91,11 +91,12 @@ struct WholeView {
   ImageView<const Rgb8> photograph;
   ImageView<const float> disparity;
   ImageView<const std::uint8_t> seeds;
+  int left_out_px;
 };
 
-/// Notes the wanted pixels of a block, cut off by the picture's edge, that lie before a surface: for each two by two.
+/// Notes the wanted pixels of a block, cut off by the picture's edge, that lie before a surface.
 void leave_out(const Block& block, const WholeView& view, float surface, std::vector<ReducedView::LeftOut>& left_out) {
-  constexpr int step = 2;
+  const int step = view.left_out_px;
   const int right = std::min(block.left + block.size, view.seeds.width());
   const int bottom = std::min(block.top + block.size, view.seeds.height());
   for (int top = block.top; top < bottom; top += step) {
@@ -171,11 +172,12 @@ void leave_out_rest(const WholeView& view, int reduction, std::vector<ReducedVie
 }  // namespace
 
 ReducedView reduced(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
-                    ImageView<const std::uint8_t> seeds, int reduction) {
+                    ImageView<const std::uint8_t> seeds, int reduction, int left_out_px) {
   const int width = photograph.width() / reduction, height = photograph.height() / reduction;
   ReducedView view{reduction, Image<Rgb8>(width, height), Image<float>(width, height),
                    seeds.empty() ? Image<std::uint8_t>() : Image<std::uint8_t>(width, height)};
-  const WholeView whole{photograph, disparity, seeds};
+  view.left_out_px = left_out_px;
+  const WholeView whole{photograph, disparity, seeds, left_out_px};
   const Mean mean(reduction * reduction);
   std::vector<std::vector<ReducedView::LeftOut>> left_out(height);
   tbb::parallel_for(0, height, [&](int y) {

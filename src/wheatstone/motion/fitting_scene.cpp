@@ -11,10 +11,13 @@ void check_fits(std::span<const SceneView> views) {
   if (views.empty() || views[0].picture.empty())
     throw Error(ErrorKind::bad_input, "the scene has no picture, or one with no pixels");
   const ImageView<const Rgb8> reference = views[0].picture;
-  const auto check = [&](const auto& image, std::string_view name) {
-    check_same_size(name, image, "the reference view's", reference);
-  };
   for (const SceneView& view : views) {
+    if (view.reduction < 1 || (view.reduction > 1 && (!view.continued || view.only_here.empty())))
+      throw Error(ErrorKind::bad_input, "a view that an eye sees is reduced");
+    const auto check = [&](const auto& image, std::string_view name) {
+      check_sizes(name, {image.width(), image.height()}, view.reduction == 1 ? "the reference view's" : "reduced to",
+                  {reference.width() / view.reduction, reference.height() / view.reduction});
+    };
     check(view.picture, "a view's picture");
     check(view.disparity, "a view's disparity");
     if (!view.only_here.empty()) check(view.only_here, "a view's mask");

@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "wheatstone/curves/plan_diffusion.h"
 #include "wheatstone/drawing/draw.h"
+#include "wheatstone/error.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/still_scene.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/synthetic/synthetic_still.h"
@@ -219,6 +222,39 @@ TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
     if (is_outermost) continue;
     EXPECT_LT(known, 0.3 * uncovered) << view.position.eye_separations();
   }
+}
+
+// What no photograph shows is planned in smaller pictures, and from those of full size when frames of a film follow: to
+// the same surfaces, and to paint that covers as much.
+TEST(StillScene, IsPlannedAlikeFromSmallerPicturesOfWhatNoEyeSees) {
+  const SyntheticStill large = make_synthetic_still({.width = 1921, .height = 243, .samples_a_side = 1});
+  const StillScene scene = make_still_scene(large.pictures, large.geometry, range);
+  EXPECT_GT(std::ranges::count_if(scene.views, [](const SceneView& view) { return view.reduction == 4; }), 2);
+  const WholeScene whole(scene.views);
+  for (const SceneView& view : whole.views()) EXPECT_EQ(view.reduction, 1);
+  const auto planned_from = [](std::span<const SceneView> views) {
+    PaintingMemory nothing_before;
+    return plan_painting({views, nullptr}, Style(), CarryOptions{.goes_on = false}, nothing_before).painting;
+  };
+  const Painting smaller = planned_from(scene.views), full = planned_from(whole.views());
+  EXPECT_EQ(smaller.surfaces, full.surfaces);
+  for (const ViewPosition view : {range.first, central_view, range.last}) {
+    const auto bare_share = [view](const Painting& painting) {
+      const float middle_px = 72;
+      return draw(prepare(painting, {.placement = {.zero_parallax_px = middle_px}}), view).bare_share;
+    };
+    const double bare = bare_share(smaller), bare_of_full = bare_share(full);
+    RecordProperty("bare_at_" + std::to_string(view.eye_separations()), std::to_string(bare));
+    EXPECT_LT(bare, 0.003) << view.eye_separations();
+    EXPECT_LT(bare, bare_of_full + 0.001) << view.eye_separations();
+  }
+  PaintingMemory nothing_before;
+  std::vector<SceneView> views = scene.views;
+  views.back().continued = false;
+  EXPECT_THROW(plan_painting({views, nullptr}, Style(), {}, nothing_before), Error) << "an eye sees it";
+  views = scene.views;
+  views.back().reduction = 2;
+  EXPECT_THROW(plan_painting({views, nullptr}, Style(), {}, nothing_before), Error) << "its pictures are smaller yet";
 }
 
 // Through a slit between two posts the eyes see different parts of the wall, and views between them see others.

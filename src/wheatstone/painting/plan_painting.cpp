@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -12,55 +13,76 @@
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/painting/mend_spots_internal.h"
 #include "wheatstone/painting/plan_unmended_internal.h"
+#include "wheatstone/stereo/outer_view.h"
 #include "wheatstone/strokes/layer_planner.h"
 
 namespace wheatstone {
 namespace {
 
-/// Disparities in whole steps, as paintings keep them.
-void round_to_steps(std::span<const float> from, std::span<float> to) {
-  for (std::size_t x = 0; x < from.size(); ++x)
-    to[x] = static_cast<float>(floor_of(from[x] * disparity_steps + 0.5f)) / disparity_steps;
+/// Disparities in whole steps, as paintings keep them; of a view that is reduced, each for several pixels.
+void round_to_steps(std::span<const float> from, int reduction, std::span<float> to) {
+  const auto in_steps = [steps = disparity_steps * static_cast<float>(reduction)](float disparity) {
+    return static_cast<float>(floor_of(disparity * steps + 0.5f)) / disparity_steps;
+  };
+  if (reduction == 1) {
+    std::ranges::transform(from, to.begin(), in_steps);
+    return;
+  }
+  auto at = to.begin();
+  for (const float disparity : from) at = std::fill_n(at, reduction, in_steps(disparity));
 }
 
-/// What a view is the first to see.
-Surface surface_of(const SceneView& view) {
-  const int width = view.disparity.width(), height = view.disparity.height();
+/// What a view is the first to see in a row, in pixels of the reference view. A rest at the end is as beside it.
+void first_seen(const SceneView& view, int row, std::span<float> to) {
+  const auto from = view.disparity.row(row);
+  if (view.only_here.empty()) {
+    round_to_steps(from, 1, to);
+    return;
+  }
+  // Most of what other views than the reference show is not their own.
+  std::ranges::fill(to, std::numeric_limits<float>::quiet_NaN());
+  const auto own = view.only_here.row(row);
+  const auto reduction = static_cast<std::size_t>(view.reduction);
+  for (auto end = own.begin();;) {
+    const auto begin = std::find_if(end, own.end(), [](std::uint8_t value) { return value != 0; });
+    if (begin == own.end()) break;
+    end = std::find(begin, own.end(), std::uint8_t{0});
+    const auto first = static_cast<std::size_t>(begin - own.begin()), count = static_cast<std::size_t>(end - begin);
+    round_to_steps(from.subspan(first, count), view.reduction, to.subspan(reduction * first, reduction * count));
+  }
+  std::ranges::fill(to.subspan(reduction * from.size()), to[reduction * from.size() - 1]);
+}
+
+/// What a view is the first to see, in a picture of this size.
+Surface surface_of(const SceneView& view, int width, int height) {
   Surface surface{view.position, Image<float>(width, height), view.left_px, view.continued};
-  tbb::parallel_for(0, height, [&](int y) {
-    const auto from = view.disparity.row(y);
-    const auto to = surface.disparity.row(y);
-    if (view.only_here.empty()) {
-      round_to_steps(from, to);
-      return;
-    }
-    // Most of what other views than the reference show is not their own.
-    std::ranges::fill(to, std::numeric_limits<float>::quiet_NaN());
-    const auto own = view.only_here.row(y);
-    for (auto end = own.begin();;) {
-      const auto begin = std::find_if(end, own.end(), [](std::uint8_t value) { return value != 0; });
-      if (begin == own.end()) return;
-      end = std::find(begin, own.end(), std::uint8_t{0});
-      const auto first = static_cast<std::size_t>(begin - own.begin()), count = static_cast<std::size_t>(end - begin);
-      round_to_steps(from.subspan(first, count), to.subspan(first, count));
-    }
+  const int rows = view.disparity.height();
+  tbb::parallel_for(0, rows, [&](int row) {
+    const int first = row * view.reduction, end = row + 1 < rows ? first + view.reduction : height;
+    first_seen(view, row, surface.disparity.row(first));
+    for (int y = first + 1; y < end; ++y)
+      std::ranges::copy(surface.disparity.row(first), surface.disparity.row(y).begin());
   });
   return surface;
 }
 
 Surfaces surfaces_of(std::span<const SceneView> views, const Style& style) {
   Surfaces surfaces;
-  for (const SceneView& view : views) surfaces.seen.push_back(surface_of(view));
+  const ImageView<const Rgb8> reference = views.front().picture;
+  for (const SceneView& view : views) surfaces.seen.push_back(surface_of(view, reference.width(), reference.height()));
   surfaces.tolerance_px = ScaledStyle(style, views.front().picture.width()).depth_threshold_px;
   return surfaces;
 }
 
 }  // namespace
 
-PlannedFrame plan_unmended(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                           PaintingMemory& memory, const Progress& progress) {
+PlannedFrame plan_unmended(const FilmFrame& of, const Style& style, const CarryOptions& options, PaintingMemory& memory,
+                           const Progress& progress) {
   check_style(style);
-  check_fits(frame.views);
+  check_fits(of.views);
+  std::optional<WholeScene> whole;
+  FilmFrame frame = of;
+  if (style.marks != Marks::strokes || of.flow != nullptr) frame.views = whole.emplace(of.views).views();
   report(progress, "painting", 0);
   PlannedFrame planned;
   Painting& painting = planned.painting;

@@ -44,36 +44,6 @@ ReducedScene reduced_scene(const StereoPairView& photographs, const StereoGeomet
   return scene;
 }
 
-OuterView enlarged(const OuterView& view, int reduction, int width, int height) {
-  OuterView whole{view.position, Image<Rgb8>(width, height), Image<float>(width, height),
-                  Image<std::uint8_t>(width, height), reduction * view.left_px};
-  const int last_column = view.picture.width() - 1, rows = view.picture.height();
-  const auto end_of = [=](int row) { return row + 1 < rows ? reduction * (row + 1) : height; };
-  tbb::parallel_for(0, rows, [&](int row) {
-    const auto picture = view.picture.row(row);
-    const auto disparity = view.disparity.row(row);
-    const auto uncovered = view.uncovered.row(row);
-    const int first = reduction * row;
-    const auto to_picture = whole.picture.row(first);
-    const auto to_disparity = whole.disparity.row(first);
-    const auto to_uncovered = whole.uncovered.row(first);
-    for (int column = 0, x = 0; column <= last_column; ++column) {
-      const float larger = disparity[column] * static_cast<float>(reduction);
-      for (const int end = column < last_column ? x + reduction : width; x < end; ++x) {
-        to_picture[x] = picture[column];
-        to_disparity[x] = larger;
-        to_uncovered[x] = uncovered[column];
-      }
-    }
-    for (int y = first + 1; y < end_of(row); ++y) {
-      std::ranges::copy(to_picture, whole.picture.row(y).begin());
-      std::ranges::copy(to_disparity, whole.disparity.row(y).begin());
-      std::ranges::copy(to_uncovered, whole.uncovered.row(y).begin());
-    }
-  });
-  return whole;
-}
-
 /// Beyond this, what few views need would take too much memory.
 bool is_large(ImageView<const Rgb8> photograph) {
   constexpr double large_px = 8e6;
@@ -122,6 +92,7 @@ void leave_out_what_others_uncover(std::vector<OuterView>& outer) {
   }
 }
 
+/// Views that are made smaller than the photographs where these are large.
 std::vector<OuterView> make_views_at(std::span<const ViewPosition> positions, const StereoPairView& photographs,
                                      const StereoGeometryView& geometry, float zero_parallax_px) {
   const int width = photographs.left.width(), height = photographs.left.height();
@@ -135,8 +106,10 @@ std::vector<OuterView> make_views_at(std::span<const ViewPosition> positions, co
                                                  zero_parallax_px / static_cast<float>(reduction))
                                : make_outer_view(photographs, geometry, view, zero_parallax_px));
   leave_out_what_others_uncover(outer);
-  if (is_reduced)
-    for (OuterView& view : outer) view = enlarged(view, reduction, width, height);
+  for (OuterView& view : outer) {
+    view.reduction = reduction;
+    view.left_px *= reduction;
+  }
   return outer;
 }
 
@@ -195,12 +168,16 @@ Image<float> hidden_from_left(const StereoGeometryView& geometry, ImageView<cons
 
 std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
                                         ViewRange wanted, float zero_parallax_px) {
-  return make_views_at(positions_beside_eyes(photographs.left, wanted), photographs, geometry, zero_parallax_px);
+  std::vector<OuterView> views =
+      make_views_at(positions_beside_eyes(photographs.left, wanted), photographs, geometry, zero_parallax_px);
+  for (OuterView& view : views)
+    if (view.reduction > 1)
+      view = enlarged(scene_view_of(view), view.reduction, photographs.left.width(), photographs.left.height());
+  return views;
 }
 
 void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scene) {
-  for (const OuterView& view : outer)
-    scene.push_back({view.picture, view.disparity, view.uncovered, view.position, view.left_px, true});
+  for (const OuterView& view : outer) scene.push_back(scene_view_of(view));
 }
 
 StillScene make_still_scene(const StereoPairView& photographs, const StereoGeometryView& geometry, ViewRange wanted) {

@@ -8,8 +8,8 @@
 
 namespace wheatstone {
 
-/// What the outermost of the wanted views show beside the eyes, and views halfway there. `zero_parallax_px` is as
-/// make_outer_view has it.
+/// What the outermost of the wanted views show beside the eyes, and views halfway there, in pictures of the
+/// photographs' size. `zero_parallax_px` is as make_outer_view has it.
 std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
                                         ViewRange wanted, float zero_parallax_px);
 
@@ -17,7 +17,8 @@ std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const
 void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scene);
 
 /// A pair as the scene that its painting is planned from: the left eye as the reference view, what only the right eye
-/// sees, and what no photograph shows and views beside the eyes, or halfway between them, uncover.
+/// sees, and what no photograph shows and views beside the eyes, or halfway between them, uncover: the latter in
+/// smaller pictures where the photographs are large.
 struct StillScene {
   Image<std::uint8_t> right_only;  ///< 255 for what the left eye's disparity does not tell of the right eye's view
   Image<float> right_disparity;    ///< the right eye's, there not before what the left eye shows

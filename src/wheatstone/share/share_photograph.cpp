@@ -38,10 +38,11 @@ SharedPicture share_photograph(const StereoPair& photographs, const StereoGeomet
                                const std::string& title) {
   constexpr ViewRange wanted{ViewPosition(-1.f), ViewPosition(1.f)};
   const StillScene scene = make_still_scene(photographs, geometry, wanted);
+  const WholeScene whole(scene.views);
   SharedPicture shared{.width = photographs.left.width(), .height = photographs.left.height()};
   Surfaces surfaces;
   std::vector<Image<Rgb8>> pictures;
-  for (const SceneView& view : scene.views) {
+  for (const SceneView& view : whole.views()) {
     surfaces.seen.push_back(surface_of(view));
     pictures.push_back(copy_of(view.picture));
   }

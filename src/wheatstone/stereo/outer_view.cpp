@@ -115,6 +115,49 @@ void leave_out_cracks(std::span<std::uint8_t> mask) {
 
 }  // namespace
 
+SceneView scene_view_of(const OuterView& view) {
+  return {view.picture, view.disparity, view.uncovered, view.position, view.left_px, true, view.reduction};
+}
+
+OuterView enlarged(const SceneView& view, int factor, int width, int height) {
+  OuterView whole{
+      view.position, Image<Rgb8>(width, height), Image<float>(width, height), Image<std::uint8_t>(width, height),
+      view.left_px,  view.reduction / factor};
+  const int last_column = view.picture.width() - 1, rows = view.picture.height();
+  const auto end_of = [=](int row) { return row + 1 < rows ? factor * (row + 1) : height; };
+  tbb::parallel_for(0, rows, [&](int row) {
+    const auto picture = view.picture.row(row);
+    const auto disparity = view.disparity.row(row);
+    const auto uncovered = view.only_here.row(row);
+    const int first = factor * row;
+    const auto to_picture = whole.picture.row(first);
+    const auto to_disparity = whole.disparity.row(first);
+    const auto to_uncovered = whole.uncovered.row(first);
+    for (int column = 0, x = 0; column <= last_column; ++column) {
+      const float larger = disparity[column] * static_cast<float>(factor);
+      for (const int end = column < last_column ? x + factor : width; x < end; ++x) {
+        to_picture[x] = picture[column];
+        to_disparity[x] = larger;
+        to_uncovered[x] = uncovered[column];
+      }
+    }
+    for (int y = first + 1; y < end_of(row); ++y) {
+      std::ranges::copy(to_picture, whole.picture.row(y).begin());
+      std::ranges::copy(to_disparity, whole.disparity.row(y).begin());
+      std::ranges::copy(to_uncovered, whole.uncovered.row(y).begin());
+    }
+  });
+  return whole;
+}
+
+WholeScene::WholeScene(std::span<const SceneView> views) : views_(views.begin(), views.end()) {
+  const ImageView<const Rgb8> reference = views.front().picture;
+  larger_.reserve(views.size());
+  for (SceneView& view : views_)
+    if (view.reduction > 1)
+      view = scene_view_of(larger_.emplace_back(enlarged(view, view.reduction, reference.width(), reference.height())));
+}
+
 OuterView make_outer_view(const StereoPairView& photographs, const StereoGeometryView& geometry, ViewPosition view,
                           float zero_parallax_px) {
   constexpr float lies_before_px = 1;

@@ -7,6 +7,7 @@
 
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/stereo/outer_view.h"
 #include "wheatstone/strokes/sized_view_internal.h"
 #include "wheatstone/strokes/visible_runs_internal.h"
 
@@ -24,15 +25,33 @@ int least_reduction_for(const SceneView& view, float finest_radius_px) {
   return reduction;
 }
 
+/// What a view alone shows, grown, `reduction` times smaller than the reference view.
+ReducedView grown_part(const SceneView& view, float growth_px, int reduction, const SceneView& reference) {
+  const auto grown_in = [&](ImageView<const std::uint8_t> part, int part_reduction) {
+    return dilate_occlusion(part, static_cast<int>(std::lround(growth_px / static_cast<float>(part_reduction))));
+  };
+  if (view.reduction <= reduction) {
+    const int left_out_px = view.reduction > 1 ? 1 : 2;  // a pixel of a smaller picture stands for several already
+    return reduced(view.picture, view.disparity, grown_in(view.only_here, view.reduction), reduction / view.reduction,
+                   left_out_px);
+  }
+  OuterView larger = enlarged(view, view.reduction / reduction, reference.picture.width() / reduction,
+                              reference.picture.height() / reduction);
+  return {.photograph = std::move(larger.picture),
+          .disparity = std::move(larger.disparity),
+          .seeds = grown_in(larger.uncovered, reduction)};
+}
+
 }  // namespace
 
 WantedPart wanted_part(const SceneView& view, const SceneView& reference, const Style& style, bool scene_begins) {
-  if (view.only_here.empty()) return {view, {}};
-  const ScaledStyle scaled(style, view.picture.width());
+  const int width = reference.picture.width();
+  if (view.only_here.empty()) return {view, width, {}};
+  const ScaledStyle scaled(style, width);
   const int reduction = least_reduction_for(view, scaled.radii_px.back());
   if (scene_begins) {
-    const auto growth_px = static_cast<int>(std::lround(style.occlusion_dilation * scaled.radii_px.front()));
-    return {view, reduced(view.picture, view.disparity, dilate_occlusion(view.only_here, growth_px), reduction)};
+    const float growth_px = style.occlusion_dilation * scaled.radii_px.front();
+    return {view, width, grown_part(view, growth_px, reduction, reference), reduction};
   }
   Image<std::uint8_t> alone(view.picture.width(), view.picture.height());
   tbb::parallel_for(0, alone.height(), [&](int y) {
@@ -44,7 +63,7 @@ WantedPart wanted_part(const SceneView& view, const SceneView& reference, const 
       alone(x, y) = is_in_picture && is_visible(point, view, reference, scaled.depth_threshold_px) ? 0 : 255;
     }
   });
-  return {view, reduced(view.picture, view.disparity, alone, reduction)};
+  return {view, width, reduced(view.picture, view.disparity, alone, reduction), reduction};
 }
 
 namespace {
@@ -82,10 +101,10 @@ LayerPlanner planner_of(const WantedPart& part, const std::optional<ReducedView>
 SizedView::SizedView(const WantedPart& part_, const Style& style, int factor_, const SizedView* before)
     : part(part_),
       factor(factor_),
-      reduction(part.reduction() * factor),
+      reduction(part.reduction * factor),
       smaller(factor > 1 ? std::optional(reduced(part.photograph(), part.disparity(), part.seeds(), factor))
                          : std::nullopt),
-      scaled(style, part.view.picture.width(), static_cast<float>(reduction)),
+      scaled(style, part.width, static_cast<float>(reduction)),
       planner(planner_of(part, smaller, style, before, factor)) {
   planner.avoid_mixed_colours = part.is_whole();  // no other eye sees those of a part
   planner.beside = part.beside;
@@ -93,16 +112,15 @@ SizedView::SizedView(const WantedPart& part_, const Style& style, int factor_, c
   if (part.view.continued) planner.least_edge_cell_px = 3;  // of what no photograph shows, edges need no detail
 }
 
-int factor_for_layer(const WantedPart& part, float radius_px, bool is_finest) {
-  constexpr float least_radius_px = 6;
+int factor_for_layer(const WantedPart& part, float radius_px, float least_radius_px) {
   constexpr int least_side_px = 16;
   const int side_px = std::min(part.photograph().width(), part.photograph().height());
   const auto fits = [&](int factor) {
-    return radius_px >= least_radius_px * static_cast<float>(factor * part.reduction()) &&
+    return radius_px >= least_radius_px * static_cast<float>(factor * part.reduction) &&
            side_px >= least_side_px * factor;
   };
   int factor = 1;
-  while (!is_finest && fits(2 * factor)) factor *= 2;
+  while (fits(2 * factor)) factor *= 2;
   return factor;
 }
 

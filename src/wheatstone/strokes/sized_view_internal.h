@@ -12,11 +12,12 @@ namespace wheatstone {
 /// What is painted of a view: all of the reference view, of another view what it alone shows, in a smaller picture.
 struct WantedPart {
   const SceneView& view;
+  int width;                           ///< of the reference view's picture, as styles are scaled to
   std::optional<ReducedView> smaller;  ///< none: all of the view
+  int reduction = 1;                   ///< from the reference view's size
   ViewsBeside beside = {};             ///< from which its strokes will be seen
 
   bool is_whole() const { return !smaller; }
-  int reduction() const { return smaller ? smaller->reduction : 1; }
   ImageView<const Rgb8> photograph() const { return smaller ? smaller->photograph.view() : view.picture; }
   ImageView<const float> disparity() const { return smaller ? smaller->disparity.view() : view.disparity; }
   /// Strokes begin where it is not 0; empty: everywhere.
@@ -45,13 +46,14 @@ struct SizedView {
 
   const WantedPart& part;
   int factor;
-  int reduction;  ///< from the view's own size
+  int reduction;  ///< from the reference view's size
   std::optional<ReducedView> smaller;
   ScaledStyle scaled;
   LayerPlanner planner;
 };
 
-/// How many times smaller than the part a layer is planned whose brush has this radius in the view's own pixels.
-int factor_for_layer(const WantedPart& part, float radius_px, bool is_finest);
+/// How many times smaller than the part a layer is planned whose brush has this radius in the reference view's pixels:
+/// it keeps at least the other radius.
+int factor_for_layer(const WantedPart& part, float radius_px, float least_radius_px);
 
 }  // namespace wheatstone

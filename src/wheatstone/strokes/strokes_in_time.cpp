@@ -55,7 +55,7 @@ class ViewAtWork {
   ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, const Flow* motion,
              const ViewsBeside& beside, StrokeNumbers& numbers)
       : part_(wanted_part(view, reference, style, motion == nullptr)),
-        radii_px_(ScaledStyle(style, view.picture.width()).radii_px),
+        radii_px_(ScaledStyle(style, reference.picture.width()).radii_px),
         style_(style),
         motion_(motion),
         left_px_(static_cast<float>(view.left_px)),
@@ -121,11 +121,12 @@ class ViewAtWork {
   }
 
  private:
-  /// Where a scene begins, all strokes are new, and it shows where a few of them are less exact.
   int factor_for(int layer) const {
-    if (motion_ == nullptr) return 1;
+    // Where a scene begins, all strokes are new, and it shows where a few of them are less exact.
+    const float least_radius_px = motion_ == nullptr ? 12 : 6;
     const auto number = static_cast<std::size_t>(layer);
-    return factor_for_layer(part_, radii_px_[number], number + 1 == radii_px_.size());
+    const bool is_finest = number + 1 == radii_px_.size();
+    return is_finest ? 1 : factor_for_layer(part_, radii_px_[number], least_radius_px);
   }
 
   void go_to_size(int factor) {
@@ -264,15 +265,17 @@ class ViewAtWork {
   /// Dots for the thin edges of near surfaces that the smaller picture does not show, but where carried strokes have a
   /// point already. Around what no photograph shows, those surfaces have strokes of their own.
   Layer dots_left_out(const CarriedPoints& carried) const {
-    const auto reduction = static_cast<float>(at_->reduction);
+    const auto made_smaller = static_cast<float>(part_.view.reduction);
+    const float reduction = static_cast<float>(at_->reduction) / made_smaller;
     Layer dots{at_->scaled.radii_px.back(), {}, {}};
     for (const ReducedView::LeftOut& pixels : part_.smaller->left_out) {
       if (!uncovered_.empty() && uncovered_(static_cast<int>(pixels.x), static_cast<int>(pixels.y)) == 0) continue;
-      if (carried.any_at({pixels.x, pixels.y, pixels.disparity}, depth_threshold_px())) continue;
+      const ControlPoint whole{pixels.x * made_smaller, pixels.y * made_smaller, pixels.disparity * made_smaller};
+      if (carried.any_at(whole, depth_threshold_px())) continue;
       const ControlPoint point{pixels.x / reduction, pixels.y / reduction, pixels.disparity / reduction};
       dots.strokes.push_back({.first_point = static_cast<std::uint32_t>(dots.points.size()),
                               .point_count = 1,
-                              .radius_px = 1 / reduction,
+                              .radius_px = static_cast<float>(part_.smaller->left_out_px) / 2 / reduction,
                               .opacity = style_.opacity,
                               .colour = pixels.colour,
                               .disparity = point.disparity,
@@ -300,7 +303,7 @@ class ViewAtWork {
   }
 
   WantedPart part_;
-  std::vector<float> radii_px_;  ///< in the view's own pixels
+  std::vector<float> radii_px_;  ///< in the reference view's pixels
   const Style& style_;
   const Flow* motion_;
   float left_px_;

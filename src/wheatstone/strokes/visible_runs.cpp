@@ -26,9 +26,10 @@ float column_in(const ControlPoint& point, const SceneView& from, const SceneVie
 
 bool is_visible(const ControlPoint& point, const SceneView& from, const SceneView& view, float tolerance_px) {
   const float x = column_in(point, from, view);
-  const int column = std::clamp(static_cast<int>(x), 0, view.disparity.width() - 1);
-  const int row = std::clamp(static_cast<int>(point.y), 0, view.disparity.height() - 1);
-  return view.disparity(column, row) <= point.disparity + tolerance_px;
+  const auto reduction = static_cast<float>(view.reduction);
+  const int column = std::clamp(static_cast<int>(x) / view.reduction, 0, view.disparity.width() - 1);
+  const int row = std::clamp(static_cast<int>(point.y) / view.reduction, 0, view.disparity.height() - 1);
+  return view.disparity(column, row) * reduction <= point.disparity + tolerance_px;
 }
 
 void append_everywhere(Stroke stroke, std::span<const ControlPoint> points, Layer& layer) {
