@@ -39,8 +39,6 @@ PassedFrames::PassedFrames(fs::path work_folder, bool held_here) : folder_(std::
   of_another_.keep(true);
 }
 
-PassedFrames::~PassedFrames() { of_another_.keep(true); }
-
 fs::path PassedFrames::frame_file(std::int64_t number) const {
   return folder_ / fmt::format("{}{:09}", frame_name, number);
 }

@@ -25,7 +25,7 @@ class PassedFrames {
  public:
   /// The folder of an output that another rank holds, or this one.
   PassedFrames(std::filesystem::path work_folder, bool held_here);
-  ~PassedFrames();
+  ~PassedFrames() = default;
   PassedFrames(const PassedFrames&) = delete;
   PassedFrames& operator=(const PassedFrames&) = delete;
 

@@ -11,9 +11,16 @@ namespace fs = std::filesystem;
 
 struct Outputs {
   std::recursive_mutex mutex;
-  std::set<fs::path> unfinished;
-  std::set<fs::path> kept;
+  // Several may have one name: of a folder that several parts of a program go on with.
+  std::multiset<fs::path> unfinished;
+  std::multiset<fs::path> kept;
   bool some_finished = false;
+
+  std::multiset<fs::path>& those(bool are_kept) { return are_kept ? kept : unfinished; }
+  void leave_out(const fs::path& path, bool is_kept) {
+    auto& paths = those(is_kept);
+    if (const auto found = paths.find(path); found != paths.end()) paths.erase(found);
+  }
 };
 
 // Never destroyed: a thread that ends the program may come after the end of main.
@@ -26,35 +33,34 @@ Outputs& outputs() {
 
 UnfinishedOutput::~UnfinishedOutput() {
   if (temporary_.empty()) return;
-  if (const auto hold = hold_outputs(); outputs().kept.erase(temporary_) > 0) return;
   // Not under the lock: a large folder takes its time, and may be removed by two threads at once.
   std::error_code ignored;
-  fs::remove_all(temporary_, ignored);
+  if (!kept_) fs::remove_all(temporary_, ignored);
   const auto hold = hold_outputs();
-  outputs().unfinished.erase(temporary_);
+  outputs().leave_out(temporary_, kept_);
 }
 
 void UnfinishedOutput::begin(fs::path temporary, const std::function<void()>& make) {
   const auto hold = hold_outputs();
   make();
   temporary_ = std::move(temporary);
+  kept_ = false;
   outputs().unfinished.insert(temporary_);
 }
 
 void UnfinishedOutput::keep(bool kept) {
   if (temporary_.empty()) return;
   const auto hold = hold_outputs();
-  outputs().unfinished.erase(temporary_);
-  outputs().kept.erase(temporary_);
-  (kept ? outputs().kept : outputs().unfinished).insert(temporary_);
+  outputs().leave_out(temporary_, kept_);
+  kept_ = kept;
+  outputs().those(kept_).insert(temporary_);
 }
 
 void UnfinishedOutput::finish(const std::function<void()>& rename) {
   if (temporary_.empty()) return;
   const auto hold = hold_outputs();
   rename();
-  outputs().unfinished.erase(temporary_);
-  outputs().kept.erase(temporary_);
+  outputs().leave_out(temporary_, kept_);
   temporary_.clear();
   // What is written inside an unfinished folder is no result yet.
   if (outputs().unfinished.empty() && outputs().kept.empty()) outputs().some_finished = true;

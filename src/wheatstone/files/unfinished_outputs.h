@@ -29,6 +29,7 @@ class UnfinishedOutput {
 
  private:
   std::filesystem::path temporary_;  ///< empty where nothing is unfinished
+  bool kept_ = false;
 };
 
 /// While this is held, other threads neither begin nor finish an output: several outputs can be finished as one.

@@ -53,6 +53,22 @@ TEST(UnfinishedOutputs, ThatAreKeptStay) {
   EXPECT_TRUE(std::filesystem::exists(folder / "kept"));
 }
 
+TEST(UnfinishedOutputs, ThatSeveralGoOnWithStayWhereAllKeepThem) {
+  const TemporaryFolder folder;
+  {
+    UnfinishedOutput first, second;
+    first.begin(folder / "kept", [&] { put_bytes(folder / "kept", "1"); });
+    second.begin(folder / "kept", [] {});
+    first.keep(true);
+    second.keep(true);
+    remove_unfinished_outputs();
+  }
+  EXPECT_TRUE(fs::exists(folder / "kept"));
+  TemporaryFile file(folder / "done");
+  file.commit();
+  EXPECT_TRUE(outputs_are_finished()) << "nothing of them is remembered";
+}
+
 TEST(UnfinishedOutputs, AreNotBegunWhereTheyCannotBeMade) {
   const TemporaryFolder folder;
   put_bytes(folder / "foreign", "not ours");
