@@ -7,7 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <QApplication>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -28,10 +30,8 @@
 #include "wheatstone/files/whole_file.h"
 #include "window.h"
 
+namespace wheatstone::viewer {
 namespace {
-
-using namespace wheatstone;
-using namespace wheatstone::viewer;
 
 using cli::ViewArguments;
 
@@ -149,20 +149,7 @@ void on_message_of_qt(QtMsgType type, const QMessageLogContext& /*context*/, con
   std::_Exit(static_cast<int>(ErrorKind::cannot_read_write));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  qInstallMessageHandler(on_message_of_qt);
-  if (argc > 1 && std::string_view(argv[1]) == "study") {
-    try {
-      return run_study(argc - 1, argv + 1);
-    } catch (const Error& error) {
-      fmt::print(stderr, "wheatstone: {}\n", error.what());
-      return static_cast<int>(error.kind());
-    }
-  }
+int run_view(int argc, char** argv) {
   CLI::App program("Look at paintings, photographs, slices and particles in a window", "wheatstone-view");
   ViewArguments arguments;
   cli::add_view_options(program, arguments);
@@ -180,18 +167,32 @@ int main(int argc, char** argv) {
     list_commands();
     return 0;
   }
+  if (!arguments.bridge_calibration.empty()) {
+    write_bridge_calibration(arguments.bridge_calibration);
+    return 0;
+  }
+  choose_platform(arguments);
+  int none = 1;
+  const QApplication application(none, argv);
+  QApplication::setApplicationName("Wheatstone");
+  return run(arguments);
+}
+
+}  // namespace
+}  // namespace wheatstone::viewer
+
+int main(int argc, char** argv) {
   try {
-    if (!arguments.bridge_calibration.empty()) {
-      write_bridge_calibration(arguments.bridge_calibration);
-      return 0;
-    }
-    choose_platform(arguments);
-    int none = 1;
-    const QApplication application(none, argv);
-    QApplication::setApplicationName("Wheatstone");
-    return run(arguments);
-  } catch (const Error& error) {
-    fmt::print(stderr, "wheatstone: {}\n", error.what());
+    cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    qInstallMessageHandler(wheatstone::viewer::on_message_of_qt);
+    const bool is_study = argc > 1 && std::string_view(argv[1]) == "study";
+    return is_study ? wheatstone::viewer::run_study(argc - 1, argv + 1) : wheatstone::viewer::run_view(argc, argv);
+  } catch (const wheatstone::Error& error) {
+    std::fprintf(stderr, "wheatstone: %s\n", error.what());
     return static_cast<int>(error.kind());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "wheatstone: internal error: %s\n", error.what());
+    return EXIT_FAILURE;
   }
 }

@@ -124,7 +124,7 @@ void reduce_row(const WholeView& whole, const Mean& mean, int y, ReducedView& vi
                 std::vector<ReducedView::LeftOut>& left_out) {
   const int reduction = known_reduction > 0 ? known_reduction : view.reduction, width = view.photograph.width();
   const bool all_wanted = whole.seeds.empty();
-  const auto columns = static_cast<std::size_t>(width * reduction);
+  const auto columns = static_cast<std::size_t>(width) * static_cast<std::size_t>(reduction);
   RowSums sums(columns);
   for (int row = reduction * y; row < reduction * (y + 1); ++row)
     sums.add(whole.photograph.row(row).first(columns), whole.disparity.row(row).first(columns),
@@ -134,7 +134,7 @@ void reduce_row(const WholeView& whole, const Mean& mean, int y, ReducedView& vi
   const auto to_disparity = view.disparity.row(y);
   for (int x = 0; x < width; ++x) {
     std::uint32_t red = 0, green = 0, blue = 0;
-    const auto begin = static_cast<std::size_t>(x * reduction);
+    const std::size_t begin = static_cast<std::size_t>(x) * static_cast<std::size_t>(reduction);
     float farthest = sums.farthest[begin], nearest = sums.nearest[begin];
     for (std::size_t column = begin; column < begin + static_cast<std::size_t>(reduction); ++column) {
       red += sums.colours[3 * column];
@@ -155,8 +155,8 @@ void reduce_row(const WholeView& whole, const Mean& mean, int y, ReducedView& vi
   }
   if (all_wanted) return;
   const auto to_seeds = view.seeds.row(y);
-  for (int x = 0; x < width; ++x)
-    for (int i = 0; i < reduction; ++i) to_seeds[x] |= sums.seeds[static_cast<std::size_t>(x * reduction + i)];
+  for (std::size_t column = 0; column < columns; ++column)
+    to_seeds[column / static_cast<std::size_t>(reduction)] |= sums.seeds[column];
 }
 
 /// The rows and columns at the end that make no whole block.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -74,15 +73,8 @@ Surfaces surfaces_of(std::span<const SceneView> views, const Style& style) {
   return surfaces;
 }
 
-}  // namespace
-
-PlannedFrame plan_unmended(const FilmFrame& of, const Style& style, const CarryOptions& options, PaintingMemory& memory,
-                           const Progress& progress) {
-  check_style(style);
-  check_fits(of.views);
-  std::optional<WholeScene> whole;
-  FilmFrame frame = of;
-  if (style.marks != Marks::strokes || of.flow != nullptr) frame.views = whole.emplace(of.views).views();
+PlannedFrame plan_from_views(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                             PaintingMemory& memory, const Progress& progress) {
   report(progress, "painting", 0);
   PlannedFrame planned;
   Painting& painting = planned.painting;
@@ -108,6 +100,19 @@ PlannedFrame plan_unmended(const FilmFrame& of, const Style& style, const CarryO
   painting.surfaces = surfaces_of(frame.views, style);
   painting.relief = relief_for(style, width_of(painting));
   return planned;
+}
+
+}  // namespace
+
+PlannedFrame plan_unmended(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                           PaintingMemory& memory, const Progress& progress) {
+  check_style(style);
+  check_fits(frame.views);
+  if (style.marks == Marks::strokes && frame.flow == nullptr)
+    return plan_from_views(frame, style, options, memory, progress);
+  // Only new strokes are planned from smaller pictures.
+  const WholeScene whole(frame.views);
+  return plan_from_views({whole.views(), frame.flow}, style, options, memory, progress);
 }
 
 PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
