@@ -17,10 +17,7 @@ struct Outputs {
   bool some_finished = false;
 
   std::multiset<fs::path>& those(bool are_kept) { return are_kept ? kept : unfinished; }
-  void leave_out(const fs::path& path, bool is_kept) {
-    auto& paths = those(is_kept);
-    if (const auto found = paths.find(path); found != paths.end()) paths.erase(found);
-  }
+  void leave_out(const fs::path& path, bool is_kept) { those(is_kept).extract(path); }
 };
 
 // Never destroyed: a thread that ends the program may come after the end of main.
