@@ -135,7 +135,8 @@ nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm&
 void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const Session& session) {
   const RotoscopeTotals& totals = film.totals;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
-  fmt::print(session.output, "painted          {} frames in {} scenes", film.frames, totals.scenes);
+  fmt::print(session.output, "painted          {} frames in {} scene{}", film.frames, totals.scenes,
+             totals.scenes == 1 ? "" : "s");
   if (film.resumed_frames > 0) fmt::print(session.output, ", the first {} by an earlier run", film.resumed_frames);
   fmt::print(session.output, "\ntime             {:.2f} s a frame, {:.2f} core-seconds\n", film.seconds / painted,
              film.core_seconds / painted);

@@ -8,6 +8,7 @@
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <ostream>
@@ -68,6 +69,34 @@ std::string in_our_words(const CLI::App& program, const CLI::ParseError& error) 
   return found;
 }
 
+/// Number of letters that are inserted, removed or replaced to make one word of the other.
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+/// The command whose name differs from a word by at most two letters and by the fewest; empty if there is none.
+std::string command_like(const CLI::App& program, const std::string& word) {
+  std::string alike;
+  std::size_t least = 3;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    const std::size_t distance = edit_distance(word, command->get_name());
+    if (distance >= std::min(least, word.size())) continue;
+    least = distance;
+    alike = command->get_name();
+  }
+  return alike;
+}
+
 /// What is wrong with the line, and where to read on.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
   const auto commands = program.get_subcommands();
@@ -79,8 +108,10 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
   }
   if (commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     const std::vector<std::string> words = program.remaining();
-    return words.empty() ? fmt::format("no command given; {}", hint)
-                         : fmt::format("{}: no such command; {}", words.front(), hint);
+    if (words.empty()) return fmt::format("no command given; {}", hint);
+    const std::string alike = command_like(program, words.front());
+    return alike.empty() ? fmt::format("{}: no such command; {}", words.front(), hint)
+                         : fmt::format("{}: no such command; did you mean '{}'? {}", words.front(), alike, hint);
   }
   return fmt::format("{}; {}", in_our_words(program, error), hint);
 }
@@ -125,6 +156,10 @@ int run_program(std::span<const std::string> arguments, Session& session, Progre
   std::optional<ProgressDisplay> display;
   std::optional<ThreadLimit> thread_limit;
   const std::unique_ptr<CLI::App> program = make_program(session);
+  if (arguments.empty()) {
+    session.output << program->help();
+    return 0;
+  }
   // Runs when the whole line is understood and before the command does.
   program->parse_complete_callback([&] {
     share_with_ranks(*program, session);

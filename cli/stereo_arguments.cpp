@@ -48,8 +48,7 @@ NamedPair read_one_file(const StereoArguments& arguments) {
   if (!found)
     throw Error(
         ErrorKind::bad_input,
-        fmt::format("{}: is one picture, and neither its left and right nor its upper and lower half look like two "
-                    "views of one scene; expected two files, or --layout where it holds both views",
+        fmt::format("{}: holds one view; give LEFT and RIGHT, or --layout ('paint' and 'share' also take --depth)",
                     arguments.left));
   ViewsFile file = std::move(*found);
   std::string how = describe_views(file);

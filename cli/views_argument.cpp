@@ -116,9 +116,7 @@ ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::stri
   std::optional<ViewsFile> found = find_views(file, options);
   if (!found)
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is one picture, and neither its left and right nor its upper and lower half look like "
-                            "two views of one scene; expected more files, or --layout where it holds both views",
-                            file));
+                fmt::format("{}: holds one view; give all views, or --layout for several views in one picture", file));
   std::string how = describe_views(*found);
   if (!found->note.empty()) how += "; " + found->note;
   return {std::move(found->views), std::move(how)};

@@ -94,8 +94,9 @@ std::string comfort_told(const Viewer& viewer) {
 std::string comfort_in_short(const Viewer& viewer) {
   const std::optional<DepthSeen> seen = depth_seen(viewer);
   if (!seen) return {};
-  return fmt::format("{:.0f} to {:.0f} mm, {:.1f} %: {}", std::round(-seen->near_mm) + 0.f, seen->far_mm,
-                     seen->total_percent, seen->discomforts.empty() ? "comfortable" : "not comfortable");
+  return fmt::format("{:.0f} to {:.0f} mm, {:.1f} %: {}", std::round(-seen->near_mm) + 0.f,
+                     std::round(seen->far_mm) + 0.f, seen->total_percent,
+                     seen->discomforts.empty() ? "comfortable" : "not comfortable");
 }
 
 std::string depth_told(const Viewer& viewer, double x, double y) {

@@ -37,19 +37,20 @@ constexpr double longest_smoothing_s = 2, longest_prediction_s = 0.5;
 
 constexpr Command table[] = {
     // name, arguments, menu, text, keys
-    {"head-tracker", "PORT|off", "Depth", "Follow a head that OpenTrack tells of on a UDP port (4242)", "", track_head},
-    {"head-smoothing", "SECONDS", "Depth", "Steady a tracked head over a time", "",
+    {"head-tracker", "PORT|off", "Depth", "Follow the head position that OpenTrack sends to a UDP port (4242)", "",
+     track_head},
+    {"head-smoothing", "SECONDS", "Depth", "Smooth the tracked head position over this time", "",
      [](Viewer& v, const Words& w) { v.session().head_filter.smoothing_s = number_of(w[0], 0, longest_smoothing_s); }},
-    {"head-prediction", "SECONDS", "Depth", "Show where a tracked head will be after a time", "",
+    {"head-prediction", "SECONDS", "Depth", "Predict the tracked head position this far ahead", "",
      [](Viewer& v, const Words& w) {
        v.session().head_filter.prediction_s = number_of(w[0], 0, longest_prediction_s);
      }},
-    {"gaze", "X Y", "Depth", "Somebody looks at a place of the picture, in its pixels in the window", "",
+    {"gaze", "X Y", "Depth", "Set the gaze point, in picture pixels", "",
      [](Viewer& v, const Words& w) {
        frame_of(v);
        look_at(v, number_of(w[0]), number_of(w[1]));
      }},
-    {"gaze-follows", "pointer|off", "Depth", "The pointer is where one looks: the screen plane follows it", "",
+    {"gaze-follows", "pointer|off", "Depth", "Take the pointer as the gaze point; the screen plane follows it", "",
      follow_gaze},
     {"gaze-depth", "THERE ELSEWHERE", "Depth", "More depth where one looks and less elsewhere: 1.5 0.5; 1 1 for none",
      "", deepen_gaze},

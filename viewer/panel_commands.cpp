@@ -69,7 +69,7 @@ constexpr Command table[] = {
      "Depths behind the screen of parts of the scene, from 0, the nearest, to 1", "", map_depth},
     {"comfort", "", "Depth", "Tell whether the depth is comfortable", "",
      [](Viewer& v, const Words&) { v.tell(comfort_told(v)); }},
-    {"crosstalk", "PERCENT", "Depth", "Share of an eye's light that is its neighbours'", "",
+    {"crosstalk", "PERCENT", "Depth", "Crosstalk: light of the neighbouring views in each eye, in %", "",
      [](Viewer& v, const Words& w) { state_of(v).crosstalk = static_cast<float>(number_of(w[0], 0, 50) / 100); }},
     {"layers-apart", "ANGLE|off", "Painting", "Look at the layers of strokes from a side, in degrees", "",
      set_layers_apart},

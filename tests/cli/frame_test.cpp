@@ -52,15 +52,22 @@ TEST(CommandLine, EveryCommandsHelpHasAnExampleAndTheSharedOptions) {
   }
 }
 
+TEST(CommandLine, ShowsItsHelpWithoutArguments) {
+  const auto result = run_program({});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output, run_program({"--help"}).output);
+}
+
 TEST(CommandLine, TellsItsVersion) {
   EXPECT_THAT(run_program({"--version"}).output, testing::StartsWith("wheatstone "));
 }
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   const TemporaryFolder folder;
-  expect_refused(folder, {}, 2, "no command given; see 'wheatstone --help'");
-  expect_refused(folder, {"pant"}, 2, "pant: no such command; see 'wheatstone --help'");
-  expect_refused(folder, {"pant", "--json"}, 2, "pant: no such command");
+  expect_refused(folder, {"--quiet"}, 2, "no command given; see 'wheatstone --help'");
+  expect_refused(folder, {"pain"}, 2, "pain: no such command; did you mean 'paint'? see 'wheatstone --help'");
+  expect_refused(folder, {"x"}, 2, "x: no such command; see 'wheatstone --help'");
+  expect_refused(folder, {"engrave", "--json"}, 2, "engrave: no such command; see 'wheatstone --help'");
   for (const std::string& command : commands()) {
     expect_refused(folder, {command, "--no-such-option"}, 2, "see 'wheatstone " + command + " --help'");
   }

@@ -141,7 +141,7 @@ TEST(Photograph, ThatIsNoPairIsRefused) {
                    "left.png, other.png: the pictures show different scenes");
     expect_refused(folder, {command, "mixed_sbs.png", "-o", "results"}, 3,
                    "mixed_sbs.png (side by side, left eye left (from its name)): the pictures show different scenes");
-    expect_refused(folder, {command, "left.png", "-o", "results"}, 3, "left.png: is one picture");
+    expect_refused(folder, {command, "left.png", "-o", "results"}, 3, "left.png: holds one view");
     expect_refused(folder, {command, "left.png", "--layout", "anaglyph", "-o", "results"}, 2, "anaglyph-red-cyan");
     expect_refused(folder, {command, "left.png", "--layout", "card", "-o", "results"}, 3, "no two windows");
     expect_refused(folder, {command, "left.png", "--layout", "woven", "-o", "results"}, 2, "left-right-half");

@@ -83,7 +83,7 @@ TEST(RectifyCommand, TakesOneFileWithBothViews) {
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_LT(nlohmann::json::parse(result.output)["vertical_disparity_after"]["median_px"], 0.7);
   }
-  expect_refused(folder, {"rectify", "left.png", "--quiet"}, 3, "left.png: is one picture");
+  expect_refused(folder, {"rectify", "left.png", "--quiet"}, 3, "left.png: holds one view");
 }
 
 TEST(RectifyCommand, LeavesColoursAloneWhenAsked) {

@@ -42,7 +42,7 @@ DepthPanel::DepthPanel(DoCommand do_command)
   column->addWidget(planes_);
   column->addWidget(
       make_text("Disparity on the screen, in % of its width, against the scene's depth. Drag the points. "
-                "Double click: a new one. Right click: away with it.",
+                "Double-click to add one. Right-click to remove one.",
                 widget_));
   column->addWidget(graph_, 1);
   auto* const buttons = new QHBoxLayout;

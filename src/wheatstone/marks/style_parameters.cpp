@@ -32,9 +32,9 @@ Number parse_number(std::string_view name, std::string_view text) {
 }
 
 bool parse_switch(std::string_view name, std::string_view text) {
-  if (text == "true") return true;
-  if (text == "false") return false;
-  refuse(name, text, "true or false");
+  if (text == "true" || text == "on") return true;
+  if (text == "false" || text == "off") return false;
+  refuse(name, text, "on or off, true or false");
 }
 
 std::vector<float> parse_list(std::string_view name, std::string_view text) {

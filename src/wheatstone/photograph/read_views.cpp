@@ -325,10 +325,7 @@ std::optional<ViewsFile> find_views(const fs::path& path, const ReadViewsOptions
 ViewsFile read_views(const fs::path& path, const ReadViewsOptions& options) {
   std::optional<ViewsFile> file = find_views(path, options);
   if (file) return std::move(*file);
-  refuse(
-      path,
-      "is one picture, and neither its left and right nor its upper and lower half look like two views of one scene; "
-      "expected two files, or a stereo photograph whose layout is found or given");
+  refuse(path, "holds one view; expected two files, or a stereo photograph whose layout is found or given");
 }
 
 }  // namespace wheatstone

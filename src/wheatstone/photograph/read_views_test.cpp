@@ -223,7 +223,7 @@ TEST(ReadViews, OfOneOrdinaryPictureAreRefused) {
   const TemporaryFolder folder;
   write_image(folder / "mono.png", still_for_test().left);
   EXPECT_FALSE(find_views(folder / "mono.png"));
-  expect_error(ErrorKind::bad_input, "mono.png: is one picture", [&] { read_views(folder / "mono.png"); });
+  expect_error(ErrorKind::bad_input, "mono.png: holds one view", [&] { read_views(folder / "mono.png"); });
   expect_error(ErrorKind::bad_input, "missing.png: no such file", [&] { read_views(folder / "missing.png"); });
   write_image(folder / "line_sbs.png", Image<Rgb8>(1, 21));
   expect_error(ErrorKind::bad_input, "line_sbs.png: is 1x21 pixels, expected an even width",
@@ -279,7 +279,7 @@ TEST(ReadViews, OfAnAnimationAreItsTwoFrames) {
   expect_error(ErrorKind::bad_input, "three.gif: has more than two frames, expected two",
                [&] { read_views(folder / "three.gif"); });
   put("one.gif", {red});
-  expect_error(ErrorKind::bad_input, "one.gif: is one picture", [&] { read_views(folder / "one.gif"); });
+  expect_error(ErrorKind::bad_input, "one.gif: holds one view", [&] { read_views(folder / "one.gif"); });
 }
 
 /// For red-cyan glasses: the red of the left view and the rest of the right one.
@@ -367,7 +367,7 @@ TEST(ReadViews, OfAHeicAreItsTwoPictures) {
   put_heic(folder / "b.heic", {{red}, {blue, 64, 72}});
   expect_error(ErrorKind::bad_input, "does not report which are a stereo pair", [&] { read_views(folder / "b.heic"); });
   put_heic(folder / "c.heic", {{red}});
-  expect_error(ErrorKind::bad_input, "c.heic: is one picture", [&] { read_views(folder / "c.heic"); });
+  expect_error(ErrorKind::bad_input, "c.heic: holds one view", [&] { read_views(folder / "c.heic"); });
   EXPECT_EQ(read_views(folder / "c.heic", {.layout = StereoLayout::top_bottom}).views[0].height(), 32);
 }
 
