@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,9 +32,13 @@ void print_text(const StudyData& data, const StudyAnalysis& analysis, const Sess
   for (const MeasureAnalysis& measure : analysis.measures) {
     fmt::print(session.output, "{}\n", measure.name);
     const auto print = [&](std::string_view test, const AnovaEffect& effect) {
-      fmt::print(session.output, "  {} {}({}, {}) = {:.2f}, p {}, partial eta squared {:.3f}\n", effect.name, test,
-                 effect.df_effect, effect.df_error, effect.f,
-                 effect.p < 0.0001 ? "< 0.0001" : fmt::format("= {:.4f}", effect.p), effect.partial_eta_squared);
+      if (std::isnan(effect.f))
+        fmt::print(session.output, "  {} {}({}, {}) n/a: there is no variance\n", effect.name, test, effect.df_effect,
+                   effect.df_error);
+      else
+        fmt::print(session.output, "  {} {}({}, {}) = {:.2f}, p {}, partial eta squared {:.3f}\n", effect.name, test,
+                   effect.df_effect, effect.df_error, effect.f,
+                   effect.p < 0.0001 ? "< 0.0001" : fmt::format("= {:.4f}", effect.p), effect.partial_eta_squared);
     };
     for (const AnovaEffect& effect : measure.by_subjects.effects) print("F1", effect);
     for (const AnovaEffect& effect : measure.by_items.effects) print("F2", effect);
@@ -63,6 +69,7 @@ void print_json(const StudyData& data, const StudyAnalysis& analysis, const Sess
                {"subjects", analysis.subjects},
                {"trials", analysis.trials},
                {"unfinished", analysis.unfinished},
+               {"without_trials", analysis.without_trials},
                {"outliers", analysis.outliers},
                {"measures", measures}},
               session);
@@ -75,6 +82,9 @@ void run(const Arguments& arguments, const Session& session) {
   for (const auto& [name, table] : analysis_tables(data, analysis)) write_whole_file(folder.file(name), table);
   write_whole_file(folder.file("analysis.html"), analysis_page(data, analysis));
   folder.commit();
+  if (!analysis.without_trials.empty() && !session.quiet)
+    fmt::print(session.errors, "wheatstone: warning: {}: no trials of {}, which do not count\n", arguments.study,
+               fmt::join(analysis.without_trials, ", "));
   if (session.json)
     print_json(data, analysis, session);
   else

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/study/trial_plan.h"
@@ -337,14 +338,22 @@ std::string rule_text(const StudyDesign& design, double deviations) {
 
 }  // namespace
 
-StudyAnalysis analyse_study(const StudyData& data, const AnalysisOptions& options) {
+StudyAnalysis analyse_study(const StudyData& all, const AnalysisOptions& options) {
+  StudyData data{.design = all.design, .simulated = all.simulated};
+  std::vector<std::string> without_trials;
+  for (const SubjectRecords& subject : all.subjects)
+    if (subject.trials.empty())
+      without_trials.push_back("sub-" + subject_label(data.design, subject.number));
+    else
+      data.subjects.push_back(subject);
   const Layout layout(data.design);
   StudyAnalysis analysis{.subjects = static_cast<int>(data.subjects.size()),
+                         .without_trials = std::move(without_trials),
                          .outlier_rule = rule_text(data.design, options.outlier_deviations)};
   const int all_trials = layout.condition_count() * data.design.repetitions;
   for (const SubjectRecords& subject : data.subjects) {
     analysis.trials += static_cast<int>(subject.trials.size());
-    if (std::ssize(subject.trials) < all_trials)
+    if (std::ssize(subject.trials) < all_trials || subject.answers.size() < data.design.questions.size())
       analysis.unfinished.push_back("sub-" + subject_label(data.design, subject.number));
   }
   if (analysis.trials == 0) throw Error(ErrorKind::bad_input, "the study has no trials yet, expected at least one");

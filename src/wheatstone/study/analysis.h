@@ -57,10 +57,11 @@ struct StudyAnalysis {
   std::vector<MeasureAnalysis> measures;
   std::vector<HeadMovement> head_movement;  ///< of conditions in which heads were followed
   std::vector<QuestionMean> questions;
-  int subjects = 0, trials = 0;
-  std::vector<std::string> unfinished;  ///< subjects with trials left to do
-  int wrong_answers = 0, outliers = 0;  ///< whose response times do not count
-  std::string outlier_rule;             ///< in words
+  int subjects = 0, trials = 0;             ///< of subjects with trials
+  std::vector<std::string> unfinished;      ///< subjects with trials or questions left to answer
+  std::vector<std::string> without_trials;  ///< subjects that are listed, and do not count: there are no trials of them
+  int wrong_answers = 0, outliers = 0;      ///< whose response times do not count
+  std::string outlier_rule;                 ///< in words
 };
 
 /// Analyses all that there is, as Hassaine 2010, 3.2.3 does. Throws Error{bad_input} where there are no trials.

@@ -1,6 +1,6 @@
 #include "wheatstone/study/analysis_report.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -207,11 +207,10 @@ std::string analysis_page(const StudyData& data, const StudyAnalysis& analysis) 
   page += fmt::format(
       "<p>{} subjects, {} trials. {} wrong answers and {} outliers do not count as response times. {}</p>\n",
       analysis.subjects, analysis.trials, analysis.wrong_answers, analysis.outliers, escaped(analysis.outlier_rule));
-  if (!analysis.unfinished.empty()) {
-    std::string names;
-    for (const std::string& name : analysis.unfinished) names += (names.empty() ? "" : ", ") + name;
-    page += fmt::format("<p>Not finished: {}.</p>\n", escaped(names));
-  }
+  for (const auto& [what, subjects] :
+       {std::pair{"Not finished", &analysis.unfinished}, std::pair{"Without trials", &analysis.without_trials}})
+    if (!subjects->empty())
+      page += fmt::format("<p>{}: {}.</p>\n", what, escaped(fmt::format("{}", fmt::join(*subjects, ", "))));
   for (const MeasureAnalysis& measure : analysis.measures) page += measure_section(measure);
   if (!analysis.head_movement.empty())
     page += "<h2>Head movement</h2>\n" + head_movement_figure(analysis.head_movement) +

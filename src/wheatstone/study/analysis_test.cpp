@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "throws_error.h"
+#include "wheatstone/study/analysis_report.h"
 #include "wheatstone/study/simulate.h"
 #include "wheatstone/study/trial_plan.h"
 
@@ -113,6 +114,28 @@ TEST(Analysis, RatingsAreAveraged) {
   EXPECT_EQ(analysis.measures[0].name, "rating");
   EXPECT_LT(analysis.measures[0].means[2].mean, analysis.measures[0].means[1].mean - 0.8);
   EXPECT_LT(effect_of(analysis.measures[0].by_subjects, "version").p, 1e-6);
+}
+
+TEST(Analysis, OfEqualAnswersHasNoVarianceAndSaysSo) {
+  SimulatedObservers observers = even_observers();
+  observers.between_subjects_s = observers.noise_s = 0;
+  for (const char* name : {"path-searching-1", "path-searching-2"}) {
+    const StudyDesign design = load_study_design(name);
+    const StudyData data = simulate_study(design, observers, design.subjects, 1);
+    const StudyAnalysis analysis = analyse_study(data);
+    for (const MeasureAnalysis& measure : analysis.measures)
+      for (const AnovaEffect& effect : measure.by_subjects.effects) EXPECT_TRUE(std::isnan(effect.p)) << effect.name;
+    const auto tables = analysis_tables(data, analysis);
+    EXPECT_THAT(tables.at(1).second, HasSubstr("\tn/a\t"));
+    EXPECT_THAT(analysis_page(data, analysis), testing::Not(HasSubstr("nan")));
+  }
+}
+
+TEST(Analysis, MeansThatDifferByRoundingHaveAFigure) {
+  StudyData data = simulate_study(first_experiment(), even_observers(), 2, 3);
+  for (SubjectRecords& subject : data.subjects)
+    for (TrialRecord& record : subject.trials) record.response_time_s = 18 + 4e-15 * (record.condition % 2);
+  EXPECT_THAT(analysis_page(data, analyse_study(data)), HasSubstr("</svg>"));
 }
 
 TEST(Analysis, AStudyWithoutTrialsIsRefused) {

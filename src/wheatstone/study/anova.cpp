@@ -8,6 +8,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 namespace wheatstone {
@@ -16,10 +17,15 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Factors = std::vector<AnovaData::Factor>;
 
-/// p of an F at least so large by chance.
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// Sums of squares below this share of those of the values are what rounding leaves of none.
+constexpr double rounding_share = 1e-22;
+
+/// p of an F at least so large by chance; NaN of an F that is not available.
 double upper_tail(double f, double df_effect, double df_error) {
-  if (!(f > 0)) return 1;
-  if (std::isinf(f)) return 0;
+  if (!std::isfinite(f)) return not_known;
+  if (f <= 0) return 1;
   return boost::math::cdf(boost::math::complement(boost::math::fisher_f(df_effect, df_error), f));
 }
 
@@ -88,6 +94,7 @@ std::uint32_t part_of(const Factors& factors, std::uint32_t effect, bool between
 struct BetweenModel {
   Matrix design, inverse;                  ///< X and (XᵀX)⁻¹
   std::vector<Eigen::Index> first, count;  ///< columns of each effect, by its bits
+  bool has_inverse = false;                ///< no group is without units
 };
 
 BetweenModel between_model(const Factors& factors, const std::vector<std::vector<int>>& groups) {
@@ -104,21 +111,25 @@ BetweenModel between_model(const Factors& factors, const std::vector<std::vector
     wider << model.design, columns;
     model.design = wider;
   }
-  model.inverse = (model.design.transpose() * model.design).inverse();
+  const Eigen::FullPivLU<Matrix> squared(model.design.transpose() * model.design);
+  model.has_inverse = squared.isInvertible();
+  if (model.has_inverse) model.inverse = squared.inverse();
   return model;
 }
 
 /// Mauchly 1940, with the second-order approximation of p. The last term of w2 has the number of all cells, as R does.
 void add_mauchly(const Matrix& error, double df, double cells, Sphericity& sphericity) {
   const double k = static_cast<double>(error.rows());
-  const double log_w = std::log(error.determinant()) - k * std::log(error.trace() / k);
+  const Eigen::FullPivLU<Matrix> relative(error * (k / error.trace()));
+  const double w = relative.isInvertible() ? std::clamp(relative.determinant(), 0.0, 1.0) : 0;
   const double rho = 1 - (2 * k * k + k + 2) / (6 * k * df);
   const double w2 =
       (k + 2) * (k - 1) * (k - 2) * (2 * k * k * k + 6 * k * k + 3 * cells + 2) / (288 * std::pow(df * k * rho, 2));
-  const double z = -df * rho * log_w;
+  const double z = -df * rho * std::log(w);
   const double freedom = k * (k + 1) / 2 - 1;
-  sphericity.mauchly_w = std::exp(log_w);
-  if (!(z > 0)) return;
+  sphericity.mauchly_w = w;
+  if (!std::isfinite(z)) sphericity.mauchly_p = not_known;
+  if (!(z > 0) || !std::isfinite(z)) return;
   const auto tail = [z](double f) { return boost::math::cdf(boost::math::complement(boost::math::chi_squared(f), z)); };
   const double first = tail(freedom);
   sphericity.mauchly_p = first + w2 * (tail(freedom + 4) - first);
@@ -126,7 +137,7 @@ void add_mauchly(const Matrix& error, double df, double cells, Sphericity& spher
 
 /// Greenhouse & Geisser 1959; Huynh & Feldt 1976.
 std::optional<Sphericity> sphericity_of(const Matrix& error, double df, double cells, const AnovaEffect& effect) {
-  if (error.rows() < 2 || df < static_cast<double>(error.rows())) return {};
+  if (error.rows() < 2 || df < static_cast<double>(error.rows()) || !std::isfinite(effect.f)) return {};
   Sphericity sphericity;
   const double k = static_cast<double>(error.rows());
   sphericity.greenhouse_geisser = std::pow(error.trace(), 2) / (k * (error * error).trace());
@@ -172,9 +183,11 @@ Tested test_effect(const Factors& factors, const Matrix& values, const BetweenMo
   result.name = effect_name(factors, effect);
   result.df_effect = k * static_cast<double>(model.count[between]);
   result.df_error = k * df;
-  result.f = tested.squares / result.df_effect / (tested.error_squares / result.df_error);
+  // Without variance there is nothing to compare an effect with.
+  const bool varies = tested.error_squares > rounding_share * values.squaredNorm();
+  result.f = varies ? tested.squares / result.df_effect / (tested.error_squares / result.df_error) : not_known;
   result.p = upper_tail(result.f, result.df_effect, result.df_error);
-  result.partial_eta_squared = tested.squares / (tested.squares + tested.error_squares);
+  result.partial_eta_squared = varies ? tested.squares / (tested.squares + tested.error_squares) : not_known;
   result.sphericity = sphericity_of(error, df, static_cast<double>(values.cols()), result);
   return tested;
 }
@@ -207,7 +220,7 @@ AnovaResult repeated_measures_anova(const AnovaData& data) {
     groups.push_back(data.groups.empty() ? std::vector<int>() : data.groups[unit]);
   }
   const BetweenModel model = between_model(data.factors, groups);
-  if (values.rows() <= model.design.cols() || !model.inverse.allFinite()) return result;
+  if (values.rows() <= model.design.cols() || !model.has_inverse) return result;
   std::vector<Tested> tested;
   for (std::uint32_t effect = 1; effect < 1u << data.factors.size(); ++effect)
     tested.push_back(test_effect(data.factors, values, model, effect));
@@ -219,7 +232,8 @@ AnovaResult repeated_measures_anova(const AnovaData& data) {
     all_errors += (contrasted - model.design * (model.inverse * model.design.transpose() * contrasted)).squaredNorm();
   }
   for (Tested& one : tested) {
-    one.effect.generalised_eta_squared = one.squares / (one.squares + all_errors);
+    one.effect.generalised_eta_squared =
+        std::isfinite(one.effect.f) ? one.squares / (one.squares + all_errors) : not_known;
     result.effects.push_back(one.effect);
   }
   return result;
@@ -227,6 +241,8 @@ AnovaResult repeated_measures_anova(const AnovaData& data) {
 
 MinF min_f_prime(const AnovaEffect& by_subjects, const AnovaEffect& by_items) {
   const double f1 = by_subjects.f, f2 = by_items.f;
+  if (!std::isfinite(f1 + f2))
+    return {.f = not_known, .df_effect = by_subjects.df_effect, .df_error = not_known, .p = not_known};
   if (!(f1 + f2 > 0)) return {};
   MinF result{.f = f1 * f2 / (f1 + f2), .df_effect = by_subjects.df_effect};
   result.df_error = std::pow(f1 + f2, 2) / (f1 * f1 / by_items.df_error + f2 * f2 / by_subjects.df_error);
@@ -241,11 +257,16 @@ PairedT paired_t(std::span<const double> first, std::span<const double> second) 
   const double n = static_cast<double>(differences.size());
   if (n < 2) return {};
   PairedT result{.mean = std::accumulate(differences.begin(), differences.end(), 0.0) / n, .df = n - 1};
-  double squares = 0;
+  double squares = 0, of_values = 0;
   for (const double difference : differences) squares += std::pow(difference - result.mean, 2);
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (!std::isnan(first[i] - second[i])) of_values += first[i] * first[i] + second[i] * second[i];
   const double deviation = std::sqrt(squares / (n - 1));
   result.standard_error = deviation / std::sqrt(n);
-  if (deviation <= 0) return result;
+  if (squares <= rounding_share * of_values) {
+    result.t = result.p = result.cohens_dz = not_known;
+    return result;
+  }
   result.cohens_dz = result.mean / deviation;
   result.t = result.mean / result.standard_error;
   result.p = 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(result.df), std::abs(result.t)));
@@ -253,13 +274,14 @@ PairedT paired_t(std::span<const double> first, std::span<const double> second) 
 }
 
 std::vector<double> holm_corrected(const std::vector<double>& p) {
-  std::vector<std::size_t> order(p.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!std::isnan(p[i])) order.push_back(i);
   std::ranges::sort(order, {}, [&p](std::size_t i) { return p[i]; });
-  std::vector<double> corrected(p.size());
+  std::vector<double> corrected(p.size(), not_known);
   double most = 0;
   for (std::size_t rank = 0; rank < order.size(); ++rank) {
-    most = std::max(most, std::min(1.0, static_cast<double>(p.size() - rank) * p[order[rank]]));
+    most = std::max(most, std::min(1.0, static_cast<double>(order.size() - rank) * p[order[rank]]));
     corrected[order[rank]] = most;
   }
   return corrected;

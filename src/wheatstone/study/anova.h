@@ -21,13 +21,15 @@ struct AnovaData {
                                             ///< turn first; NaN where there is none
 };
 
-/// How far the cells' differences are from having one variance, and the tests that allow for it.
+/// How far the cells' differences are from having one variance, and the tests that allow for it. Mauchly's p is NaN
+/// where some difference has no variance.
 struct Sphericity {
   double mauchly_w = 1, mauchly_p = 1;
   double greenhouse_geisser = 1, greenhouse_geisser_p = 1;  ///< ε, and p of F with it
   double huynh_feldt = 1, huynh_feldt_p = 1;                ///< may exceed 1, which is then taken for p
 };
 
+/// Where the units' values have no variance, up to rounding, F, p and both η² are NaN.
 struct AnovaEffect {
   std::string name;  ///< "depth_cm:views_per_10cm"
   double df_effect = 0, df_error = 0;
@@ -47,13 +49,15 @@ struct AnovaResult {
 /// does it. Units with a missing cell are left out. No effects where too few units are left.
 AnovaResult repeated_measures_anova(const AnovaData& data);
 
-/// min F′ of an effect by subjects (F1) and by items (F2): a lower bound of what holds of both (Clark 1973).
+/// min F′ of an effect by subjects (F1) and by items (F2): a lower bound of what holds of both (Clark 1973). NaN where
+/// either is.
 struct MinF {
   double f = 0, df_effect = 0, df_error = 0, p = 1;
 };
 MinF min_f_prime(const AnovaEffect& by_subjects, const AnovaEffect& by_items);
 
-/// Student's t of paired values: pairs with a NaN do not count.
+/// Student's t of paired values: pairs with a NaN do not count. t, p and d are NaN where the differences have no
+/// variance, up to rounding.
 struct PairedT {
   double mean = 0;  ///< of first − second
   double standard_error = 0;
@@ -62,7 +66,7 @@ struct PairedT {
 };
 PairedT paired_t(std::span<const double> first, std::span<const double> second);
 
-/// Holm 1979: p values for several tests at once, in the order of the tests.
+/// Holm 1979: p values for several tests at once, in the order of the tests. Those that are NaN do not count.
 std::vector<double> holm_corrected(const std::vector<double>& p);
 
 /// Probability that an F test at the 5 % level finds an effect of this noncentrality λ.

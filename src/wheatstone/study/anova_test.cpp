@@ -159,6 +159,36 @@ TEST(Anova, TooFewUnitsHaveNoEffects) {
   EXPECT_EQ(repeated_measures_anova(data).units, 0);
 }
 
+TEST(Anova, WithoutVarianceIsNotAvailable) {
+  // Each unit has the same differences between its cells, up to rounding.
+  AnovaData data{.factors = {{"a", 3}}};
+  for (int unit = 0; unit < 6; ++unit) {
+    data.units.push_back("sub-" + std::to_string(unit));
+    data.values.push_back({18 + 0.1 * unit, 18.3 + 0.1 * unit, 18.7 + 0.1 * unit});
+  }
+  const AnovaEffect& differs = repeated_measures_anova(data).effects.at(0);
+  EXPECT_TRUE(std::isnan(differs.f) && std::isnan(differs.p) && std::isnan(differs.partial_eta_squared));
+  EXPECT_FALSE(differs.sphericity);
+  for (std::vector<double>& cells : data.values) cells = {18.1, 18.1, 18.1};
+  const AnovaEffect& equal = repeated_measures_anova(data).effects.at(0);
+  EXPECT_TRUE(std::isnan(equal.f) && std::isnan(equal.p) && std::isnan(equal.generalised_eta_squared));
+  EXPECT_TRUE(std::isnan(min_f_prime(differs, equal).p));
+}
+
+TEST(Anova, DifferencesOfWhichOneHasNoVarianceHaveNoMauchly) {
+  AnovaData data{.factors = {{"a", 3}}};
+  for (int unit = 0; unit < 6; ++unit) {
+    data.units.push_back("sub-" + std::to_string(unit));
+    data.values.push_back({18, 18, 18.7 + 0.1 * unit * unit});
+  }
+  const AnovaEffect& effect = repeated_measures_anova(data).effects.at(0);
+  EXPECT_GT(effect.f, 0);
+  ASSERT_TRUE(effect.sphericity);
+  EXPECT_NEAR(effect.sphericity->mauchly_w, 0, 1e-12);
+  EXPECT_TRUE(std::isnan(effect.sphericity->mauchly_p));
+  EXPECT_NEAR(effect.sphericity->greenhouse_geisser, 0.5, 1e-9);
+}
+
 TEST(MinFPrime, IsClarksQuotient) {
   // F1(1, 38) = 9.20 and F2(1, 77) = 10.48 of Hassaine 2010, 3.2.3.
   const MinF result =
@@ -176,6 +206,20 @@ TEST(PairedT, IsStudents) {
   EXPECT_EQ(result.df, 3);
   EXPECT_NEAR(result.p, 0.1027280789, 1e-9);
   EXPECT_NEAR(result.cohens_dz, 1.161895, 1e-6);
+}
+
+TEST(PairedT, OfEqualDifferencesIsNotAvailable) {
+  const std::vector<double> first{5.1, 7.1, 9.1}, second{4, 6, 8};
+  const PairedT result = paired_t(first, second);
+  EXPECT_NEAR(result.mean, 1.1, 1e-12);
+  EXPECT_TRUE(std::isnan(result.t) && std::isnan(result.p) && std::isnan(result.cohens_dz));
+}
+
+TEST(Holm, LeavesOutWhatIsNotAvailable) {
+  const std::vector<double> corrected = holm_corrected({0.01, none, 0.04, none, 0.03});
+  EXPECT_NEAR(corrected[0], 0.03, 1e-12);
+  EXPECT_NEAR(corrected[4], 0.06, 1e-12);
+  EXPECT_TRUE(std::isnan(corrected[1]) && std::isnan(corrected[3]));
 }
 
 TEST(Holm, CorrectsSeveralTests) {

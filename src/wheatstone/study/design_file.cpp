@@ -120,6 +120,35 @@ void check_name(const Table& table, std::string_view key, const std::string& nam
     table.refuse(key, "letters, digits, '_', '-' and '.'");
 }
 
+/// A text that may stand in a field of a table.
+void check_text(const Table& table, std::string_view key, const std::string& text) {
+  if (text.empty() || text == "n/a" || std::ranges::any_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    table.refuse(key, "names without control characters");
+}
+
+/// Names of which each is to be told apart from all others, and from columns that the tables have anyway.
+void check_told_apart(const std::vector<Table>& tables, const std::vector<std::string>& names,
+                      std::initializer_list<std::string_view> columns) {
+  std::set<std::string> known;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::ranges::find(columns, names[i]) != columns.end())
+      tables[i].refuse("name", fmt::format("another name: '{}' is a column of the tables", names[i]));
+    if (!known.insert(names[i]).second) tables[i].refuse("name", fmt::format("'{}' once only", names[i]));
+  }
+}
+
+/// Reads each table of a list.
+template <class Value, class Read>
+void read_all(const std::vector<Table>& tables, std::vector<Value>& values, Read read,
+              std::initializer_list<std::string_view> columns) {
+  std::vector<std::string> names;
+  for (const Table& table : tables) {
+    values.push_back(read(table));
+    names.push_back(values.back().name);
+  }
+  check_told_apart(tables, names, columns);
+}
+
 /// A level or a control condition that is a table: its name and what it sets.
 FactorLevel named_level(const Table& table) {
   FactorLevel level;
@@ -198,7 +227,15 @@ void read_pictures(const Table& table, StudyDesign& design) {
   const toml::node* const items = table.find("items");
   if (items == nullptr) return;
   if (!items->is_array()) table.refuse("items", "a list of names");
-  for (const toml::node& node : *items->as_array()) design.items.push_back(word_of(node));
+  std::set<std::string> names;
+  for (const toml::node& node : *items->as_array()) {
+    design.items.push_back(word_of(node));
+    check_text(table, "items", design.items.back());
+    if (!names.insert(design.items.back()).second)
+      table.refuse("items", fmt::format("'{}' once only", design.items.back()));
+  }
+  for (const auto& [key, pattern] : {std::pair{"left", &design.left}, std::pair{"right", &design.right}})
+    if (!pattern->empty()) check_text(table, key, *pattern);
   design.item_count = static_cast<int>(design.items.size());
   if (design.items.empty() || design.left.empty()) table.refuse("left", "a pattern such as \"{item}_left.png\"");
 }
@@ -223,6 +260,20 @@ void read_numbers(const Table& table, StudyDesign& design) {
   table.read("seed", design.seed, 0, std::numeric_limits<std::int64_t>::max());
 }
 
+/// Numbers of levels and trials that a person could meet.
+void check_size(const Table& table, const StudyDesign& design) {
+  constexpr std::size_t most_conditions = 1000, most_trials = 10'000;
+  std::size_t conditions = 1;
+  for (const StudyFactor& factor : design.factors)
+    conditions = std::min(conditions * factor.levels.size(), std::size_t{1} << 20);
+  conditions += design.controls.size();
+  if (conditions > most_conditions)
+    table.refuse("factor", fmt::format("fewer levels: they make {} conditions, expected at most {}", conditions,
+                                       most_conditions));
+  if (conditions * static_cast<std::size_t>(design.repetitions) > most_trials)
+    table.refuse("repetitions", fmt::format("at most {} trials of a subject", most_trials));
+}
+
 /// What must be there, and what must fit together.
 void check_whole(const Table& table, const StudyDesign& design) {
   check_name(table, "name", design.name);
@@ -233,9 +284,6 @@ void check_whole(const Table& table, const StudyDesign& design) {
   if (design.repetitions == 0) table.refuse("repetitions", "the number of trials in each condition");
   if (design.factors.empty()) table.refuse("factor", "at least one [[factor]]");
   if (design.task == StudyTask::rating && design.items.empty()) table.refuse("pictures", "[pictures] for a rating");
-  std::set<std::string> names;
-  for (const StudyFactor& factor : design.factors)
-    if (!names.insert(factor.name).second) table.refuse("factor", fmt::format("'{}' once only", factor.name));
   const int trials = condition_count(design) * design.repetitions;
   if (design.item_count < trials)
     throw Error(ErrorKind::bad_input,
@@ -260,11 +308,14 @@ StudyDesign parse_study_design(std::string_view toml, std::string_view name) {
     read_numbers(table, design);
     const Table shown = table.table("shown");
     for (const auto& [key, node] : shown) apply_setting(key.str(), word_of(node), design.shown, shown.where());
-    for (const Table& factor : table.tables("factor")) design.factors.push_back(read_factor(factor));
-    for (const Table& control : table.tables("control")) design.controls.push_back(named_level(control));
-    for (const Table& question : table.tables("question")) design.questions.push_back(read_question(question));
+    read_all(table.tables("factor"), design.factors, read_factor,
+             {"trial_type", "response_time", "stim_file", "trial", "item", "expected", "response", "correct",
+              "head_least", "head_most", "log_delay", "observer", "participant_id"});
+    read_all(table.tables("control"), design.controls, named_level, {});
+    read_all(table.tables("question"), design.questions, read_question, {"participant_id", "observer"});
     read_texts(table.table("texts"), design.texts);
     read_pictures(table.table("pictures"), design);
+    check_size(table, design);
     if (design.item_count == 0 && !design.factors.empty())
       design.item_count = condition_count(design) * design.repetitions;
     check_whole(table, design);

@@ -158,6 +158,34 @@ TEST(StudyDesign, WhatIsWrongInAFileIsNamed) {
   expect_error(ErrorKind::bad_input, "nowhere.toml", [] { load_study_design("nowhere.toml"); });
 }
 
+TEST(StudyDesign, NamesThatCannotBeToldApartAreRefused) {
+  const std::string eight = "subjects = 8\n", question = "[[question]]\nname = 'tired'\n";
+  expect_refused_design(small_design(eight + question + question), "[[question]]: name: expected 'tired' once only");
+  expect_refused_design(small_design(eight + "[[question]]\nname = 'participant_id'\n"),
+                        "'participant_id' is a column");
+  expect_refused_design(small_design(eight + "[[question]]\nname = 'observer'\n"), "'observer' is a column");
+  expect_refused_design(small_design(eight + "[[factor]]\nname = 'response'\nlevels = [1, 2]"),
+                        "'response' is a column");
+  const std::string flat = "[[control]]\nname = 'flat'\ndepth_cm = 0\n";
+  expect_refused_design(small_design("subjects = 6\n" + flat + flat), "[[control]]: name: expected 'flat' once only");
+  const std::string pictures =
+      "name = 'p'\ntask_label = 'p'\ntask = 'rating'\nsubjects = 2\nrepetitions = 1\n[[factor]]\nname = 'v'\n"
+      "levels = [1, 2]\n[pictures]\nleft = '{item}_{v}.png'\n";
+  expect_refused_design(pictures + "items = ['a', 'a']", "items: expected 'a' once only");
+  expect_refused_design(pictures + "items = ['a', \"b\\tc\"]", "items: expected names without control characters");
+  expect_refused_design(pictures + "items = ['a', ['b']]", "items: expected names");
+}
+
+TEST(StudyDesign, ThatIsTooLargeIsRefused) {
+  std::string many = "subjects = 8\n";
+  for (int factor = 0; factor < 40; ++factor)
+    many += "[[factor]]\nname = 'f" + std::to_string(factor) + "'\nlevels = [1, 2, 3]\n";
+  expect_refused_design(small_design(many), "conditions, expected at most 1000");
+  expect_refused_design(small_design("subjects = 8\n[shown]\nnodes = 31"),
+                        "nodes is '31', expected a multiple of three");
+  expect_refused_design(small_design("subjects = 8\n[shown]\nnodes = 30.5"), "nodes is '30.5'");
+}
+
 TEST(StudyDesign, PicturesAreNamedByItemAndLevel) {
   const StudyDesign design = load_study_design("painting-comfort");
   const std::vector<StudyCondition> conditions = conditions_of_group(design, 0);

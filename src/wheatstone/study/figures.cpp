@@ -25,7 +25,9 @@ double round_step(double range) {
 }
 
 Axis axis_around(double least, double most) {
-  if (!(most > least)) most = least + 1;
+  // What differs by rounding alone is equal: a step would be lost in the numbers that it is added to.
+  constexpr double rounding = 1e-9;
+  if (!(most - least > rounding * std::max(std::abs(most), std::abs(least)))) most = least + 1;
   const double step = round_step(most - least);
   return {std::floor(least / step) * step, std::ceil(most / step) * step, step};
 }

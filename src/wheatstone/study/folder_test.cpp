@@ -11,6 +11,7 @@
 #include "wheatstone/study/simulate.h"
 #include "wheatstone/study/study_folder.h"
 #include "wheatstone/study/trial_table.h"
+#include "wheatstone/study/tsv_table_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -125,12 +126,12 @@ TEST(StudyFolder, OfAnotherDesignOrKindIsRefused) {
 TEST(StudyFolder, ATableThatIsBrokenIsNamed) {
   const std::string header = trial_table_header(design());
   const auto parse = [&](const std::string& text) {
-    return [&, text] { parse_trial_table(design(), 0, text, "a.tsv"); };
+    return [&, text] { parse_trial_table(design(), 0, text, "a.tsv", true); };
   };
-  expect_error(ErrorKind::bad_input, "a.tsv: is of another design", parse("a\tb\n"));
+  expect_error(ErrorKind::bad_input, "a.tsv:1: is of another design", parse("a\tb\n"));
   expect_error(ErrorKind::bad_input, "a.tsv:2: has 1 fields", parse(header + "x\n"));
   std::string row = trial_table_row(design(), 0, simulate_subject(design(), {}, 0, 1).trials[0], true);
-  expect_error(ErrorKind::bad_input, "is not a condition of the design", parse(header + "x" + row));
+  expect_error(ErrorKind::bad_input, "expected a condition of the design", parse(header + "x" + row));
 }
 
 TEST(StudyFolder, AStimulusThatIsMissingIsNamed) {

@@ -66,8 +66,12 @@ Setting name_setting(std::string_view name, std::string_view expected,
 
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> all{
-      number_setting("nodes", 9, 3000, "a multiple of three from 9 to 3000",
-                     [](ShownSettings& shown, float value) { shown.nodes = static_cast<int>(value); }),
+      {"nodes", "a multiple of three from 9 to 3000",
+       [](const std::string& text, ShownSettings& shown) {
+         const std::optional<float> value = number_in(text, 9, 3000);
+         if (value) shown.nodes = static_cast<int>(*value);
+         return value && std::fmod(*value, 3.0f) == 0;
+       }},
       number_setting("depth_cm", 0, 100, "a number from 0 to 100",
                      [](ShownSettings& shown, float value) { shown.depth_mm = 10 * value; }),
       number_setting("views_per_10cm", 0, 1000, "a number from 0 to 1000",

@@ -2,15 +2,24 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "wheatstone/study/study_data.h"
 #include "wheatstone/study/trial_log.h"
 
 namespace wheatstone {
 
-/// Whether this folder holds a study already; false where it is missing or empty. Throws Error{bad_input} where it
-/// holds anything else.
+/// Whether this folder holds a study already; false where it is missing, empty, or has only stimuli in it, for a study
+/// that is to begin. Throws Error{bad_input} where it holds anything else.
 bool holds_study(const std::filesystem::path& folder);
+
+/// Throws Error{bad_input} where the folder can hold no data of this design and these observers: where it has those of
+/// others, or anything but a study. Writes nothing. See StudyFolder.
+void check_study_folder(const std::filesystem::path& path, const StudyDesign& design, bool simulated,
+                        std::string_view simulation = {});
+
+/// Throws Error{bad_input} that names a picture of the design that is missing below the study's folder.
+void check_stimuli(const std::filesystem::path& path, const StudyDesign& design);
 
 /// A study's folder, laid out as BIDS 1.9 has behavioural data: dataset_description.json, participants.tsv,
 /// task-LABEL_beh.json, sub-01/beh/sub-01_task-LABEL_beh.tsv, phenotype/questionnaire.tsv, stimuli/; the design lies in
@@ -18,12 +27,14 @@ bool holds_study(const std::filesystem::path& folder);
 class StudyFolder {
  public:
   /// Makes the folder, or goes on with one of the same design. Data of people and of simulated observers are never
-  /// mixed. Throws Error: bad_input where it is of another design or of the other kind, cannot_read_write.
-  StudyFolder(std::filesystem::path path, const StudyDesign& design, bool simulated);
+  /// mixed, nor are those of two simulations: `simulation` says how observers answer. Throws Error: bad_input as
+  /// check_study_folder, cannot_read_write.
+  StudyFolder(std::filesystem::path path, const StudyDesign& design, bool simulated, std::string_view simulation = {});
 
   const std::filesystem::path& path() const { return path_; }
   const StudyDesign& design() const { return design_; }
   bool simulated() const { return simulated_; }
+  std::filesystem::path design_file() const;
 
   /// Where stimuli lie, with graphs of the design's items for this screen made where they are missing. Throws
   /// Error{bad_input} that names a picture that is missing.
@@ -40,8 +51,7 @@ class StudyFolder {
   void write_answers(const SubjectRecords& subject) const;
 
  private:
-  void check_same() const;
-  void begin() const;
+  void begin(std::string_view simulation) const;
 
   std::filesystem::path path_;
   StudyDesign design_;
@@ -54,7 +64,8 @@ SubjectRecords read_subject(const StudyFolder& folder, int subject);
 /// Writes a whole subject, as a simulation makes it.
 void write_subject(const StudyFolder& folder, const SubjectRecords& subject);
 
-/// Reads a study's folder. Throws Error{bad_input} that names the file that is missing or broken.
+/// Reads a study's folder. Throws Error{bad_input} that names the file, and the line, of what is missing, broken or
+/// contradicts the design.
 StudyData read_study(const std::filesystem::path& path);
 
 }  // namespace wheatstone

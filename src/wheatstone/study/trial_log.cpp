@@ -1,14 +1,17 @@
 #include "wheatstone/study/trial_log.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/study/tsv_table_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -38,40 +41,59 @@ fs::path reserve_of(const fs::path& path) {
   return path.parent_path() / fmt::format(".{}.reserve", path.filename().string());
 }
 
-/// The line in a reserve; empty where there is none.
-std::string kept_line(const fs::path& reserve) {
+/// How many bytes of a table are whole lines. Where its last line has no end, another program may have saved it so: it
+/// is whole where it has all fields, of which the observer is the last.
+std::size_t whole_bytes(std::string_view table) {
+  const std::size_t ended = table.rfind('\n') + 1;  // 0 where there is none
+  const std::string_view header = table.substr(0, table.find('\n')), last = table.substr(ended);
+  const bool whole = ended > 0 && std::ranges::count(last, '\t') == std::ranges::count(header, '\t') &&
+                     (last.ends_with("\tperson") || last.ends_with("\tsimulated"));
+  return whole ? table.size() : ended;
+}
+
+/// The line in a reserve; empty where there is none, and where the table has it already.
+std::string kept_line(const fs::path& reserve, std::string_view table) {
   std::error_code error;
   if (!fs::exists(reserve, error)) return {};
   const std::string bytes = read_whole_file(reserve, most_bytes);
   const std::size_t end = bytes.find('\n');
-  return end == std::string::npos || end == 0 ? std::string() : bytes.substr(0, end + 1);
+  if (end == std::string::npos || end == 0 || table.ends_with(bytes.substr(0, end + 1))) return {};
+  return bytes.substr(0, end + 1);
 }
 
 }  // namespace
 
 TrialLog::TrialLog(fs::path path, std::string_view header) : path_(std::move(path)), reserve_(reserve_of(path_)) {
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail(path_, "cannot be written");
+  if (const std::error_code error = lock_.hold(path_); error == std::errc::resource_unavailable_try_again)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: another session writes it; expected another subject, or wait until that session has "
+                            "ended",
+                            path_.string()));
+  else if (error)
+    throw Error(ErrorKind::cannot_read_write,
+                fmt::format("{}: cannot be written: {}", path_.string(), error.message()));
   const std::string present = read_whole_file(path_, most_bytes);
-  size_ = present.rfind('\n') + 1;  // 0 where there is none
-  if (size_ < present.size() && ::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) fail(path_, "cannot be cut");
-  if (size_ == 0) {
-    if (!write_at(descriptor_, header, 0)) fail(path_, "cannot be written");
-    size_ = header.size();
-  }
+  if (!header.starts_with(present) && !plain_text(present).starts_with(header))
+    throw Error(ErrorKind::bad_input, fmt::format("{}:1: has other columns, expected {}", path_.string(),
+                                                  fmt::join(fields_of(header.substr(0, header.find('\n'))), ", ")));
+  size_ = whole_bytes(present);
+  if (size_ < present.size() && ::ftruncate(lock_.descriptor(), static_cast<off_t>(size_)) != 0)
+    fail(path_, "cannot be cut");
+  if (size_ == 0)
+    add(header);
+  else if (present[size_ - 1] != '\n')
+    add("\n");
   take_over_reserve();
   make_reserve();
 }
 
-TrialLog::~TrialLog() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+void TrialLog::add(std::string_view bytes) {
+  if (!write_at(lock_.descriptor(), bytes, size_)) fail(path_, "cannot be written");
+  size_ += bytes.size();
 }
 
 void TrialLog::take_over_reserve() {
-  const std::string line = kept_line(reserve_);
-  if (line.empty()) return;
-  if (!write_at(descriptor_, line, size_)) fail(path_, "cannot be written");
-  size_ += line.size();
+  if (const std::string line = kept_line(reserve_, read_whole_file(path_, most_bytes)); !line.empty()) add(line);
 }
 
 void TrialLog::make_reserve() const {
@@ -83,13 +105,13 @@ void TrialLog::make_reserve() const {
 }
 
 void TrialLog::append(std::string_view line) {
-  if (write_at(descriptor_, line, size_)) {
+  if (write_at(lock_.descriptor(), line, size_)) {
     size_ += line.size();
     return;
   }
   const std::string reason = std::strerror(errno);
   // The table's end is only tidied: opening it again cuts off what is half-written.
-  if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) errno = 0;
+  if (::ftruncate(lock_.descriptor(), static_cast<off_t>(size_)) != 0) errno = 0;
   const int reserve = ::open(reserve_.c_str(), O_WRONLY | O_CLOEXEC);
   const bool kept = reserve >= 0 && line.size() < reserve_bytes && write_at(reserve, line, 0);
   if (reserve >= 0) ::close(reserve);
@@ -108,7 +130,9 @@ void TrialLog::finish() {
 
 std::string read_trial_log(const fs::path& path) {
   const std::string present = read_whole_file(path, most_bytes);
-  return present.substr(0, present.rfind('\n') + 1) + kept_line(reserve_of(path));
+  std::string whole = present.substr(0, whole_bytes(present));
+  if (!whole.empty() && whole.back() != '\n') whole += '\n';
+  return whole + kept_line(reserve_of(path), whole);
 }
 
 }  // namespace wheatstone

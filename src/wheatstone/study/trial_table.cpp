@@ -1,15 +1,17 @@
 #include "wheatstone/study/trial_table.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "wheatstone/error.h"
 #include "wheatstone/study/trial_plan.h"
+#include "wheatstone/study/tsv_table_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -26,64 +28,119 @@ std::string answer_text(const StudyDesign& design, int answer) {
   return answer == 1 ? "yes" : "no";
 }
 
-std::vector<std::string> split(std::string_view text, char at) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0;;) {
-    const std::size_t end = text.find(at, begin);
-    parts.emplace_back(text.substr(begin, end == std::string_view::npos ? end : end - begin));
-    if (end == std::string_view::npos) return parts;
-    begin = end + 1;
-  }
+/// The fields of a trial of a subject who meets these conditions.
+std::vector<std::string> fields_of_trial(const StudyDesign& design, const std::vector<StudyCondition>& conditions,
+                                         const TrialRecord& record, bool simulated) {
+  const StudyCondition& condition = conditions[static_cast<std::size_t>(record.condition)];
+  std::vector<std::string> fields{condition.name, number_text(record.response_time_s),
+                                  stimulus_files(design, record.item, condition).front(),
+                                  fmt::format("{}", record.trial), item_name(design, record.item)};
+  fields.insert(fields.end(), condition.levels.begin(), condition.levels.end());
+  const std::optional<bool> correct = is_correct(design, record);
+  fields.insert(fields.end(), {correct ? answer_text(design, is_connected(design, record.item) ? 1 : 0) : "n/a",
+                               answer_text(design, record.response), correct ? (*correct ? "true" : "false") : "n/a",
+                               number_text(record.head_least_m), number_text(record.head_most_m),
+                               number_text(record.log_delay_s), simulated ? "simulated" : "person"});
+  return fields;
 }
 
-/// Reads fields of one line in their order; a field that is not as expected is named.
-class FieldReader {
- public:
-  FieldReader(std::vector<std::string> fields, std::string where)
-      : fields_(std::move(fields)), where_(std::move(where)) {}
+/// Columns whose values do not follow from those of others.
+struct OwnColumns {
+  std::size_t condition, time, trial, item, response, head_least, head_most, log_delay;
+};
 
-  const std::string& at(std::size_t column) const { return fields_[column]; }
-  double number(std::size_t column) const {
-    if (at(column) == "n/a") return not_available;
-    double value = 0;
-    const auto [end, error] = std::from_chars(at(column).data(), at(column).data() + at(column).size(), value);
-    if (error != std::errc() || end != at(column).data() + at(column).size()) refuse(column, "a number");
-    return value;
+/// Reads the rows of a table. A field that cannot be, alone or beside the others of its row, is named.
+class RowReader {
+ public:
+  RowReader(const StudyDesign& design, int subject, bool simulated, TsvTable table)
+      : design_(design),
+        simulated_(simulated),
+        table_(std::move(table)),
+        conditions_(conditions_of_group(design, group_of_subject(design, subject))),
+        own_{table_.at("trial_type"), table_.at("response_time"), table_.at("trial"),     table_.at("item"),
+             table_.at("response"),   table_.at("head_least"),    table_.at("head_most"), table_.at("log_delay")} {
+    for (int item = 0; item < design.item_count; ++item) items_.emplace(item_name(design, item), item);
   }
-  int index_in(std::size_t column, const std::vector<std::string>& names, std::string_view what) const {
-    const auto found = std::ranges::find(names, at(column));
-    if (found == names.end()) refuse(column, what);
-    return static_cast<int>(found - names.begin());
-  }
-  bool is_yes(std::size_t column) const {
-    if (at(column) != "yes" && at(column) != "no") refuse(column, "yes or no");
-    return at(column) == "yes";
-  }
-  [[noreturn]] void refuse(std::size_t column, std::string_view expected) const {
-    throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' is not {}", where_, at(column), expected));
+
+  std::vector<TrialRecord> read() const {
+    std::vector<TrialRecord> records;
+    std::set<int> trials, items;
+    for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+      records.push_back(read_row(row));
+      if (!trials.insert(records.back().trial).second) refuse_twice(row, fmt::format("trial {}", records.back().trial));
+      if (!items.insert(records.back().item).second) refuse_twice(row, table_.rows[row][own_.item]);
+      check_what_follows(row, records.back());
+    }
+    return records;
   }
 
  private:
-  std::vector<std::string> fields_;
-  std::string where_;
-};
+  TrialRecord read_row(std::size_t row) const {
+    constexpr double longest_s = 86'400, farthest_m = 100;
+    TrialRecord record{.trial = whole(row, own_.trial, 1, static_cast<int>(conditions_.size()) * design_.repetitions),
+                       .condition = condition(row),
+                       .item = item(row),
+                       .response = response(row),
+                       .response_time_s = number(row, own_.time, 0, longest_s),
+                       .head_least_m = number_or_none(row, own_.head_least, -farthest_m, farthest_m),
+                       .head_most_m = number_or_none(row, own_.head_most, -farthest_m, farthest_m),
+                       .log_delay_s = number_or_none(row, own_.log_delay, 0, longest_s)};
+    if (std::isnan(record.head_least_m) != std::isnan(record.head_most_m) || record.head_most_m < record.head_least_m)
+      table_.refuse(row, own_.head_most, fmt::format("one behind head_least, '{}'", table_.rows[row][own_.head_least]));
+    return record;
+  }
 
-TrialRecord parse_row(const StudyDesign& design, const FieldReader& row, const std::vector<std::string>& conditions,
-                      const std::vector<std::string>& items) {
-  const std::size_t last = first_columns.size() + design.factors.size();
-  TrialRecord record{.trial = static_cast<int>(row.number(3)),
-                     .condition = row.index_in(0, conditions, "a condition of the design"),
-                     .item = row.index_in(4, items, "an item of the design"),
-                     .response_time_s = row.number(1),
-                     .head_least_m = row.number(last + 3),
-                     .head_most_m = row.number(last + 4),
-                     .log_delay_s = row.number(last + 5)};
-  record.response = design.task == StudyTask::rating ? static_cast<int>(row.number(last + 1))
-                    : row.is_yes(last + 1)           ? 1
-                                                     : 0;
-  if (std::isnan(record.response_time_s)) row.refuse(1, "a response time");
-  return record;
-}
+  /// The values of the other columns.
+  void check_what_follows(std::size_t row, const TrialRecord& record) const {
+    const std::vector<std::string> fields = fields_of_trial(design_, conditions_, record, simulated_);
+    for (std::size_t column = 0; column < fields.size(); ++column) {
+      const bool is_number = column == own_.time || column == own_.trial || column == own_.response ||
+                             column == own_.head_least || column == own_.head_most || column == own_.log_delay;
+      if (!is_number && table_.rows[row][column] != fields[column])
+        table_.refuse(row, column, fmt::format("'{}'", fields[column]));
+    }
+  }
+
+  const std::string& at(std::size_t row, std::size_t column) const { return table_.rows[row][column]; }
+
+  int whole(std::size_t row, std::size_t column, int least, int most) const {
+    if (const auto value = whole_number_in(at(row, column), least, most)) return *value;
+    table_.refuse(row, column, fmt::format("a whole number from {} to {}", least, most));
+  }
+  double number(std::size_t row, std::size_t column, double least, double most) const {
+    if (const auto value = number_in(at(row, column), least, most)) return *value;
+    table_.refuse(row, column, fmt::format("a number from {} to {}", least, most));
+  }
+  double number_or_none(std::size_t row, std::size_t column, double least, double most) const {
+    return at(row, column) == "n/a" ? not_available : number(row, column, least, most);
+  }
+  int condition(std::size_t row) const {
+    const auto found = std::ranges::find(conditions_, at(row, own_.condition), &StudyCondition::name);
+    if (found == conditions_.end()) table_.refuse(row, own_.condition, "a condition of the design");
+    return static_cast<int>(found - conditions_.begin());
+  }
+  int item(std::size_t row) const {
+    const auto found = items_.find(at(row, own_.item));
+    if (found == items_.end()) table_.refuse(row, own_.item, "an item of the design");
+    return found->second;
+  }
+  int response(std::size_t row) const {
+    if (design_.task == StudyTask::rating) return whole(row, own_.response, design_.scale_least, design_.scale_most);
+    if (at(row, own_.response) != "yes" && at(row, own_.response) != "no")
+      table_.refuse(row, own_.response, "yes or no");
+    return at(row, own_.response) == "yes" ? 1 : 0;
+  }
+  [[noreturn]] void refuse_twice(std::size_t row, std::string_view what) const {
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {} stands there twice, expected once", table_.where(row), what));
+  }
+
+  const StudyDesign& design_;
+  bool simulated_;
+  TsvTable table_;
+  std::vector<StudyCondition> conditions_;
+  OwnColumns own_;
+  std::map<std::string, int> items_;
+};
 
 nlohmann::ordered_json column(std::string_view description, std::string_view units = "") {
   nlohmann::ordered_json json{{"Description", description}};
@@ -92,14 +149,6 @@ nlohmann::ordered_json column(std::string_view description, std::string_view uni
 }
 
 }  // namespace
-
-std::vector<std::string> fields_of(std::string_view line) { return split(line, '\t'); }
-
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines = split(text, '\n');
-  if (lines.back().empty()) lines.pop_back();
-  return lines;
-}
 
 std::string trial_table_header(const StudyDesign& design) {
   std::string line;
@@ -111,42 +160,18 @@ std::string trial_table_header(const StudyDesign& design) {
 }
 
 std::string trial_table_row(const StudyDesign& design, int subject, const TrialRecord& record, bool simulated) {
-  const StudyCondition condition =
-      conditions_of_group(design, group_of_subject(design, subject))[static_cast<std::size_t>(record.condition)];
-  std::string line =
-      fmt::format("{}\t{}\t{}\t{}\t{}\t", condition.name, number_text(record.response_time_s),
-                  stimulus_files(design, record.item, condition).front(), record.trial, item_name(design, record.item));
-  for (const std::string& level : condition.levels) line += level + "\t";
-  const std::optional<bool> correct = is_correct(design, record);
-  const std::string expected = correct ? answer_text(design, is_connected(design, record.item) ? 1 : 0) : "n/a";
-  return line + fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\n", expected, answer_text(design, record.response),
-                            correct ? (*correct ? "true" : "false") : "n/a", number_text(record.head_least_m),
-                            number_text(record.head_most_m), number_text(record.log_delay_s),
-                            simulated ? "simulated" : "person");
+  const auto conditions = conditions_of_group(design, group_of_subject(design, subject));
+  return fmt::format("{}\n", fmt::join(fields_of_trial(design, conditions, record, simulated), "\t"));
 }
 
 std::vector<TrialRecord> parse_trial_table(const StudyDesign& design, int subject, std::string_view text,
-                                           std::string_view name) {
+                                           std::string_view name, bool simulated) {
+  TsvTable table = parse_tsv(text, std::string(name));
   const std::string header = trial_table_header(design);
-  if (!text.starts_with(header))
+  if (table.columns != fields_of(std::string_view(header).substr(0, header.size() - 1)))
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is of another design, expected the columns of {}", name, design.name));
-  text.remove_prefix(header.size());
-  text = text.substr(0, text.rfind('\n') + 1);
-  std::vector<std::string> conditions, items;
-  for (const StudyCondition& condition : conditions_of_group(design, group_of_subject(design, subject)))
-    conditions.push_back(condition.name);
-  for (int item = 0; item < design.item_count; ++item) items.push_back(item_name(design, item));
-  const std::size_t columns = first_columns.size() + design.factors.size() + last_columns.size();
-  std::vector<TrialRecord> records;
-  for (const std::string& line : lines_of(text)) {
-    const std::string where = fmt::format("{}:{}", name, records.size() + 2);
-    std::vector<std::string> fields = fields_of(line);
-    if (fields.size() != columns)
-      throw Error(ErrorKind::bad_input, fmt::format("{}: has {} fields, expected {}", where, fields.size(), columns));
-    records.push_back(parse_row(design, FieldReader(std::move(fields), where), conditions, items));
-  }
-  return records;
+                fmt::format("{}:1: is of another design, expected the columns of {}", name, design.name));
+  return RowReader(design, subject, simulated, std::move(table)).read();
 }
 
 std::string trial_table_sidecar(const StudyDesign& design, bool simulated) {

@@ -1,12 +1,7 @@
 #include "wheatstone/video/work_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -22,43 +17,30 @@ namespace fs = std::filesystem;
               fmt::format("{}: cannot write: {}", output.string(), std::generic_category().message(error)));
 }
 
-/// Whether the file that is held is the one that has this name: the run that held it before may have removed it.
-bool is_there(int held, const fs::path& file) {
-  struct stat own = {}, named = {};
-  return ::fstat(held, &own) == 0 && ::stat(file.c_str(), &named) == 0 && own.st_ino == named.st_ino;
-}
-
 }  // namespace
 
 fs::path work_folder_of(const fs::path& output) { return output.string() + ".part"; }
 
 WorkFolder::WorkFolder(fs::path output) : folder_(work_folder_of(output)) {
-  const fs::path file = folder_ / "lock";
   for (;;) {
     std::error_code error;
     fs::create_directory(folder_, error);
     if (error) fail(output, error.value());
-    lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0 && errno == ENOENT) continue;
-    if (lock_ < 0) fail(output, errno);
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-      ::close(lock_);
+    error = lock_.hold(folder_ / "lock");
+    if (!error) break;
+    if (error == std::errc::resource_unavailable_try_again)
       throw Error(ErrorKind::wrong_usage,
                   fmt::format("{}: another run is painting it; expected another name, or wait until that run has ended",
                               output.string()));
-    }
-    if (is_there(lock_, file)) break;
-    ::close(lock_);
+    // The run that held it may have removed the folder.
+    if (error != std::errc::no_such_file_or_directory) fail(output, error.value());
   }
   const auto hold = hold_outputs();
   unfinished_.begin(folder_, [] {});
   unfinished_.keep(true);
 }
 
-WorkFolder::~WorkFolder() {
-  unfinished_.keep(true);
-  if (lock_ >= 0) ::close(lock_);
-}
+WorkFolder::~WorkFolder() { unfinished_.keep(true); }
 
 void WorkFolder::remove() {
   const auto hold = hold_outputs();
@@ -66,7 +48,7 @@ void WorkFolder::remove() {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
   unfinished_.finish([] {});
-  if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+  lock_.release();
 }
 
 }  // namespace wheatstone

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "wheatstone/files/file_lock.h"
 #include "wheatstone/files/unfinished_outputs.h"
 
 namespace wheatstone {
@@ -9,8 +10,7 @@ namespace wheatstone {
 /// The folder beside an output that takes long to make: "out.mp4.part" of "out.mp4".
 std::filesystem::path work_folder_of(const std::filesystem::path& output);
 
-/// Such a folder, held by one run at a time (flock on a file in it; the system lets go when the run ends, however it
-/// ends). What is in it stays until `remove`.
+/// Such a folder, held by one run at a time (FileLock on a file in it). What is in it stays until `remove`.
 class WorkFolder {
  public:
   /// Makes the folder where there is none. Throws Error{wrong_usage} where another run holds it, cannot_read_write
@@ -30,7 +30,7 @@ class WorkFolder {
 
  private:
   std::filesystem::path folder_;
-  int lock_ = -1;
+  FileLock lock_;
   UnfinishedOutput unfinished_;
 };
 
