@@ -104,15 +104,19 @@ SinglePicture read_single_picture(const StereoArguments& photograph, const Depth
     read.whole = {found.picture.width(), found.picture.height()};
     found.picture = reduced(found.picture, reduced_size(read.whole, photograph.max_size));
   }
+  const std::string name = arguments.carried ? photograph.left : found.how;
+  const bool is_flat = !inverse_depth_range(found.depth, found.kind);
   try {
     Image<float> disparity =
         disparity_from_depth(found.depth, found.picture, {.kind = found.kind, .strength = read.strength});
     read.pair = make_pair_from_single_view(std::move(found.picture), std::move(disparity));
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", arguments.carried ? photograph.left : found.how, error.what()));
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
   }
   if (arguments.carried && !session.quiet)
     fmt::print(session.errors, "{}: one picture, with the depth of {}\n", photograph.left, found.how);
+  if (is_flat && !session.quiet)
+    fmt::print(session.errors, "warning: {}: the depth is the same everywhere: both eyes get the same picture\n", name);
   return read;
 }
 

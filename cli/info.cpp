@@ -88,7 +88,7 @@ ordered_json facts_of_painting(const fs::path& path) {
   ordered_json layers = ordered_json::array();
   for (const Layer& layer : layers_of(painting))
     layers.push_back(
-        {{"radius_px", layer.radius_px}, {"strokes", layer.strokes.size()}, {"points", layer.points.size()}});
+        {{"radius_px", layer.radius_px}, {"strokes", count_strokes(layer)}, {"points", layer.points.size()}});
   if (!layers.empty()) facts["layers"] = std::move(layers);
   return facts;
 }
@@ -143,7 +143,9 @@ void put_views(ordered_json& facts, const fs::path& path, const std::string& lay
     if (file->views.size() != 2) return;
     const StereoPair pair{file->views[0], file->views[1]};
     facts["same_scene"] = !not_a_pair(pair);
-    facts["eyes_look_swapped"] = eyes_look_swapped(pair);
+    facts["eyes_look_swapped"] = nullptr;
+    if (const EyeOrder eyes = eye_order(pair); eyes != EyeOrder::undecided)
+      facts["eyes_look_swapped"] = eyes == EyeOrder::swapped;
     if (!display.empty()) put_depth(facts, pair, display);
   } catch (const Error& error) {
     // The picture can be told of, its views cannot: why is what one asks for.

@@ -79,6 +79,8 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
              100 * matched.left_found_share, 100 * matched.right_found_share);
   fmt::print(session.output, "streaks                  {:.1f} % of the disparity map\n", 100 * confidence.streak_share);
   fmt::print(session.output, "partners differ by       {:.1f} of 255 (median)\n", confidence.colour_difference);
+  if (const std::string_view note = undecided_eyes(pair); !note.empty())
+    fmt::print(session.output, "eyes                     {}\n", note);
   fmt::print(session.output, "written to               {}\n", arguments.folder);
 }
 

@@ -64,6 +64,8 @@ std::string summary_of(const PaintingReport& told) {
   if (whole.width > 0)
     fmt::format_to(to, "reduced          from {}x{} to {}x{} pixels\n", whole.width, whole.height, width_of(painting),
                    height_of(painting));
+  if (pair != nullptr && !undecided_eyes(*pair).empty())
+    fmt::format_to(to, "eyes             {}\n", undecided_eyes(*pair));
   fmt::format_to(to, "left bare        {:.2f} % of the left eye, {:.2f} % of the right\n",
                  100 * painted.left_bare_share, 100 * painted.right_bare_share);
   fmt::format_to(to, "zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);

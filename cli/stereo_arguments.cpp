@@ -133,6 +133,11 @@ void tell_of_match(const ReadPhotograph& photograph, const MatchConfidence& conf
   tell(session, fmt::format("warning: {}: {}", photograph.name, warning));
 }
 
+std::string_view undecided_eyes(const PreparedPair& pair) {
+  if (pair.eyes != EyeOrder::undecided) return {};
+  return "the pictures do not tell left from right; --swap if near and far come out the wrong way round";
+}
+
 NamedPair read_named_pair(const StereoArguments& arguments) {
   return arguments.right.empty() ? read_one_file(arguments) : read_two_files(arguments);
 }
@@ -154,11 +159,12 @@ ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity
     if (not_a_pair(read.pictures))
       throw Error(ErrorKind::bad_input, fmt::format("{}: show different scenes", read.name));
     prepared.pictures = std::move(read.pictures);
+    prepared.eyes = eye_order(prepared.pictures);
   } else {
     prepared = prepare_named_pair(std::move(read.pictures), {.rectify = arguments.rectify}, read.name, session);
   }
   tell_of_layout(read, session);
-  if (!read.eyes_known_from_picture && eyes_look_swapped(prepared.pictures))
+  if (!read.eyes_known_from_picture && prepared.eyes == EyeOrder::swapped)
     tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
                               arguments.left, arguments.swap ? "leave out" : "add"));
   std::string name = read.note.empty() ? read.name : arguments.left;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 
 #include "command.h"
 #include "wheatstone/calibration/prepare_pair.h"
@@ -38,6 +39,9 @@ PreparedPair prepare_named_pair(StereoPair pair, const PreparePairOptions& optio
 
 /// Says on standard error, under the files' name, that a pair was rectified, and where its rows do not fit.
 void tell_of_rows(const PreparedPair& pair, const std::string& name, const Session& session);
+
+/// What a summary says of the order of the eyes where the pictures do not tell it; empty where they do.
+std::string_view undecided_eyes(const PreparedPair& pair);
 
 /// A pair as its files have it.
 struct NamedPair {

@@ -55,6 +55,7 @@ Opened opened_photograph(StereoPair pictures, const std::string& name, const Lis
   Opened opened{.kind = "photograph"};
   for (const std::string& note : {rectified_note(prepared), row_warning(prepared)})
     if (!note.empty()) opened.notes.push_back(note);
+  if (prepared.eyes == EyeOrder::swapped) opened.notes.emplace_back("the eyes look swapped");
   auto photograph = std::make_shared<Photograph>();
   photograph->pictures = std::move(prepared.pictures);
   opened.content = PaintedContent{nullptr, std::move(photograph)};

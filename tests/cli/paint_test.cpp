@@ -5,6 +5,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -221,13 +222,36 @@ TEST(PaintCommand, TakesGreyDeepTransparentAndTurnedPictures) {
   }
 }
 
+TEST(PaintCommand, CountsADualStrokeOnceInSummaryReportAndInfo) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  const ProgramResult painted = run_program(paint_line({"--style", "dual", "--report"}), {.folder = folder / ""});
+  ASSERT_EQ(painted.exit_code, 0) << painted.errors;
+  const auto report = nlohmann::json::parse(std::ifstream(folder / "painted/report.json"));
+  const auto info = nlohmann::json::parse(run_program({"info", folder / "painted/painting.wst", "--json"}).output);
+  const auto count = report["strokes"].get<std::size_t>();
+  EXPECT_THAT(painted.output, testing::HasSubstr(std::to_string(count) + " strokes in"));
+  EXPECT_EQ(info["strokes"], count);
+  EXPECT_EQ(report["measures"]["strokes"]["strokes"], count);
+  std::size_t in_layers = 0, parts_and_strokes = 0;
+  for (std::size_t i = 0; i < report["layers"].size(); ++i) {
+    EXPECT_EQ(report["layers"][i]["strokes"], info["layers"][i]["strokes"]);
+    in_layers += report["layers"][i]["strokes"].get<std::size_t>();
+  }
+  EXPECT_EQ(in_layers, count);
+  for (const Layer& layer : layers_of(read_painting(folder / "painted/painting.wst")))
+    parts_and_strokes += layer.strokes.size();
+  EXPECT_GT(parts_and_strokes, count * 5 / 4);
+}
+
 TEST(PaintCommand, RefusesDisparityThatCannotBePaintedFrom) {
   const TemporaryFolder folder;
   write_pair(folder);
   write_disparity(folder / "small.pfm", Image<float>(10, 10, 3));
   write_disparity(folder / "nothing.pfm", Image<float>(width, height, unknown));
   expect_refused(folder, paint_line({"--disparity", "small.pfm"}), 3, "10x10");
-  expect_refused(folder, paint_line({"--disparity", "nothing.pfm"}), 3, "unknown everywhere");
+  expect_refused(folder, paint_line({"--disparity", "nothing.pfm"}), 3,
+                 "nothing.pfm: the disparity is unknown everywhere");
   expect_refused(folder, paint_line({"--disparity", "disparity.pfm", "--right-disparity", "small.pfm"}), 3, "10x10");
 }
 

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "cli/run_program.h"
 #include "scenes/stereograph_card.h"
+#include "scenes/test_photographs.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/read_image.h"
@@ -125,6 +127,28 @@ TEST(Photograph, WithSwappedEyesIsNoticedAndPutRight) {
   write_image(folder / "right.png", still().right);
   EXPECT_THAT(match_one(folder, {"right.png", "left.png"}).errors, HasSubstr("right.png: the eyes look swapped"));
   EXPECT_THAT(match_one(folder, {"right.png", "left.png", "--swap"}).errors, testing::Not(HasSubstr("swapped")));
+}
+
+TEST(Photograph, TellsTheOrderOfTheEyesOrThatItIsUndecided) {
+  const TemporaryFolder folder;
+  const auto painted = [&](const StereoPair& pair) {
+    write_image(folder / "left.png", pair.left);
+    write_image(folder / "right.png", pair.right);
+    return run_program({"paint", "left.png", "right.png", "-o", "painted"}, {.folder = folder / ""});
+  };
+  const auto told = [&] {
+    return nlohmann::json::parse(std::ifstream(folder / "painted/report.json"))["pair"]["eyes_look_swapped"];
+  };
+  const StereoPair small = still_for_test(160, 120);
+  const ProgramResult right = painted(small);
+  EXPECT_EQ(told(), false);
+  EXPECT_THAT(right.output, testing::Not(HasSubstr("left from right")));
+  const ProgramResult wrong = painted({small.right, small.left});
+  EXPECT_EQ(told(), true);
+  EXPECT_THAT(wrong.errors, HasSubstr("the eyes look swapped"));
+  const ProgramResult undecided = painted(still_for_test(64, 48));
+  EXPECT_EQ(told(), nullptr);
+  EXPECT_THAT(undecided.output, HasSubstr("the pictures do not tell left from right"));
 }
 
 TEST(Photograph, ThatIsNoPairIsRefused) {

@@ -149,14 +149,23 @@ TEST(PaintSinglePicture, FindsTheDepthWithANetwork) {
   expect_refused(folder, paint_line({"--depth-model", "red.onnx", "--depth-is", "metric"}), 2, "--depth-is");
 }
 
-TEST(PaintSinglePicture, RefusesDepthThatDoesNotFitOrHasNone) {
+TEST(PaintSinglePicture, IsFlatWhereTheDepthIsTheSameEverywhere) {
+  const TemporaryFolder folder;
+  write_picture_and_depth(folder);
+  write_disparity(folder / "flat.pfm", Image<float>(width, height, 3));
+  const ProgramResult result =
+      run_program({"paint", "photo.png", "--depth", "flat.pfm", "-o", "painted"}, {.folder = folder / ""});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors, testing::HasSubstr("flat.pfm: the depth is the same everywhere"));
+  EXPECT_EQ(read_image(folder / "painted/left.png"), read_image(folder / "painted/right.png"));
+}
+
+TEST(PaintSinglePicture, RefusesDepthThatDoesNotFitOrIsUnknown) {
   const TemporaryFolder folder;
   write_picture_and_depth(folder);
   write_disparity(folder / "square.pfm", Image<float>(64, 64, 3));
-  write_disparity(folder / "flat.pfm", Image<float>(width, height, 3));
   write_disparity(folder / "nothing.pfm", Image<float>(width, height, unknown));
   expect_refused(folder, paint_line({"--depth", "square.pfm"}), 3, "square.pfm: the depth is 64x64 pixels");
-  expect_refused(folder, paint_line({"--depth", "flat.pfm"}), 3, "flat.pfm: the depth is the same everywhere");
   expect_refused(folder, paint_line({"--depth", "nothing.pfm"}), 3, "nothing.pfm: the depth is unknown everywhere");
   expect_refused(folder, paint_line({"--depth", "none.png"}), 3, "none.png: no such file");
   expect_refused(folder, paint_line({"--depth", "photo.png"}), 3, "photo.png: is in colour");

@@ -37,7 +37,7 @@ Json to_json(const WrongSpots& spots) {
 Json layers_json(std::span<const Layer> of_painting) {
   Json layers = Json::array();
   for (const Layer& layer : of_painting)
-    layers.push_back({{"radius_px", rounded(layer.radius_px)}, {"strokes", layer.strokes.size()}});
+    layers.push_back({{"radius_px", rounded(layer.radius_px)}, {"strokes", count_strokes(layer)}});
   return layers;
 }
 
@@ -86,7 +86,9 @@ std::string preparation_json(const PreparedPair& pair) {
              {"row_difference", rows_json(pair.rows)},
              {"photographs_row_difference", rows_json(pair.photographed_rows)},
              {"rectification", nullptr},
+             {"eyes_look_swapped", nullptr},
              {"warning", nullptr}};
+  if (pair.eyes != EyeOrder::undecided) facts["eyes_look_swapped"] = pair.eyes == EyeOrder::swapped;
   if (pair.rectification) facts["rectification"] = Json::parse(rectification_json(*pair.rectification));
   if (!warning.empty()) facts["warning"] = warning;
   return facts.dump(2);

@@ -34,8 +34,8 @@ std::string pair_measures_json(const PairMeasures& measures);
 std::string rectification_json(const Rectification& how);
 
 /// How a pair was prepared as a JSON object: `rectified`, `compared_features`, `row_difference` (median and 95th
-/// percentile), `photographs_row_difference` (before rectification), `rectification` and `warning`; null where there is
-/// nothing to tell.
+/// percentile), `photographs_row_difference` (before rectification), `rectification`, `eyes_look_swapped` (null where
+/// the pictures do not tell) and `warning`; null where there is nothing to tell.
 std::string preparation_json(const PreparedPair& pair);
 
 /// How sure a match is as a JSON object: the members of MatchConfidence, and `warning`, null where there is none.

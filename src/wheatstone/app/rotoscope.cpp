@@ -307,7 +307,7 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
   totals.whole_strokes += result.changes.whole;
   totals.survived_strokes += result.changes.survived;
   totals.popped_strokes += result.changes.popped;
-  for (const Layer& layer : layers) totals.strokes += static_cast<std::int64_t>(layer.strokes.size());
+  for (const Layer& layer : layers) totals.strokes += static_cast<std::int64_t>(count_strokes(layer));
   totals.worst_bare_share =
       std::max({totals.worst_bare_share, result.painted.left_bare_share, result.painted.right_bare_share});
   totals.moved_frames += are_moved(result.eyes) ? 1 : 0;

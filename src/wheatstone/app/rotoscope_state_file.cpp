@@ -26,7 +26,7 @@ static_assert(field_count<RotoscopeState>() == 14 && field_count<SceneDepth>() =
               field_count<RectifyingMap>() == 5 && field_count<ColourTransfer>() == 2 &&
               field_count<RotoscopeTotals>() == 8 && field_count<PaintingMemory>() == 4 &&
               field_count<StrokeMemory>() == 3 && field_count<TrackedLayer>() == 2 && field_count<StrokeTrack>() == 5 &&
-              field_count<Layer>() == 3 && field_count<Stroke>() == 9 && field_count<PosterisedMemory>() == 3 &&
+              field_count<Layer>() == 3 && field_count<Stroke>() == 10 && field_count<PosterisedMemory>() == 3 &&
               field_count<MosaicTile>() == 8 && field_count<MosaicMemory>() == 1 &&
               field_count<DiffusionMemory>() == 4 && field_count<SteadyPicture>() == 2);
 
@@ -62,6 +62,7 @@ state::Stroke stored(const Stroke& s) {
           s.views.first.eye_separations(),
           s.views.last.eye_separations(),
           s.number,
+          s.is_part,
           stored(s.colour)};
 }
 state::Track stored(const StrokeTrack& t) {
@@ -100,7 +101,8 @@ Stroke taken(const state::Stroke& s) {
           .disparity = s.disparity(),
           .reference_view = ViewPosition(s.reference_view()),
           .views = {ViewPosition(s.first_view()), ViewPosition(s.last_view())},
-          .number = s.number()};
+          .number = s.number(),
+          .is_part = s.is_part()};
 }
 StrokeTrack taken(const state::Track& t) {
   return {t.shown(), t.ends(), t.first_length_px(), t.first_colour_difference(), t.first_gain()};

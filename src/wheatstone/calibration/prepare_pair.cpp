@@ -155,10 +155,9 @@ void rectify_if_it_helps(PreparedPair& prepared, const RectifyOptions& options, 
   }
 }
 
-}  // namespace
-
-PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& options, const Progress& progress) {
-  check_pictures(photographs);
+/// Refuses what is no pair, and rectifies where that is wanted.
+void prepare_rows(StereoPair photographs, const PreparePairOptions& options, const Progress& progress,
+                  PreparedPair& prepared) {
   const CommonFeatures common = common_features(photographs.left, photographs.right);
   if (common.convincing) {
     check_upright(common.inliers);
@@ -166,20 +165,28 @@ PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& opti
     check_dissimilar(photographs);
   }
 
-  PreparedPair prepared;
   prepared.tolerated = tolerated_rows(std::max(photographs.left.width(), photographs.left.height()));
   prepared.pictures = std::move(photographs);
   RectifyOptions rectifying{.keep_size = options.keep_size};
   if (options.rectify == RectifyPolicy::always) {
     take(rectify(prepared.pictures, rectifying, progress), prepared);
-    return prepared;
+    return;
   }
-  if (!common.convincing) return prepared;
+  if (!common.convincing) return;
   prepared.compared_features = static_cast<int>(common.inliers.size());
   prepared.rows = prepared.photographed_rows = vertical_disparity(common.inliers);
   rectifying.cameras_must_be_decided = false;
   if (options.rectify == RectifyPolicy::automatic && !rows_fit(*prepared.rows, prepared.tolerated))
     rectify_if_it_helps(prepared, rectifying, progress);
+}
+
+}  // namespace
+
+PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& options, const Progress& progress) {
+  check_pictures(photographs);
+  PreparedPair prepared;
+  prepare_rows(std::move(photographs), options, progress, prepared);
+  prepared.eyes = eye_order(prepared.pictures);
   return prepared;
 }
 

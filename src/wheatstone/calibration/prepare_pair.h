@@ -4,6 +4,7 @@
 #include <string>
 
 #include "wheatstone/calibration/rectify.h"
+#include "wheatstone/matching/eye_order.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
@@ -31,6 +32,7 @@ struct PreparedPair {
   std::optional<Rectification> rectification;          ///< none: the pictures are the photographs
   std::optional<ColourTransfer> colour;                ///< of a rectified pair, as RectifiedPair has it
   std::string why_not_rectified;                       ///< where that was tried and failed; empty: it was not
+  EyeOrder eyes = EyeOrder::undecided;                 ///< of `pictures`
 };
 
 /// Looks for what makes two pictures no pair, and rectifies them where that is wanted. The rows are measured on

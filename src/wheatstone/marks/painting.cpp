@@ -102,7 +102,7 @@ namespace {
 
 MarkCount count_marks(const StrokePainting& painting) {
   MarkCount counted{"strokes"};
-  for (const Layer& layer : painting.layers) counted.count += layer.strokes.size();
+  for (const Layer& layer : painting.layers) counted.count += count_strokes(layer);
   return counted;
 }
 MarkCount count_marks(const RegionPainting& painting) { return {"regions", painting.marks.size()}; }

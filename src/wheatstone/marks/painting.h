@@ -35,7 +35,7 @@ int height_of(const Painting& painting);
 /// The layers of a painting of strokes; none of any other.
 std::span<const Layer> layers_of(const Painting& painting);
 
-/// How many marks there are, and what they are called.
+/// How many marks there are, and what they are called. A dual stroke is one mark.
 struct MarkCount {
   std::string_view kind;  ///< "strokes", "regions" or "lines"
   std::size_t count = 0;

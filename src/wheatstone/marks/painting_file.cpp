@@ -44,16 +44,19 @@ flatbuffers::Offset<file::Layer> encode_layer(const Layer& layer, flatbuffers::F
   for (const ControlPoint& point : layer.points) points.add(point);
   std::vector<file::Stroke> strokes;
   std::vector<std::uint32_t> numbers;
-  bool numbered = false;
+  std::vector<std::uint8_t> parts;
+  bool numbered = false, has_parts = false;
   for (const Stroke& s : layer.strokes) {
     strokes.emplace_back(s.first_point, s.point_count, s.radius_px, s.opacity, s.disparity,
                          s.reference_view.eye_separations(), s.views.first.eye_separations(),
                          s.views.last.eye_separations(), s.colour.r, s.colour.g, s.colour.b);
     numbers.push_back(s.number);
     numbered = numbered || s.number != 0;
+    parts.push_back(s.is_part ? 1 : 0);
+    has_parts = has_parts || s.is_part;
   }
   return file::CreateLayerDirect(builder, layer.radius_px, &points.x, &points.y, &points.disparity, &strokes,
-                                 numbered ? &numbers : nullptr);
+                                 numbered ? &numbers : nullptr, has_parts ? &parts : nullptr);
 }
 
 flatbuffers::Offset<file::Regions> encode_regions(const RegionPainting& regions,
@@ -178,10 +181,14 @@ Layer decode_layer(const file::Layer& from, const Checker& checker) {
   const auto* numbers = from.numbers();
   checker.expect(numbers == nullptr || numbers->size() == from.strokes()->size(),
                  "a layer's strokes and their numbers differ in length");
+  const auto* parts = from.parts();
+  checker.expect(parts == nullptr || parts->size() == from.strokes()->size(),
+                 "a layer's strokes and what tells which are parts of others differ in length");
   layer.strokes.reserve(from.strokes()->size());
   for (flatbuffers::uoffset_t i = 0; i < from.strokes()->size(); ++i) {
     layer.strokes.push_back(decode_stroke(*from.strokes()->Get(i), layer.points.size(), checker));
     if (numbers != nullptr) layer.strokes.back().number = numbers->Get(i);
+    if (parts != nullptr) layer.strokes.back().is_part = parts->Get(i) != 0;
   }
   return layer;
 }

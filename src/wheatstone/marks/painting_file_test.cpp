@@ -55,6 +55,7 @@ Painting small(int kind) {
   Painting any{.marks = small_painting(), .surfaces = small_surfaces()};
   if (kind == 0) {
     std::get<StrokePainting>(any.marks).layers[0].strokes[1].number = 77;
+    std::get<StrokePainting>(any.marks).layers[0].strokes[1].is_part = true;
     any.relief = {1.5f, 3};
     return any;
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,6 +31,7 @@ struct Stroke {
   ViewPosition reference_view = left_eye;  ///< the view in which its points stand
   ViewRange views;                         ///< in which it may be drawn, where no surface hides it
   std::uint32_t number = 0;                ///< names the stroke across the frames of a film, from 1; 0: none
+  bool is_part = false;  ///< of a stroke that another one of its layer begins, as the second half of a dual stroke
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 
@@ -43,6 +46,11 @@ struct Layer {
   }
   friend bool operator==(const Layer&, const Layer&) = default;
 };
+
+/// How many strokes people see: parts of one stroke count once.
+inline std::size_t count_strokes(const Layer& layer) {
+  return static_cast<std::size_t>(std::ranges::count(layer.strokes, false, &Stroke::is_part));
+}
 
 /// A painting as a value: made once, drawn for any view. Layers are drawn in their order, coarse to fine, over the
 /// view's photograph or the canvas.

@@ -15,19 +15,24 @@
 namespace wheatstone {
 namespace {
 
-constexpr int small_width_px = 400;
-
-/// Disparities of a small copy that hold both ways; `own` is the view whose pixels are asked.
+/// Disparities of a copy that hold both ways; `own` is the view whose pixels are asked.
 struct CheckedView {
   cv::Mat colours;         ///< CIE L*a*b*, 32-bit float
   Image<float> disparity;  ///< own x − other x; NaN where the other view does not confirm it
   cv::Mat frame;           ///< as `frame_of` has it
 };
 
-cv::Mat small_copy(const Image<Rgb8>& picture, double scale) {
-  cv::Mat small;
-  cv::resize(as_mat(picture), small, {}, scale, scale, cv::INTER_AREA);
-  return small;
+/// Large pictures are asked in a smaller copy, and small ones in a larger copy, since a step in depth of fewer pixels
+/// than `least_step_px` hides too few to see their colour.
+double asked_scale(int width_px, int height_px) {
+  constexpr double asked_px = 400, largest = 3;
+  return std::min({asked_px / width_px, std::max(1.0, asked_px / height_px), largest});
+}
+
+cv::Mat asked_copy(const Image<Rgb8>& picture, double scale) {
+  cv::Mat copy;
+  cv::resize(as_mat(picture), copy, {}, scale, scale, scale > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
+  return copy;
 }
 
 cv::Mat lab(const cv::Mat& rgb) {
@@ -127,9 +132,9 @@ void vote(const CheckedView& view, Votes& votes) {
 }  // namespace
 
 EyeOrderEvidence eye_order_evidence(const StereoPair& pair) {
-  const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());
+  const double scale = asked_scale(pair.left.width(), pair.left.height());
   cv::Mat left, right;
-  tbb::parallel_invoke([&] { left = small_copy(pair.left, scale); }, [&] { right = small_copy(pair.right, scale); });
+  tbb::parallel_invoke([&] { left = asked_copy(pair.left, scale); }, [&] { right = asked_copy(pair.right, scale); });
   constexpr int least_side_px = 32;
   if (left.cols < least_side_px || left.rows < least_side_px) return {};
   const DisparityRange range{-left.cols / 4, left.cols / 4};
@@ -151,11 +156,12 @@ EyeOrderEvidence eye_order_evidence(const StereoPair& pair) {
   return evidence;
 }
 
-bool eyes_look_swapped(const StereoPair& pair) {
+EyeOrder eye_order(const StereoPair& pair) {
   constexpr int least_bands = 60;
-  constexpr double clearly = -0.3;
+  constexpr double clearly = 0.3;
   const EyeOrderEvidence evidence = eye_order_evidence(pair);
-  return evidence.bands >= least_bands && evidence.for_order <= clearly;
+  if (evidence.bands < least_bands || std::abs(evidence.for_order) < clearly) return EyeOrder::undecided;
+  return evidence.for_order > 0 ? EyeOrder::as_given : EyeOrder::swapped;
 }
 
 }  // namespace wheatstone

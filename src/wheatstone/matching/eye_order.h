@@ -14,9 +14,15 @@ struct EyeOrderEvidence {
 /// farther one. With the eyes swapped near and far change places, but not what goes on like what.
 EyeOrderEvidence eye_order_evidence(const StereoPair& pair);
 
-/// Whether the pair shows that its pictures are each other's: enough bands, and most of them belong to the surface that
-/// would be nearer. False where it is undecided. The sign of the disparities alone tells nothing: converged cameras and
-/// mounted pairs have both.
-bool eyes_look_swapped(const StereoPair& pair);
+/// Whose pictures those of a pair look like.
+enum class EyeOrder {
+  undecided,  ///< too few bands, or they do not agree
+  as_given,   ///< most bands belong to the farther surface
+  swapped,    ///< the left picture is the right eye's
+};
+
+/// What the pair shows of the order of its pictures. The sign of the disparities alone tells nothing: converged cameras
+/// and mounted pairs have both. Pictures less than about a hundred pixels wide are mostly undecided.
+EyeOrder eye_order(const StereoPair& pair);
 
 }  // namespace wheatstone

@@ -6,6 +6,7 @@
 
 #include "scenes/test_photographs.h"
 #include "wheatstone/matching/eye_order.h"
+#include "wheatstone/stereo/reduced_pair.h"
 
 namespace wheatstone {
 namespace {
@@ -74,27 +75,61 @@ TEST(NotAPair, IsNotSaidWhereThereIsTooLittleToGoBy) {
 }
 
 TEST(EyeOrder, IsSeenWhereSwappedAndNeverWhereNot) {
-  int noticed = 0, asked = 0;
   for (const NamedPair& pair : all_pairs()) {
     SCOPED_TRACE(pair.name);
     const EyeOrderEvidence right = eye_order_evidence(pair.pair), wrong = eye_order_evidence(swapped(pair.pair));
     testing::Test::RecordProperty(pair.name + " order", std::to_string(right.for_order));
     EXPECT_GE(right.for_order, 0.4);
     EXPECT_LE(wrong.for_order, -0.4);
-    EXPECT_FALSE(eyes_look_swapped(pair.pair));
-    noticed += eyes_look_swapped(swapped(pair.pair)) ? 1 : 0;
-    ++asked;
+    EXPECT_EQ(eye_order(pair.pair), EyeOrder::as_given);
+    EXPECT_EQ(eye_order(swapped(pair.pair)), EyeOrder::swapped);
   }
-  EXPECT_EQ(noticed, asked);
+}
+
+/// A pair that has become `width` pixels wide.
+StereoPair narrowed(const StereoPair& pair, int width) {
+  const PictureSize size{width, width * pair.left.height() / pair.left.width()};
+  return {reduced(pair.left, size), reduced(pair.right, size)};
+}
+
+/// Pairs of this width: the still life cast at this size, and photographs made smaller.
+std::vector<NamedPair> pairs_of_width(int width) {
+  std::vector<NamedPair> pairs;
+  for (const std::uint64_t seed : {1, 2, 3})
+    pairs.push_back({"still " + std::to_string(seed), still_for_test(width, width * 3 / 4, seed)});
+  for (const NamedPair& pair : all_pairs())
+    if (pair.pair.left.width() > width && !pair.name.starts_with("still"))
+      pairs.push_back({pair.name, narrowed(pair.pair, width)});
+  return pairs;
+}
+
+TEST(EyeOrder, IsSeenInSmallPictures) {
+  for (const int width : {128, 160, 240, 320}) {
+    for (const NamedPair& pair : pairs_of_width(width)) {
+      SCOPED_TRACE(pair.name + ", width " + std::to_string(width));
+      EXPECT_EQ(eye_order(pair.pair), EyeOrder::as_given);
+      EXPECT_EQ(eye_order(swapped(pair.pair)), EyeOrder::swapped);
+    }
+  }
+}
+
+TEST(EyeOrder, IsNeverWrongWherePicturesAreTooSmallToTellItAlways) {
+  for (const int width : {32, 48, 64, 80, 96}) {
+    for (const NamedPair& pair : pairs_of_width(width)) {
+      SCOPED_TRACE(pair.name + ", width " + std::to_string(width));
+      EXPECT_NE(eye_order(pair.pair), EyeOrder::swapped);
+      EXPECT_NE(eye_order(swapped(pair.pair)), EyeOrder::as_given);
+    }
+  }
 }
 
 TEST(EyeOrder, IsLeftOpenWhereNothingTells) {
   const StereoPair flat{Image<Rgb8>(200, 100, {9, 9, 9}), Image<Rgb8>(200, 100, {9, 9, 9})};
-  EXPECT_FALSE(eyes_look_swapped(flat));
+  EXPECT_EQ(eye_order(flat), EyeOrder::undecided);
   EXPECT_EQ(eye_order_evidence(flat).bands, 0);
   const Image<Rgb8> left = still_for_test().left;
-  EXPECT_FALSE(eyes_look_swapped({left, left}));
-  EXPECT_FALSE(eyes_look_swapped({Image<Rgb8>(1, 1), Image<Rgb8>(1, 1)}));
+  EXPECT_EQ(eye_order({left, left}), EyeOrder::undecided);
+  EXPECT_EQ(eye_order({Image<Rgb8>(1, 1), Image<Rgb8>(1, 1)}), EyeOrder::undecided);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,14 +16,14 @@
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/warp.h"
 #include "wheatstone/stopwatch.h"
+#include "wheatstone/strokes/occluded_part.h"
 
 namespace wheatstone {
 namespace {
 
 /// Draws both eyes of a planned painting, and other views, which have no photograph to be drawn over.
 void draw_views(const StereoPairView& photographs, const Style& style, const PaintDrawing& drawing,
-                PaintedPair& result) {
-  const PreparedPainting prepared = prepare(result.painting, {}, drawing.device);
+                const PreparedPainting& prepared, PaintedPair& result) {
   const auto others = drawing.other_views ? drawing.other_views(result.painting) : std::vector<ViewPosition>();
   std::vector<ViewPosition> views{left_eye, right_eye};
   std::vector<ImageView<const Rgb8>> backgrounds;
@@ -38,10 +39,21 @@ void draw_views(const StereoPairView& photographs, const Style& style, const Pai
   for (DrawnView& other : std::span(drawn).subspan(2)) result.other_views.push_back(std::move(other.picture));
 }
 
-/// Stavrakis & Gelautz 2004, sec. 3.2: the left picture, warped, covers the right eye's paint. The few pixels that
-/// neither reaches show the photograph.
-void lay_left_over_right(const StereoGeometryView& geometry, PaintedPair& result) {
-  lay_over(warp_picture(result.pictures.left, geometry.left_disparity, left_eye, right_eye), result.pictures.right);
+/// Stavrakis & Gelautz 2004, sec. 3.2: the left picture is warped over the right eye's paint, but not where the grown
+/// occlusion mask is. The paint of near things reaches beyond their outlines, and what lies there is warped by the
+/// disparity of what is behind them: beside an occlusion it would be seen as a second outline. What the right eye's
+/// paint leaves bare there shows the warped picture, and the few pixels that neither reaches show the photograph.
+void draw_right_under_left(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
+                           const PreparedPainting& prepared, PaintedPair& result) {
+  WarpedPicture warped = warp_picture(result.pictures.left, geometry.left_disparity, left_eye, right_eye);
+  Image<Rgb8> background(photographs.right.width(), photographs.right.height());
+  for (int y = 0; y < background.height(); ++y) std::ranges::copy(photographs.right.row(y), background.row(y).begin());
+  lay_over(warped, background);
+  result.pictures.right = draw(prepared, right_eye, background).picture;
+  const Image<std::uint8_t> own = grown_occlusion(geometry.right_occlusion, style);
+  for (std::size_t i = 0; i < own.pixels().size(); ++i)
+    if (own.pixels()[i] != 0) warped.covered.pixels()[i] = 0;
+  lay_over(warped, result.pictures.right);
   result.right_bare_share = 0;
 }
 
@@ -76,8 +88,10 @@ PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& g
   }
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);
-  draw_views(photographs, style, drawing, result);
-  if (style.propagation == Propagation::raster && style.marks == Marks::strokes) lay_left_over_right(geometry, result);
+  const PreparedPainting prepared = prepare(result.painting, {}, drawing.device);
+  draw_views(photographs, style, drawing, prepared, result);
+  if (style.propagation == Propagation::raster && style.marks == Marks::strokes)
+    draw_right_under_left(photographs, geometry, style, prepared, result);
   report(progress, "drawing", 1);
   return result;
 }

@@ -14,9 +14,11 @@
 #include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/measures/consistency.h"
+#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/stereo/central_view.h"
 #include "wheatstone/strokes/stroke_measures.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 namespace {
@@ -224,6 +226,42 @@ TEST(Paint, RightOnlyStrokesBeginOnTheGrownOcclusion) {
     }
   }
   EXPECT_GT(begun, 0);
+}
+
+/// The share of the pixels of the right eye's view behind a depth edge, at most `reach_px` from it on its row, whose
+/// colour the photograph has nowhere near.
+double ghost_share(const Image<Rgb8>& painted, const StereoPair& photographs, ImageView<const float> right_disparity) {
+  constexpr int reach_px = 16;
+  constexpr float least_step_px = 2;
+  const Image<std::uint8_t> wrong = wrong_pixels(painted, photographs.right);
+  int asked = 0, ghosts = 0;
+  for (int y = 0; y < painted.height(); ++y) {
+    for (int x = 0; x < painted.width(); ++x) {
+      bool behind_edge = false;
+      for (int other = std::max(x - reach_px, 0); other <= std::min(x + reach_px, painted.width() - 1); ++other)
+        behind_edge = behind_edge || right_disparity(other, y) > right_disparity(x, y) + least_step_px;
+      asked += behind_edge ? 1 : 0;
+      ghosts += behind_edge && wrong(x, y) != 0 ? 1 : 0;
+    }
+  }
+  return static_cast<double>(ghosts) / asked;
+}
+
+TEST(PaintRaster, LeavesNoOutlinesOfNearThingsOnWhatIsBehindThem) {
+  const SyntheticStill still = make_synthetic_still({.width = 640, .height = 480});
+  const StereoGeometry& geometry = still.geometry;
+  const auto ghosts = [&](Propagation propagation, float dilation) {
+    Style style = style_by_name("impressionist");
+    style.propagation = propagation;
+    style.occlusion_dilation = dilation;
+    return ghost_share(paint(still.pictures, geometry, style).pictures.right, still.pictures, geometry.right_disparity);
+  };
+  constexpr float as_preset = 0.125f;
+  const double left = ghosts(Propagation::raster, as_preset);
+  EXPECT_LT(left, 0.002);
+  EXPECT_LT(left, 2 * ghosts(Propagation::strokes, as_preset));
+  // It is the grown mask that takes them away.
+  EXPECT_GT(ghosts(Propagation::raster, 0), 0.01);
 }
 
 TEST(Paint, WorksWithDisparitiesOfBothSigns) {

@@ -94,7 +94,7 @@ std::optional<StereoLayout> layout_from_halves(ImageView<const Rgb8> picture) {
                                                picture.width(), picture.height());
   const std::optional<Image<Rgb8>> even = without_middle(picture, layout);
   const StereoPair halves = cut_apart(even ? ImageView<const Rgb8>(*even) : picture, layout, "");
-  return eyes_look_swapped(halves) ? with_eyes_swapped(layout) : layout;
+  return eye_order(halves) == EyeOrder::swapped ? with_eyes_swapped(layout) : layout;
 }
 
 bool looks_half_size(bool side_by_side, int width, int height) {

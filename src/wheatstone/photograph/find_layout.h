@@ -14,7 +14,7 @@ namespace wheatstone {
 std::optional<StereoLayout> layout_from_name(const std::filesystem::path& path, int width, int height);
 
 /// What the picture itself shows: halves next to or above each other that are two views of one scene. The left eye's is
-/// taken to be the first unless the picture speaks against it (eyes_look_swapped). None where neither half pair looks
+/// taken to be the first unless the picture speaks against it (eye_order). None where neither half pair looks
 /// like a stereo pair.
 std::optional<StereoLayout> layout_from_halves(ImageView<const Rgb8> picture);
 

@@ -190,7 +190,7 @@ Image<float> disparity_from_depth(ImageView<const float> depth, ImageView<const 
   if (!is_known_anywhere(disparity))
     throw Error(ErrorKind::bad_input, "the depth is unknown everywhere, expected at least one known value");
   const std::optional<InverseDepthRange> range = options.range ? options.range : range_of(disparity);
-  if (!range) throw Error(ErrorKind::bad_input, "the depth is the same everywhere, expected near and far points");
+  if (!range) return Image<float>(picture.width(), picture.height());
   scale_to(options.strength * static_cast<float>(picture.width()), *range, disparity);
   fill_from_farther_side(disparity);
   sharpen_edges(disparity, picture);

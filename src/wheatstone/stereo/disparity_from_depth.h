@@ -32,9 +32,10 @@ struct DisparityFromDepthOptions {
 /// width at the nearest, but for half a percent of outliers on either side, which get the same. Unknown depths (not
 /// finite) take the farther one of their neighbours on the scan line. Depth of another size is resampled: between
 /// pixels of one surface linearly, and at a depth edge by the pixel whose colour is nearest. Ramps across a depth edge
-/// that are too steep for a surface become steps.
-/// Throws Error{bad_input} where the depth's shape differs from the picture's by more than 1 %, nothing is known, or
-/// no range is given and the depth is the same everywhere; Error{wrong_usage} for a strength that is not in (0, 1).
+/// that are too steep for a surface become steps. Where no range is given and the depth is the same everywhere, so is
+/// the disparity: 0.
+/// Throws Error{bad_input} where the depth's shape differs from the picture's by more than 1 %, or nothing is known;
+/// Error{wrong_usage} for a strength that is not in (0, 1).
 Image<float> disparity_from_depth(ImageView<const float> depth, ImageView<const Rgb8> picture,
                                   const DisparityFromDepthOptions& options = {});
 

@@ -99,9 +99,15 @@ TEST(DisparityFromDepth, MakesAStepOfARampAcrossAnEdge) {
   }
 }
 
-TEST(DisparityFromDepth, RefusesWhatHasNoDepth) {
+TEST(DisparityFromDepth, IsZeroWhereTheDepthIsTheSameEverywhere) {
+  EXPECT_EQ(inverse_depth_range(step(7, 7), DepthKind::inverse), std::nullopt);
+  EXPECT_EQ(disparity_from_depth(step(7, 7), Image<Rgb8>(width, height)), Image<float>(width, height));
+  EXPECT_EQ(disparity_from_depth(step(7, unknown), Image<Rgb8>(2 * width, 2 * height)),
+            Image<float>(2 * width, 2 * height));
+}
+
+TEST(DisparityFromDepth, RefusesWhatDoesNotFitOrIsUnknown) {
   const Image<Rgb8> picture(width, height);
-  expect_error(ErrorKind::bad_input, "the same everywhere", [&] { disparity_from_depth(step(7, 7), picture); });
   expect_error(ErrorKind::bad_input, "unknown everywhere",
                [&] { disparity_from_depth(step(unknown, unknown), picture); });
   expect_error(ErrorKind::bad_input, "unknown everywhere",

@@ -61,6 +61,7 @@ void add_strokes(const ReferencePicture& reference, std::size_t first, Stroke st
     stroke.first_point = static_cast<std::uint32_t>(first);
     stroke.point_count = static_cast<std::uint32_t>(points.size());
     layer.strokes.push_back(stroke);
+    stroke.is_part = true;
     first += points.size();
   }
 }
@@ -77,6 +78,7 @@ void make_dual(const LayerPlan& plan, Layer& layer) {
   const float offset_px = whole.radius_px / 2;
   for (const float side : {-offset_px, offset_px}) {
     Stroke half = whole;
+    half.is_part = side > 0;
     // The soft rims of the two overlap, so that nothing shows through between them.
     constexpr float half_rim_px = 0.5f, middle_of_rim = 0.95f;
     half.radius_px = std::min((offset_px + half_rim_px) / middle_of_rim, whole.radius_px);

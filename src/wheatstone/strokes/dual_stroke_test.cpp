@@ -9,6 +9,7 @@
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/strokes/reference_picture.h"
+#include "wheatstone/strokes/stroke_measures.h"
 
 namespace wheatstone {
 namespace {
@@ -23,7 +24,7 @@ Style small_style(bool dual, float threshold, Propagation propagation = Propagat
 }
 
 /// A painting's root mean squared RGB distance from its photograph in the left eye, and the strokes that were planned
-/// for it; the two halves of a dual stroke are one.
+/// for it.
 struct Effort {
   double error = 0;
   double strokes = 0;
@@ -34,8 +35,7 @@ Effort effort_of(bool dual, float threshold) {
   const PaintedView painted =
       paint_view(photographs.left, test_scene::geometry().left_disparity, left_eye, small_style(dual, threshold));
   Effort effort;
-  for (const Layer& layer : painted.painting.layers)
-    for (const Stroke& stroke : layer.strokes) effort.strokes += dual && stroke.point_count > 1 ? 0.5 : 1;
+  for (const Layer& layer : painted.painting.layers) effort.strokes += static_cast<double>(count_strokes(layer));
   for (std::size_t i = 0; i < painted.picture.pixels().size(); ++i) {
     const Rgb8 a = painted.picture.pixels()[i], b = photographs.left.pixels()[i];
     effort.error += std::pow(a.r - b.r, 2) + std::pow(a.g - b.g, 2) + std::pow(a.b - b.b, 2);
@@ -52,6 +52,30 @@ TEST(DualStroke, ReachesTheSameErrorWithFewerStrokes) {
   const Effort few = effort_of(false, 80);
   EXPECT_GT(few.error, 1.15 * dual.error);
   EXPECT_LT(few.strokes, dual.strokes);
+}
+
+TEST(DualStroke, CountsOnceHoweverManyPartsItHas) {
+  for (const Propagation propagation : {Propagation::strokes, Propagation::raster, Propagation::independent}) {
+    const Painting painting =
+        plan_painting(test_scene::photographs(), test_scene::geometry(), small_style(true, 50, propagation));
+    std::size_t parts = 0, marks = 0, in_layers = 0;
+    for (const Layer& layer : layers_of(painting)) {
+      marks += layer.strokes.size();
+      in_layers += count_strokes(layer);
+      for (const Stroke& stroke : layer.strokes) parts += stroke.is_part ? 1 : 0;
+    }
+    EXPECT_GT(parts, marks / 3);
+    EXPECT_LT(parts, 2 * marks / 3);
+    EXPECT_EQ(count_marks(painting).count, marks - parts);
+    EXPECT_EQ(in_layers, marks - parts);
+    const StrokeMeasures measured = measure_strokes(layers_of(painting), test_scene::geometry());
+    EXPECT_EQ(measured.strokes, marks - parts);
+    EXPECT_LE(measured.visible_to_both, measured.strokes);
+  }
+  const Painting single = plan_painting(test_scene::photographs(), test_scene::geometry(), small_style(false, 50));
+  std::size_t marks = 0;
+  for (const Layer& layer : layers_of(single)) marks += layer.strokes.size();
+  EXPECT_EQ(count_marks(single).count, marks);
 }
 
 /// Grey bars between bars of two colours that alternate, all about as light as each other.

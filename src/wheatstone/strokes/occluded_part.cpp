@@ -8,12 +8,16 @@
 #include "wheatstone/strokes/layer_planner.h"
 
 namespace wheatstone {
+
+Image<std::uint8_t> grown_occlusion(ImageView<const std::uint8_t> occlusion, const Style& style) {
+  const float largest_radius_px = ScaledStyle(style, occlusion.width()).radii_px.front();
+  return dilate_occlusion(occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
+}
+
 StrokePainting plan_occluded_part(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
                                   ImageView<const std::uint8_t> occlusion, ViewPosition view, const Style& style) {
   const int width = photograph.width(), height = photograph.height();
-  const float largest_radius_px = ScaledStyle(style, width).radii_px.front();
-  const Image<std::uint8_t> seeds =
-      dilate_occlusion(occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
+  const Image<std::uint8_t> seeds = grown_occlusion(occlusion, style);
   constexpr int reduction = 2;
   const ReducedView half = reduced(photograph, disparity, seeds, reduction);
   StrokePainting part{width, height, style.canvas_colour, std::vector<Layer>(style.radii_px.size())};

@@ -38,13 +38,14 @@ bool shape_differs(const Layer& layer, const Stroke& stroke) {
 
 StrokeMeasures measure_strokes(std::span<const Layer> layers, const StereoGeometry& geometry) {
   StrokeMeasures measures;
-  std::size_t paired = 0, in_both = 0, differing = 0;
+  std::size_t visible = 0, paired = 0, in_both = 0, differing = 0;
   for (const Layer& layer : layers) {
     for (const Stroke& stroke : layer.strokes) {
-      ++measures.strokes;
+      measures.strokes += stroke.is_part ? 0 : 1;
       const bool both = shows(stroke, left_eye) && shows(stroke, right_eye);
       if (is_visible_to_both(layer, stroke, geometry)) {
-        ++measures.visible_to_both;
+        ++visible;
+        measures.visible_to_both += stroke.is_part ? 0 : 1;
         paired += both ? 1 : 0;
       }
       if (!both) continue;
@@ -55,7 +56,7 @@ StrokeMeasures measure_strokes(std::span<const Layer> layers, const StereoGeomet
   const auto share = [](std::size_t part, std::size_t whole) {
     return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
   };
-  measures.paired_share = share(paired, measures.visible_to_both);
+  measures.paired_share = share(paired, visible);
   measures.shape_differs_share = share(differing, in_both);
   return measures;
 }

@@ -8,7 +8,8 @@
 
 namespace wheatstone {
 
-/// How well the strokes of the two eyes belong together.
+/// How well the strokes of the two eyes belong together. Numbers of strokes count a dual stroke once, by its first
+/// part; shares are of all parts.
 struct StrokeMeasures {
   std::size_t strokes = 0;
   std::size_t visible_to_both = 0;  ///< no control point lies on an occluded pixel of the stroke's own view

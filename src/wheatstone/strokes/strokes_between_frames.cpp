@@ -7,46 +7,50 @@
 namespace wheatstone {
 namespace {
 
-using Opacities = std::unordered_map<std::uint32_t, float>;
+struct ShownStroke {
+  float opacity = 0;
+  bool is_part = false;
+};
+using ShownStrokes = std::unordered_map<std::uint32_t, ShownStroke>;
 
-Opacities opacities_of(std::span<const Layer> layers) {
-  Opacities opacities;
+ShownStrokes shown_strokes(std::span<const Layer> layers) {
+  ShownStrokes shown;
   for (const Layer& layer : layers)
     for (const Stroke& stroke : layer.strokes) {
       if (stroke.number == 0) continue;
-      float& opacity = opacities[stroke.number];
-      opacity = std::max(opacity, stroke.opacity);
+      ShownStroke& one = shown[stroke.number];
+      one = {std::max(one.opacity, stroke.opacity), stroke.is_part};
     }
-  return opacities;
+  return shown;
 }
 
-float largest(const Opacities& opacities) {
+float largest_opacity(const ShownStrokes& shown) {
   float most = 0;
-  for (const auto& [number, opacity] : opacities) most = std::max(most, opacity);
+  for (const auto& [number, stroke] : shown) most = std::max(most, stroke.opacity);
   return most;
 }
 
 }  // namespace
 
 StrokeChanges compare_strokes(std::span<const Layer> first, std::span<const Layer> second, double largest_step) {
-  const Opacities before = opacities_of(first), now = opacities_of(second);
+  const ShownStrokes before = shown_strokes(first), now = shown_strokes(second);
   constexpr float rounding = 1e-3f;
-  const float paint = std::max(largest(before), largest(now)), whole = paint - rounding;
+  const float paint = std::max(largest_opacity(before), largest_opacity(now)), whole = paint - rounding;
   const float step = static_cast<float>(largest_step) * paint + rounding;
   StrokeChanges changes;
-  for (const auto& [number, opacity] : before) {
+  for (const auto& [number, stroke] : before) {
     const auto found = now.find(number);
-    const bool is_whole = opacity >= whole;
+    const bool is_whole = !stroke.is_part && stroke.opacity >= whole;
     changes.whole += is_whole ? 1 : 0;
     if (found == now.end()) {
       changes.hidden += is_whole ? 1 : 0;
       continue;
     }
-    if (is_whole && found->second >= whole) ++changes.survived;
-    if (std::abs(found->second - opacity) > step) ++changes.popped;
+    if (is_whole && found->second.opacity >= whole) ++changes.survived;
+    if (std::abs(found->second.opacity - stroke.opacity) > step) ++changes.popped;
   }
-  for (const auto& [number, opacity] : now)
-    if (!before.contains(number) && opacity > step) ++changes.popped;
+  for (const auto& [number, stroke] : now)
+    if (!before.contains(number) && stroke.opacity > step) ++changes.popped;
   return changes;
 }
 

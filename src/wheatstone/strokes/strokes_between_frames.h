@@ -8,7 +8,7 @@
 namespace wheatstone {
 
 /// What became of the strokes from one frame of a painted film to the next, told from what is drawn alone, by the
-/// strokes' numbers. A stroke's opacity is the largest of its parts'.
+/// strokes' numbers. A dual stroke counts once, by its first part; any of its parts may pop.
 struct StrokeChanges {
   std::int64_t whole = 0;     ///< strokes of the first frame that are not fading, that is, as opaque as the paint is
   std::int64_t survived = 0;  ///< of these, whole in the second

@@ -364,5 +364,19 @@ TEST(CompareStrokes, TellsWhatPopsFromWhatFades) {
   EXPECT_EQ(compare_strokes(first, frame({{1, 0.25f}, {7, 1}}), 0.5).popped, 2);
 }
 
+TEST(CompareStrokes, CountsADualStrokeOnceAndEachPartThatPops) {
+  Layer layer;
+  for (const std::uint32_t number : {1, 2, 3, 4})
+    layer.strokes.push_back({.number = number, .is_part = number % 2 == 0});
+  const std::vector<Layer> first{layer};
+  const StrokeChanges same = compare_strokes(first, first, 0.5);
+  EXPECT_EQ(same.whole, 2);
+  EXPECT_EQ(same.survived, 2);
+  layer.strokes[1].opacity = 0.25f;
+  const StrokeChanges changed = compare_strokes(first, std::vector<Layer>{layer}, 0.5);
+  EXPECT_EQ(changed.survived, 2);
+  EXPECT_EQ(changed.popped, 1);
+}
+
 }  // namespace
 }  // namespace wheatstone
