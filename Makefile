@@ -19,7 +19,11 @@ view: configured
 	@scripts/demo
 	@build/release/bin/wheatstone view demo/*/painting.wst
 
-package: build
+# Configured again, because the environment may name the maintainer (packaging/maintainer.cmake).
+package: configured
+	@cmake build/release
+	@cmake --build --preset release
+	@rm -f build/release/packages/*.deb
 	@cd build/release && cpack --config CPackConfig.cmake
 	@ls build/release/packages/*.deb
 

@@ -1,5 +1,5 @@
 # Debian packages by CPack: the command line, the window, and what programs are built with.
-set(WHEATSTONE_MAINTAINER "Wheatstone authors <wheatstone@example.org>" CACHE STRING "Who answers for the packages")
+include(maintainer.cmake)
 
 # Debian's policy: each package has its copyright and its changes.
 configure_file(changelog.in changelog @ONLY)

@@ -108,9 +108,9 @@ std::uint64_t count_outside(const Cloud& cloud, const FramedRegion& region) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float x = cloud.x[i], y = cloud.y[i], z = cloud.z[i];
     const float dx = x - middle[0], dy = y - middle[1], dz = z - middle[2];
-    const int in_box =
-        (x >= lower[0]) & (x <= upper[0]) & (y >= lower[1]) & (y <= upper[1]) & (z >= lower[2]) & (z <= upper[2]);
-    outside += static_cast<unsigned>(1 - (in_box & (dx * dx + dy * dy + dz * dz <= square)));
+    const int in_box = int{x >= lower[0]} & int{x <= upper[0]} & int{y >= lower[1]} & int{y <= upper[1]} &
+                       int{z >= lower[2]} & int{z <= upper[2]};
+    outside += static_cast<unsigned>(1 - (in_box & int{dx * dx + dy * dy + dz * dz <= square}));
   }
   return outside;
 }

@@ -11,7 +11,6 @@
 #include <fstream>
 #include <memory>
 #include <numeric>
-#include <ranges>
 
 #include "wheatstone/error.h"
 #include "wheatstone/particles/columns_internal.h"
@@ -262,9 +261,11 @@ struct BinaryReading {
   void put_quantity(const BinaryPart& here, std::size_t count, std::uint64_t before, Cloud& cloud) {
     if (quantity.base.empty()) return;
     const Block* block = here.find(quantity.base);
-    if (block == nullptr)
-      refuse(here, fmt::format("has no record '{}', but {}", quantity.base,
-                               fmt::join(here.blocks | std::views::transform(&Block::name), ", ")));
+    if (block == nullptr) {
+      std::vector<std::string_view> names;
+      for (const Block& other : here.blocks) names.emplace_back(other.name);
+      refuse(here, fmt::format("has no record '{}', but {}", quantity.base, fmt::join(names, ", ")));
+    }
     const bool velocity = quantity.base == "VEL";
     const bool of_all = velocity || quantity.base == "ID" || quantity.base == "POT" || quantity.base == "POS";
     const std::size_t width = velocity || quantity.base == "POS" ? 3 : 1;

@@ -118,7 +118,7 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
   mend(cloud.temperature, counts);
   // Without a length a particle is a point.
   for (float& length : cloud.smoothing_length)
-    length = (length >= 0) & (length <= std::numeric_limits<float>::max()) ? length : 0;
+    length = length >= 0 && length <= std::numeric_limits<float>::max() ? length : 0;
   return counts;
 }
 

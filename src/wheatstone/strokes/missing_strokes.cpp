@@ -23,7 +23,7 @@ Image<std::uint8_t> wrong_still(const CarriedGround& ground) {
     const auto before = ground.before.row(y), after = ground.after.row(y);
     const auto marks = wrong.row(y);
     for (std::size_t x = 0; x < marks.size(); ++x)
-      marks[x] = (before[x] > squared_threshold) & (after[x] > squared_threshold) ? 255 : 0;
+      marks[x] = (int{before[x] > squared_threshold} & int{after[x] > squared_threshold}) != 0 ? 255 : 0;
   });
   return wrong;
 }
