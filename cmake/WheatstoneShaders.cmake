@@ -8,6 +8,9 @@
 # program names it by its path from src/, as C++ does: #include "wheatstone/gpu/views.glsl". It is put in once, however
 # often it is named. The driver's messages count the lines of the whole, which is kept as shaders/add_splats.comp in the
 # folder of the build.
+#
+# A program with a line "// Variant: CHANNELS=2 KERNEL=1" for each set of macros with which it is run is checked with each
+# of them. The macros are defined when the program is made (kept_program in wheatstone/gpu/program.h).
 find_program(GLSLANG_VALIDATOR_PROGRAM glslangValidator REQUIRED)
 
 function(wheatstone_shaders room)
@@ -19,8 +22,8 @@ function(wheatstone_shaders room)
     set(whole ${folder}/${shader})
     set(header ${folder}/${name}_source.h)
     add_custom_command(OUTPUT ${header}
-      COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DINCLUDES=${PROJECT_SOURCE_DIR}/src -DWHOLE=${whole} -DHEADER=${header} -P ${embed}
-      COMMAND ${GLSLANG_VALIDATOR_PROGRAM} --quiet ${whole}
+      COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DINCLUDES=${PROJECT_SOURCE_DIR}/src -DWHOLE=${whole} -DHEADER=${header}
+        -DVALIDATOR=${GLSLANG_VALIDATOR_PROGRAM} -P ${embed}
       DEPENDS ${source} ${embed} DEPFILE ${header}.d VERBATIM)
     target_sources(wheatstone_${room} PRIVATE ${header})
   endforeach()

@@ -1,5 +1,5 @@
-# Puts what SOURCE includes into it, as WHOLE, and that into HEADER as a constant; HEADER.d tells what it was made of
-# (WheatstoneShaders.cmake).
+# Puts what SOURCE includes into it, as WHOLE, and that into HEADER as a constant; HEADER.d tells what it was made of.
+# VALIDATOR checks each variant (WheatstoneShaders.cmake).
 cmake_minimum_required(VERSION 3.25)
 cmake_path(GET SOURCE STEM name)
 cmake_path(GET SOURCE FILENAME file)
@@ -24,6 +24,19 @@ while(text MATCHES "(^|\n)(#include \"([^\"\n]+)\"[^\n]*\n)")
   set(text "${before}${included}${after}")
 endwhile()
 file(WRITE ${WHOLE} "${text}")
+string(REGEX MATCHALL "\n// Variant: [^\n]*" variants "${text}")
+if(NOT variants)
+  set(variants "\n// Variant: ")
+endif()
+foreach(variant IN LISTS variants)
+  string(REPLACE "\n// Variant: " "" variant "${variant}")
+  string(REGEX REPLACE "([A-Z_]+=)" "-D\\1" macros "${variant}")
+  separate_arguments(macros)
+  execute_process(COMMAND ${VALIDATOR} --quiet -l ${macros} ${WHOLE} RESULT_VARIABLE refused)
+  if(refused)
+    message(FATAL_ERROR "${SOURCE}: glslangValidator refuses variant '${variant}'")
+  endif()
+endforeach()
 list(JOIN made_of " " made_of)
 file(WRITE ${HEADER}.d "${HEADER}: ${made_of}\n")
 file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT [==[

@@ -71,6 +71,26 @@ TEST(GpuChoice, FallsBackToTheProcessorWhereNobodyAskedForAnother) {
   EXPECT_TRUE(done_on_gpu(Device::automatic, [] {}));
 }
 
+TEST_F(Gpu, RunsEachVariantOfASource) {
+  constexpr GpuSource multiplying{"multiplying.comp", R"(#version 450
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) buffer Number { uint number; };
+void main() { number *= FACTOR; }
+)"};
+  const auto product = [&](int factor) {
+    std::uint32_t number = 7;
+    on_gpu([&](const GpuFacts&) {
+      const GpuBuffer buffer(std::span<const std::uint32_t>(&number, 1));
+      kept_program(multiplying, {{"FACTOR", factor}}).run({1}, {&buffer});
+      buffer.read(std::span(&number, 1));
+    });
+    return number;
+  };
+  EXPECT_EQ(product(2), 14u);
+  EXPECT_EQ(product(3), 21u);
+  EXPECT_EQ(product(2), 14u);
+}
+
 TEST_F(Gpu, TellsWhatItIs) {
   const GpuFacts facts = gpu_facts();
   EXPECT_FALSE(facts.name.empty());

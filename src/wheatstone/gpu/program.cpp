@@ -8,11 +8,26 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "wheatstone/error.h"
 
 namespace wheatstone {
 namespace {
+
+/// Lines that define what tells a variant from others.
+std::string lines_of(std::initializer_list<GpuDefine> defines) {
+  std::string lines;
+  for (const GpuDefine& define : defines) lines += fmt::format("#define {} {}\n", define.name, define.value);
+  return lines;
+}
+
+/// The text of a variant, in which lines keep their numbers.
+std::string text_of(const GpuSource& source, std::initializer_list<GpuDefine> defines) {
+  std::string text(source.text);
+  if (defines.size() > 0) text.insert(text.find('\n') + 1, lines_of(defines) + "#line 2\n");
+  return text;
+}
 
 /// The driver's first line about what it refused.
 [[noreturn]] void refuse(const GpuSource& source, std::string log) {
@@ -22,9 +37,9 @@ namespace {
 
 }  // namespace
 
-GpuProgram::GpuProgram(const GpuSource& source) {
+GpuProgram::GpuProgram(const GpuSource& source, std::initializer_list<GpuDefine> defines) {
   // The program is separable: it has one stage, which is compiled and linked at once.
-  const std::string text(source.text);
+  const std::string text = text_of(source, defines);
   const char* const texts = text.c_str();
   name_ = glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &texts);
   GLint linked = GL_FALSE;
@@ -52,11 +67,12 @@ void GpuProgram::run(std::initializer_list<std::uint32_t> groups, std::initializ
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-const GpuProgram& kept_program(const GpuSource& source) {
+const GpuProgram& kept_program(const GpuSource& source, std::initializer_list<GpuDefine> defines) {
   // Never destroyed: at the end of the process there is no context in which it could be. Callers take turns (on_gpu).
-  static auto& programs = *new std::map<std::string_view, GpuProgram>();
-  const auto found = programs.find(source.text);
-  return found != programs.end() ? found->second : programs.emplace(source.text, GpuProgram(source)).first->second;
+  static auto& programs = *new std::map<std::pair<std::string_view, std::string>, GpuProgram>();
+  const std::pair<std::string_view, std::string> key(source.text, lines_of(defines));
+  const auto found = programs.find(key);
+  return found != programs.end() ? found->second : programs.emplace(key, GpuProgram(source, defines)).first->second;
 }
 
 }  // namespace wheatstone

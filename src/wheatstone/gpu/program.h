@@ -9,17 +9,23 @@
 
 namespace wheatstone {
 
-/// The source of a compute program, as the build embeds it.
+/// The source of a compute program, as the build embeds it. It begins with a line "#version".
 struct GpuSource {
   std::string_view name;  ///< of its file
   std::string_view text;
+};
+
+/// A macro that is defined for a variant of a source.
+struct GpuDefine {
+  std::string_view name;
+  int value;
 };
 
 /// A compute program on the graphics processor. Made and used within on_gpu().
 class GpuProgram {
  public:
   /// Throws Error{wrong_usage} with the driver's first line where it refuses the source.
-  explicit GpuProgram(const GpuSource& source);
+  explicit GpuProgram(const GpuSource& source, std::initializer_list<GpuDefine> defines = {});
   ~GpuProgram();
   GpuProgram(GpuProgram&& other) noexcept : name_(other.name_) { other.name_ = 0; }
   GpuProgram(const GpuProgram&) = delete;
@@ -37,9 +43,9 @@ class GpuProgram {
   std::uint32_t name_ = 0;
 };
 
-/// The program of a source, which is compiled when it is first asked for, and kept to the end of the process. Within
-/// on_gpu().
-const GpuProgram& kept_program(const GpuSource& source);
+/// The program of a variant of a source, which is compiled when it is first asked for, and kept to the end of the
+/// process. Within on_gpu().
+const GpuProgram& kept_program(const GpuSource& source, std::initializer_list<GpuDefine> defines = {});
 
 /// Groups of `size` that cover `count`.
 constexpr std::uint32_t groups_of(std::size_t count, std::size_t size) {

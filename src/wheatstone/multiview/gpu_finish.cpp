@@ -6,23 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "composite_colours_cubic_source.h"
-#include "composite_colours_linear_source.h"
-#include "composite_focus_colours_source.h"
-#include "composite_focus_mass_source.h"
-#include "composite_mass_cubic_source.h"
-#include "composite_mass_linear_source.h"
-#include "finish_colours_source.h"
-#include "finish_look_source.h"
-#include "finish_mass_source.h"
-#include "finish_smaller_source.h"
-#include "pack_planes_source.h"
+#include "composite_planes_source.h"
+#include "finish_views_source.h"
 #include "wheatstone/gpu/program.h"
 
 namespace wheatstone {
 namespace {
 
-/// What finish_views.glsl reads of its work: numbers of four bytes, without gaps.
+/// What finish_views.comp reads of its work: numbers of four bytes, without gaps.
 struct FinishWork {
   std::int32_t channels = 0, width = 0, rows = 0, pad = 0;
   std::int32_t base = 0;
@@ -32,14 +23,14 @@ struct FinishWork {
   float exposure = 0, scale = 0, offset = 0;
 };
 
-/// What pack_planes.comp reads of its work.
+/// What composite_planes.comp reads of its work where it packs.
 struct PackWork {
-  std::int32_t channels = 0, width = 0, rows = 0;
+  std::int32_t width = 0, rows = 0;
   std::int32_t texels_a_row = 0;
   std::int32_t first_value = 0, first_texel = 0;
 };
 
-/// What composite_planes.glsl reads of its work.
+/// What composite_planes.comp reads of its work where it moves planes.
 struct CompositeWork {
   std::int32_t width = 0, rows = 0;
   std::int32_t left = 0, texels_a_row = 0;
@@ -52,7 +43,7 @@ struct CompositeWork {
   std::array<std::array<float, 4>, most_gpu_views> views{};
 };
 
-/// The tables of the tone map, one after the other, as finish_views.glsl reads them.
+/// The tables of the tone map, one after the other, as finish_views.comp reads them.
 std::vector<std::int32_t> tables_of(const ToneMap& tone) {
   std::vector<std::int32_t> tables = tone.table;
   tables.insert(tables.end(), tone.stretch.begin(), tone.stretch.end());
@@ -62,12 +53,16 @@ std::vector<std::int32_t> tables_of(const ToneMap& tone) {
   return tables;
 }
 
-/// What shows a picture's light.
-const GpuSource& source_for(const ToneMap& tone, std::size_t picture) {
-  if (picture > 0) return finish_smaller_source;
-  if (tone.look == Look::thesis) return finish_look_source;
-  return tone.shown == Shown::colours ? finish_colours_source : finish_mass_source;
+/// What becomes of a picture's light, as finish_views.comp numbers it.
+int shown_as(const ToneMap& tone, std::size_t picture) {
+  constexpr int stays_light = 0, as_look = 1, as_mass = 2, as_colours = 3;
+  if (picture > 0) return stays_light;
+  if (tone.look == Look::thesis) return as_look;
+  return tone.shown == Shown::colours ? as_colours : as_mass;
 }
+
+/// Steps of composite_planes.comp.
+constexpr int packs = 0, moves = 1, moves_in_focus = 2;
 
 FinishWork finish_work(const GpuPictures& pictures, const ToneMap& tone, std::size_t picture, int base) {
   FinishWork work{.channels = pictures.channels,
@@ -106,14 +101,13 @@ void pack(const GpuPictures& planes, const TargetGroup& group, std::size_t pictu
           const GpuBuffer& light, const GpuBuffer& packed) {
   const int count = group.end[picture] - group.first[picture];
   if (count == 0) return;
-  PackWork work{.channels = planes.channels,
-                .width = planes.width[picture],
+  PackWork work{.width = planes.width[picture],
                 .rows = planes.orders[picture].rows,
                 .texels_a_row = texels_a_row(planes, picture)};
   work.first_value = group.base[picture] + group.first[picture] * static_cast<int>(planes.values(picture));
   work.first_texel = first_texel + group.first[picture] * work.texels_a_row * work.rows;
   const GpuBuffer of_work(std::span<const PackWork>(&work, 1));
-  kept_program(pack_planes_source)
+  kept_program(composite_planes_source, {{"STEP", packs}, {"CHANNELS", planes.channels}})
       .run({groups_of(work.texels_a_row, 64), static_cast<std::uint32_t>(work.rows), static_cast<std::uint32_t>(count)},
            {&of_work, &light, &packed});
 }
@@ -134,7 +128,7 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
     const std::size_t bytes = pictures.values(p) * views.size() * sizeof(float);
     GpuBuffer here = GpuBuffer::of_any_bytes(p > 0 ? bytes : 0);
     const auto [columns, rows, count] = groups_of_pixels(pictures, p, views.size());
-    kept_program(source_for(tone, p))
+    kept_program(finish_views_source, {{"SHOWN", shown_as(tone, p)}})
         .run({columns, rows, count},
              {&of_work, own.light, finished.empty() ? &none : &finished.back(), p > 0 ? &here : &colours, &tables});
     finished.push_back(std::move(here));
@@ -162,11 +156,10 @@ GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resamp
   }
 }
 
-const GpuSource& GpuCompositor::program() const {
-  const bool mass = planes_.channels == 2;
-  if (focus_) return mass ? composite_focus_mass_source : composite_focus_colours_source;
-  if (taps_of(resampling_) > 2) return mass ? composite_mass_cubic_source : composite_colours_cubic_source;
-  return mass ? composite_mass_linear_source : composite_colours_linear_source;
+const GpuProgram& GpuCompositor::program() const {
+  const GpuDefine channels{"CHANNELS", planes_.channels};
+  if (focus_) return kept_program(composite_planes_source, {{"STEP", moves_in_focus}, channels});
+  return kept_program(composite_planes_source, {{"STEP", moves}, channels, {"TAPS", taps_of(resampling_) > 2 ? 4 : 2}});
 }
 
 GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_views,
@@ -194,8 +187,8 @@ GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_vi
     work.base = first_texel_[g][picture];
     if (work.first_plane == work.end_plane) continue;
     const GpuBuffer of_work(std::span<const CompositeWork>(&work, 1));
-    kept_program(program()).run({groups_of(work.width, 64), rows, static_cast<std::uint32_t>(views.size())},
-                                {&of_work, &composited}, {&packed_[g]});
+    program().run({groups_of(work.width, 64), rows, static_cast<std::uint32_t>(views.size())}, {&of_work, &composited},
+                  {&packed_[g]});
     work.again = 1;
   }
   return composited;

@@ -36,7 +36,7 @@ class GpuCompositor {
   GpuBuffer composite(std::size_t picture, const GpuPictures& of_views, std::span<const ViewPosition> views) const;
 
  private:
-  const GpuSource& program() const;
+  const GpuProgram& program() const;
 
   const GpuPictures& planes_;
   std::vector<TargetGroup> groups_;

@@ -7,34 +7,22 @@
 #include <numeric>
 
 #include "begin_lists_source.h"
-#include "count_splats_source.h"
-#include "gather_colours_source.h"
-#include "gather_colours_spline_source.h"
-#include "gather_light_source.h"
-#include "gather_mass_source.h"
-#include "gather_mass_spline_source.h"
-#include "gather_opaque_source.h"
-#include "place_colours_source.h"
-#include "place_colours_spline_source.h"
-#include "place_light_source.h"
-#include "place_mass_source.h"
-#include "place_mass_spline_source.h"
-#include "place_opaque_source.h"
-#include "sum_lists_source.h"
+#include "gather_splats_source.h"
+#include "place_splats_source.h"
 #include "wheatstone/gpu/program.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
 
 namespace wheatstone {
 namespace {
 
-// As splat_lists.glsl and gather_splats.glsl have them.
+// As splat_lists.glsl and gather_splats.comp have them.
 constexpr int band_rows = 2, list_columns = 2, gathered_columns = 4, group_side = 8;
 constexpr std::size_t entry_bytes = 32;
 /// Mesa's llvmpipe 22 ends the loops of an invocation after 65535 iterations in all.
 constexpr std::size_t most_iterations = 65000;
 /// Kinds whose reaches differ by no more are gone through together.
 constexpr float joined_px = 2;
-/// Of splats less bright than this, all steps of sums are counted (most_rest_bits of gather_splats.glsl).
+/// Of splats less bright than this, all steps of sums are counted (most_rest_bits of gather_splats.comp).
 constexpr int all_counted_below = 4;
 /// Views move splats by this many pixels, beside those that a list has, before lists are cut by parallax.
 constexpr float moved_px = 6;
@@ -50,9 +38,9 @@ std::uint32_t begin_lists(GpuBuffer& lists) {
   }
   const std::uint32_t groups = groups_of(count, 64);
   GpuBuffer sums(groups * sizeof(std::uint32_t));
-  kept_program(sum_lists_source).run({groups_of(groups, 64)}, {&lists, &sums});
+  kept_program(begin_lists_source, {{"STEP", 0}}).run({groups_of(groups, 64)}, {&lists, &sums});
   const std::uint32_t all = begin_lists(sums);
-  kept_program(begin_lists_source).run({groups_of(groups, 64)}, {&lists, &sums});
+  kept_program(begin_lists_source, {{"STEP", 1}}).run({groups_of(groups, 64)}, {&lists, &sums});
   return all;
 }
 
@@ -87,20 +75,10 @@ void set_pictures(const RenderJob& job, const GpuPictures& pictures, GpuTargets 
 
 std::size_t bytes_a_value(GpuWritten written) { return written == GpuWritten::light ? sizeof(float) : sum_bytes; }
 
-ListPrograms programs_for(Deposit deposit, bool opaque) {
-  if (opaque) return {place_opaque_source, gather_opaque_source, false, 1};
-  switch (deposit) {
-    case Deposit::mass:
-      return {place_mass_source, gather_mass_source};
-    case Deposit::mass_by_spline:
-      return {place_mass_spline_source, gather_mass_spline_source};
-    case Deposit::colours:
-      return {place_colours_source, gather_colours_source};
-    case Deposit::colours_by_spline:
-      return {place_colours_spline_source, gather_colours_spline_source};
-    default:
-      return {place_light_source, gather_light_source, false};
-  }
+GpuKernel::Spread spread_of(Deposit deposit, bool opaque) {
+  if (opaque) return GpuKernel::disc;
+  if (channels_of(deposit) != deposit) return GpuKernel::spline;
+  return keeps_sums(deposit) ? GpuKernel::mass : GpuKernel::light;
 }
 
 }  // namespace
@@ -110,9 +88,9 @@ SplatGatherer::SplatGatherer(const RenderJob& job, const GpuFacts& facts, const 
                              std::span<const TargetGroup> groups, GpuWritten written)
     : pictures_(pictures),
       groups_(groups),
-      programs_(programs_for(deposit_of(job.scene.splat_style), targets == GpuTargets::discs_in_views)),
+      kernel_{spread_of(deposit_of(job.scene.splat_style), targets == GpuTargets::discs_in_views)},
       most_entries_(std::min(facts.largest_buffer / entry_bytes, facts.most_texels / 2)),
-      most_by_one_(facts.imitated ? most_iterations * programs_.entries_at_once : most_entries_),
+      most_by_one_(facts.imitated ? most_iterations * kernel_.entries_at_once() : most_entries_),
       splats_(GpuBuffer::of_any_bytes(most_gathered * entry_bytes)),
       reaches_(most_kinds * sizeof(float)) {
   work_.targets = targets == GpuTargets::discs_in_views ? GpuTargets::views : targets;
@@ -138,7 +116,7 @@ std::size_t SplatGatherer::number_lists() {
     const auto first = static_cast<int>(p) * kinds_a_picture;
     for (int brightness = splat_brightnesses - 1; brightness >= 0; --brightness) {
       // What is left of whole steps is counted: splats that are fainter can be counted in the same steps.
-      const bool joins = programs_.counts_rest && brightness < all_counted_below;
+      const bool joins = kernel_.counts_rest() && brightness < all_counted_below;
       const int least = joins ? 0 : brightness;
       number_kinds(static_cast<int>(p),
                    std::span(reaches).subspan(first + least * splat_widths, (brightness + 1 - least) * splat_widths),
@@ -207,12 +185,13 @@ bool SplatGatherer::add(std::size_t count, std::optional<int> target) {
   work_.splats = static_cast<std::int32_t>(count);
   const GpuBuffer of_work(std::span<const ListWork>(&work_, 1));
   GpuBuffer ends((lists + 3) / 4 * 4 * sizeof(std::uint32_t));
-  kept_program(count_splats_source).run({groups_of(count, 64)}, {&of_work, &ends}, {&splats_});
+  kept_program(place_splats_source, {{"STEP", 0}}).run({groups_of(count, 64)}, {&of_work, &ends}, {&splats_});
   const std::size_t in_lists = begin_lists(ends);
   if (in_lists > most_entries_ && count > 1) return false;
   if (in_lists > most_by_one_ && count > 1 && most_in_a_band(ends, in_lists) > most_by_one_) return false;
   const GpuBuffer entries = GpuBuffer::of_any_bytes((in_lists + 1) * entry_bytes);
-  kept_program(programs_.place).run({groups_of(count, 64)}, {&of_work, &ends, &entries}, {&splats_});
+  kept_program(place_splats_source, {{"STEP", 1}, {"CHANNELS", work_.channels}, {"KERNEL", kernel_.spread}})
+      .run({groups_of(count, 64)}, {&of_work, &ends, &entries}, {&splats_});
   gather(ends, entries, target);
   return true;
 }
@@ -233,7 +212,7 @@ void SplatGatherer::gather(const GpuBuffer& ends, const GpuBuffer& entries, std:
       begun_[g][p] = 1;
       const GpuBuffer of_work(std::span<const ListWork>(&work_, 1));
       const ListWork::Picture& picture = work_.pictures[p];
-      kept_program(programs_.gather)
+      kept_program(gather_splats_source, {{"CHANNELS", work_.channels}, {"KERNEL", kernel_.spread}})
           .run({groups_of(picture.width, gathered_columns * group_side), groups_of(picture.bands, group_side),
                 static_cast<std::uint32_t>(targets)},
                {&of_work, &ends, &sums_[g]}, {&entries, &ends});

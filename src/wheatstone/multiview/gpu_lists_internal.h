@@ -50,11 +50,12 @@ struct ListWork {
   std::array<std::array<float, 4>, most_gpu_views> views{};
 };
 
-/// What puts splats into lists, and what gathers these.
-struct ListPrograms {
-  const GpuSource &place, &gather;
-  bool counts_rest = true;          ///< what is left of whole steps
-  std::size_t entries_at_once = 4;  ///< that an iteration of gathering takes
+/// What a splat adds to a pixel, as splat_weights.glsl tells kernels apart.
+struct GpuKernel {
+  enum Spread : std::int32_t { light = 0, mass = 1, spline = 2, disc = 3 };
+  Spread spread = light;
+  bool counts_rest() const { return spread == mass || spread == spline; }  ///< what is left of whole steps
+  std::size_t entries_at_once() const { return spread == disc ? 1 : 4; }   ///< that an iteration of gathering takes
 };
 
 /// Adds splats to sums in fixed point, of 64 bits and with steps of 2^−28, or makes light of these at once. Projected
@@ -81,7 +82,7 @@ class SplatGatherer {
 
   const GpuPictures& pictures_;
   std::span<const TargetGroup> groups_;
-  ListPrograms programs_;
+  GpuKernel kernel_;
   ListWork work_;
   std::size_t most_entries_, most_by_one_;
   GpuBuffer splats_, reaches_;

@@ -7,11 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "add_light_source.h"
-#include "light_of_nearest_source.h"
 #include "light_of_sums_source.h"
-#include "project_look_source.h"
-#include "project_mass_source.h"
+#include "project_splats_source.h"
 #include "wheatstone/error.h"
 #include "wheatstone/gpu/program.h"
 #include "wheatstone/image/srgb.h"
@@ -22,7 +19,7 @@
 namespace wheatstone {
 namespace {
 
-/// What programs that project read of their work (splat_work.glsl): numbers of four bytes, in groups of four.
+/// What programs that project read of their work (project_splats.comp): numbers of four bytes, in groups of four.
 struct SplatWork {
   std::int32_t particles = 0, pictures = 0;
   std::int32_t second_is_quantity = 0, own_colours = 0, logarithmic = 0, from_density = 0;
@@ -152,12 +149,15 @@ std::array<std::uint32_t, 2> rows_of_groups(std::size_t count) {
   return {std::min(groups, longest), (groups + longest - 1) / longest};
 }
 
+/// What light_of_sums.comp makes light of.
+enum Gathered : std::int32_t { sums_of_steps = 0, nearest_discs = 1, other_light = 2 };
+
 /// Sums, or the nearest discs, as floats.
 GpuBuffer light_of(const GpuBuffer& sums, GpuTargets targets) {
   const std::size_t values = sums.bytes() / sum_bytes;
   GpuBuffer light = GpuBuffer::of_any_bytes(values * sizeof(float));
   const auto [columns, rows] = rows_of_groups(values);
-  kept_program(targets == GpuTargets::discs_in_views ? light_of_nearest_source : light_of_sums_source)
+  kept_program(light_of_sums_source, {{"FROM", targets == GpuTargets::discs_in_views ? nearest_discs : sums_of_steps}})
       .run({columns, rows}, {&sums, &light});
   return light;
 }
@@ -210,7 +210,6 @@ class ParticleGatherer {
   ParticleGatherer(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures, GpuTargets targets,
                    std::span<const ViewPosition> views, std::span<const TargetGroup> groups, GpuWritten written)
       : job_(job),
-        projecting_(job.scene.splat_style.look == Look::mass ? project_mass_source : project_look_source),
         tables_(projection_tables(projection_for(job, pictures.orders))),
         columns_(GpuBuffer::of_any_bytes(most_columns * most_gathered * sizeof(float))),
         gatherer_(job, facts, pictures, targets, views, groups, written) {
@@ -224,7 +223,7 @@ class ParticleGatherer {
   bool add(const Cloud& cloud, ParticleRange range, std::optional<int> target = {}) {
     copy_columns(cloud, range, job_.scene.splat_style, columns_, work_);
     const GpuBuffer of_work(std::span<const SplatWork>(&work_, 1));
-    kept_program(projecting_)
+    kept_program(project_splats_source, {{"KIND_OF_LIGHT", job_.scene.splat_style.look == Look::mass ? 1 : 0}})
         .run({groups_of(range.count, 64)}, {&of_work, &columns_, &gatherer_.splats(), &gatherer_.reaches()},
              {&tables_});
     return gatherer_.add(range.count, target);
@@ -245,7 +244,6 @@ class ParticleGatherer {
 
  private:
   const RenderJob& job_;
-  const GpuSource& projecting_;
   SplatWork work_;
   GpuBuffer tables_, columns_;
   SplatGatherer gatherer_;
@@ -255,7 +253,7 @@ class ParticleGatherer {
 void add_light(const std::vector<GpuBuffer>& more, const std::vector<GpuBuffer>& to) {
   for (std::size_t g = 0; g < to.size(); ++g) {
     const auto [columns, rows] = rows_of_groups(to[g].bytes() / sizeof(float));
-    kept_program(add_light_source).run({columns, rows}, {&more[g], &to[g]});
+    kept_program(light_of_sums_source, {{"FROM", other_light}}).run({columns, rows}, {&more[g], &to[g]});
   }
 }
 

@@ -3,8 +3,9 @@
 #define LIGHT 0   // a Gaussian's value at the middle of a pixel
 #define MASS 1    // the part of a Gaussian over the pixel: parts sum to 1
 #define SPLINE 2  // the same of the cubic spline kernel
+#define DISC 3    // an opaque disc, of which there is all or nothing
 
-// What place_splats.glsl keeps of a splat's size.
+// What place_splats.comp keeps of a splat's size.
 float scale_of(float size) { return KERNEL == LIGHT ? 0.72134752 / (size * size / 25 + 1.0 / 12) : 2 / size; }
 
 // 2 to powers of 0 or less; of those below -100 it is anything.

@@ -1,14 +1,21 @@
-// What programs that project particles are given, and a particle as the central view has it. The twin of
-// project_simd.cpp.
+#version 450
 
+// Particles are projected and lit once, for all views: a splat in the central view, and its kind. The twin of
+// project_simd.cpp. KIND_OF_LIGHT says what is shown.
+// Variant: KIND_OF_LIGHT=0
+// Variant: KIND_OF_LIGHT=1
 #define OF_LOOK 0
 #define OF_MASS 1
+
+layout(local_size_x = 64) in;
+
+#include "wheatstone/multiview/splat_kinds.glsl"
 
 const int most_pictures = 9;
 const int parallax_entries = 1024;
 const int palette_entries = 256;
 
-// As struct SplatWork in gpu_splats_internal.h has them.
+// As struct SplatWork in gpu_splats.cpp has them.
 layout(std140, binding = 0) uniform Work {
   int particles, pictures;
   int second_is_quantity, own_colours, logarithmic, from_density;
@@ -119,4 +126,22 @@ bool project(uint i, out Splat splat) {
                                          : light_of_look(i, log2_density, splat.size);
   choose_picture(splat);
   return true;
+}
+
+layout(std430, binding = 2) writeonly buffer Splats { vec4 splats[]; };  // place, parallax, size; light, kind
+layout(std430, binding = 3) buffer Reaches { uint reaches[]; };          // of each kind: the largest, as its bits
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= uint(particles)) return;
+  Splat splat;
+  uint kind = no_kind;
+  if (project(i, splat)) {
+    float reach = reach_in_lists(splat.size);
+    kind = uint(kind_of(splat.picture, max(max(abs(splat.light.r), abs(splat.light.g)), abs(splat.light.b)), reach));
+    uint bits = floatBitsToUint(reach);
+    if (reaches[kind] < bits) atomicMax(reaches[kind], bits);
+  }
+  splats[2 * i] = vec4(clamp(splat.x, -1e8, 1e8), clamp(splat.y, -1e8, 1e8), splat.parallax, splat.size);
+  splats[2 * i + 1] = vec4(splat.light, uintBitsToFloat(kind));
 }

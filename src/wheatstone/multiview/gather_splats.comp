@@ -1,9 +1,156 @@
-// Two rows of four pixels of one target, which is a view or a depth plane: the splats of the lists that reach there,
-// gathered in fixed point. Nothing is shared, so that nothing waits; and integers add alike in any order.
+#version 450
 
-#include "wheatstone/multiview/gathered_lists.glsl"
+// Two rows of four pixels of one target, which is a view or a depth plane: the splats of the lists that reach there.
+// Nothing is shared, so that nothing waits. CHANNELS and KERNEL say what a splat adds to a pixel.
+// Variant: CHANNELS=2 KERNEL=1
+// Variant: CHANNELS=2 KERNEL=2
+// Variant: CHANNELS=3 KERNEL=0
+// Variant: CHANNELS=3 KERNEL=1
+// Variant: CHANNELS=3 KERNEL=2
+// Variant: CHANNELS=3 KERNEL=3
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "wheatstone/multiview/splat_lists.glsl"
 #include "wheatstone/multiview/splat_weights.glsl"
-#include "wheatstone/multiview/fixed_point.glsl"
+
+layout(binding = 0) uniform usamplerBuffer entries;
+layout(binding = 1) uniform usamplerBuffer ends;  // four lists a texel
+
+const int columns = 4;
+// A slab's limits are kept to by rounding alone.
+const float safe_px = 0.0625;
+
+// A list that is gathered: what is left of it, and which one it is.
+struct List {
+  uint at, end;
+  int shift;  // of its steps
+  int kind, slab;
+};
+
+// Before the first of those that a target gathers.
+List before_lists(Picture here, int target) {
+  return List(0, 0, 0, here.first_kind - 1, targets == into_views ? 1 << 30 : target);
+}
+
+bool is_last(List list, Picture here) {
+  return list.kind + 1 >= here.end_kind && (targets != into_views || list.slab + 1 >= here.slabs);
+}
+
+uint end_of_list(int number) {
+  uvec4 four = texelFetch(ends, number >> 2);
+  uint of_two = (number & 1) != 0 ? four.y : four.x, of_others = (number & 1) != 0 ? four.w : four.z;
+  return (number & 2) != 0 ? of_others : of_two;
+}
+
+// The entries of the next list that may reach these pixels: the slabs of a kind, one after the other.
+List next_list(List list, Picture here, float view_here, int target, int band, float first_x) {
+  if (targets != into_views || list.slab + 1 >= here.slabs) {
+    ++list.kind;
+    list.slab = targets == into_views ? 0 : target;
+  } else {
+    ++list.slab;
+  }
+  Kind kind = kinds[list.kind];
+  float nearer = here.first_parallax + float(list.slab) * here.slab_parallax;
+  vec2 moved = vec2(nearer, nearer + here.slab_parallax) * view_here;
+  float around = kind.reach + safe_px;
+  int in_band = kind.first_list + (list.slab * here.bands + band) * here.lists_a_band;
+  int first = in_band + list_at(here, first_x + 0.5 - around - max(moved.x, moved.y));
+  int last = in_band + list_at(here, first_x + float(columns) - 0.5 + around - min(moved.x, moved.y));
+  list.at = first > 0 ? end_of_list(first - 1) : 0;
+  list.end = end_of_list(last);
+  list.shift = bits_a_brightness * kind.brightness;
+  return list;
+}
+
+// Whether there is something to gather.
+bool gathers(Picture here, int first_column, int band) { return first_column < here.width && band < here.bands; }
+
+// By how much of its parallax a splat is moved to a target.
+float view_of(int target) { return targets == into_views ? views[target].x : 0; }
+
+#if KERNEL == DISC
+
+// The nearest of the discs. The twin of opaque.cpp.
+
+layout(std430, binding = 2) buffer Nearest { float nearest[]; };  // of a pixel: parallax, rank, light; or light alone
+
+const float far_away = 3e38;
+
+// Four pixels of a row.
+struct Four {
+  vec4 parallax, rank, red, green, blue;
+};
+
+// Of two that are equally near the brighter one is in front, whichever comes first.
+void cover(inout Four four, vec4 at, vec4 light, vec4 away, float row_away) {
+  float half_width = sqrt(max(at.w * at.w - row_away * row_away, 0));
+  for (int i = 0; i < 4; ++i) {
+    bool hits = abs(row_away) <= at.w && abs(away[i]) <= half_width;
+    bool front = at.y < four.parallax[i] || (at.y == four.parallax[i] && light.a > four.rank[i]);
+    if (!hits || !front) continue;
+    four.parallax[i] = at.y;
+    four.rank[i] = light.a;
+    four.red[i] = light.r;
+    four.green[i] = light.g;
+    four.blue[i] = light.b;
+  }
+}
+
+void put(Picture here, int x, int y, int target, Four four) {
+  for (int i = 0; i < 4; ++i) {
+    if (x + i >= here.width || y >= here.rows) continue;
+    int pixel = base / 3 + (target * here.rows + y) * here.width + x + i;
+    vec3 light = vec3(four.red[i], four.green[i], four.blue[i]);
+    float parallax_here = four.parallax[i];
+    if (written == writes_light) {
+      nearest[3 * pixel] = light.r;
+      nearest[3 * pixel + 1] = light.g;
+      nearest[3 * pixel + 2] = light.b;
+      continue;
+    }
+    int at = 6 * pixel;
+    bool behind = written == adds_sums && (nearest[at] < parallax_here ||
+                                           (nearest[at] == parallax_here && nearest[at + 1] >= four.rank[i]));
+    if (behind) continue;
+    nearest[at] = parallax_here;
+    nearest[at + 1] = four.rank[i];
+    nearest[at + 2] = light.r;
+    nearest[at + 3] = light.g;
+    nearest[at + 4] = light.b;
+  }
+}
+
+void main() {
+  Picture here = pictures[picture];
+  int x = int(gl_GlobalInvocationID.x) * columns;
+  int band = int(gl_GlobalInvocationID.y);
+  int target = first_target + int(gl_GlobalInvocationID.z);
+  float first_x = float(x + here.left);
+  float view_here = view_of(target);
+  const Four nothing = Four(vec4(far_away), vec4(-1), vec4(0), vec4(0), vec4(0));
+  Four upper = nothing, lower = nothing;
+  List list = before_lists(here, target);
+  bool gathering = gathers(here, x, band);
+  for (; gathering && (list.at < list.end || !is_last(list, here)); ++list.at) {
+    if (list.at >= list.end) list = next_list(list, here, view_here, target, band, first_x);
+    int entry = int(min(list.at, list.end));
+    vec4 at = uintBitsToFloat(texelFetch(entries, 2 * entry));
+    vec4 light = uintBitsToFloat(texelFetch(entries, 2 * entry + 1));
+    if (list.at >= list.end) at.w = -1;
+    vec4 away = vec4(0.5, 1.5, 2.5, 3.5) + first_x - (at.x + at.y * view_here);
+    float row_away = float(band * band_rows) + 0.5 - at.z;
+    cover(upper, at, light, away, row_away);
+    cover(lower, at, light, away, row_away + 1);
+  }
+  put(here, x, band_rows * band, target, upper);
+  put(here, x, band_rows * band + 1, target, lower);
+}
+
+#else
+
+// Light is gathered in fixed point: integers add alike in any order.
 
 layout(std430, binding = 2) buffer Sums { uint sums[]; };  // low and high words in turn, or light
 
@@ -144,3 +291,5 @@ void main() {
   put(here, x, band_rows * band, target, 1, second);
   if (CHANNELS == 3) put(here, x, band_rows * band, target, 2, third);
 }
+
+#endif

@@ -1,6 +1,0 @@
-#version 450
-
-// Views of mass in colours of its own.
-
-#define SHOWN as_colours
-#include "wheatstone/multiview/finish_views.glsl"
