@@ -273,6 +273,7 @@ ordered_json facts_of(const Arguments& arguments, const CLI::App& command) {
 }
 
 std::string as_text(const ordered_json& value) {
+  if (value.is_null()) return "not known";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
   return value.is_string() ? value.get<std::string>() : json_text(value, -1);

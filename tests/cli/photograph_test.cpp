@@ -311,6 +311,10 @@ TEST(Photograph, IsToldOfByInfo) {
   facts = nlohmann::json::parse(run_program({"info", folder / "a.mpo", "--json"}).output);
   EXPECT_EQ(facts["layout"], "MPO");
   EXPECT_EQ(facts["eyes_look_swapped"], true);
+  write_jps(folder / "same.jps", still().left, still().left, StereoLayout::top_bottom);
+  facts = nlohmann::json::parse(run_program({"info", folder / "same.jps", "--json"}).output);
+  EXPECT_EQ(facts["eyes_look_swapped"], nullptr);
+  EXPECT_THAT(run_program({"info", folder / "same.jps"}).output, HasSubstr("eyes look swapped: not known"));
   write_image(folder / "mono.png", still().left);
   facts = nlohmann::json::parse(run_program({"info", folder / "mono.png", "--json"}).output);
   EXPECT_FALSE(facts.contains("stereo"));
