@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <vector>
 
 namespace wheatstone::bench {
@@ -69,6 +70,13 @@ double least_processor_seconds(Call call, int calls = 3) {
     if (i == 0 || taken < least) least = taken;
   }
   return least;
+}
+
+/// Seconds in which one thread copies so many bytes of memory, the median of some: what it takes to read and write them
+/// once, whatever is done with them.
+inline double copy_seconds(std::size_t bytes) {
+  std::vector<char> from(bytes, 1), to(bytes);
+  return median_seconds([&] { std::memcpy(to.data(), from.data(), bytes); });
 }
 
 }  // namespace wheatstone::bench

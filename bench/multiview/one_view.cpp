@@ -1,6 +1,7 @@
-// One view of a snapshot, from the start of a process to the picture's file: processor time on one thread and memory,
-// against the exact renderer of multiview/baseline on the same particles, read at once. Each is run in a process of its
-// own, in turn, five times; the median counts.
+// One view of a snapshot, from the start of a process to the picture's file: processor time on one thread and memory.
+// Beside it: the exact renderer on the same particles, which are read at once; a copy of the file's bytes in memory;
+// and a column density by yt, where python3-yt is installed. Each is run in a process of its own, in turn, five times;
+// the median counts.
 //
 //   bench_one_view [PARTICLES]
 
@@ -13,11 +14,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "multiview/baseline/exact.h"
+#include "stopwatch.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/pictures/write_image.h"
@@ -39,16 +39,15 @@ void render(const Task& task) {
   options.width = task.width;
   options.height = task.height;
   options.views = 1;
-  Image<Rgb8> picture(task.width, task.height);
-  if (task.what == "baseline") {
-    options.appearance.look = Look::thesis;
+  if (task.what == "exact") {
     const ReadyParticles ready = ready_particles(read_cloud(task.snapshot), task.snapshot, options);
-    baseline::render_exact(ready.cloud, scene_of(ready.statistics, options), evenly_spaced(task.width, task.height, 1),
-                           central_view, std::numeric_limits<float>::quiet_NaN(), picture);
-  } else {
-    picture = std::move(render_particles(task.snapshot, options).rendered.views.front());
+    const Rig rig = evenly_spaced(task.width, task.height, 1);
+    write_image(task.snapshot + ".png",
+                wheatstone::render(ready.cloud, scene_of(ready.statistics, options), rig, {.method = Method::exact})
+                    .views.front());
+    return;
   }
-  write_image(task.snapshot + ".png", picture);
+  write_image(task.snapshot + ".png", render_particles(task.snapshot, options).rendered.views.front());
 }
 
 struct Cost {
@@ -58,8 +57,12 @@ struct Cost {
 Cost cost_of(const Task& task) {
   const pid_t child = ::fork();
   if (child == 0) {
-    ::execl("/proc/self/exe", "bench_one_view", task.what.c_str(), task.snapshot.c_str(),
-            std::to_string(task.width).c_str(), std::to_string(task.height).c_str(), nullptr);
+    const std::string width = std::to_string(task.width), height = std::to_string(task.height);
+    if (task.what == "yt")
+      ::execl("/usr/bin/python3", "python3", WHEATSTONE_ONE_VIEW_BY_YT, task.snapshot.c_str(), width.c_str(),
+              height.c_str(), nullptr);
+    ::execl("/proc/self/exe", "bench_one_view", task.what.c_str(), task.snapshot.c_str(), width.c_str(), height.c_str(),
+            nullptr);
     ::_exit(127);
   }
   int status = 0;
@@ -71,25 +74,42 @@ Cost cost_of(const Task& task) {
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024};
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+bool yt_is_installed() { return std::system("/usr/bin/python3 -c 'import yt' 2> /dev/null") == 0; }
+
+/// Costs of one way, round by round, and their medians.
+struct Costs {
+  std::vector<double> seconds, megabytes;
+  void add(const Cost& cost) {
+    seconds.push_back(cost.seconds);
+    megabytes.push_back(cost.megabytes);
+  }
+};
+
+double median_ratio(const Costs& first, const Costs& second) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < std::min(first.seconds.size(), second.seconds.size()); ++i)
+    ratios.push_back(first.seconds[i] / second.seconds[i]);
+  return median(ratios);
 }
 
 void compare(const std::string& snapshot, int width, int height, const char* memory_limit) {
-  std::vector<double> ours, theirs, ratios, memory, memory_before;
+  Costs ours, exact, yt;
+  const bool with_yt = yt_is_installed();
   for (int round = 0; round < 5; ++round) {
-    const Cost before = cost_of({"baseline", snapshot, width, height}), now = cost_of({"now", snapshot, width, height});
-    theirs.push_back(before.seconds);
-    ours.push_back(now.seconds);
-    ratios.push_back(now.seconds / before.seconds);
-    memory_before.push_back(before.megabytes);
-    memory.push_back(now.megabytes);
+    exact.add(cost_of({"exact", snapshot, width, height}));
+    ours.add(cost_of({"whole", snapshot, width, height}));
+    if (with_yt && round == 0) yt.add(cost_of({"yt", snapshot, width, height}));
   }
-  fmt::print("{:>4}x{:<4} {:.3f} s, baseline {:.3f} s: {:.2f} of it (at most 0.70); {:.0f} MB{}, baseline {:.0f} MB\n",
-             width, height, median(ours), median(theirs), median(ratios), median(memory), memory_limit,
-             median(memory_before));
+  const double copy = copy_seconds(fs::file_size(snapshot));
+  fmt::print(
+      "{:>4}x{:<4} {:.3f} s, {:.2f} of exact of all particles at once (at most 1.1); {:.0f} copies of the file\n",
+      width, height, median(ours.seconds), median_ratio(ours, exact), median(ours.seconds) / copy);
+  fmt::print("          {:.0f} MB{}, exact {:.0f} MB", median(ours.megabytes), memory_limit, median(exact.megabytes));
+  if (with_yt) {
+    fmt::print("; {:.2f} of the time of yt, {:.0f} MB\n", median_ratio(ours, yt), median(yt.megabytes));
+  } else {
+    fmt::print("; yt is not installed\n");
+  }
 }
 
 void run(std::uint64_t particles) {
