@@ -9,9 +9,11 @@
 #include <chrono>
 #include <csignal>
 #include <exception>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "print_facts.h"
 #include "wheatstone/error.h"
@@ -39,6 +41,23 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not
 bool json_wanted = false;
 sem_t noted;
 
+/// Who is told of a signal, and how long the run then has to end itself.
+struct Listener {
+  std::mutex mutex;
+  std::function<void()> told;
+  std::chrono::milliseconds patience = ::wheatstone::cli::patience;
+};
+// Never destroyed, as above.
+Listener& listener() {
+  static auto* const only = new Listener;
+  return *only;
+}
+
+bool some_wait() {
+  const std::lock_guard hold(listener().mutex);
+  return static_cast<bool>(listener().told);
+}
+
 /// Without the streams, which may be held by the run that does not react.
 void put(int descriptor, std::string_view text) {
   [[maybe_unused]] const auto written = ::write(descriptor, text.data(), text.size());
@@ -57,9 +76,11 @@ std::string last_words() {
 
 /// Ends the program unless the run has ended itself, or has finished its outputs and only says so.
 void end_from_outside() {
+  const bool waits = some_wait();
   const auto hold = hold_outputs();
   Ending none = Ending::none;
-  if (outputs_are_finished() || !ending.compare_exchange_strong(none, Ending::from_outside)) return;
+  // What a run that waits for something else has finished does not end it.
+  if ((!waits && outputs_are_finished()) || !ending.compare_exchange_strong(none, Ending::from_outside)) return;
   remove_unfinished_outputs();
   // A file may have been opened by its name in the moment of its removal.
   std::this_thread::sleep_for(5ms);
@@ -73,9 +94,15 @@ void end_from_outside() {
   ::_exit(code);
 }
 
+std::chrono::milliseconds tell_listener() {
+  const std::lock_guard hold(listener().mutex);
+  if (listener().told) listener().told();
+  return listener().patience;
+}
+
 void wait_for_signal() {
   while (::sem_wait(&noted) != 0 && errno == EINTR) continue;
-  std::this_thread::sleep_for(patience);
+  std::this_thread::sleep_for(tell_listener());
   while (ending == Ending::none) {
     end_from_outside();
     std::this_thread::sleep_for(50ms);
@@ -106,6 +133,13 @@ void watch_signals(bool json) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   std::thread(wait_for_signal).detach();
+}
+
+void on_signal(std::function<void()> told, std::chrono::milliseconds most) {
+  const std::lock_guard hold(listener().mutex);
+  listener().told = std::move(told);
+  listener().patience = most;
+  if (interrupted && listener().told) listener().told();
 }
 
 void throw_if_interrupted() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 
@@ -10,6 +11,11 @@ namespace wheatstone::cli {
 /// unfinished, says so and leaves with the exit code of an interrupted run. A closed pipe and a file beyond the user's
 /// limit become errors of the write instead of signals. `json`: an error is told on standard output too.
 void watch_signals(bool json);
+
+/// From here on `told` is called in another thread when a signal comes, or at once where one came already; the run then
+/// has this long to end itself, whatever it has finished. For a run that waits for another program, or for its user.
+/// Empty: nobody is told.
+void on_signal(std::function<void()> told, std::chrono::milliseconds most = std::chrono::milliseconds(400));
 
 /// Throws Error{interrupted} where a signal was noted.
 void throw_if_interrupted();

@@ -29,6 +29,8 @@ struct Arguments {
 void print_text(const StudyData& data, const StudyAnalysis& analysis, const Session& session) {
   if (data.simulated) fmt::print(session.output, "simulated observers: no person took part\n");
   fmt::print(session.output, "subjects: {}, trials: {}\n", analysis.subjects, analysis.trials);
+  if (!analysis.unfinished.empty())
+    fmt::print(session.output, "not finished: {}\n", fmt::join(analysis.unfinished, ", "));
   for (const MeasureAnalysis& measure : analysis.measures) {
     fmt::print(session.output, "{}\n", measure.name);
     const auto print = [&](std::string_view test, const AnovaEffect& effect) {

@@ -13,9 +13,12 @@ namespace wheatstone::cli {
 namespace {
 
 void run(const StudyRunArguments& arguments, const Session& session) {
-  // What is wrong with the design or the folder is said before there is a window.
-  const StudyFolder folder(arguments.folder, load_study_design(arguments.design), false);
-  folder.make_stimuli({});
+  // What is wrong with the design or the folder is said before there is a window; the window's program makes the
+  // folder.
+  const StudyDesign design = load_study_design(arguments.design);
+  check_subject(design, arguments.subject - 1);
+  check_study_folder(arguments.folder, design, false);
+  check_stimuli(arguments.folder, design);
   session.output.flush();
   std::vector<std::string> words = study_run_words(arguments);
   words.insert(words.begin(), "study");

@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <unistd.h>
 
-#include <filesystem>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "command.h"
@@ -16,15 +14,13 @@
 #include "print_facts.h"
 #include "study_kinds.h"
 #include "typed_options.h"
+#include "wheatstone/app/output_folder.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/unfinished_outputs.h"
 #include "wheatstone/study/simulate.h"
 #include "wheatstone/study/study_folder.h"
 
 namespace wheatstone::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Arguments {
   std::string design;
@@ -67,43 +63,26 @@ void print_power(const StudyDesign& design, const Arguments& arguments, int subj
     fmt::print(session.output, "  {} on {}: {:.3f}\n", one.effect, one.measure, one.share);
 }
 
-void write_subjects(const fs::path& path, const StudyDesign& design, const Arguments& arguments, int subjects,
-                    const Session& session) {
-  const StudyFolder folder(path, design, true);
+/// How observers answer, in words: what is the same of data that may lie in one folder.
+std::string simulation_text(const Arguments& arguments, int subjects, std::uint64_t seed) {
+  const SimulatedObservers& observers = arguments.observers;
+  std::string text = fmt::format("{} subjects, seed {}, time {}, noise {}, between {}, correct {}, lapses {}", subjects,
+                                 seed, observers.response_time_s, observers.noise_s, observers.between_subjects_s,
+                                 observers.correct, observers.lapses);
+  for (const std::string& effect : arguments.effects) text += fmt::format(", effect {}", effect);
+  return text;
+}
+
+void write_data(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
+  const std::string simulation = simulation_text(arguments, subjects, session.seed);
+  check_study_folder(arguments.folder, design, true, simulation);
+  OutputFolder output(arguments.folder);
+  const StudyFolder folder(output.folder(), design, true, simulation);
   for (int subject = 0; subject < subjects; ++subject) {
     report(session.progress, "simulating", static_cast<double>(subject) / subjects);
     write_subject(folder, simulate_subject(design, arguments.observers, subject, session.seed));
   }
-}
-
-/// A new study gets its name when all subjects are there.
-void write_new_study(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
-  fs::path wanted = fs::absolute(arguments.folder).lexically_normal();
-  if (!wanted.has_filename()) wanted = wanted.parent_path();
-  const fs::path growing = wanted.parent_path() / fmt::format(".{}.{}.partial", wanted.filename().string(), ::getpid());
-  const auto check = [&](const std::error_code& error) {
-    if (error)
-      throw Error(ErrorKind::cannot_read_write,
-                  fmt::format("{}: cannot be made: {}", arguments.folder, error.message()));
-  };
-  std::error_code error;
-  UnfinishedOutput unfinished;
-  unfinished.begin(growing, [&] {
-    fs::create_directories(growing, error);
-    check(error);
-  });
-  write_subjects(growing, design, arguments, subjects, session);
-  unfinished.finish([&] {
-    fs::rename(growing, wanted, error);
-    check(error);
-  });
-}
-
-void write_data(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
-  if (holds_study(arguments.folder))
-    write_subjects(arguments.folder, design, arguments, subjects, session);
-  else
-    write_new_study(design, arguments, subjects, session);
+  output.commit();
   if (session.json)
     print_facts({{"simulated", true}, {"folder", arguments.folder}, {"subjects", subjects}, {"seed", session.seed}},
                 session);

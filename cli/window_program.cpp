@@ -1,15 +1,20 @@
 #include "window_program.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <utility>
 
+#include "interrupt.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/child_process.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -17,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto window_program = "wheatstone-view";
+constexpr std::chrono::milliseconds patience{900};  ///< for the window to end, which ends itself sooner
 
 /// The window's program beside this one; else it is looked for where the shell looks.
 std::string window_program_path() {
@@ -25,23 +31,31 @@ std::string window_program_path() {
   return !error && fs::exists(beside, error) ? beside.string() : std::string(window_program);
 }
 
+std::unique_ptr<const ChildProcess> start(std::vector<std::string> words) {
+  try {
+    return std::make_unique<const ChildProcess>(std::move(words));
+  } catch (const Error& error) {
+    throw Error(error.kind(),
+                fmt::format("{}; it is built and installed with the window (WHEATSTONE_VIEWER)", error.what()));
+  }
+}
+
 }  // namespace
 
 int run_window_program(std::vector<std::string> words) {
   words.insert(words.begin(), window_program_path());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  pid_t process = 0;
-  if (const int error = posix_spawnp(&process, pointers.front(), nullptr, nullptr, pointers.data(), environ);
-      error != 0)
-    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot be started: {}; it is built and installed with "
-                                                          "the window (WHEATSTONE_VIEWER)",
-                                                          words.front(), std::strerror(error)));
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  throw_if_interrupted();
+  const std::unique_ptr<const ChildProcess> window = start(std::move(words));
+  on_signal([&window] { window->signal(SIGTERM); }, patience);
+  const int status = window->wait();
+  on_signal({});
   if (WIFEXITED(status)) return WEXITSTATUS(status);
-  throw Error(ErrorKind::interrupted, fmt::format("{}: ended by signal {}", window_program, WTERMSIG(status)));
+  // It was told to end before it could say so itself.
+  throw_if_interrupted();
+  const std::string end = fmt::format("{}: ended by signal {}", window_program, WTERMSIG(status));
+  constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP, SIGKILL};
+  if (std::ranges::find(ending_signals, WTERMSIG(status)) == ending_signals.end()) throw std::runtime_error(end);
+  throw Error(ErrorKind::interrupted, end);
 }
 
 }  // namespace wheatstone::cli

@@ -1,18 +1,12 @@
 #include "bridge.h"
 
-#include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "viewer.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/child_process.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -32,12 +26,7 @@ void write_calibration(const fs::path& file) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   fs::remove(file, error);
-  std::string program = "/proc/self/exe", option = "--bridge-calibration", name = file.string();
-  std::array<char*, 4> words{program.data(), option.data(), name.data(), nullptr};
-  pid_t process = 0;
-  int status = 0;
-  if (posix_spawn(&process, program.c_str(), nullptr, nullptr, words.data(), environ) == 0)
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  ChildProcess({"/proc/self/exe", "--bridge-calibration", file.string()}).wait();
   if (!fs::exists(file, error))
     throw Error(ErrorKind::cannot_read_write,
                 "Looking Glass Bridge is not installed, or finds no Looking Glass display");

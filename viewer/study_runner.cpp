@@ -52,9 +52,7 @@ Image<Rgb8> in_the_middle(const Image<Rgb8>& picture, const StudyScreen& screen)
 StudyRunner::StudyRunner(const StudyFolder& folder, int subject, const StudyScreen& screen)
     : folder_(folder), screen_(screen), head_{0, screen.viewing_distance_mm} {
   const StudyDesign& design = folder.design();
-  if (subject < 0 || subject >= design.subjects)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("subject: is {}, expected a number from 1 to {}", subject + 1, design.subjects));
+  check_subject(design, subject);
   folder.make_stimuli(screen);
   folder.add_participant(subject);
   conditions_ = conditions_of_group(design, group_of_subject(design, subject));
@@ -62,11 +60,36 @@ StudyRunner::StudyRunner(const StudyFolder& folder, int subject, const StudyScre
   log_ = std::make_unique<TrialLog>(folder.trial_table(subject), trial_table_header(design));
   head_log_ = std::make_unique<TrialLog>(folder.head_path(subject), head_header);
   records_ = read_subject(folder, subject);
+  check_answered();
+  // Questions are asked from the first one without an answer on.
+  for (std::size_t i = 0; i < records_.answers.size(); ++i)
+    if (records_.answers[i].first != design.questions[i].name) records_.answers.resize(i);
   if (records_.trials.empty()) return;
   // Practice is over, and these trials are done.
   next_ = std::min(trials_.size(), static_cast<std::size_t>(design.practice) + records_.trials.size());
   question_ = std::min(records_.answers.size(), design.questions.size());
   if (next_ == trials_.size() && question_ == design.questions.size()) page_ = Page::end;
+}
+
+void StudyRunner::check_answered() const {
+  const auto first = static_cast<std::size_t>(folder_.design().practice);
+  for (std::size_t i = 0; i < records_.trials.size(); ++i) {
+    const TrialRecord& record = records_.trials[i];
+    const PlannedTrial& plan = trials_[first + i];
+    if (record.trial != static_cast<int>(i) + 1 || record.condition != plan.condition || record.item != plan.item)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}:{}: is not the subject's trial {}, expected all trials from 1 on as they were shown",
+                              folder_.trial_table(records_.number).string(), i + 2, i + 1));
+  }
+}
+
+std::string StudyRunner::beginning() const {
+  if (records_.trials.empty() || page_ == Page::end) return progress();
+  const std::string subject = "sub-" + subject_label(folder_.design(), records_.number);
+  const int all = static_cast<int>(trials_.size()) - folder_.design().practice;
+  if (next_ < trials_.size()) return fmt::format("{}: goes on with trial {} of {}", subject, counted() + 1, all);
+  if (question_ == folder_.design().questions.size()) return progress();
+  return fmt::format("{}: goes on with question {} of {}", subject, question_ + 1, folder_.design().questions.size());
 }
 
 std::string StudyRunner::text() const {

@@ -19,15 +19,18 @@ namespace wheatstone::viewer {
 /// with its first trial without an answer.
 class StudyRunner {
  public:
-  /// Throws Error as StudyFolder and TrialLog do, and Error{bad_input} where a stimulus is missing or the subject has
-  /// no row in the design.
+  /// Holds the subject's table as long as it lives. Throws Error as StudyFolder and TrialLog do, and Error{bad_input}
+  /// where a stimulus is missing, the subject has no row in the design, or its answers are not those of the trials that
+  /// it was to meet.
   StudyRunner(const StudyFolder& folder, int subject, const StudyScreen& screen);
 
   /// What subjects read now; empty while a stimulus is shown.
   std::string text() const;
   bool shows_stimulus() const { return page_ == Page::trial; }
   bool is_finished() const { return page_ == Page::end; }
-  /// For the experimenter: "sub-01: trial 12 of 78", without answers.
+  /// For the experimenter, when the session begins: where it goes on, "sub-01: goes on with trial 13 of 78".
+  std::string beginning() const;
+  /// For the experimenter: "sub-01: 12 of 78 trials done", without answers.
   std::string progress() const;
 
   /// Both eyes' pictures of the stimulus, for the head's place. Throws Error{bad_input}.
@@ -50,6 +53,7 @@ class StudyRunner {
   const StudyCondition& condition() const { return conditions_[static_cast<std::size_t>(planned().condition)]; }
   /// The files of the trial's stimulus.
   std::vector<std::filesystem::path> stimulus() const;
+  void check_answered() const;
   const StudyScene& scene(const std::filesystem::path& path);
   bool answer_trial(const std::string& name, double pressed_s, double noted_s);
   bool answer_question(const std::string& name);

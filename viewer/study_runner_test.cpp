@@ -30,7 +30,11 @@ StudyDesign small_design() {
 class StudySession : public testing::Test {
  protected:
   /// Begins the session again, as after the machine died.
-  void begin() { runner_ = std::make_unique<StudyRunner>(study_, 1, small); }
+  void begin() {
+    end();
+    runner_ = std::make_unique<StudyRunner>(study_, 1, small);
+  }
+  void end() { runner_.reset(); }
   StudyRunner& runner() { return *runner_; }
   /// A page is seen, and a key pressed two seconds later.
   bool press(const std::string& name) {
@@ -110,14 +114,41 @@ TEST_F(StudySession, GoesOnWhereItStopped) {
   press_all({"space", "y", "space", "n"});
   begin();
   EXPECT_EQ(runner().progress(), "sub-02: 1 of 4 trials done") << "without practice";
+  EXPECT_EQ(runner().beginning(), "sub-02: goes on with trial 2 of 4");
   press_all({"space", "y", "space", "y", "n"});
   begin();
+  EXPECT_EQ(runner().beginning(), "sub-02: goes on with question 1 of 1");
   press_all({"space", "4", "space"});
   std::set<int> items;
   for (const TrialRecord& record : read_subject(study(), 1).trials) items.insert(record.item);
   EXPECT_EQ(items.size(), 4u) << "each trial once";
   begin();
   EXPECT_TRUE(runner().is_finished());
+}
+
+TEST_F(StudySession, ASubjectIsTestedByOneSessionAtATime) {
+  begin();
+  press_all({"space", "y", "space", "n"});
+  const std::string table = bytes_of(study().trial_table(1));
+  expect_error(ErrorKind::wrong_usage, "sub-02_task-paths_beh.tsv: another session writes it",
+               [&] { StudyRunner(study(), 1, small); });
+  EXPECT_EQ(bytes_of(study().trial_table(1)), table);
+  EXPECT_NO_THROW(StudyRunner(study(), 2, small)) << "another subject";
+  press_all({"y"});
+  EXPECT_EQ(bytes_of(study().trial_table(1)).substr(0, table.size()), table) << "answers are appended";
+}
+
+TEST_F(StudySession, GoesOnOnlyWithTheTrialsThatTheSubjectMet) {
+  begin();
+  press_all({"space", "y", "space", "n", "y"});
+  end();
+  const std::string table = bytes_of(study().trial_table(1));
+  const std::size_t second = table.find('\n') + 1, third = table.find('\n', second) + 1;
+  put_bytes(study().trial_table(1), table.substr(0, second) + table.substr(third));
+  expect_error(ErrorKind::bad_input, "_beh.tsv:2: is not the subject's trial 1", [&] { begin(); });
+  put_bytes(study().trial_table(1), "notes of mine\nand more");
+  expect_error(ErrorKind::bad_input, "_beh.tsv:1: has other columns", [&] { begin(); });
+  EXPECT_EQ(bytes_of(study().trial_table(1)), "notes of mine\nand more") << "is left as it is";
 }
 
 TEST_F(StudySession, DrawsAgainWhereTheHeadComesToAnotherView) {

@@ -78,6 +78,12 @@ TEST(StudyCommand, ASimulatedStudyIsAnalysed) {
               testing::UnorderedElementsAre("analysis.html", "comparisons.tsv", "effects.tsv", "head_movement.tsv",
                                             "means.tsv", "questions.tsv"));
   expect_refused(folder, {"study", "simulate", "painting-comfort", "-o", "data"}, 3, "holds data of another design");
+  EXPECT_EQ(run_program({"study", "simulate", "path-searching-2", "--effect", "views_per_10cm=2:9", "-o", "data"}, here)
+                .exit_code,
+            0)
+      << "the same simulation";
+  expect_refused(folder, {"study", "simulate", "path-searching-2", "-o", "data", "--seed", "7"}, 3,
+                 "data: holds another simulation");
   expect_refused(folder, {"study", "analyse", "out"}, 3, "out: is no study");
   expect_refused(folder, {"study", "simulate", "path-searching-2", "--effect", "depth"}, 2,
                  "--effect: is 'depth', expected FACTOR=LEVEL:SECONDS");

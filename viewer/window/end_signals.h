@@ -1,19 +1,18 @@
 #pragma once
 
 #include <QObject>
-#include <QSocketNotifier>
 #include <functional>
 
 namespace wheatstone::viewer {
 
-/// SIGINT and SIGTERM, told in the event loop. One at a time.
+/// The signals that cli/interrupt.h watches, told in the event loop. One at a time.
 class EndSignals final : public QObject {
  public:
   explicit EndSignals(std::function<void()> told);
   ~EndSignals() override;
 
  private:
-  QSocketNotifier notifier_;
+  std::function<void()> told_;
 };
 
 }  // namespace wheatstone::viewer

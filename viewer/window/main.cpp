@@ -18,6 +18,7 @@
 #include <string_view>
 #include <thread>
 
+#include "cli/interrupt.h"
 #include "cli/view_arguments.h"
 #include "end_signals.h"
 #include "kept_settings.h"
@@ -115,7 +116,10 @@ int run(const ViewArguments& arguments) {
   Window window({.opengl = opengl_use(arguments),
                  .stereo = arguments.stereo,
                  .with_dialogs = arguments.script.empty() && arguments.control.empty()});
-  const EndSignals end_signals([&window] { window.end(static_cast<int>(ErrorKind::interrupted)); });
+  const EndSignals end_signals([&window] {
+    fmt::print(stderr, "wheatstone: interrupted; nothing half-written is left\n");
+    window.end(static_cast<int>(ErrorKind::interrupted));
+  });
   window.resize(size);
   std::optional<KeptSettings> kept;
   if (arguments.script.empty() && arguments.control.empty()) {
@@ -131,6 +135,7 @@ int run(const ViewArguments& arguments) {
   if (!window.viewer().session().ends) QApplication::exec();
   if (kept) kept->keep();
   const int exit_code = window.exit_code();
+  if (exit_code == static_cast<int>(ErrorKind::interrupted)) cli::run_is_over(true);
   window.close_control();
   end_threads(window.viewer(), exit_code);
   return exit_code;
@@ -183,6 +188,7 @@ int run_view(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    wheatstone::cli::watch_signals(false);
     cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     qInstallMessageHandler(wheatstone::viewer::on_message_of_qt);

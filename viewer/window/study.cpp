@@ -6,11 +6,14 @@
 #include <QApplication>
 #include <QScreen>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
+#include "cli/interrupt.h"
 #include "cli/study_run_arguments.h"
 #include "end_signals.h"
 #include "study_window.h"
+#include "wheatstone/app/output_folder.h"
 #include "wheatstone/error.h"
 #include "wheatstone/study/study_folder.h"
 
@@ -56,11 +59,26 @@ StudyScreen study_screen(const StudyRunArguments& arguments, const QScreen& scre
   return shown;
 }
 
+/// A new study gets its name when its stimuli are there.
+void begin_study(const std::filesystem::path& path, const StudyDesign& design, const StudyScreen& screen) {
+  check_study_folder(path, design, false);
+  if (holds_study(path)) return;
+  OutputFolder output(path);
+  const StudyFolder growing(output.folder(), design, false);
+  if (design.items.empty()) growing.make_stimuli(screen);
+  output.commit();
+}
+
 int run_session(const StudyRunArguments& arguments) {
+  const StudyDesign design = load_study_design(arguments.design);
+  check_subject(design, arguments.subject - 1);
+  check_stimuli(arguments.folder, design);
   const QScreen& screen = *QApplication::primaryScreen();
   const QSize size = window_size(arguments, screen);
-  const StudyFolder folder(arguments.folder, load_study_design(arguments.design), false);
-  StudyRunner runner(folder, arguments.subject - 1, study_screen(arguments, screen, size));
+  const StudyScreen shown = study_screen(arguments, screen, size);
+  begin_study(arguments.folder, design, shown);
+  const StudyFolder folder(arguments.folder, design, false);
+  StudyRunner runner(folder, arguments.subject - 1, shown);
   const OpenglUse opengl = arguments.no_opengl || QApplication::platformName() == "offscreen" ? OpenglUse::never
                            : arguments.opengl                                                 ? OpenglUse::always
                                                                                               : OpenglUse::where_fast;
@@ -70,7 +88,10 @@ int run_session(const StudyRunArguments& arguments) {
                               .viewing_distance_mm = static_cast<float>(arguments.distance_mm)});
   if (arguments.tracker_port >= 0)
     window.track(std::make_unique<HeadTracker>(static_cast<std::uint16_t>(arguments.tracker_port)));
-  const EndSignals end_signals([] { QApplication::exit(static_cast<int>(ErrorKind::interrupted)); });
+  const EndSignals end_signals([] {
+    fmt::print(stderr, "wheatstone: the session was broken off; run it again to go on\n");
+    QApplication::exit(static_cast<int>(ErrorKind::interrupted));
+  });
   window.resize(size);
   if (arguments.size.empty())
     window.showFullScreen();
@@ -79,7 +100,9 @@ int run_session(const StudyRunArguments& arguments) {
   window.activateWindow();
   // A session that was finished before ends at once.
   QTimer::singleShot(0, &window, [&window] { window.begin(); });
-  return QApplication::exec();
+  const int exit_code = QApplication::exec();
+  cli::run_is_over(true);
+  return exit_code;
 }
 
 }  // namespace

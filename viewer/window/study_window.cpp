@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <exception>
 
 #include "viewer/compose.h"
 #include "wheatstone/error.h"
@@ -70,11 +72,14 @@ void StudyWindow::guarded(Action action) {
   } catch (const Error& error) {
     fmt::print(stderr, "wheatstone: {}\n", error.what());
     end(static_cast<int>(error.kind()));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "wheatstone: internal error: {}\n", error.what());
+    end(EXIT_FAILURE);
   }
 }
 
 void StudyWindow::begin() {
-  tell_progress();
+  tell(runner_.beginning());
   guarded([this] { show_page(); });
   following_.start(follow_every_ms);
 }
@@ -85,8 +90,8 @@ void StudyWindow::end(int exit_code) {
   QApplication::exit(exit_code);
 }
 
-void StudyWindow::tell_progress() {
-  fmt::print("{}\n", runner_.progress());
+void StudyWindow::tell(const std::string& line) {
+  fmt::print("{}\n", line);
   std::fflush(stdout);
 }
 
@@ -154,7 +159,7 @@ void StudyWindow::keyPressEvent(QKeyEvent* event) {
   } else if (!event->isAutoRepeat()) {
     guarded([&] {
       if (!runner_.key(key_name(*event), pressed_s(*event, noted_s), noted_s)) return;
-      tell_progress();
+      tell(runner_.progress());
       show_page();
     });
   }

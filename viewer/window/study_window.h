@@ -4,6 +4,7 @@
 #include <QWidget>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "picture_surface.h"
 #include "viewer/head_tracker.h"
@@ -46,7 +47,7 @@ class StudyWindow final : public QWidget {
   void show_stimulus();
   void follow_head();
   void frame_is_shown();
-  void tell_progress();
+  void tell(const std::string& line);
   void end(int exit_code);
   /// Does what may throw; the session then ends and says why.
   template <class Action>

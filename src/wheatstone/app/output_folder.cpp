@@ -69,6 +69,14 @@ std::set<std::string> files_in(const fs::path& folder) {
   return names;
 }
 
+/// The files in a folder and below it, by their places in it.
+std::set<std::string> files_below(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory()) names.insert(entry.path().lexically_relative(folder).string());
+  return names;
+}
+
 /// What an earlier run has left of the series that are written now.
 std::vector<std::string> left_of_series(const std::set<std::string>& present, const std::set<std::string>& written) {
   std::vector<NumberedName> series;
@@ -125,12 +133,13 @@ void OutputFolder::commit() {
 
 void OutputFolder::move_into_existing() const {
   std::error_code error;
-  const std::set<std::string> written = files_in(temporary_);
+  const std::set<std::string> written = files_below(temporary_);
   const std::vector<std::string> old = left_of_series(files_in(final_), written);
   for (const std::string& name : old) check_not_an_input(final_ / name, inputs_);
   for (const std::string& name : written)
     if (fs::is_directory(final_ / name, error)) refuse(final_ / name, "is a folder, expected a file");
   for (const std::string& name : written) {
+    fs::create_directories((final_ / name).parent_path(), error);
     fs::rename(temporary_ / name, final_ / name, error);
     if (error) refuse(final_ / name, error.message());
   }
@@ -138,7 +147,7 @@ void OutputFolder::move_into_existing() const {
     fs::remove(final_ / name, error);
     if (error) refuse(final_ / name, error.message());
   }
-  fs::remove(temporary_, error);
+  fs::remove_all(temporary_, error);
 }
 
 }  // namespace wheatstone

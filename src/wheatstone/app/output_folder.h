@@ -21,6 +21,9 @@ class OutputFolder {
   /// Where to write the result of this name. Throws Error{wrong_usage} where it would replace an input.
   std::filesystem::path file(std::string_view name) const;
 
+  /// The folder in which the results grow, for results that lie in folders of their own.
+  const std::filesystem::path& folder() const { return temporary_; }
+
   /// Throws Error: cannot_read_write, or wrong_usage where an input is in the way; then nothing was moved, unless the
   /// file system failed in between.
   void commit();

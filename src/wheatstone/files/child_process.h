@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <string>
 #include <vector>
 
@@ -20,7 +18,7 @@ class ChildProcess {
   void signal(int number) const;
 
  private:
-  pid_t process_ = 0;
+  int process_ = 0;
 };
 
 }  // namespace wheatstone

@@ -188,6 +188,17 @@ TEST(DamagedStudy, AFolderInPlaceOfAFileIsRefused) {
   }
 }
 
+TEST(DamagedStudy, ALinkThatLeadsNowhereIsRefused) {
+  for (const char* file : {table, participants, questionnaire, description, "code/design.toml"}) {
+    const TemporaryFolder folder;
+    const fs::path study = folder / "data";
+    write_study(study, path_design());
+    fs::remove(study / file);
+    fs::create_symlink((study / file).filename(), study / file);
+    expect_error(ErrorKind::bad_input, (study / file).string() + ": cannot be opened", [&] { read_study(study); });
+  }
+}
+
 TEST(EditedStudy, WindowsLineEndsAndAByteOrderMarkAreRead) {
   const TemporaryFolder folder;
   const fs::path study = folder / "data";

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "wheatstone/error.h"
+
 namespace wheatstone {
 
 std::optional<bool> is_correct(const StudyDesign& design, const TrialRecord& record) {
@@ -11,6 +13,12 @@ std::optional<bool> is_correct(const StudyDesign& design, const TrialRecord& rec
 
 std::string subject_label(const StudyDesign& design, int subject) {
   return fmt::format("{:0{}}", subject + 1, design.subjects < 100 ? 2 : design.subjects < 1000 ? 3 : 5);
+}
+
+void check_subject(const StudyDesign& design, int subject) {
+  if (subject < 0 || subject >= design.subjects)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("subject: is {}, expected a number from 1 to {}", subject + 1, design.subjects));
 }
 
 std::string item_name(const StudyDesign& design, int item) {

@@ -44,6 +44,9 @@ std::optional<bool> is_correct(const StudyDesign& design, const TrialRecord& rec
 /// "01": the label of a subject in names of files.
 std::string subject_label(const StudyDesign& design, int subject);
 
+/// Throws Error{bad_input} where a subject, counted from 0, has no row in the design.
+void check_subject(const StudyDesign& design, int subject);
+
 /// The name of an item: "item-012", or the picture's.
 std::string item_name(const StudyDesign& design, int item);
 

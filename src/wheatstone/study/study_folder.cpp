@@ -41,7 +41,7 @@ std::string simulation_of(const Json& description) {
 SubjectRecords read_trials(const StudyFolder& folder, int subject, const std::map<int, Answers>& answers) {
   SubjectRecords records{.number = subject};
   const fs::path table = folder.trial_table(subject);
-  if (fs::exists(table))
+  if (is_there(table))
     records.trials =
         parse_trial_table(folder.design(), subject, read_trial_log(table), table.string(), folder.simulated());
   if (const auto own = answers.find(subject); own != answers.end()) records.answers = own->second;
@@ -57,9 +57,14 @@ void make_study_folders(const fs::path& folder) {
     throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
 }
 
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  return fs::symlink_status(file, error).type() != fs::file_type::not_found;
+}
+
 bool holds_study(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(description_file(folder), error)) return true;
+  if (is_there(description_file(folder))) return true;
   if (!fs::exists(folder, error)) return false;
   if (!fs::is_directory(folder, error))
     throw Error(ErrorKind::bad_input, fmt::format("{}: is a file, expected a folder", folder.string()));
@@ -172,7 +177,7 @@ void write_subject(const StudyFolder& folder, const SubjectRecords& subject) {
 }
 
 StudyData read_study(const fs::path& path) {
-  if (!fs::exists(description_file(path)) || !fs::exists(design_file_of(path)))
+  if (!is_there(description_file(path)) || !is_there(design_file_of(path)))
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: is no study, expected the folder of wheatstone study run or simulate", path.string()));
   const Json description = read_description(path);

@@ -57,7 +57,7 @@ void put_row(const StudyFolder& folder, const fs::path& file, const Fields& fiel
     throw Error(ErrorKind::cannot_read_write,
                 fmt::format("{}: cannot be written: {}", folder.design_file().string(), error.message()));
   TsvTable table{.name = file.string()};
-  if (fs::exists(file))
+  if (is_there(file))
     table = parse_tsv(read_whole_file(file, most_bytes), file.string());
   else
     for (const auto& [column, value] : fields) table.columns.push_back(column);
@@ -142,7 +142,7 @@ std::string participants_sidecar(const StudyDesign& design, bool simulated) {
 std::vector<int> read_participants(const StudyFolder& folder) {
   const fs::path file = participants_file(folder);
   std::vector<int> subjects;
-  if (fs::exists(file)) {
+  if (is_there(file)) {
     const TsvTable table = parse_tsv(read_whole_file(file, most_bytes), file.string());
     subjects = subjects_of_rows(folder, table);
     for (std::size_t row = 0; row < subjects.size(); ++row)
@@ -157,7 +157,7 @@ std::vector<int> read_participants(const StudyFolder& folder) {
 std::map<int, Answers> read_answers(const StudyFolder& folder, const std::vector<int>& listed) {
   const fs::path file = questionnaire_file(folder);
   std::map<int, Answers> answers;
-  if (folder.design().questions.empty() || !fs::exists(file)) return answers;
+  if (folder.design().questions.empty() || !is_there(file)) return answers;
   const TsvTable table = parse_tsv(read_whole_file(file, most_bytes), file.string());
   const std::vector<int> subjects = subjects_of_rows(folder, table);
   for (std::size_t row = 0; row < subjects.size(); ++row) {

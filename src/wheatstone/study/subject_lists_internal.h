@@ -30,6 +30,9 @@ void list_answers(const StudyFolder& folder, const SubjectRecords& subject);
 /// The sidecar of participants.tsv.
 std::string participants_sidecar(const StudyDesign& design, bool simulated);
 
+/// Whether anything has this name, be it a link that leads nowhere: reading it then says what is wrong.
+bool is_there(const std::filesystem::path& file);
+
 /// Makes a folder of a study with those above it. Throws Error{cannot_read_write}.
 void make_study_folders(const std::filesystem::path& folder);
 
