@@ -11,6 +11,7 @@
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/multiview/front_to_back_internal.h"
 #include "wheatstone/multiview/render.h"
+#include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/renderers_internal.h"
 #include "wheatstone/random.h"
 
@@ -125,6 +126,58 @@ TEST(Blend, OverEndsWhereNothingMoreCanBeSeen) {
   EXPECT_GE(wall, 60u * 32u);
   for (int i = 0; i < 10000; ++i) view.blend(dense);
   EXPECT_EQ(view.fragments(), wall);
+}
+
+/// A bright slice far away, behind a black one in the middle of the view that lets half of the light through, or none.
+SliceStack half_covered(float alpha) {
+  SliceStack stack{
+      .width = 200, .height = 20, .tone = {.look = Look::thesis, .exposure = 1, .stretch = Stretch::linear}};
+  stack.slices.push_back(
+      {.parallax_px = -3, .left = 60, .top = 2, .pixels = Image<LinearRgba>(80, 9, {0, 0, 0, alpha})});
+  stack.slices.push_back(
+      {.parallax_px = 6, .left = -20, .top = 0, .pixels = Image<LinearRgba>(240, 20, {0.8f, 0.4f, 0.2f, 1})});
+  return stack;
+}
+
+TEST(HidingSlices, WhatIsBlackHidesWhatIsBehindIt) {
+  const Rig rig = evenly_spaced(200, 20, 3);
+  for (const SliceFilter filter : {SliceFilter::nearest, SliceFilter::linear, SliceFilter::centroid}) {
+    const auto views = render_slices(half_covered(1), rig, filter);
+    EXPECT_EQ(views[1](100, 5), (Rgb8{0, 0, 0}));
+    EXPECT_EQ(views[1](100, 15), views[1](20, 5));
+    EXPECT_GT(views[1](20, 5).r, 200);
+    // Half an eye separation to either side, the black slice moves by 1.5 pixels.
+    EXPECT_EQ(views[0](64, 5), (Rgb8{0, 0, 0}));
+    EXPECT_EQ(views[2](135, 5), (Rgb8{0, 0, 0}));
+    EXPECT_GT(views[0](141, 5).r + views[2](57, 5).r, 400);
+    const auto through = render_slices(half_covered(0.5f), rig, filter);
+    EXPECT_GT(through[1](100, 5).r, 100);
+    EXPECT_LT(through[1](100, 5).r, through[1](20, 5).r);
+  }
+}
+
+TEST(HidingSlices, SubPixelsShowTheirViews) {
+  const SliceStack stack = half_covered(0.5f);
+  const Rig rig = evenly_spaced(200, 20, 9);
+  const auto view_at = [](int x, int y, int channel) { return (3 * x + channel + 2 * y) % 9; };
+  const std::optional<Focus> focus = Focus{.x_px = 90, .y_px = 8, .radius_px = 40, .gain = 1.5f};
+  for (const auto& where : {std::optional<Focus>(), focus}) {
+    const auto interleaved = render_interleaved(
+        stack, rig.positions,
+        [&](int y, auto three) {
+          for (int i = 0; i < 3 * rig.width; ++i) three[i] = static_cast<std::uint16_t>(view_at(i / 3, y, i % 3));
+        },
+        {}, where);
+    const auto views = render_slices(stack, rig, SliceFilter::linear, {}, where);
+    int most = 0;
+    for (int y = 0; y < rig.height; ++y)
+      for (int x = 0; x < rig.width; ++x) {
+        most = std::max(most, std::abs(interleaved.picture(x, y).r - views[view_at(x, y, 0)](x, y).r));
+        most = std::max(most, std::abs(interleaved.picture(x, y).g - views[view_at(x, y, 1)](x, y).g));
+        most = std::max(most, std::abs(interleaved.picture(x, y).b - views[view_at(x, y, 2)](x, y).b));
+      }
+    EXPECT_LE(most, 1);
+  }
 }
 
 }  // namespace

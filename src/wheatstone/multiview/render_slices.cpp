@@ -4,9 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "wheatstone/multiview/renderers_internal.h"
 
@@ -14,8 +14,6 @@ namespace wheatstone {
 namespace {
 
 constexpr int band_rows = 16;
-// A pixel through which less comes than the tone map can show is full.
-constexpr float full = 1.f / 1024;
 
 /// What slices do to those behind them.
 struct Hiding {
@@ -69,110 +67,54 @@ float largest_shift_px(const SliceStack& stack, std::span<const ViewPosition> vi
   return largest;
 }
 
-void add_glowing(const SliceStack& stack, const Rig& rig, const Compositing& compositing,
-                 std::span<const ImageView<Rgb8>> pictures) {
-  const ToneMap tone(stack.tone);
-  const float gain = compositing.focus ? compositing.focus->largest_gain() : 1;
-  const int around = static_cast<int>(std::ceil(largest_shift_px(stack, rig.positions) * gain)) + 2;
+/// How slices are read between their pixels. Opaque edges stay sharp; a cubic has weights below 0, with which nothing
+/// can be hidden.
+Resampling resampling_for(const Hiding& hiding, SliceFilter filter) {
+  if (!hiding.any) return resampling_of(filter);
+  return hiding.sharp || filter == SliceFilter::nearest ? Resampling::nearest : Resampling::linear;
+}
+
+/// Calls `take` with the slices of every band, and its first row, in parallel.
+void for_each_slice_band(const SliceStack& stack, float largest_shift, bool hides,
+                         const std::function<void(const SliceBand& slices, int top)>& take) {
+  const int around = static_cast<int>(std::ceil(largest_shift)) + 2;
   const int planes = static_cast<int>(stack.slices.size());
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {
-    return Workplace{LightBand(-around, rig.width + around, band_rows, LightBand::most_channels),
-                     SliceBand(-around, rig.width + around, band_rows, planes)};
+    return Workplace{LightBand(-around, stack.width + around, band_rows, LightBand::most_channels),
+                     SliceBand(-around, stack.width + around, band_rows, planes, hides)};
   });
-  std::vector<ViewTarget> targets;
-  for (const ImageView<Rgb8> picture : pictures) targets.push_back({.picture = picture});
-  tbb::parallel_for(0, (rig.height + band_rows - 1) / band_rows, [&](int b) {
+  tbb::parallel_for(0, (stack.height + band_rows - 1) / band_rows, [&](int b) {
     Workplace& work = workplaces.local();
     for (int plane = 0; plane < planes; ++plane) {
       take_rows(stack.slices[plane], b * band_rows, work.plane);
       work.slices.take(plane, work.plane);
     }
-    composite(work.slices, compositing, tone, b * band_rows, targets);
+    take(work.slices, b * band_rows);
   });
 }
 
-/// A pixel of a view, and how far it moves the slices for each pixel of their parallax.
-struct ViewPixel {
-  int x, y;
-  float shift;
-};
-
-ViewPixel pixel_of(int x, int y, ViewPosition view, const std::optional<Focus>& focus) {
-  const float gain = focus ? focus->gain_at(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) : 1;
-  return {x, y, (view - central_view) * gain};
-}
-
-/// Light of one pixel of one view, front to back. Slices are read at their nearest pixel: opaque edges stay sharp.
-LinearRgba look_through(const SliceStack& stack, const ViewPixel& pixel) {
-  const auto [x, y, shift] = pixel;
-  LinearRgba seen;
-  float through = 1;
-  for (const Slice& slice : stack.slices) {
-    const int column = x - static_cast<int>(std::lround(shift * slice.parallax_px)) - slice.left;
-    if (!slice.pixels.contains(column, y - slice.top)) continue;
-    const LinearRgba& light = slice.pixels(column, y - slice.top);
-    seen.r += through * light.r;
-    seen.g += through * light.g;
-    seen.b += through * light.b;
-    through *= 1 - light.a;
-    if (through < full) break;
-  }
-  return seen;
-}
-
-LinearRgba mixed(const LinearRgba& a, const LinearRgba& b, float share) {
-  return {std::lerp(a.r, b.r, share), std::lerp(a.g, b.g, share), std::lerp(a.b, b.b, share),
-          std::lerp(a.a, b.a, share)};
-}
-
-/// What a view sees at a pixel: the sum of all slices there, or what of them is not hidden. Slices are read between
-/// their pixels.
-LinearRgba look_between(const SliceStack& stack, const ViewPixel& pixel) {
-  const auto [x, y, shift] = pixel;
-  LinearRgba seen;
-  float through = 1;
-  for (const Slice& slice : stack.slices) {
-    const int row = y - slice.top;
-    if (row < 0 || row >= slice.pixels.height()) continue;
-    const float at = static_cast<float>(x - slice.left) - shift * slice.parallax_px;
-    const int column = static_cast<int>(std::floor(at));
-    if (column < -1 || column >= slice.pixels.width()) continue;
-    const std::span<const LinearRgba> pixels = slice.pixels.row(row);
-    const LinearRgba here =
-        mixed(column >= 0 ? pixels[column] : LinearRgba{},
-              column + 1 < slice.pixels.width() ? pixels[column + 1] : LinearRgba{}, at - static_cast<float>(column));
-    seen.r += through * here.r;
-    seen.g += through * here.g;
-    seen.b += through * here.b;
-    through *= 1 - here.a;
-    if (through < full) break;
-  }
-  return seen;
+/// How far the views move the slices, the focus among them. Throws Error{wrong_usage} where it would fold a view.
+float checked_shift(const SliceStack& stack, std::span<const ViewPosition> views, const std::optional<Focus>& focus) {
+  const float largest = largest_shift_px(stack, views);
+  if (focus) check_focus(*focus, largest);
+  return focus ? largest * focus->largest_gain() : largest;
 }
 
 }  // namespace
 
 std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, SliceFilter filter,
                                        const Progress& progress, const std::optional<Focus>& focus) {
-  if (focus) check_focus(*focus, largest_shift_px(stack, rig.positions));
+  const float shift = checked_shift(stack, rig.positions, focus);
   std::vector<Image<Rgb8>> views(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
-  const std::vector<ImageView<Rgb8>> pictures(views.begin(), views.end());
   if (stack.slices.empty() || views.empty()) return views;
+  std::vector<ViewTarget> targets;
+  for (Image<Rgb8>& view : views) targets.push_back({.picture = view});
   const Hiding hiding = hiding_of(stack);
-  if (!hiding.any) {
-    const std::vector<float> parallaxes = parallaxes_of(stack);
-    add_glowing(stack, rig, {parallaxes, rig.positions, resampling_of(filter), focus}, pictures);
-  } else {
-    const ToneMap tone(stack.tone);
-    const auto look = hiding.sharp || filter == SliceFilter::nearest ? look_through : look_between;
-    tbb::parallel_for(0, rig.height, [&](int y) {
-      for (std::size_t v = 0; v < views.size(); ++v)
-        for (int x = 0; x < rig.width; ++x) {
-          const LinearRgba seen = look(stack, pixel_of(x, y, rig.positions[v], focus));
-          views[v](x, y) = tone(seen.r, seen.g, seen.b);
-        }
-    });
-  }
+  const std::vector<float> parallaxes = parallaxes_of(stack);
+  const Compositing compositing{parallaxes, rig.positions, resampling_for(hiding, filter), focus};
+  const ToneMap tone(stack.tone);
+  for_each_slice_band(stack, shift, hiding.any,
+                      [&](const SliceBand& slices, int top) { composite(slices, compositing, tone, top, targets); });
   report(progress, "views", 1);
   return views;
 }
@@ -180,27 +122,15 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
 InterleavedView render_interleaved(const SliceStack& stack, std::span<const ViewPosition> views,
                                    const ViewsOfRow& views_of_row, const Progress& progress,
                                    const std::optional<Focus>& focus) {
-  if (focus) check_focus(*focus, largest_shift_px(stack, views));
+  const float shift = checked_shift(stack, views, focus);
   InterleavedView result{.picture = Image<Rgb8>(stack.width, stack.height), .composited = 0};
+  const std::vector<float> parallaxes = parallaxes_of(stack);
+  const Compositing compositing{parallaxes, views, Resampling::linear, focus};
   const ToneMap tone(stack.tone);
-  std::atomic<std::uint64_t> composited = 0;
-  tbb::parallel_for(0, stack.height, [&](int y) {
-    std::vector<std::uint16_t> shown(3 * static_cast<std::size_t>(stack.width));
-    views_of_row(y, shown);
-    for (int x = 0; x < stack.width; ++x) {
-      const std::uint16_t* const view = shown.data() + 3 * static_cast<std::size_t>(x);
-      const auto colour_of = [&](std::uint16_t of_view) {
-        const LinearRgba seen = look_between(stack, pixel_of(x, y, views[of_view], focus));
-        return tone(seen.r, seen.g, seen.b);
-      };
-      const Rgb8 red = colour_of(view[0]);
-      const Rgb8 green = view[1] == view[0] ? red : colour_of(view[1]);
-      const Rgb8 blue = view[2] == view[1] ? green : colour_of(view[2]);
-      result.picture(x, y) = {red.r, green.g, blue.b};
-    }
-    composited += 3 * static_cast<std::uint64_t>(stack.width);
+  for_each_slice_band(stack, shift, hiding_of(stack).any, [&](const SliceBand& slices, int top) {
+    composite(slices, compositing, tone, top, {result.picture, views_of_row});
   });
-  result.composited = composited;
+  result.composited = 3 * static_cast<std::uint64_t>(stack.width) * stack.height;
   report(progress, "views", 1);
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,15 +19,18 @@ namespace wheatstone {
 class SliceBand {
  public:
   SliceBand() = default;
-  SliceBand(int left, int right, int rows, int planes);
+  /// Of planes that hide those behind them there is a fourth channel, alpha.
+  SliceBand(int left, int right, int rows, int planes, bool hides = false);
 
   int left() const { return left_; }
   int right() const { return right_; }
   int rows() const { return rows_; }
   int planes() const { return planes_; }
+  bool hides() const { return channels_ == 4; }
   int margin() const { return LightBand::margin; }
   std::uint16_t* row(int plane, int row, int channel) {
-    return values_.data() + ((static_cast<std::size_t>(plane) * rows_ + row) * 3 + channel) * stride_ + margin();
+    return values_.data() + ((static_cast<std::size_t>(plane) * rows_ + row) * channels_ + channel) * stride_ +
+           margin();
   }
   const std::uint16_t* row(int plane, int row, int channel) const {
     return const_cast<SliceBand*>(this)->row(plane, row, channel);
@@ -43,7 +47,7 @@ class SliceBand {
   const Extent& lit(int plane, int row) const { return lit_[static_cast<std::size_t>(plane) * rows_ + row]; }
 
  private:
-  int left_ = 0, right_ = 0, rows_ = 0, planes_ = 0;
+  int left_ = 0, right_ = 0, rows_ = 0, planes_ = 0, channels_ = 3;
   std::ptrdiff_t stride_ = 0;
   std::vector<std::uint16_t> values_;
   std::vector<Extent> lit_;
@@ -56,7 +60,8 @@ constexpr int taps_of(Resampling resampling) {
   return resampling == Resampling::nearest ? 1 : resampling == Resampling::linear ? 2 : 4;
 }
 
-/// What compositing needs besides the slices.
+/// What compositing needs besides the slices, which are added; or, where they hide each other, laid over each other
+/// from the first to the last.
 struct Compositing {
   std::span<const float> parallaxes;  ///< of the planes, in pixels
   std::span<const ViewPosition> views;
@@ -69,6 +74,17 @@ struct Compositing {
 /// Composites every view's part of a band whose first row is `top` in the pictures. All targets are of one size.
 void composite(const SliceBand& slices, const Compositing& compositing, const ToneMap& tone, int top,
                std::span<const ViewTarget> targets);
+
+/// A picture each of whose sub-pixels shows one of the views.
+struct Interleaved {
+  ImageView<Rgb8> picture;
+  /// Fills in the numbers of the views that a row shows: three for each pixel, red, green, blue.
+  const std::function<void(int y, std::span<std::uint16_t> three_per_pixel)>& views_of_row;
+};
+
+/// The same of such a picture: each sub-pixel is composited for its own view, and for no other.
+void composite(const SliceBand& slices, const Compositing& compositing, const ToneMap& tone, int top,
+               const Interleaved& to);
 
 /// The light of a band of one view, whose first row is `top` in the picture: columns from 0 on.
 void finish_band(const LightBand& band, const ToneMap& tone, int top, const ViewTarget& target);

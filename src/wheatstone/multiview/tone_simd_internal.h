@@ -1,4 +1,5 @@
-// A block of a row of pixels, from sums of light to bytes. Included once for each processor, by composite_simd.cpp.
+// A block of a row of pixels, from sums of light to where they go: a picture's bytes, or light. Included once for each
+// processor, by composite_simd.cpp.
 
 #if defined(WHEATSTONE_TONE_SIMD_INTERNAL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHEATSTONE_TONE_SIMD_INTERNAL_H_
@@ -9,10 +10,11 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
-#include "wheatstone/multiview/tone_map_internal.h"
+#include "wheatstone/multiview/slice_band_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace wheatstone::HWY_NAMESPACE {
@@ -102,6 +104,67 @@ HWY_INLINE void tone(const Sums& sums, const ToneMap& map, Bytes& bytes) {
   if (map.look == Look::thesis) return tone_light(sums, map, bytes);
   if (map.shown == Shown::colours) return tone_colours(sums, map, bytes);
   tone_mass(sums, map, bytes);
+}
+
+/// Adds what the picture of half the size has in a block of a row: it is interpolated between its pixels, which keeps
+/// the sum. Pixel i of a picture lies between pixels (i − pad) / 2 + 1 and + 3 of the smaller one, whose pad is 2.
+HWY_INLINE void add_smaller(const ViewTarget& target, int row, int x, int channels, Sums& sums) {
+  const Floats d;
+  const int y = row - target.pad;
+  const int half_row = (y - (y & 1)) / 2;
+  const int near_row = half_row + 2;
+  const int far_row = (y & 1) != 0 ? half_row + 3 : half_row + 1;
+  const int first = (x - target.pad) / 2 + 1;
+  const Vec near_share = hn::Set(d, 0.75f);
+  const Vec far_share = hn::Set(d, 0.25f);
+  HWY_ALIGN float blend[block_width / 2 + 2 * 16];
+  for (int channel = 0; channel < channels; ++channel) {
+    const float* const near = target.smaller->row(near_row, channel) + first;
+    const float* const far = target.smaller->row(far_row, channel) + first;
+    for (int i = 0; i < block_width / 2 + 2; i += lanes)
+      hn::Store(hn::MulAdd(near_share, hn::LoadU(d, near + i), hn::Mul(far_share, hn::LoadU(d, far + i))), d,
+                blend + i);
+    HWY_ALIGN float wide[2 * 16];
+    for (int i = 0; i < block_width / 2; i += lanes) {
+      const Vec middle = hn::Mul(near_share, hn::LoadU(d, blend + i + 1));
+      const Vec even = hn::MulAdd(far_share, hn::LoadU(d, blend + i), middle);
+      const Vec odd = hn::MulAdd(far_share, hn::LoadU(d, blend + i + 2), middle);
+      hn::StoreInterleaved2(even, odd, d, wide);
+      for (int k = 0; k < 2; ++k) {
+        float* const to = sums[channel] + 2 * i + k * lanes;
+        hn::Store(hn::Add(hn::Load(d, to), hn::Load(d, wide + k * lanes)), d, to);
+      }
+    }
+  }
+}
+
+/// Three rows of bytes into pixels.
+HWY_INLINE void interleave(const std::uint8_t* red, const std::uint8_t* green, const std::uint8_t* blue, int count,
+                           Rgb8* to) {
+  const hn::CappedTag<std::uint8_t, 16> d;
+  const int step = hn::MaxLanes(d);
+  int x = 0;
+  for (; x + step <= count; x += step)
+    hn::StoreInterleaved3(hn::LoadU(d, red + x), hn::LoadU(d, green + x), hn::LoadU(d, blue + x), d,
+                          reinterpret_cast<std::uint8_t*>(to + x));
+  for (; x < count; ++x) to[x] = {red[x], green[x], blue[x]};
+}
+
+/// A block of one view's sums goes where it belongs.
+HWY_INLINE void finish_block(Sums& sums, const ToneMap& map, const ViewTarget& target, int row, int x) {
+  const Floats d;
+  const int channels = map.three_channels() ? 3 : 2;
+  if (target.smaller != nullptr) add_smaller(target, row, x, channels, sums);
+  if (target.light != nullptr) {
+    for (int channel = 0; channel < target.light->channels(); ++channel)
+      for (int i = 0; i < block_width; i += lanes)
+        hn::StoreU(hn::Load(d, sums[channel] + i), d, target.light->row(row, channel) + x + i);
+    return;
+  }
+  HWY_ALIGN Bytes bytes;
+  tone(sums, map, bytes);
+  interleave(bytes[0], bytes[1], bytes[2], std::min(block_width, target.picture.width() - x),
+             target.picture.row(row).data() + x);
 }
 
 }  // namespace wheatstone::HWY_NAMESPACE
