@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # A room includes only what stands above it, in programs of a graphics processor, too; and an installed header only the standard library and our own headers.
+# What plans and draws marks does not see the measures that judge it, although they stand above it.
 # Tests are free: they use scenes with exact truth and measures that stand below what they test.
 # The order is the list of rooms in CMakeLists.txt of the folder given.
 #
@@ -17,6 +18,8 @@ find . -name '*.h' -o -name '*.cpp' -o -name '*.comp' -o -name '*.glsl' | sort |
   BEGIN {
     count = split(rooms, names, " ")
     for (i = 1; i <= count; i++) floor[names[i]] = i
+    count = split("marks drawing strokes regions curves painting", names, " ")
+    for (i = 1; i <= count; i++) judged[names[i]] = 1
   }
   function complain(why) {
     printf "%s:%d: %s\n", FILENAME, FNR, why
@@ -31,6 +34,7 @@ find . -name '*.h' -o -name '*.cpp' -o -name '*.comp' -o -name '*.glsl' | sort |
   FNR == 1 {
     file = substr(FILENAME, 3)
     here = floor_of(file)
+    is_judged = substr(file, 1, index(file, "/") - 1) in judged
     if (here < 0) complain("is in a folder that is no room")
     installed = file ~ /\.h$/ && file !~ /_internal\.h$/
   }
@@ -41,6 +45,7 @@ find . -name '*.h' -o -name '*.cpp' -o -name '*.comp' -o -name '*.glsl' | sort |
     there = floor_of(path)
     if (there < 0) complain("includes " path ", which is in no room")
     if (there > here && file !~ /_test\.cpp$/) complain("includes " path ", which stands below it")
+    if (is_judged && path ~ /^measures\// && file !~ /_test\.cpp$/) complain("includes " path ", which judges it")
     if (installed && path ~ /_internal\.h$/) complain("is installed, but includes " path)
     next
   }

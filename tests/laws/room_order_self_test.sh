@@ -4,8 +4,8 @@ set -euo pipefail
 law=$(cd "$(dirname "$0")" && pwd)/room_order.sh
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-mkdir "$scratch/image" "$scratch/stereo"
-printf 'add_subdirectory(image)\nadd_subdirectory(stereo)\n' >"$scratch/CMakeLists.txt"
+mkdir "$scratch"/{image,stereo,measures,strokes,app}
+printf 'add_subdirectory(%s)\n' image stereo measures strokes app >"$scratch/CMakeLists.txt"
 
 expect() {  # expect holds|breaks FILE LINE
   printf '%s\n' "$3" >"$scratch/$2"
@@ -30,3 +30,7 @@ expect breaks stereo/warp.h '#include <opencv2/core.hpp>'
 expect breaks stereo/warp.h '#include <fmt/format.h>'
 expect breaks stereo/warp.h '#include "wheatstone/image/mat_internal.h"'
 expect breaks stereo/warp.cpp '#include "wheatstone/cellar/wine.h"'
+expect holds app/report.cpp '#include "wheatstone/measures/wrong_spots.h"'
+expect holds strokes/plan_test.cpp '#include "wheatstone/measures/wrong_spots.h"'
+expect breaks strokes/plan.cpp '#include "wheatstone/measures/wrong_spots.h"'
+expect breaks strokes/plan_internal.h '#include "wheatstone/measures/wrong_spots.h"'

@@ -5,16 +5,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/measures/wrong_spots_internal.h"
 
 namespace wheatstone {
 namespace {
+
+bool is_near_in_colour(Rgb8 a, Rgb8 b) {
+  constexpr int farthest = 60;  // of 441: nobody takes one colour for the other from there on
+  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
+  return red * red + green * green + blue * blue <= farthest * farthest;
+}
+
+bool has_colour_near(ImageView<const Rgb8> photograph, Rgb8 colour, int x, int y) {
+  if (is_near_in_colour(photograph(x, y), colour)) return true;
+  const double radius_px = 4.0 * photograph.width() / 640;
+  const int reach = static_cast<int>(radius_px);
+  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, photograph.height() - 1); ++row) {
+    const int away = row - y, half = static_cast<int>(std::sqrt(radius_px * radius_px - away * away));
+    const int left = std::max(x - half, 0), right = std::min(x + half + 1, photograph.width());
+    const auto about = photograph.row(row).subspan(left, right - left);
+    if (std::ranges::any_of(about, [&](Rgb8 there) { return is_near_in_colour(there, colour); })) return true;
+  }
+  return false;
+}
 
 struct Count {
   double spots = 0, wrong = 0, pixels = 0;
@@ -26,6 +42,7 @@ Count count_spots(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograp
   const int components = cv::connectedComponentsWithStats(as_mat(wrong), labels, facts, centres);
   Count count{.pixels = static_cast<double>(painted.width()) * painted.height()};
   for (int i = 1; i < components; ++i) {  // 0 is what is not wrong
+    constexpr int least_spot_px = 4;
     const int size = facts.at<int>(i, cv::CC_STAT_AREA);
     if (size < least_spot_px) continue;
     ++count.spots;
@@ -41,37 +58,14 @@ WrongSpots measure_of(const Count& count) {
 
 }  // namespace
 
-bool has_colour_near(ImageView<const Rgb8> photograph, Rgb8 colour, int x, int y) {
-  if (is_like(photograph(x, y), colour)) return true;
-  const double radius_px = nearness_px(photograph.width());
-  const int reach = static_cast<int>(radius_px);
-  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, photograph.height() - 1); ++row) {
-    const int away = row - y, half = static_cast<int>(std::sqrt(radius_px * radius_px - away * away));
-    const int left = std::max(x - half, 0), right = std::min(x + half + 1, photograph.width());
-    const auto about = photograph.row(row).subspan(left, right - left);
-    if (std::ranges::any_of(about, [&](Rgb8 there) { return is_like(there, colour); })) return true;
-  }
-  return false;
-}
-
 Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph) {
   if (painted.width() != photograph.width() || painted.height() != photograph.height())
     throw Error(ErrorKind::bad_input,
                 fmt::format("the painting is {}x{} pixels, expected the photograph's {}x{}", painted.width(),
                             painted.height(), photograph.width(), photograph.height()));
-  const ColoursAround near(photograph);
   Image<std::uint8_t> wrong(painted.width(), painted.height());
   tbb::parallel_for(0, painted.height(), [&](int y) {
-    const auto colours = painted.row(y), wanted = photograph.row(y);
-    const auto marks = wrong.row(y);
-    // Nearly all pixels are like the one at their own place.
-    mark_unlike_colours(colours, wanted, marks);
-    for (std::size_t x = 0; x < marks.size(); ++x) {
-      const void* const next = std::memchr(&marks[x], 255, marks.size() - x);
-      if (next == nullptr) break;
-      x = static_cast<std::size_t>(static_cast<const std::uint8_t*>(next) - marks.data());
-      if (near.has(colours[x], static_cast<int>(x), y)) marks[x] = 0;
-    }
+    for (int x = 0; x < painted.width(); ++x) wrong(x, y) = has_colour_near(photograph, painted(x, y), x, y) ? 0 : 255;
   });
   return wrong;
 }

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/painting/over_spots_internal.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/strokes/accents.h"
@@ -63,7 +63,7 @@ void draw_over(Layer strokes, Rows rows, const SceneView& view, DrawnView& drawn
 Image<std::uint8_t> wrong_in(Rows rows, const Image<Rgb8>& painted, ImageView<const Rgb8> photograph) {
   const int width = painted.width(), near_px = static_cast<int>(std::ceil(nearness_px(width)));
   const Rows judged{std::max(rows.first - near_px, 0), std::min(rows.end + near_px, painted.height())};
-  const Image<std::uint8_t> in_judged = wrong_pixels(part_of(painted, judged), part_of(photograph, judged));
+  const Image<std::uint8_t> in_judged = residual(part_of(painted, judged), part_of(photograph, judged));
   Image<std::uint8_t> wrong(width, painted.height());
   for (int y = rows.first; y < rows.end; ++y) std::ranges::copy(in_judged.row(y - judged.first), wrong.row(y).begin());
   return wrong;
@@ -87,9 +87,9 @@ void mend_drawn(std::span<const SceneView> views, std::span<const std::size_t> s
   std::vector<Layer>& layers = std::get<StrokePainting>(painting.marks).layers;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const SceneView& view = views[shown[i]];
-    Image<std::uint8_t> places = wrong_pixels(pictures[i].picture, view.picture);
+    Image<std::uint8_t> places = residual(pictures[i].picture, view.picture);
     for (int round = 0; round < most_rounds; ++round) {
-      remove_occlusion_specks(places, least_spot_px);
+      remove_occlusion_specks(places, least_repaired_px);
       if (std::memchr(places.pixels().data(), 255, places.pixels().size()) == nullptr) break;
       const Image<float> disparity = disparity_before(view.disparity, places);
       const ViewRange seen_from = shown[i] == 0 ? all_views : views_about(view.position, reference);

@@ -6,7 +6,7 @@
 
 #include "wheatstone/curves/accents.h"
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/painting/over_spots_internal.h"
 #include "wheatstone/regions/accents.h"
 #include "wheatstone/stereo/occlusion.h"
@@ -36,8 +36,8 @@ Image<Rgb8> colours_of_reference(const SceneView& view, const SceneView& referen
 /// wrong.
 Image<std::uint8_t> displaced_colours(const SceneView& view, const SceneView& reference) {
   constexpr int rim_px = 2;
-  Image<std::uint8_t> spots = wrong_pixels(colours_of_reference(view, reference), view.picture);
-  remove_occlusion_specks(spots, least_spot_px);
+  Image<std::uint8_t> spots = residual(colours_of_reference(view, reference), view.picture);
+  remove_occlusion_specks(spots, least_repaired_px);
   return dilate_occlusion(spots, rim_px);
 }
 
@@ -78,8 +78,8 @@ void mend_lines(std::span<const SceneView> views, Painting& painting) {
   for (const SceneView& view : views) {
     const bool is_reference = view.position == reference;
     if (view.continued || !(is_reference || refers_to_eye)) continue;
-    Image<std::uint8_t> spots = wrong_pixels(draw(painting, view.position).picture, view.picture);
-    remove_occlusion_specks(spots, least_spot_px);
+    Image<std::uint8_t> spots = residual(draw(painting, view.position).picture, view.picture);
+    remove_occlusion_specks(spots, least_repaired_px);
     if (!has_any(spots)) continue;
     add_accents({view.picture, spots, view.disparity, view.position, reference,
                  is_reference ? all_views : views_about(view.position, reference), painting.surfaces.tolerance_px},
@@ -92,7 +92,7 @@ void mend_regions(std::span<const SceneView> views, const Style& style, Painting
   for (const SceneView& view : views) {
     if (view.continued) continue;
     const bool is_reference = view.position == reference;
-    const Image<std::uint8_t> spots = wrong_pixels(draw(painting, view.position).picture, view.picture);
+    const Image<std::uint8_t> spots = residual(draw(painting, view.position).picture, view.picture);
     if (!has_any(spots)) continue;
     const Image<float> before = is_reference ? Image<float>() : disparity_before(view.disparity, spots);
     const SpotsOfView found{view.picture,
@@ -111,7 +111,7 @@ void mend_regions(std::span<const SceneView> views, const Style& style, Painting
 void mend_spots(std::span<const SceneView> views, const Style& style, Painting& painting) {
   if (style.propagation == Propagation::independent) return;
   if (style.marks == Marks::regions) mend_regions(views, style, painting);
-  if (views.front().picture.width() < least_judged_width_px) return;
+  if (views.front().picture.width() < least_repaired_width_px) return;
   if (style.marks == Marks::strokes || style.marks == Marks::curves) mend_displaced(views, style, painting);
   if (style.marks == Marks::curves) mend_lines(views, painting);
 }

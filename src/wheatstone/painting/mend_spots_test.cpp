@@ -11,6 +11,7 @@
 
 #include "largest_difference.h"
 #include "wheatstone/drawing/draw.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/paint_frame.h"

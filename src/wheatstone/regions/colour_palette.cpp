@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/random.h"
 #include "wheatstone/regions/colour_palette_internal.h"
 

@@ -2,7 +2,7 @@
 #include <limits>
 #include <numeric>
 
-#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/regions/region_map_internal.h"
 
 namespace wheatstone {

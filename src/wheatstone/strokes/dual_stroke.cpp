@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/strokes/dual_stroke_internal.h"
 
 namespace wheatstone {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "scenes/two_surfaces.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/measures/consistency.h"
-#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/strokes/reference_picture.h"
 #include "wheatstone/strokes/stroke_measures.h"

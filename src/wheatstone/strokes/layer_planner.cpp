@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "wheatstone/drawing/rasterise.h"
-#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/random.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
 #include "wheatstone/strokes/layer_order.h"
@@ -57,20 +57,7 @@ LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, c
 
 Image<std::uint8_t> misplaced_paint(const LayerPlanner& planner, const Style& style) {
   if (style.jitter != ColourJitter{}) return {};
-  const Canvas& canvas = planner.canvas;
-  const auto level = [](float value) { return static_cast<std::uint8_t>(value + 0.5f); };
-  const ColoursAround wanted(planner.photograph);
-  Image<std::uint8_t> misplaced(canvas.width, canvas.height);
-  tbb::parallel_for(0, canvas.height, [&](int y) {
-    const auto row = misplaced.row(y);
-    mark_unlike(planner.photograph, canvas, y, row);
-    for (int x = 0; x < canvas.width; ++x) {
-      if (row[x] == 0) continue;
-      const Rgb8 painted{level(canvas.red(x, y)), level(canvas.green(x, y)), level(canvas.blue(x, y))};
-      if (wanted.has(painted, x, y)) row[x] = 0;
-    }
-  });
-  return misplaced;
+  return residual(picture_of(planner.canvas), planner.photograph);
 }
 
 Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Style& style, const ScaledStyle& scaled,

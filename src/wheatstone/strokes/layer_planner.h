@@ -49,7 +49,7 @@ struct LayerInputs {
 
 LayerInputs make_layer_inputs(const LayerPlanner& planner, const Style& style, const ScaledStyle& scaled, int layer);
 
-/// 255 where the paint on the canvas has a colour that the photograph has nowhere near (measures/wrong_spots.h):
+/// 255 where the paint on the canvas has a colour that the photograph has nowhere near (marks/residual.h):
 /// strokes of the finest layer are wanted there whatever the style's threshold. Empty for styles whose colours are
 /// changed at random.
 Image<std::uint8_t> misplaced_paint(const LayerPlanner& planner, const Style& style);

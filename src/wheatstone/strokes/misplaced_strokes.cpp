@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <ranges>
 #include <vector>
 
-#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
 #include "wheatstone/strokes/visible_runs_internal.h"
 
@@ -15,19 +16,23 @@ namespace wheatstone {
 
 void drop_misplaced(const SceneView& home, std::span<const SceneView> views, float depth_threshold_px,
                     TrackedLayer& tracked) {
-  const auto shows_unlike = [&](const Stroke& stroke, const ControlPoint& point, const SceneView& view) {
+  std::vector<NearColours> near;
+  for (const SceneView& view : views) near.emplace_back(view.picture);
+  const auto shows_unlike = [&](const Stroke& stroke, const ControlPoint& point, std::size_t number) {
+    const SceneView& view = views[number];
     if (view.continued) return false;
     const int x = static_cast<int>(std::floor(column_in(point, home, view)));
     const int y = static_cast<int>(std::floor(point.y));
     return view.picture.contains(x, y) && is_visible(point, home, view, depth_threshold_px) &&
-           !has_colour_near(view.picture, stroke.colour, x, y);
+           !near[number].has(stroke.colour, x, y);
   };
   std::vector<std::uint8_t> is_misplaced(tracked.tracks.size());
   tbb::parallel_for(std::size_t{0}, is_misplaced.size(), [&](std::size_t i) {
     if (tracked.tracks[i].ends == 0) return;
     const Stroke& stroke = tracked.layer.strokes[i];
     is_misplaced[i] = std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
-      return std::ranges::any_of(views, [&](const SceneView& view) { return shows_unlike(stroke, point, view); });
+      return std::ranges::any_of(std::views::iota(std::size_t{0}, views.size()),
+                                 [&](std::size_t number) { return shows_unlike(stroke, point, number); });
     });
   });
   keep_if(tracked, [&](std::size_t i) { return is_misplaced[i] == 0; });

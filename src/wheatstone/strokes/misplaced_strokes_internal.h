@@ -8,7 +8,7 @@
 namespace wheatstone {
 
 /// Drops the fading strokes of the view `home` that would show one of the views, where no surface of that view hides
-/// them, a colour that its picture has nowhere near (measures/wrong_spots.h). Views of what no photograph shows are not
+/// them, a colour that its picture has nowhere near (marks/residual.h). Views of what no photograph shows are not
 /// asked.
 void drop_misplaced(const SceneView& home, std::span<const SceneView> views, float depth_threshold_px,
                     TrackedLayer& tracked);

@@ -38,8 +38,4 @@ struct RowPart {
 /// width, and only the part's columns are written.
 void squared_errors(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors);
 
-/// 255 in the columns of a row in which the canvas has a colour unlike the photograph's (measures/wrong_spots.h), 0 in
-/// the others.
-void mark_unlike(ImageView<const Rgb8> photograph, const Canvas& canvas, int row, std::span<std::uint8_t> unlike);
-
 }  // namespace wheatstone

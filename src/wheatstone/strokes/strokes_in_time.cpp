@@ -12,8 +12,8 @@
 
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/error.h"
+#include "wheatstone/marks/residual.h"
 #include "wheatstone/marks/resize_strokes.h"
-#include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/strokes/carried_points_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
@@ -114,8 +114,8 @@ class ViewAtWork {
   /// Once all layers are planned: marks for this frame alone where the carried strokes show what the frame has nowhere
   /// near. What is new there may lie under them, and comes in slowly.
   Layer accents() {
-    if (!part_.is_whole() || misplaced_.empty() || part_.view.picture.width() < least_judged_width_px) return {};
-    remove_occlusion_specks(misplaced_, least_spot_px);
+    if (!part_.is_whole() || misplaced_.empty() || part_.view.picture.width() < least_repaired_width_px) return {};
+    remove_occlusion_specks(misplaced_, least_repaired_px);
     return cover_places({part_.view.picture, part_.view.disparity, part_.view.position, {}, std::move(misplaced_)},
                         at_->scaled, style_);
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "wheatstone/measures/wrong_spots.h"
+#include "wheatstone/marks/residual.h"
 
 namespace wheatstone {
 namespace {
