@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <span>
 #include <utility>
-#include <vector>
 
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/error.h"
 #include "wheatstone/painting/naive_planning_internal.h"
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/still_scene.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/warp.h"
 #include "wheatstone/stopwatch.h"
@@ -19,23 +17,21 @@
 namespace wheatstone {
 namespace {
 
-/// Draws both eyes of a planned painting, and other views, which have no photograph to be drawn over.
+/// Draws both eyes of a planned painting, and nearer ones, which have no photograph to be drawn over.
 void draw_views(const StereoPairView& photographs, const Style& style, const PaintDrawing& drawing,
                 PaintedPair& result) {
-  const PreparedPainting prepared = prepare(result.painting, {}, drawing.device);
-  const auto others = drawing.other_views ? drawing.other_views(result.painting) : std::vector<ViewPosition>();
-  std::vector<ViewPosition> views{left_eye, right_eye};
-  std::vector<ImageView<const Rgb8>> backgrounds;
+  result.separation = comfortable_separation(result.painting, drawing.depth_budget);
+  Presentation presentation = for_own_and_nearer_eyes(result.separation);
+  presentation.device = drawing.device;
   if (style.background == Background::photograph) {
-    backgrounds = {photographs.left, photographs.right};
-    backgrounds.resize(views.size() + others.size());
+    presentation.backgrounds = {photographs.left, photographs.right};
+    presentation.backgrounds.resize(presentation.views.size());
   }
-  views.insert(views.end(), others.begin(), others.end());
-  std::vector<DrawnView> drawn = draw(prepared, views, backgrounds);
-  result.pictures = {std::move(drawn[0].picture), std::move(drawn[1].picture)};
-  result.left_bare_share = drawn[0].bare_share;
-  result.right_bare_share = drawn[1].bare_share;
-  for (DrawnView& other : std::span(drawn).subspan(2)) result.other_views.push_back(std::move(other.picture));
+  Presented shown = present(result.painting, presentation);
+  result.pictures = {std::move(shown.views[0]), std::move(shown.views[1])};
+  result.left_bare_share = shown.bare_shares[0];
+  result.right_bare_share = shown.bare_shares[1];
+  if (shown.views.size() > 2) result.nearer = {std::move(shown.views[2]), std::move(shown.views[3])};
 }
 
 /// Stavrakis & Gelautz 2004, sec. 3.2: the left picture, warped, covers the right eye's paint. The few pixels that
@@ -92,11 +88,11 @@ PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> 
     result.painting = plan_by_itself(photograph, disparity, view, style, progress);
   }
   const Stopwatch watch(result.times.rasterising_s);
-  const PreparedPainting prepared = prepare(Painting{result.painting, {}, relief_for(style, photograph.width())});
-  const bool over_photograph = style.background == Background::photograph;
-  DrawnView drawn = draw(prepared, view, over_photograph ? photograph : ImageView<const Rgb8>());
-  result.picture = std::move(drawn.picture);
-  result.bare_share = drawn.bare_share;
+  Presentation presentation{.views = {view}};
+  if (style.background == Background::photograph) presentation.backgrounds = {photograph};
+  Presented shown = present(Painting{result.painting, {}, relief_for(style, photograph.width())}, presentation);
+  result.picture = std::move(shown.views.front());
+  result.bare_share = shown.worst_bare_share;
   return result;
 }
 
