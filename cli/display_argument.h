@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "wheatstone/app/film_display.h"
+#include "wheatstone/app/film_presentation.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/video/film_writer.h"
 

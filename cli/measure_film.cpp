@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -18,15 +17,15 @@
 #include "measure_kinds.h"
 #include "print_facts.h"
 #include "typed_options.h"
-#include "wheatstone/app/film_eyes.h"
+#include "wheatstone/app/film_presentation.h"
 #include "wheatstone/app/report.h"
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/motion/flow_file.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/strokes/strokes_between_frames.h"
 #include "wheatstone/video/film_files.h"
@@ -264,11 +263,7 @@ struct MarksOfFilm {
 
 /// How much of either eye, or of the one there is, no mark covers.
 double bare_share_of(const Painting& marks, bool two_eyes) {
-  if (!two_eyes) return draw(marks, central_view).bare_share;
-  const PreparedPainting prepared = prepare(marks);
-  const std::array eyes{left_eye, right_eye};
-  const std::vector<DrawnView> drawn = draw(prepared, eyes);
-  return std::max(drawn.front().bare_share, drawn.back().bare_share);
+  return present(marks, two_eyes ? for_two_eyes() : Presentation{.views = {central_view}}).worst_bare_share;
 }
 
 MarksOfFilm measure_marks(const Arguments& arguments, bool two_eyes, int frames, const std::vector<int>& cuts,

@@ -13,9 +13,9 @@
 #include "print_facts.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/report.h"
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/strokes/stroke_measures.h"
 
@@ -87,9 +87,8 @@ PaintingGuards measure_guards(const Arguments& arguments, const StereoPair& styl
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: paints {}x{} pixels, expected {}x{} as {}", arguments.painting, width, height,
                             stylised.left.width(), stylised.left.height(), arguments.left));
-  const PreparedPainting prepared = prepare(painting);
-  return {measure_strokes(layers_of(painting), geometry), draw(prepared, left_eye).bare_share,
-          draw(prepared, right_eye).bare_share};
+  const std::vector<double> bare_shares = present(painting, for_two_eyes()).bare_shares;
+  return {measure_strokes(layers_of(painting), geometry), bare_shares.front(), bare_shares.back()};
 }
 
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
@@ -164,8 +163,8 @@ void print_table(const Measured& measured, const Session& session) {
   line("strokes", fmt::format("{}", guards.strokes.strokes));
   line("  in both eyes, of visible", fmt::format("{:.1f} %", 100 * guards.strokes.paired_share));
   line("  of another shape", fmt::format("{:.1f} %", 100 * guards.strokes.shape_differs_share));
-  line("left bare, left eye", fmt::format("{:.2f} %", 100 * guards.left_bare_share));
-  line("left bare, right eye", fmt::format("{:.2f} %", 100 * guards.right_bare_share));
+  line("unpainted, left eye", fmt::format("{:.2f} %", 100 * guards.left_bare_share));
+  line("unpainted, right eye", fmt::format("{:.2f} %", 100 * guards.right_bare_share));
 }
 
 void run(const Arguments& arguments, const CLI::App& command, const Session& session) {

@@ -2,6 +2,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -18,8 +19,7 @@
 #include "paint_arguments.h"
 #include "print_facts.h"
 #include "views_argument.h"
-#include "wheatstone/app/paint_views.h"
-#include "wheatstone/app/redraw.h"
+#include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/quilt.h"
@@ -50,8 +50,14 @@ ZeroParallax parse_zero_parallax(const Arguments& arguments) {
   return wanted;
 }
 
-std::string summary_of(const PaintingReport& told) {
-  const auto& [result, style, pair, measures, depth_budget, whole] = told;
+/// What eyes so far apart make of the depth.
+std::string less_depth(float separation) {
+  const long percent = std::max(std::lround(100 * separation), 1L);
+  return percent == 50 ? "halved" : fmt::format("reduced to {} %", percent);
+}
+
+std::string summary_of(const PaintingReport& told, std::optional<float> depth_budget) {
+  const auto& [result, style, pair, measures, whole] = told;
   std::string text;
   const auto to = std::back_inserter(text);
   const PaintedPair& painted = result.painted;
@@ -66,14 +72,14 @@ std::string summary_of(const PaintingReport& told) {
                    height_of(painting));
   if (pair != nullptr && !undecided_eyes(*pair).empty())
     fmt::format_to(to, "eyes             {}\n", undecided_eyes(*pair));
-  fmt::format_to(to, "left bare        {:.2f} % of the left eye, {:.2f} % of the right\n",
-                 100 * painted.left_bare_share, 100 * painted.right_bare_share);
+  fmt::format_to(to, "unpainted        {:.2f} % (left), {:.2f} % (right)\n", 100 * painted.left_bare_share,
+                 100 * painted.right_bare_share);
   fmt::format_to(to, "zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
-  const float separation = comfortable_separation(painting, depth_budget);
-  if (separation < 1)
+  if (painted.separation < 1)
     fmt::format_to(to,
-                   "to look at       with eyes {:.2f} of their distance apart, for a depth of {:.1f} % of the width\n",
-                   separation, 100 * *depth_budget);
+                   "depth            {} in side_by_side and anaglyph, to stay comfortable ({:.3g} % of width); "
+                   "--depth-budget full keeps it\n",
+                   less_depth(painted.separation), 100 * *depth_budget);
   if (measures != nullptr) {
     fmt::format_to(to, "left - right     {:.2f} of 255 (photographs {:.2f})\n",
                    measures->painting.difference.mean_absolute, measures->photographs.difference.mean_absolute);
@@ -116,11 +122,12 @@ std::optional<DisplayComposition> composition_for(const DisplayPreset& display, 
 /// Writes the picture that the display takes, and else a picture a view.
 std::string write_views(const DisplayPreset& display, const ViewsOutput& output, const DisplayViews& result,
                         const Progress& progress) {
-  const auto composition = composition_for(display, static_cast<int>(result.rig.positions.size()));
+  const std::optional<DisplayComposition>& composition = result.plan.presentation.composition;
+  const Presented& shown = result.shown;
   if (composition && std::holds_alternative<QuiltLayout>(*composition))
-    return write_quilt(result.picture, std::get<QuiltLayout>(*composition), display.aspect, output);
-  if (composition) return write_lenticular(result.picture, output);
-  write_view_folder(result.views, output, progress);
+    return write_quilt(shown.composed, std::get<QuiltLayout>(*composition), display.aspect, output);
+  if (composition) return write_lenticular(shown.composed, output);
+  write_view_folder(shown.views, output, progress);
   return output.name;
 }
 
@@ -167,19 +174,21 @@ struct Painted {
 Painted write_and_tell(const Arguments& arguments, const DisplayPreset& display, const std::string& output,
                        const DisplayViews& drawn, const Session& session) {
   const std::string written = write_views(display, output_of(arguments, output), drawn, session.progress);
-  const Rig& rig = drawn.rig;
+  const DisplayPlan& plan = drawn.plan;
+  const Placement& placement = plan.presentation.placement;
+  const std::size_t views = plan.presentation.views.size();
   Json facts{{"output", written},
-             {"views", rig.positions.size()},
-             {"width", rig.width},
-             {"height", rig.height},
-             {"span", drawn.span},
-             {"zero_parallax_px", drawn.zero_parallax_px},
-             {"worst_bare_share", drawn.worst_bare_share}};
+             {"views", views},
+             {"width", placement.width},
+             {"height", placement.height},
+             {"span", plan.span},
+             {"zero_parallax_px", plan.zero_parallax_px},
+             {"worst_bare_share", drawn.shown.worst_bare_share}};
   std::string text =
-      fmt::format("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n",
-                  rig.positions.size(), rig.width, rig.height, drawn.span);
-  text += fmt::format("zero parallax    disparity {:.1f} px\n", drawn.zero_parallax_px);
-  text += fmt::format("left bare        at most {:.2f} % of a view\n", 100 * drawn.worst_bare_share);
+      fmt::format("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n", views,
+                  placement.width, placement.height, plan.span);
+  text += fmt::format("zero parallax    disparity {:.1f} px\n", plan.zero_parallax_px);
+  text += fmt::format("unpainted        at most {:.2f} % of a view\n", 100 * drawn.shown.worst_bare_share);
   return {std::move(facts), std::move(text), written};
 }
 
@@ -238,7 +247,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   if (!arguments.display.empty()) return paint_for_display(arguments, job, subject, options, session);
 
   const DepthPlacing placing = depth_placing_from(arguments);
-  if (placing.regions.empty()) options.depth_budget = depth_budget_from(arguments);
+  options.depth_budget = placing.regions.empty() ? depth_budget_from(arguments) : std::nullopt;
   PaintedPhotograph result = paint_photograph(pictures, options, session.progress);
   if (result.confidence) tell_of_match(photograph, *result.confidence, session);
   std::optional<PaintingMeasures> measures;
@@ -247,10 +256,10 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
                                 session.progress);
   place_depth(placing, result);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
-  const PaintingReport told{result,   options.style,        subject.strength ? nullptr : &photograph.pair,
-                            measured, options.depth_budget, photograph.whole};
+  const PaintingReport told{result, options.style, subject.strength ? nullptr : &photograph.pair, measured,
+                            photograph.whole};
   write_results(*folder, pictures, told, results, session.progress);
-  return {Json::parse(report_json(told)), summary_of(told), job.output};
+  return {Json::parse(report_json(told)), summary_of(told, options.depth_budget), job.output};
 }
 
 /// Paints each photograph; one that fails does not stop the others.

@@ -9,8 +9,8 @@
 #include "match_options.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
-#include "wheatstone/app/place_depth.h"
 #include "wheatstone/gpu/device.h"
+#include "wheatstone/marks/mapped_depth.h"
 
 namespace wheatstone::cli {
 

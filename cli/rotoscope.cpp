@@ -144,11 +144,14 @@ void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const
     fmt::print(session.output, "carried          {:.1f} % of the strokes from frame to frame, {} popped\n",
                100 * static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes),
                totals.popped_strokes);
-  fmt::print(session.output, "left bare        at most {:.3f} % of {}\n", 100 * totals.worst_bare_share,
+  fmt::print(session.output, "unpainted        at most {:.3f} % of {}\n", 100 * totals.worst_bare_share,
              arguments.options.frames.display ? "a view" : "an eye");
   if (totals.moved_frames > 0)
-    fmt::print(session.output, "to look at       {} frames with eyes down to {:.2f} of their distance apart\n",
-               totals.moved_frames, totals.least_separation);
+    fmt::print(session.output,
+               "depth            reduced in {} frames, to {:.0f} % or more, to stay comfortable ({:.3g} % of width); "
+               "--depth-budget full keeps it\n",
+               totals.moved_frames, 100 * totals.least_separation,
+               100 * arguments.options.frames.depth_budget.value_or(1));
   if (film.loss) fmt::print(session.output, "source           {}\n", *film.loss);
   for (const std::string& note : film.notes) fmt::print(session.output, "note             {}\n", note);
   fmt::print(session.output, "written to       {}\n", arguments.output);

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -14,15 +13,14 @@
 #include "pictures_in_folder.h"
 #include "typed_options.h"
 #include "wheatstone/app/display_views.h"
-#include "wheatstone/app/draw_composed.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
@@ -71,24 +69,22 @@ ReadViews draw_painting(const ViewsArguments& arguments, int count, const Progre
   read.how = "drawn from a painting";
   read.count = count;
   read.size = {width_of(painting), height_of(painting)};
+  Presented shown;
   if (of_the_eyes) {
-    const PreparedPainting prepared = prepare(painting, {}, arguments.device);
-    const std::array eyes{left_eye, right_eye};
-    if (arguments.composition) {
-      read.composed = draw_composed(prepared, eyes, *arguments.composition).picture;
-      return read;
-    }
-    for (DrawnView& view : draw(prepared, eyes)) read.views.push_back(std::move(view.picture));
-    return read;
+    Presentation presentation = for_two_eyes();
+    presentation.composition = arguments.composition;
+    presentation.device = arguments.device;
+    shown = present(painting, presentation);
+  } else {
+    const DisplayViewsOptions options{.views = count,
+                                      .width = width_of(painting),
+                                      .height = height_of(painting),
+                                      .span = arguments.span,
+                                      .device = arguments.device};
+    shown = draw_display_views(painting, options, progress, arguments.composition).shown;
   }
-  const DisplayViewsOptions options{.views = count,
-                                    .width = width_of(painting),
-                                    .height = height_of(painting),
-                                    .span = arguments.span,
-                                    .device = arguments.device};
-  DisplayViews drawn = draw_display_views(painting, options, progress, arguments.composition);
-  read.views = std::move(drawn.views);
-  read.composed = std::move(drawn.picture);
+  read.views = std::move(shown.views);
+  read.composed = std::move(shown.composed);
   return read;
 }
 

@@ -100,10 +100,11 @@ py::object next_painting(PyRotoscoping& rotoscoping) {
     made = rotoscope_frame({std::move(frame.left), std::move(frame.right)}, rotoscoping.options, rotoscoping.state,
                            nullptr, with_signals());
   }
-  StereoPair& pictures = made.painted.pictures;
+  auto* const two = std::get_if<StereoPair>(&made.pictures);
+  StereoPair eyes = two != nullptr ? std::move(*two) : StereoPair{std::get<Image<Rgb8>>(std::move(made.pictures)), {}};
   return py::make_tuple(
-      PyPainting{std::move(made.painted.painting), array_of(std::move(pictures.left)), eye(std::move(pictures.right))},
-      seconds, made.scene_begins);
+      PyPainting{std::move(made.painting), array_of(std::move(eyes.left)), eye(std::move(eyes.right))}, seconds,
+      made.scene_begins);
 }
 
 /// As `wheatstone rotoscope` makes a film.

@@ -13,11 +13,11 @@
 #include "bindings.h"
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/app/paint_photograph.h"
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/matching/match.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 
@@ -57,7 +57,7 @@ Style style_of(const std::string& preset, const std::map<std::string, std::strin
 
 std::unique_ptr<PyPainting> paint_pictures(const py::object& left, const py::object& right, const Style& style,
                                            const std::string& quality, const py::object& disparity) {
-  PaintPhotographOptions options{.style = style, .matching = matching_for(quality)};
+  PaintPhotographOptions options{.style = style, .matching = matching_for(quality), .depth_budget = {}};
   const StereoPair photographs = pair_in(left, right);
   if (!disparity.is_none()) options.left_disparity = copy_of(disparities_in(disparity, "disparity"));
   std::optional<PaintedPhotograph> made;
@@ -80,17 +80,16 @@ py::array draw_views(const PyPainting& painting, int count, float span, std::opt
   std::vector<Image<Rgb8>> views;
   {
     const py::gil_scoped_release unlocked;
-    views = draw_display_views(painting.painting, options, with_signals()).views;
+    views = draw_display_views(painting.painting, options, with_signals()).shown.views;
   }
   return array_of(views);
 }
 
 std::unique_ptr<PyPainting> load_painting(const std::filesystem::path& path) {
   Painting painting = read_painting(path);
-  const PreparedPainting prepared = prepare(painting);
-  Image<Rgb8> left = draw(prepared, left_eye).picture, right = draw(prepared, right_eye).picture;
+  std::vector<Image<Rgb8>> eyes = present(painting, for_two_eyes()).views;
   return std::make_unique<PyPainting>(
-      PyPainting{std::move(painting), array_of(std::move(left)), array_of(std::move(right))});
+      PyPainting{std::move(painting), array_of(std::move(eyes.front())), array_of(std::move(eyes.back()))});
 }
 
 }  // namespace

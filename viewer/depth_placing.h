@@ -2,7 +2,7 @@
 
 #include "content.h"
 #include "view_state.h"
-#include "wheatstone/app/place_depth.h"
+#include "wheatstone/marks/mapped_depth.h"
 
 namespace wheatstone::viewer {
 

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "wheatstone/app/redraw.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
+#include "wheatstone/painting/two_eyes.h"
 
 namespace wheatstone::viewer {
 namespace {

@@ -171,7 +171,7 @@ const std::vector<Image<Rgb8>>& ViewDrawer::display_views(const Content& content
     if (!painted->painting) throw Error(ErrorKind::bad_input, "the photograph is not painted yet");
     options.zero_parallax_px = zero_parallax_px;
     options.depth = viewer::placing_of(state);
-    views = draw_display_views(*painted->painting, options).views;
+    views = draw_display_views(*painted->painting, options).shown.views;
   } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
     views = *pictures->views;
   } else if (const auto* const slices = std::get_if<SlicesContent>(&content)) {

@@ -13,7 +13,6 @@
 #include "gaze.h"
 #include "paint_in_steps.h"
 #include "particle_reader.h"
-#include "wheatstone/app/present_pair.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
 

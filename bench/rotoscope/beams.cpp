@@ -51,7 +51,7 @@ PaintedFilm paint_film(const std::vector<SyntheticFilmFrame>& film, const Rotosc
   TemporalError error;
   Image<Rgb8> before;
   for (std::size_t i = 0; i < film.size(); ++i) {
-    StereoPair pictures = rotoscope_frame(film[i].pictures, options, state).painted.pictures;
+    auto pictures = std::get<StereoPair>(rotoscope_frame(film[i].pictures, options, state).pictures);
     const double pixels = 2.0 * pictures.left.width() * pictures.left.height();
     painted.wrong.push_back(std::round(pixels * measure_wrong_spots(pictures, film[i].pictures).share));
     if (i > 0) error.add(before, pictures.left, pair_to(film, i));

@@ -74,9 +74,9 @@ Result paint_film(std::span<const SyntheticFilmFrame> film, const RotoscopeOptio
     if (truth) known = KnownFrame{film[i].geometry, {}};
     if (truth && i > 0) known->flow = left_flow(film, i);
     RotoscopedFrame frame = rotoscope_frame(film[i].pictures, options, state, known ? &*known : nullptr);
-    if (i > 0) error.add(before, frame.painted.pictures.left, relate_frames(left_flow(film, i)));
-    if (i % stereo_every == 0) add_stereo(frame.painted.pictures, film[i], result, stereo);
-    before = std::move(frame.painted.pictures.left);
+    if (i > 0) error.add(before, std::get<StereoPair>(frame.pictures).left, relate_frames(left_flow(film, i)));
+    if (i % stereo_every == 0) add_stereo(std::get<StereoPair>(frame.pictures), film[i], result, stereo);
+    before = std::move(std::get<StereoPair>(frame.pictures).left);
   }
   result.temporal_error = error.mean();
   result.left_right /= stereo;

@@ -104,8 +104,8 @@ void measure(const std::vector<StereoPair>& film, const Contender& contender) {
       times.matching_s += frame.times.matching_s;
       times.central_s += frame.times.central_s;
       times.flow_s += frame.times.flow_s;
-      painting.planning_s += frame.painted.times.planning_s;
-      painting.rasterising_s += frame.painted.times.rasterising_s;
+      painting.planning_s += frame.painting_times.planning_s;
+      painting.rasterising_s += frame.painting_times.rasterising_s;
     });
     opencv.add([&] {
       match_both_ways(film[i]);

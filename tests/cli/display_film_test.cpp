@@ -72,6 +72,10 @@ TEST(DepthBudgetOfAFilm, IsComfortableByDefaultAndMeasuringTellsOfIt) {
               testing::HasSubstr("\no.mp4: The eyes were moved for looking at in 3 frames, nearest together at 0."));
   EXPECT_EQ(facts_of(folder, measure)["notes"].size(), 1u);
   fs::remove(folder / "o.mp4");
+  EXPECT_THAT(output_of({"rotoscope", "film", "--preset", "ultrafast", "-o", "o.mp4"}),
+              testing::ContainsRegex("\ndepth            reduced in 3 frames, to [0-9]+ % or more, to stay comfortable "
+                                     ".3 % of width.; --depth-budget full keeps it\n"));
+  fs::remove(folder / "o.mp4");
   const auto full =
       facts_of(folder, {"rotoscope", "film", "--preset", "ultrafast", "--depth-budget", "full", "-o", "o.mp4"});
   EXPECT_EQ(full["moved_frames"], 0);

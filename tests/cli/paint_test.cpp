@@ -132,6 +132,28 @@ TEST(PaintCommand, IsComfortableToLookAtUnlessAllDepthIsWanted) {
   expect_refused(folder, paint_line({"--depth-budget", "much"}), 2, "--depth-budget");
 }
 
+TEST(PaintCommand, TellsHowMuchDepthIsLeftAndWhatIsUnpainted) {
+  const TemporaryFolder folder;
+  write_pair(folder);
+  Image<float> disparity(width, height, 4);
+  for (int y = height / 4; y < height / 2; ++y)
+    for (int x = width / 4; x < width / 2; ++x) disparity(x, y) = 4 + 0.12f * width;
+  write_disparity(folder / "deep.pfm", disparity);
+  const auto told = [&](const std::string& budget) {
+    const ProgramResult result =
+        run_program(paint_line({"--disparity", "deep.pfm", "--depth-budget", budget}), {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return result.output;
+  };
+  const std::string quarter = told("3%");
+  EXPECT_THAT(quarter, testing::HasSubstr("\ndepth            reduced to 25 % in side_by_side and anaglyph, to stay "
+                                          "comfortable (3 % of width); --depth-budget full keeps it\n"));
+  EXPECT_THAT(quarter, testing::ContainsRegex("\nunpainted        [0-9.]+ % .left., [0-9.]+ % .right.\n"));
+  EXPECT_THAT(told("6%"), testing::HasSubstr("\ndepth            halved in side_by_side and anaglyph, to stay "
+                                             "comfortable (6 % of width)"));
+  EXPECT_THAT(told("full"), testing::Not(testing::HasSubstr("depth  ")));
+}
+
 TEST(PaintCommand, PlacesDepthWhereItsMappingHasIt) {
   const TemporaryFolder folder;
   write_pair(folder);

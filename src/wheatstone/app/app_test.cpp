@@ -7,7 +7,6 @@
 
 #include "temporary_folder.h"
 #include "wheatstone/app/output_folder.h"
-#include "wheatstone/app/redraw.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"

@@ -48,7 +48,7 @@ PaintedLitFilm paint_film(const LitFilm& film) {
   PaintedLitFilm result;
   for (const double brightness : film.brightness) {
     const RotoscopedFrame frame = rotoscope_frame(lit(truth.pictures, brightness), options, state);
-    result.painted_brightness.push_back(cv::mean(as_mat(frame.painted.pictures.left))[1]);
+    result.painted_brightness.push_back(cv::mean(as_mat(std::get<StereoPair>(frame.pictures).left))[1]);
   }
   int asked = 0, off = 0;
   const std::span<const float> found = state.left_disparity_before.pixels();

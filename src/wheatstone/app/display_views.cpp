@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/app/draw_composed.h"
-#include "wheatstone/drawing/draw.h"
+#include "wheatstone/depth/rig.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone {
@@ -65,13 +64,15 @@ DisplayViewsOptions views_of_display(const DisplayPreset& display) {
           .widest_span = std::max(span_of(display), 1.f)};
 }
 
-DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options) {
+DisplayPlan plan_display(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options) {
   if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
-  DisplayViewsPlan plan;
+  DisplayPlan plan;
   plan.zero_parallax_px = options.zero_parallax_px.value_or(ends.middle_px());
-  plan.placement = placement_for(painting, options, plan.zero_parallax_px);
-  plan.span = span_for(options, ends, static_cast<float>(plan.placement.scale));
-  plan.rig = evenly_spaced(options.width, options.height, options.views, plan.span);
+  const Placement placement = placement_for(painting, options, plan.zero_parallax_px);
+  plan.span = span_for(options, ends, static_cast<float>(placement.scale));
+  plan.presentation = {.views = evenly_spaced(options.width, options.height, options.views, plan.span).positions,
+                       .placement = placement,
+                       .device = options.device};
   return plan;
 }
 
@@ -80,24 +81,12 @@ DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOpti
   check_has_surfaces(painting);
   if (!options.depth.regions.empty())
     return draw_display_views(with_placed_depth(painting, options), for_placed(options), progress, composition);
-  const DisplayViewsPlan plan = plan_display_views({width_of(painting), height_of(painting)},
-                                                   depth_ends(painting.surfaces.seen.front().disparity), options);
-  DisplayViews result{
-      .views = {}, .picture = {}, .rig = plan.rig, .span = plan.span, .zero_parallax_px = plan.zero_parallax_px};
+  DisplayViews result;
+  result.plan = plan_display({width_of(painting), height_of(painting)},
+                             depth_ends(painting.surfaces.seen.front().disparity), options);
+  result.plan.presentation.composition = composition;
   report(progress, "views", 0);
-  const PreparedPainting prepared = prepare(painting, {.placement = plan.placement}, options.device);
-  if (composition) {
-    ComposedViews composed = draw_composed(prepared, result.rig.positions, *composition);
-    result.picture = std::move(composed.picture);
-    result.worst_bare_share = composed.worst_bare_share;
-    report(progress, "views", 1);
-    return result;
-  }
-  const ViewSink keep = [&](std::size_t /*place*/, DrawnView view) {
-    result.worst_bare_share = std::max(result.worst_bare_share, view.bare_share);
-    result.views.push_back(std::move(view.picture));
-  };
-  draw(prepared, result.rig.positions, keep);
+  result.shown = present(painting, result.plan.presentation);
   report(progress, "views", 1);
   return result;
 }

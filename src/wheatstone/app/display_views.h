@@ -1,15 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "wheatstone/app/place_depth.h"
-#include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
-#include "wheatstone/depth/rig.h"
-#include "wheatstone/display/compose.h"
-#include "wheatstone/gpu/device.h"
-#include "wheatstone/marks/painting.h"
+#include "wheatstone/marks/mapped_depth.h"
+#include "wheatstone/painting/present.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
@@ -32,25 +27,21 @@ struct DisplayViewsOptions {
 /// What a display wants.
 DisplayViewsOptions views_of_display(const DisplayPreset& display);
 
-/// Where the views stand, and how the painting lies in them.
-struct DisplayViewsPlan {
-  Placement placement;
-  Rig rig;
-  float span = 0;              ///< as chosen
+/// How a painting is shown on a display with many views.
+struct DisplayPlan {
+  Presentation presentation;
+  float span = 0;              ///< eye separations between the outermost views, as chosen
   float zero_parallax_px = 0;  ///< in pixels of the painting
 };
 
 /// Chooses the screen plane and the span for a painting of this size whose disparities, in its pixels, have these ends.
 /// Throws Error{wrong_usage} where there are no views, or the screen plane leaves nothing to show.
-DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options);
+DisplayPlan plan_display(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options);
 
+/// A painting as a display shows it, and how that was chosen.
 struct DisplayViews {
-  std::vector<Image<Rgb8>> views;  ///< left to right
-  Image<Rgb8> picture;             ///< composed of them; then there are no views
-  Rig rig;
-  float span = 0;               ///< as chosen
-  float zero_parallax_px = 0;   ///< in pixels of the painting
-  double worst_bare_share = 0;  ///< of a view's pixels that marks cover less than half
+  DisplayPlan plan;
+  Presented shown;  ///< its views from left to right, or what is composed of them
 };
 
 /// Draws a painting for a display: its views, or where a composition is given, the one picture of them. Throws

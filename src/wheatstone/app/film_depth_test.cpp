@@ -89,7 +89,7 @@ TEST(FilmDepth, TheMadeEyeIsCloserToTheTrueOneThanTheGivenEyeIs) {
     options.depth.strength = (range.nearest - range.farthest) / film_width;
     const KnownFrame known{{}, {}, truth.geometry.left_disparity};
     const RotoscopedFrame frame = rotoscope_frame({truth.pictures.left, {}}, options, state, &known);
-    const StereoPair& painted = frame.painted.pictures;
+    const StereoPair& painted = std::get<StereoPair>(frame.pictures);
     ASSERT_EQ(painted.right.width(), film_width);
     // Depth has no offset: the farthest point has no disparity, which shifts the eye by whole pixels.
     const int shift = static_cast<int>(std::lround(range.farthest));

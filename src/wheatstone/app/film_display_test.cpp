@@ -1,6 +1,6 @@
 // Films for displays with many views.
 
-#include "wheatstone/app/film_display.h"
+#include "wheatstone/app/film_presentation.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -52,32 +52,31 @@ TEST(FilmDisplay, EachPlaceOfAQuiltShowsTheFramesPaintingFromThere) {
     const RotoscopeOptions options = options_for(small_quilt(), style);
     RotoscopedFrame frame;
     for (int i = 0; i < 2; ++i) frame = rotoscope_frame(eyes_of_frame(i), options, state);
-    ASSERT_TRUE(frame.painted.pictures.right.empty());
-    ASSERT_EQ(frame.painted.pictures.left.width(), 180);
-    ASSERT_EQ(frame.painted.pictures.left.height(), 120);
-    const DisplayViewsPlan plan =
-        plan_display_views({film_width, film_height}, state.depth.ends, options.display->views);
+    ASSERT_TRUE(std::holds_alternative<Image<Rgb8>>(frame.pictures));
+    const auto& quilt = std::get<Image<Rgb8>>(frame.pictures);
+    ASSERT_EQ(quilt.width(), 180);
+    ASSERT_EQ(quilt.height(), 120);
+    const DisplayPlan plan = plan_display({film_width, film_height}, state.depth.ends, options.display->views);
     EXPECT_EQ(plan.span, 3);
-    const PreparedPainting prepared = prepare(frame.painted.painting, {.placement = plan.placement});
-    const std::vector<Image<Rgb8>> tiles = views_of_quilt(frame.painted.pictures.left, *options.display->quilt);
+    const PreparedPainting prepared = prepare(frame.painting, {.placement = plan.presentation.placement});
+    const std::vector<Image<Rgb8>> tiles = views_of_quilt(quilt, *options.display->quilt);
     for (std::size_t i = 0; i < tiles.size(); ++i)
-      EXPECT_TRUE(draw(prepared, plan.rig.positions[i]).picture == tiles[i]) << i;
+      EXPECT_TRUE(draw(prepared, plan.presentation.views[i]).picture == tiles[i]) << i;
     EXPECT_FALSE(tiles.front() == tiles.back());
-    EXPECT_LT(frame.painted.left_bare_share, 0.05) << "the pictures are small, the views far apart";
+    EXPECT_LT(frame.worst_bare_share, 0.05) << "the pictures are small, the views far apart";
   }
 }
 
 TEST(FilmDisplay, ViewsBesideTheEyesArePlannedFor) {
   RotoscopeState state;
   const RotoscopedFrame frame = rotoscope_frame(eyes_of_frame(0), options_for(small_quilt()), state);
-  const ViewRange known = known_views(frame.painted.painting.surfaces);
+  const ViewRange known = known_views(frame.painting.surfaces);
   EXPECT_EQ(known.first, ViewPosition(-1.5f));
   EXPECT_EQ(known.last, ViewPosition(1.5f));
   RotoscopeState of_eyes;
   const RotoscopedFrame two = rotoscope_frame(eyes_of_frame(0), {}, of_eyes);
-  EXPECT_EQ(known_views(two.painted.painting.surfaces).last, right_eye);
-  EXPECT_GT(layers_of(frame.painted.painting).back().strokes.size(),
-            layers_of(two.painted.painting).back().strokes.size());
+  EXPECT_EQ(known_views(two.painting.surfaces).last, right_eye);
+  EXPECT_GT(layers_of(frame.painting).back().strokes.size(), layers_of(two.painting).back().strokes.size());
 }
 
 double mean_difference(const Image<Rgb8>& a, const Image<Rgb8>& b) {
@@ -97,7 +96,7 @@ double change_in_view(std::size_t view, bool anew) {
   Image<Rgb8> before;
   double sum = 0;
   for (int i = 0; i < 4; ++i) {
-    const Image<Rgb8> quilt = rotoscope_frame(eyes_of_frame(i), options, state).painted.pictures.left;
+    const Image<Rgb8> quilt = std::get<Image<Rgb8>>(rotoscope_frame(eyes_of_frame(i), options, state).pictures);
     Image<Rgb8> tile = views_of_quilt(quilt, *options.display->quilt)[view];
     if (i > 0) sum += mean_difference(before, tile);
     before = std::move(tile);
@@ -139,11 +138,9 @@ TEST(FilmDisplay, LensesGetThePictureOfAllViews) {
   display.screen = lenticular_screen_of(find_display("step-5"));
   RotoscopeState state;
   const RotoscopedFrame frame = rotoscope_frame(eyes_of_frame(0), options_for(display), state);
-  const DisplayViewsPlan plan = plan_display_views({film_width, film_height}, state.depth.ends, display.views);
-  const PreparedPainting prepared = prepare(frame.painted.painting, {.placement = plan.placement});
-  std::vector<Image<Rgb8>> views;
-  for (DrawnView& view : draw(prepared, plan.rig.positions)) views.push_back(std::move(view.picture));
-  EXPECT_TRUE(frame.painted.pictures.left == interleave(views, *display.screen));
+  const DisplayPlan plan = plan_display({film_width, film_height}, state.depth.ends, display.views);
+  const std::vector<Image<Rgb8>> views = present(frame.painting, plan.presentation).views;
+  EXPECT_TRUE(std::get<Image<Rgb8>>(frame.pictures) == interleave(views, *display.screen));
 }
 
 TEST(FilmDisplay, AFilmOfOneEyeIsRefused) {

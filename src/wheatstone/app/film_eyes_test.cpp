@@ -1,6 +1,6 @@
 // The depth budget of films.
 
-#include "wheatstone/app/film_eyes.h"
+#include "wheatstone/app/film_presentation.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 constexpr PictureSize frame_size{200, 100};
 
 /// Where a disparity of the film lies on the screen, in widths of the frame, positive before it.
-float before_screen(const FilmEyes& eyes, float disparity_px) {
+float before_screen(const TwoEyes& eyes, float disparity_px) {
   return eyes.separation * static_cast<float>(eyes.placement.scale) * (disparity_px - eyes.zero_parallax_px) /
          static_cast<float>(frame_size.width);
 }
@@ -29,7 +29,7 @@ float before_screen(const FilmEyes& eyes, float disparity_px) {
 TEST(FilmEyes, NearAndFarFitTheBudgetBeforeAndBehindTheScreen) {
   for (const float budget : {0.01f, 0.03f, 0.1f})
     for (const DepthEnds ends : {DepthEnds{-40, 30}, {0, 60}, {-90, -70}, {25, 26}, {3, 3}, {-2, 120}}) {
-      const FilmEyes eyes = comfortable_eyes(frame_size, ends, budget);
+      const TwoEyes eyes = comfortable_eyes(frame_size, ends, budget);
       EXPECT_LE(before_screen(eyes, ends.nearest_px), budget / 3 * 1.02f) << ends.nearest_px;
       EXPECT_GE(before_screen(eyes, ends.farthest_px), -budget * 2 / 3 * 1.02f) << ends.farthest_px;
       EXPECT_LE(eyes.separation, 1);
@@ -40,7 +40,7 @@ TEST(FilmEyes, NearAndFarFitTheBudgetBeforeAndBehindTheScreen) {
 TEST(FilmEyes, AFilmThatFitsKeepsItsEyesAndItsScreenPlane) {
   EXPECT_FALSE(are_moved(comfortable_eyes(frame_size, {-3.9f, 1.9f}, 0.03f)));
   // Too deep on both sides of its screen: the plane stays where it is.
-  const FilmEyes nearer = comfortable_eyes(frame_size, {-8, 4}, 0.03f);
+  const TwoEyes nearer = comfortable_eyes(frame_size, {-8, 4}, 0.03f);
   EXPECT_NEAR(nearer.separation, 0.5f, 1e-3);
   EXPECT_NEAR(nearer.zero_parallax_px, 0, 1e-3);
 }
@@ -59,23 +59,23 @@ KnownFrame known_frame(int frame, int cut) {
   return {make_synthetic_film_frame(film_options(cut), frame).geometry, {}};
 }
 
-struct Presented {
-  std::vector<FilmEyes> eyes;
+struct LookedAt {
+  std::vector<TwoEyes> eyes;
   std::vector<StereoPair> pictures;
   RotoscopeTotals totals;
 };
 
-Presented presented(std::optional<float> budget, int frames, int cut = 0) {
+LookedAt presented(std::optional<float> budget, int frames, int cut = 0) {
   RotoscopeOptions options;
   options.depth_budget = budget;
   RotoscopeState state;
-  Presented film;
+  LookedAt film;
   for (int i = 0; i < frames; ++i) {
     const KnownFrame known = known_frame(i, cut);
     RotoscopedFrame frame =
         rotoscope_frame(make_synthetic_film_frame(film_options(cut), i).pictures, options, state, &known);
     film.eyes.push_back(frame.eyes);
-    film.pictures.push_back(std::move(frame.painted.pictures));
+    film.pictures.push_back(std::get<StereoPair>(std::move(frame.pictures)));
   }
   film.totals = state.totals;
   return film;
@@ -86,7 +86,7 @@ TEST(FilmEyes, WhatIsLookedAtHasNoMoreDepthThanTheBudget) {
     const DepthEnds ends = depth_ends(match(pair, {}).geometry.left_disparity);
     return ends.nearest_px - ends.farthest_px;
   };
-  const Presented comfortable = presented(comfortable_parallax_share, 1), full = presented({}, 1);
+  const LookedAt comfortable = presented(comfortable_parallax_share, 1), full = presented({}, 1);
   const double budget_px = 160.0 * static_cast<double>(comfortable_parallax_share);
   const double whole = depth_of(full.pictures[0]), shown = depth_of(comfortable.pictures[0]);
   RecordProperty("full_px", std::to_string(whole));
@@ -100,7 +100,7 @@ TEST(FilmEyes, WhatIsLookedAtHasNoMoreDepthThanTheBudget) {
 }
 
 TEST(FilmEyes, AreSteadyFromCutToCut) {
-  const Presented film = presented(comfortable_parallax_share, 8, 4);
+  const LookedAt film = presented(comfortable_parallax_share, 8, 4);
   for (std::size_t i = 1; i < film.eyes.size(); ++i) {
     if (i == 4) continue;
     EXPECT_LE(film.eyes[i].separation, film.eyes[i - 1].separation) << i << ": they do not part again";

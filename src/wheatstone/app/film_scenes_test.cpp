@@ -135,8 +135,8 @@ TEST(FilmScenes, ArePaintedAlikeWhateverCameBefore) {
       if (frame < 3) continue;
       EXPECT_EQ(a.scene_begins, frame == 3);
       const RotoscopedFrame b = rotoscope_frame(eyes_of_frame(frame), options, alone);
-      EXPECT_EQ(a.painted.painting, b.painted.painting) << style << frame;
-      EXPECT_EQ(a.painted.pictures.right, b.painted.pictures.right) << style << frame;
+      EXPECT_EQ(a.painting, b.painting) << style << frame;
+      EXPECT_EQ(std::get<StereoPair>(a.pictures).right, std::get<StereoPair>(b.pictures).right) << style << frame;
     }
     // Nor can it later: what is kept of both is the same.
     alone.frames = after_others.frames;

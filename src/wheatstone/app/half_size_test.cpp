@@ -63,7 +63,8 @@ TEST(HalfSize, PaintsAsAtTheWholeSizeForBothEyes) {
   EXPECT_EQ(half.state.central_before.width(), 96) << "it was not planned at half the size";
   for (int i = 0; i < frames; ++i) {
     const SyntheticFilmFrame film = film_frame(i);
-    const StereoPair &a = whole.frames[i].painted.pictures, &b = half.frames[i].painted.pictures;
+    const StereoPair &a = std::get<StereoPair>(whole.frames[i].pictures),
+                     &b = std::get<StereoPair>(half.frames[i].pictures);
     ASSERT_TRUE(same_size(b.left, film.pictures.left) && same_size(b.right, film.pictures.right));
     EXPECT_GT(psnr_db(b.left, film.pictures.left), psnr_db(a.left, film.pictures.left) - 1) << i;
     EXPECT_GT(psnr_db(b.right, film.pictures.right), psnr_db(a.right, film.pictures.right) - 1) << i;
@@ -86,9 +87,9 @@ TEST(HalfSize, GoesOnFromItsStateWithTheSameBytes) {
   const StereoPair next = film_frame(2).pictures;
   const RotoscopedFrame a = rotoscope_frame(next, options_of(true), kept),
                         b = rotoscope_frame(next, options_of(true), read);
-  EXPECT_EQ(a.painted.pictures.left, b.painted.pictures.left);
-  EXPECT_EQ(a.painted.pictures.right, b.painted.pictures.right);
-  EXPECT_EQ(a.painted.painting, b.painted.painting);
+  EXPECT_EQ(std::get<StereoPair>(a.pictures).left, std::get<StereoPair>(b.pictures).left);
+  EXPECT_EQ(std::get<StereoPair>(a.pictures).right, std::get<StereoPair>(b.pictures).right);
+  EXPECT_EQ(a.painting, b.painting);
   EXPECT_GT(a.changes.survived, 0);
 }
 

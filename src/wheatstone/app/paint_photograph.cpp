@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
-#include <vector>
 
-#include "wheatstone/app/present_pair.h"
 #include "wheatstone/depth/convergence.h"
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
@@ -58,10 +55,7 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   result.geometry = std::move(found.geometry);
   result.matched = std::move(found.matched);
   result.confidence = found.confidence;
-  const auto presented = [&](const Painting& painting) {
-    return presented_views(comfortable_separation(painting, options.depth_budget));
-  };
-  result.painted = paint(photographs, result.geometry, options.style, progress, {presented, options.device});
+  result.painted = paint(photographs, result.geometry, options.style, progress, {options.depth_budget, options.device});
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
   return result;
 }
@@ -71,10 +65,23 @@ void place_depth(const DepthPlacing& placing, PaintedPhotograph& result) {
   PaintedPair& painted = result.painted;
   const int width_px = width_of(painted.painting);
   painted.painting = place_depth(std::move(painted.painting), placing, width_px);
-  const std::array eyes{left_eye, right_eye};
-  std::vector<DrawnView> drawn = draw(prepare(painted.painting), eyes);
-  painted.pictures = {std::move(drawn.front().picture), std::move(drawn.back().picture)};
+  Presented shown = present(painted.painting, for_two_eyes());
+  painted.pictures = {std::move(shown.views.front()), std::move(shown.views.back())};
   result.zero_parallax_px = 0;
+}
+
+PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOptions& painting,
+                         DisplayViewsOptions views, const Progress& progress,
+                         const std::optional<DisplayComposition>& composition) {
+  check_style(painting.style);
+  if (painting.style.propagation != Propagation::strokes)
+    throw Error(ErrorKind::wrong_usage,
+                "views beside the two eyes need strokes that are propagated, expected propagation 'strokes'");
+  const FoundGeometry found = find_geometry(photographs, painting, progress);
+  if (painting.zero_parallax.disparity_px || painting.zero_parallax.at)
+    views.zero_parallax_px = screen_disparity(painting.zero_parallax, found.geometry);
+  const Painting planned = plan_painting(photographs, found.geometry, painting.style, progress);
+  return {draw_display_views(planned, views, progress, composition), found.confidence};
 }
 
 PairMeasures measure_pair(const StereoPair& pair, ImageView<const float> left_disparity) {

@@ -3,7 +3,8 @@
 #include <optional>
 #include <utility>
 
-#include "wheatstone/app/place_depth.h"
+#include "wheatstone/app/display_views.h"
+#include "wheatstone/depth/comfort.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/match_confidence.h"
 #include "wheatstone/measures/consistency.h"
@@ -26,9 +27,8 @@ struct PaintPhotographOptions {
   std::optional<Image<float>> left_disparity;   ///< ready-made; none: the photographs are matched
   std::optional<Image<float>> right_disparity;  ///< only together with the left one
   ZeroParallax zero_parallax;
-  Device device = Device::processor;  ///< what draws the pictures
-  std::optional<float>
-      depth_budget;  ///< of what is looked at, for which views are drawn, too; as comfortable_separation
+  Device device = Device::processor;                               ///< what draws the pictures
+  std::optional<float> depth_budget = comfortable_parallax_share;  ///< of what is looked at, as PaintDrawing
 };
 
 /// A stereo photograph painted, and what it was painted from.
@@ -62,6 +62,19 @@ FoundGeometry find_geometry(const StereoPair& photographs, const PaintPhotograph
 
 /// The disparity that is to lie on the screen. Throws Error{wrong_usage} for a point outside the picture.
 float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometry);
+
+/// A photograph painted for a display, and how sure its matching is.
+struct PaintedViews {
+  DisplayViews views;
+  std::optional<MatchConfidence> confidence;  ///< of what was matched; none where disparity was given
+};
+
+/// One stereo photograph, painted once, for every view of a display: what draw_display_views makes of its painting. The
+/// screen plane is `painting.zero_parallax` where that is given, else that of `views`. Throws as paint_photograph and
+/// draw_display_views do.
+PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOptions& painting,
+                         DisplayViewsOptions views, const Progress& progress = {},
+                         const std::optional<DisplayComposition>& composition = {});
 
 /// How consistent one pair of pictures is, by the measures that need no strokes.
 struct PairMeasures {

@@ -109,7 +109,7 @@ std::string confidence_json(const MatchConfidence& confidence) {
 }
 
 std::string report_json(const PaintingReport& told) {
-  const auto& [result, style, pair, measures, depth_budget, whole] = told;
+  const auto& [result, style, pair, measures, whole] = told;
   const Painting& painting = result.painted.painting;
   const MarkCount marks = count_marks(painting);
   Json report{{"width", width_of(painting)},
@@ -120,7 +120,7 @@ std::string report_json(const PaintingReport& told) {
               {std::string(marks.kind), marks.count},
               {"layers", layers_json(layers_of(painting))},
               {"zero_parallax_px", rounded(result.zero_parallax_px)},
-              {"presented_separation", rounded(comfortable_separation(painting, depth_budget))},
+              {"presented_separation", rounded(result.painted.separation)},
               {"left_occluded_share", occluded_share(result.geometry.left_occlusion)},
               {"right_occluded_share", occluded_share(result.geometry.right_occlusion)},
               {"left_bare_share", rounded(result.painted.left_bare_share)},

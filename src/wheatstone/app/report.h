@@ -3,9 +3,7 @@
 #include <string>
 
 #include "wheatstone/app/paint_photograph.h"
-#include "wheatstone/app/present_pair.h"
 #include "wheatstone/calibration/prepare_pair.h"
-#include "wheatstone/depth/comfort.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/reduced_pair.h"
@@ -45,9 +43,8 @@ std::string confidence_json(const MatchConfidence& confidence);
 struct PaintingReport {
   const PaintedPhotograph& painted;
   const Style& style;
-  const PreparedPair* pair = nullptr;                              ///< that was painted; none: nothing is told of it
-  const PaintingMeasures* measures = nullptr;                      ///< none: not measured
-  std::optional<float> depth_budget = comfortable_parallax_share;  ///< of what is looked at, as comfortable_separation
+  const PreparedPair* pair = nullptr;          ///< that was painted; none: nothing is told of it
+  const PaintingMeasures* measures = nullptr;  ///< none: not measured
   PictureSize whole{};  ///< of the photographs, where a reduced copy was painted; 0: they were painted as they are
 };
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "wheatstone/app/half_size_internal.h"
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/match_near.h"
 #include "wheatstone/measures/film_measures.h"
@@ -243,62 +242,63 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
   append_views(frame.outer, frame.views);
 }
 
-/// Draws a painting for the eyes in which its scene is seen, or for the one view there is.
-void draw_over(const FrameTask& task, PaintedPair& painted) {
-  const StereoPair& photographs = task.whole;
-  std::vector<ViewPosition> views{left_eye, right_eye};
-  std::vector<ImageView<const Rgb8>> backgrounds{photographs.left, photographs.right};
-  if (photographs.right.empty()) {
-    views = {central_view};
-    backgrounds.pop_back();
+/// Shows the frame on the display, to other eyes than the film's own, or to these, over their pictures.
+Presentation presentation_of(const FrameTask& task, const TwoEyes& eyes, const SceneDepth& depth) {
+  const RotoscopeOptions& options = task.options;
+  const StereoPair& whole = task.whole;
+  if (options.display)
+    return for_display({whole.left.width(), whole.left.height()}, depth, *options.display, options.device);
+  const bool one_eye = whole.right.empty();
+  Presentation presentation = one_eye ? Presentation{.views = {central_view}} : for_two_eyes();
+  if (are_moved(eyes)) {
+    presentation = for_two_eyes(eyes);
+  } else if (options.style.background == Background::photograph) {
+    presentation.backgrounds = {whole.left};
+    if (!one_eye) presentation.backgrounds.emplace_back(whole.right);
   }
-  if (task.options.style.background != Background::photograph) backgrounds.clear();
-  std::vector<DrawnView> drawn = draw(prepare(painted.painting, {}, task.options.device), views, backgrounds);
-  painted.pictures.left = std::move(drawn.front().picture);
-  painted.left_bare_share = drawn.front().bare_share;
-  if (drawn.size() < 2) return;
-  painted.pictures.right = std::move(drawn.back().picture);
-  painted.right_bare_share = drawn.back().bare_share;
+  presentation.device = options.device;
+  return presentation;
 }
 
-/// Plans the frame and draws it for the display, for eyes other than the film's own, or larger than it is planned.
-PaintedFrame paint_presented(const FilmFrame& frame, const FrameTask& task, const FilmEyes& eyes,
-                             RotoscopeState& state) {
+/// Plans the frame, perhaps smaller than it is drawn, and presents it.
+void paint_presented(const FilmFrame& frame, const FrameTask& task, RotoscopeState& state, RotoscopedFrame& result) {
   const Style& style = task.options.style;
-  PaintedFrame result;
-  PaintedPair& painted = result.painted;
   {
-    const Stopwatch watch(painted.times.planning_s);
+    const Stopwatch watch(result.painting_times.planning_s);
     const bool is_smaller = task.reduction > 1;
     PlannedFrame planned = plan_painting(frame, is_smaller ? at_half_size(style) : style, task.options.carrying,
                                          state.memory, task.progress);
     const PictureSize size{task.whole.left.width(), task.whole.left.height()};
-    painted.painting =
+    result.painting =
         is_smaller ? at_whole_size(std::move(planned.painting), size, style) : std::move(planned.painting);
     result.counts = planned.counts;
   }
   report(task.progress, "drawing", 0);
-  const Stopwatch watch(painted.times.rasterising_s);
-  if (task.options.display) {
-    FilmDisplay display = *task.options.display;
-    display.views.device = task.options.device;
-    DisplayedFrame shown = draw_for_display(painted.painting, state.depth, display);
-    painted.pictures.left = std::move(shown.picture);
-    painted.left_bare_share = shown.worst_bare_share;
-  } else if (!are_moved(eyes)) {
-    draw_over(task, painted);
+  const Stopwatch watch(result.painting_times.rasterising_s);
+  Presented shown = present(result.painting, presentation_of(task, result.eyes, state.depth));
+  result.worst_bare_share = shown.worst_bare_share;
+  result.pictures = frame_pictures(std::move(shown));
+}
+
+/// Plans the frame and draws it for its own eyes in one: what is wrong there is mended as it is drawn.
+void paint_for_own_eyes(const FilmFrame& frame, const FrameTask& task, RotoscopeState& state, RotoscopedFrame& result) {
+  const RotoscopeOptions& options = task.options;
+  PaintedFrame made = paint_frame(frame, options.style, options.carrying, state.memory, task.progress, options.device);
+  PaintedPair& painted = made.painted;
+  result.painting = std::move(painted.painting);
+  result.counts = made.counts;
+  result.painting_times = painted.times;
+  result.worst_bare_share = std::max(painted.left_bare_share, painted.right_bare_share);
+  if (task.whole.right.empty()) {
+    result.pictures = std::move(painted.pictures.left);
   } else {
-    FilmEyePictures drawn = draw_for_eyes(painted.painting, eyes, task.options.device);
-    painted.pictures = {std::move(drawn.left), std::move(drawn.right)};
-    painted.left_bare_share = drawn.left_bare_share;
-    painted.right_bare_share = drawn.right_bare_share;
+    result.pictures = std::move(painted.pictures);
   }
-  return result;
 }
 
 /// Compares the frame with the one before and adds it to the film's sums.
 void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& state, RotoscopedFrame& result) {
-  const std::span<const Layer> layers = layers_of(result.painted.painting);
+  const std::span<const Layer> layers = layers_of(result.painting);
   const double largest_step =
       1.0 / std::max(std::min(options.carrying.fade_in_frames, options.carrying.fade_out_frames), 1);
   if (!result.scene_begins) result.changes = compare_strokes(state.layers_before, layers, largest_step);
@@ -308,8 +308,7 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
   totals.survived_strokes += result.changes.survived;
   totals.popped_strokes += result.changes.popped;
   for (const Layer& layer : layers) totals.strokes += static_cast<std::int64_t>(count_strokes(layer));
-  totals.worst_bare_share =
-      std::max({totals.worst_bare_share, result.painted.left_bare_share, result.painted.right_bare_share});
+  totals.worst_bare_share = std::max(totals.worst_bare_share, result.worst_bare_share);
   totals.moved_frames += are_moved(result.eyes) ? 1 : 0;
   totals.least_separation = std::min(totals.least_separation, static_cast<double>(result.eyes.separation));
   state.layers_before.assign(layers.begin(), layers.end());
@@ -348,13 +347,11 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   const FilmFrame to_paint{frame.views, carries ? &state.flow_before : nullptr};
   if (options.depth_budget && !eyes.right.empty() && !options.display)
     result.eyes = comfortable_eyes({eyes.left.width(), eyes.left.height()}, state.depth.ends, *options.depth_budget);
-  PaintedFrame painted =
-      options.display || are_moved(result.eyes) || is_smaller
-          ? paint_presented(to_paint, task, result.eyes, state)
-          : paint_frame(to_paint, options.style, options.carrying, state.memory, progress, options.device);
-  result.painted = std::move(painted.painted);
-  result.counts = painted.counts;
-
+  if (options.display || are_moved(result.eyes) || is_smaller) {
+    paint_presented(to_paint, task, state, result);
+  } else {
+    paint_for_own_eyes(to_paint, task, state, result);
+  }
   accumulate_statistics(options, state, result);
 
   ++state.frames;

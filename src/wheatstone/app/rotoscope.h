@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "wheatstone/app/film_depth.h"
-#include "wheatstone/app/film_display.h"
-#include "wheatstone/app/film_eyes.h"
+#include "wheatstone/app/film_presentation.h"
 #include "wheatstone/app/scene_rectification.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/motion/flow.h"
 #include "wheatstone/painting/paint_frame.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/central_view.h"
 #include "wheatstone/strokes/strokes_between_frames.h"
@@ -94,14 +94,16 @@ struct RotoscopeTimes {
 };
 
 struct RotoscopedFrame {
-  PaintedPair
-      painted;  ///< of a film of one eye, `pictures.right` is empty; for a display, `pictures.left` is its picture
+  Painting painting;
+  FramePictures pictures;
+  double worst_bare_share = 0;  ///< of the pixels of an eye or a view, 0..1
   StrokeCounts counts;
   StrokeChanges changes;  ///< from the frame before; nothing where a scene begins
   bool scene_begins = false;
-  FilmEyes eyes;          ///< that it was drawn for, where it was drawn for two
+  TwoEyes eyes;           ///< that it was drawn for, where it was drawn for two
   std::string rows_note;  ///< as MeasuredScene has it, where the frame was measured
   RotoscopeTimes times;   ///< beside those of painting
+  PaintingTimes painting_times;
 };
 
 /// Paints the next frame of a film (Bukenberger et al. 2015): rectifies it as its scene's first frame asks for, finds

@@ -49,11 +49,11 @@ fs::path state_file(const fs::path& output, std::int64_t frames) {
   return work_folder_of(output) / fmt::format("state_{:09}", frames);
 }
 
-/// The eyes of a painted frame in one picture, and when it is shown.
-Frame frame_of(PaintedPair& painted, const StereoFrame& source, StereoLayout layout) {
-  Image<Rgb8>&left = painted.pictures.left, &right = painted.pictures.right;
-  return {right.empty() ? std::move(left) : put_together(left, right, layout), source.pts, source.time_base,
-          source.duration};
+/// A painted frame in one picture, in which two eyes lie as the layout says, and when it is shown.
+Frame frame_of(FramePictures pictures, const StereoFrame& source, StereoLayout layout) {
+  const auto* const eyes = std::get_if<StereoPair>(&pictures);
+  return {eyes != nullptr ? put_together(eyes->left, eyes->right, layout) : std::get<Image<Rgb8>>(std::move(pictures)),
+          source.pts, source.time_base, source.duration};
 }
 
 /// Where frames go: a film that is being made, or only files of marks.
@@ -167,7 +167,7 @@ void add(const RotoscopeTimes& times, const PaintingTimes& painting, RotoscopedF
   film.painting_times.rasterising_s += painting.rasterising_s;
 }
 
-void add(const RotoscopedFrame& frame, RotoscopedFilm& film) { add(frame.times, frame.painted.times, film); }
+void add(const RotoscopedFrame& frame, RotoscopedFilm& film) { add(frame.times, frame.painting_times, film); }
 
 /// Paints a frame that was read; its pictures are for reading the next one into.
 RotoscopedFrame paint_frame_of(StereoFrame& frame, const RotoscopeFilmOptions& options, RotoscopeState& state,
@@ -204,8 +204,8 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const Roto
     const Progress within = [&](std::string_view, double) { report(progress, text, share); };
     within("", 0);
     RotoscopedFrame painted = paint_frame_of(frame, options, state, within);
-    output.write_marks(painted.painted.painting, state);
-    output.write(frame_of(painted.painted, frame, options.writing.layout), state);
+    output.write_marks(painted.painting, state);
+    output.write(frame_of(std::move(painted.pictures), frame, options.writing.layout), state);
     add(painted, film);
     if (!painted.rows_note.empty()) film.notes.push_back(note_of(film.frames, painted.rows_note));
   }
@@ -290,8 +290,9 @@ class SharedWork {
   void pass(RotoscopedFrame painted, const StereoFrame& source, const RotoscopeState& state) {
     add(painted, film_);
     if (const fs::path marks = marks_of(path_, options_); !marks.empty())
-      write_painting(unfinished_marks(marks, state.frames), painted.painted.painting);
-    PassedFrame passed{frame_of(painted.painted, source, options_.writing.layout), state.totals, painted.rows_note};
+      write_painting(unfinished_marks(marks, state.frames), painted.painting);
+    PassedFrame passed{frame_of(std::move(painted.pictures), source, options_.writing.layout), state.totals,
+                       painted.rows_note};
     if (!makes_film()) passed.frame.picture = {};
     if (has_state(state.frames)) write_rotoscope_state(passed_.state_file(state.frames), state);
     passed_.put(state.frames, passed);

@@ -59,9 +59,9 @@ PaintedFilm paint_film(double right_turn_degrees, int frames, RectifyPolicy poli
     if (!frame.rows_note.empty()) film.note = frame.rows_note;
     EXPECT_EQ(frame.scene_begins, i == 0) << i;
     const Image<Rgb8> rectified_source = rectified(eyes, state.rectification).left;
-    if (i > 0) error.add(painted, frame.painted.pictures.left, relate_frames(source, rectified_source));
+    if (i > 0) error.add(painted, std::get<StereoPair>(frame.pictures).left, relate_frames(source, rectified_source));
     source = rectified_source;
-    painted = frame.painted.pictures.left;
+    painted = std::get<StereoPair>(frame.pictures).left;
   }
   film.rectified = state.rectification.how.has_value();
   film.survival = static_cast<double>(state.totals.survived_strokes) / static_cast<double>(state.totals.whole_strokes);

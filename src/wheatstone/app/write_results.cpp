@@ -3,21 +3,32 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <functional>
 #include <mutex>
 
 #include "wheatstone/app/gallery.h"
-#include "wheatstone/app/present_pair.h"
-#include "wheatstone/app/write_svg.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/disparity_picture.h"
+#include "wheatstone/drawing/svg.h"
+#include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
+namespace {
+
+/// Diffusion curves lie over the drawn view, which is embedded as PNG, so that the document looks like the painting.
+void write_svg(const std::filesystem::path& path, const Painting& painting, ViewPosition view) {
+  write_whole_file(path,
+                   svg_of(painting, view, svg_has_ground(painting) ? encode_png(draw(painting, view).picture) : ""));
+}
+
+}  // namespace
 
 std::vector<std::string> result_names(const ResultOptions& options) {
   std::vector<std::string> names;
@@ -44,11 +55,9 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
   const Painting& painting = result.painted.painting;
-  const float separation = comfortable_separation(painting, told.depth_budget);
-  const std::vector<Image<Rgb8>>& others = result.painted.other_views;
-  const StereoPair presented = separation < 1 && !others.empty()
-                                   ? present_pair(others, pictures, separation, result.zero_parallax_px)
-                                   : present_pair(painting, pictures, separation, result.zero_parallax_px);
+  const float separation = result.painted.separation;
+  const StereoPair presented =
+      set_convergence(separation < 1 ? result.painted.nearer : pictures, separation * result.zero_parallax_px);
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   std::vector<Output> outputs{
       {picture("left"), [&](const Path& path) { write_image(path, pictures.left); }},
@@ -89,6 +98,41 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   std::vector<std::string> names;
   for (const Output& output : outputs) names.push_back(output.name);
   return names;
+}
+
+Painting scaled(const Painting& painting, double scale) {
+  constexpr double largest_side_px = 65535;
+  const double width = std::round(width_of(painting) * scale), height = std::round(height_of(painting) * scale);
+  if (!(width >= 1 && height >= 1 && width <= largest_side_px && height <= largest_side_px))
+    throw Error(ErrorKind::wrong_usage, fmt::format("a scale of {} makes {}x{} pixels, expected 1 to {} a side", scale,
+                                                    width, height, largest_side_px));
+  return placed(painting, {.scale = scale});
+}
+
+void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options,
+                const Progress& progress) {
+  Painting sized = scaled(painting, options.scale);
+  sized = place_depth(std::move(sized), options.depth, width_of(sized));
+  const bool is_placed = !options.depth.regions.empty();
+  report(progress, "drawing", 0);
+  const float separation = is_placed ? 1 : comfortable_separation(sized, options.depth_budget);
+  Presentation presentation = for_own_and_nearer_eyes(separation);
+  presentation.device = options.device;
+  const std::vector<Image<Rgb8>> views = present(sized, presentation).views;
+  const float zero_parallax_px = is_placed ? 0 : options.zero_parallax_px.value_or(nearest_disparity(sized));
+  const StereoPair presented =
+      set_convergence({views[views.size() - 2], views[views.size() - 1]}, separation * zero_parallax_px);
+  report(progress, "writing", 0);
+  const auto picture = [&](const char* name) { return folder.file(fmt::format("{}.{}", name, options.format)); };
+  write_image(picture("left"), views[0]);
+  write_image(picture("right"), views[1]);
+  write_image(picture("side_by_side"), side_by_side(presented));
+  write_image(picture("anaglyph"), anaglyph(presented));
+  if (options.svg) {
+    write_svg(folder.file("left.svg"), sized, left_eye);
+    write_svg(folder.file("right.svg"), sized, right_eye);
+  }
+  folder.commit();
 }
 
 }  // namespace wheatstone

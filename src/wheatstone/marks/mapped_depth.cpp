@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/marks/visit_points_internal.h"
+#include "wheatstone/percentile.h"
 
 namespace wheatstone {
 namespace {
@@ -148,6 +150,22 @@ Painting with_depth(Painting painting, const DisparityMapping& mapping) {
   map_depth(painting, gain_of(mapping, ends_of(painting.surfaces)),
             [&](float /*x*/, float /*y*/, float disparity) { return mapped_px(mapping, disparity); });
   return painting;
+}
+
+DepthEnds depth_ends_of(const Painting& painting) {
+  if (!painting.surfaces.seen.empty()) return depth_ends(painting.surfaces.seen.front().disparity);
+  const std::vector<float> disparities = disparities_of_marks(painting);
+  if (disparities.empty()) return {};
+  constexpr double outliers_share = 0.005;
+  return {percentile(disparities, outliers_share), percentile(disparities, 1 - outliers_share)};
+}
+
+Painting place_depth(Painting painting, const DepthPlacing& placing, int width_px) {
+  if (placing.regions.empty()) return painting;
+  ViewingGeometry viewing = placing.viewing;
+  viewing.width_px = width_px;
+  const DisparityMapping mapping = disparity_mapping(placing.regions, depth_ends_of(painting), viewing);
+  return with_depth(std::move(painting), mapping);
 }
 
 float gain_at(const DepthAround& around, float x, float y) {

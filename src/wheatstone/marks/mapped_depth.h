@@ -1,6 +1,11 @@
 #pragma once
 
+#include <vector>
+
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/depth/depth_regions.h"
 #include "wheatstone/depth/disparity_mapping.h"
+#include "wheatstone/depth/viewing_geometry.h"
 #include "wheatstone/marks/painting.h"
 
 namespace wheatstone {
@@ -10,6 +15,20 @@ namespace wheatstone {
 /// reference view has it: x' = x + (v − v_ref)(d − d'). A mapping that makes all disparities s times as large is the
 /// same as eyes s times as far from the reference view.
 Painting with_depth(Painting painting, const DisparityMapping& mapping);
+
+/// Where a viewer is to see the parts of a scene.
+struct DepthPlacing {
+  std::vector<DepthRegion> regions;  ///< none: where the photographs have them
+  ViewingGeometry viewing;           ///< its width in pixels is that of the painting
+};
+
+/// A painting's farthest and nearest disparities, but for outliers: of its surfaces, or where it has none of its marks.
+DepthEnds depth_ends_of(const Painting& painting);
+
+/// The painting with its disparities changed so that its places seem where `placing` has them when `width_px` of its
+/// pixels fill the screen's width, and disparity 0 lies on the screen; unchanged without regions. Throws
+/// Error{wrong_usage} where a place is behind the viewer.
+Painting place_depth(Painting painting, const DepthPlacing& placing, int width_px);
 
 /// More depth around a place than elsewhere (Hassaine 2010, sec. 6.3). A disparity d that the reference view sees at a
 /// place becomes d₀ + g·(d − d₀): d₀ is that of the middle, which keeps its depth, and g falls off with the distance

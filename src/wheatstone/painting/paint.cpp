@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <utility>
-#include <vector>
 
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/error.h"
 #include "wheatstone/painting/naive_planning_internal.h"
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/still_scene.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/warp.h"
 #include "wheatstone/stopwatch.h"
@@ -21,22 +19,21 @@
 namespace wheatstone {
 namespace {
 
-/// Draws both eyes of a planned painting, and other views, which have no photograph to be drawn over.
+/// Draws both eyes of a planned painting, and nearer ones, which have no photograph to be drawn over.
 void draw_views(const StereoPairView& photographs, const Style& style, const PaintDrawing& drawing,
-                const PreparedPainting& prepared, PaintedPair& result) {
-  const auto others = drawing.other_views ? drawing.other_views(result.painting) : std::vector<ViewPosition>();
-  std::vector<ViewPosition> views{left_eye, right_eye};
-  std::vector<ImageView<const Rgb8>> backgrounds;
+                PaintedPair& result) {
+  result.separation = comfortable_separation(result.painting, drawing.depth_budget);
+  Presentation presentation = for_own_and_nearer_eyes(result.separation);
+  presentation.device = drawing.device;
   if (style.background == Background::photograph) {
-    backgrounds = {photographs.left, photographs.right};
-    backgrounds.resize(views.size() + others.size());
+    presentation.backgrounds = {photographs.left, photographs.right};
+    presentation.backgrounds.resize(presentation.views.size());
   }
-  views.insert(views.end(), others.begin(), others.end());
-  std::vector<DrawnView> drawn = draw(prepared, views, backgrounds);
-  result.pictures = {std::move(drawn[0].picture), std::move(drawn[1].picture)};
-  result.left_bare_share = drawn[0].bare_share;
-  result.right_bare_share = drawn[1].bare_share;
-  for (DrawnView& other : std::span(drawn).subspan(2)) result.other_views.push_back(std::move(other.picture));
+  Presented shown = present(result.painting, presentation);
+  result.pictures = {std::move(shown.views[0]), std::move(shown.views[1])};
+  result.left_bare_share = shown.bare_shares[0];
+  result.right_bare_share = shown.bare_shares[1];
+  if (shown.views.size() > 2) result.nearer = {std::move(shown.views[2]), std::move(shown.views[3])};
 }
 
 /// Stavrakis & Gelautz 2004, sec. 3.2: the left picture is warped over the right eye's paint, but not where the grown
@@ -44,12 +41,13 @@ void draw_views(const StereoPairView& photographs, const Style& style, const Pai
 /// disparity of what is behind them: beside an occlusion it would be seen as a second outline. What the right eye's
 /// paint leaves bare there shows the warped picture, and the few pixels that neither reaches show the photograph.
 void draw_right_under_left(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                           const PreparedPainting& prepared, PaintedPair& result) {
+                           Device device, PaintedPair& result) {
   WarpedPicture warped = warp_picture(result.pictures.left, geometry.left_disparity, left_eye, right_eye);
   Image<Rgb8> background(photographs.right.width(), photographs.right.height());
   for (int y = 0; y < background.height(); ++y) std::ranges::copy(photographs.right.row(y), background.row(y).begin());
   lay_over(warped, background);
-  result.pictures.right = draw(prepared, right_eye, background).picture;
+  const Presentation right{.views = {right_eye}, .backgrounds = {background}, .device = device};
+  result.pictures.right = std::move(present(result.painting, right).views.front());
   const Image<std::uint8_t> own = grown_occlusion(geometry.right_occlusion, style);
   for (std::size_t i = 0; i < own.pixels().size(); ++i)
     if (own.pixels()[i] != 0) warped.covered.pixels()[i] = 0;
@@ -88,10 +86,9 @@ PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& g
   }
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);
-  const PreparedPainting prepared = prepare(result.painting, {}, drawing.device);
-  draw_views(photographs, style, drawing, prepared, result);
+  draw_views(photographs, style, drawing, result);
   if (style.propagation == Propagation::raster && style.marks == Marks::strokes)
-    draw_right_under_left(photographs, geometry, style, prepared, result);
+    draw_right_under_left(photographs, geometry, style, drawing.device, result);
   report(progress, "drawing", 1);
   return result;
 }
@@ -106,11 +103,11 @@ PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> 
     result.painting = plan_by_itself(photograph, disparity, view, style, progress);
   }
   const Stopwatch watch(result.times.rasterising_s);
-  const PreparedPainting prepared = prepare(Painting{result.painting, {}, relief_for(style, photograph.width())});
-  const bool over_photograph = style.background == Background::photograph;
-  DrawnView drawn = draw(prepared, view, over_photograph ? photograph : ImageView<const Rgb8>());
-  result.picture = std::move(drawn.picture);
-  result.bare_share = drawn.bare_share;
+  Presentation presentation{.views = {view}};
+  if (style.background == Background::photograph) presentation.backgrounds = {photograph};
+  Presented shown = present(Painting{result.painting, {}, relief_for(style, photograph.width())}, presentation);
+  result.picture = std::move(shown.views.front());
+  result.bare_share = shown.worst_bare_share;
   return result;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <functional>
-#include <vector>
+#include <optional>
 
 #include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
@@ -25,14 +24,14 @@ struct PaintedPair {
   StereoPair pictures;
   double left_bare_share = 0;  ///< of the pixels, 0..1, that no mark covers
   double right_bare_share = 0;
-  std::vector<Image<Rgb8>> other_views;  ///< that were asked for
+  StereoPair nearer;  ///< for eyes nearer together, which are `separation` apart; empty where that is 1
+  float separation = 1;
   PaintingTimes times;
 };
 
 /// How a planned painting is drawn.
 struct PaintDrawing {
-  /// Other views that are drawn together with its eyes, which costs less than by themselves; empty: none.
-  std::function<std::vector<ViewPosition>(const Painting&)> other_views = {};
+  std::optional<float> depth_budget = {};  ///< of pictures for nearer eyes, as comfortable_separation; none: no such
   Device device = Device::processor;
 };
 

@@ -10,12 +10,12 @@
 #include "spilling_share.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
-#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint_frame.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/central_view.h"
 #include "wheatstone/strokes/stroke_measures.h"
 #include "wheatstone/synthetic/synthetic_still.h"
@@ -53,16 +53,18 @@ TEST(Paint, CoversBothEyes) {
   EXPECT_LT(painted.right_bare_share, 0.005);
 }
 
-TEST(Paint, DrawsOtherViewsThatAreAskedForWithTheEyes) {
+TEST(Paint, DrawsNearerEyesWithItsOwnWhereTheDepthIsOverTheBudget) {
   const StereoPair photographs = test_scene::photographs();
-  const auto nearer = [](const Painting&) { return std::vector{ViewPosition(-0.3f), ViewPosition(0.3f)}; };
   const PaintedPair alone = paint(photographs, test_scene::geometry(), small_style());
-  const PaintedPair painted = paint(photographs, test_scene::geometry(), small_style(), {}, {nearer});
+  EXPECT_EQ(alone.separation, 1);
+  EXPECT_TRUE(alone.nearer.left.empty());
+  const PaintedPair painted = paint(photographs, test_scene::geometry(), small_style(), {}, {.depth_budget = 0.005f});
   EXPECT_EQ(painted.pictures.left, alone.pictures.left);
   EXPECT_EQ(painted.pictures.right, alone.pictures.right);
-  ASSERT_EQ(painted.other_views.size(), 2u);
-  EXPECT_EQ(painted.other_views[0], draw(painted.painting, ViewPosition(-0.3f)).picture);
-  EXPECT_EQ(painted.other_views[1], draw(painted.painting, ViewPosition(0.3f)).picture);
+  EXPECT_EQ(painted.separation, comfortable_separation(painted.painting, 0.005f));
+  ASSERT_LT(painted.separation, 1);
+  EXPECT_EQ(painted.nearer.left, draw(painted.painting, ViewPosition(-painted.separation / 2)).picture);
+  EXPECT_EQ(painted.nearer.right, draw(painted.painting, ViewPosition(painted.separation / 2)).picture);
 }
 
 TEST(Paint, PicturesAreWhatDrawMakesOfTheMarks) {

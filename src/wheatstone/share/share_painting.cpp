@@ -6,12 +6,10 @@
 #include <array>
 #include <utility>
 
-#include "wheatstone/app/present_pair.h"
-#include "wheatstone/app/redraw.h"
-#include "wheatstone/depth/convergence.h"
-#include "wheatstone/drawing/draw.h"
+#include "wheatstone/depth/comfort.h"
 #include "wheatstone/drawing/hidden_strokes.h"
 #include "wheatstone/error.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/share/mark_parts_internal.h"
 #include "wheatstone/share/surface_parts_internal.h"
@@ -70,7 +68,7 @@ std::vector<Image<Rgb8>> pictures_on_surfaces(const Painting& painting) {
     const Placement placement{.width = surface.disparity.width(),
                               .height = surface.disparity.height(),
                               .left = static_cast<double>(surface.left_px)};
-    pictures.push_back(draw(prepare(painting, {.placement = placement}), surface.view).picture);
+    pictures.push_back(std::move(present(painting, {.views = {surface.view}, .placement = placement}).views.front()));
   }
   return pictures;
 }

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
 
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
+#include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
 
@@ -29,12 +34,21 @@ void follow_depth(const DepthEnds& frame, bool scene_begins, SceneDepth& scene);
 /// Which views beside the eyes the frames of a scene are planned for: the same for all of them.
 ViewRange planned_views(PictureSize frame, const SceneDepth& scene, const DisplayViewsOptions& options);
 
-struct DisplayedFrame {
-  Image<Rgb8> picture;
-  double worst_bare_share = 0;  ///< of a view's pixels that marks cover less than half
-};
+/// Shows frames of a scene on the display, drawn by `device`. Throws Error{wrong_usage} as plan_display, and where the
+/// display has neither a quilt nor a screen.
+Presentation for_display(PictureSize frame, const SceneDepth& scene, const FilmDisplay& display, Device device);
 
-/// Draws a frame's painting for the display. Of a quilt only a few views are in memory beside it.
-DisplayedFrame draw_for_display(const Painting& painting, const SceneDepth& scene, const FilmDisplay& display);
+/// The pictures of a frame: one for either eye, or a single one, of the one view of a film of one eye, or composed for
+/// a display.
+using FramePictures = std::variant<StereoPair, Image<Rgb8>>;
+
+/// Those of one view or two, or of a composition.
+FramePictures frame_pictures(Presented shown);
+
+/// What a film says of itself whose eyes were moved in so many frames, at least so near together: a sentence.
+std::string moved_eyes_note(std::int64_t frames, double least_separation);
+
+/// Whether a film says so.
+bool tells_moved_eyes(std::string_view comment);
 
 }  // namespace wheatstone

@@ -1,0 +1,56 @@
+#include "wheatstone/app/film_presentation.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "wheatstone/app/slow_ends_internal.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr std::string_view beginning_of_note = "The eyes were moved for looking at";
+
+DisplayComposition composition_of(const FilmDisplay& display) {
+  if (display.quilt) return *display.quilt;
+  if (display.screen) return *display.screen;
+  throw Error(ErrorKind::wrong_usage, "the display takes neither quilts nor lenticular pictures");
+}
+
+}  // namespace
+
+void follow_depth(const DepthEnds& frame, bool scene_begins, SceneDepth& scene) {
+  if (scene_begins) {
+    scene = {frame, frame};
+    return;
+  }
+  widen_slowly(frame.farthest_px, frame.nearest_px, scene.ends.farthest_px, scene.ends.nearest_px);
+}
+
+ViewRange planned_views(PictureSize frame, const SceneDepth& scene, const DisplayViewsOptions& options) {
+  const float half = plan_display(frame, scene.first, options).span / 2;
+  return {ViewPosition(-half), ViewPosition(half)};
+}
+
+Presentation for_display(PictureSize frame, const SceneDepth& scene, const FilmDisplay& display, Device device) {
+  Presentation presentation = plan_display(frame, scene.ends, display.views).presentation;
+  presentation.composition = composition_of(display);
+  presentation.device = device;
+  return presentation;
+}
+
+FramePictures frame_pictures(Presented shown) {
+  if (!shown.composed.empty()) return std::move(shown.composed);
+  if (shown.views.size() == 1) return std::move(shown.views.front());
+  return StereoPair{std::move(shown.views.front()), std::move(shown.views.back())};
+}
+
+std::string moved_eyes_note(std::int64_t frames, double least_separation) {
+  return fmt::format("{} in {} frames, nearest together at {:.2f} of their distance", beginning_of_note, frames,
+                     least_separation);
+}
+
+bool tells_moved_eyes(std::string_view comment) { return comment.starts_with(beginning_of_note); }
+
+}  // namespace wheatstone

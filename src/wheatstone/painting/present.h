@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "wheatstone/display/compose.h"
+#include "wheatstone/drawing/draw.h"
+
+namespace wheatstone {
+
+/// How a painting is shown: from where it is seen, how it lies in the pictures, over what, and as which picture. One
+/// view is {.views = {position}}; for_two_eyes (two_eyes.h) and plan_display (app/display_views.h) make the others.
+struct Presentation {
+  std::vector<ViewPosition> views;
+  Placement placement = {};
+  std::vector<ImageView<const Rgb8>> backgrounds = {};  ///< of each view, as `draw` takes them; none: the canvas colour
+  std::optional<DisplayComposition> composition = {};   ///< of one picture of all views; none: a picture for each view
+  Device device = Device::processor;
+};
+
+/// The pictures of a presentation.
+struct Presented {
+  std::vector<Image<Rgb8>> views;   ///< in the presentation's order; none where there is a composition
+  Image<Rgb8> composed;             ///< empty where there is no composition
+  std::vector<double> bare_shares;  ///< of each of `views`: the share of pixels, 0..1, that marks cover less than half
+  double worst_bare_share = 0;      ///< of all views, composed or not
+};
+
+/// Draws a painting as a presentation wants it. A graphics processor that draws the views composes them, too, in its
+/// own memory, and under lenses draws of strokes only the pixels of which the screen shows anything (Hassaine 2010,
+/// sec. 6.5.2); the worst bare share is then of these. Of a quilt that the processor draws, only a few views are in
+/// memory beside it. Throws as `prepare`, `draw` and `compose` do.
+Presented present(const Painting& painting, const Presentation& presentation);
+
+}  // namespace wheatstone

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/painting/present.h"
+#include "wheatstone/stereo/reduced_pair.h"
+
+namespace wheatstone {
+
+/// How two eyes look at a painting: by default as those for which it was made.
+struct TwoEyes {
+  float separation = 1;        ///< in the painting's own eye separations, at most 1
+  float zero_parallax_px = 0;  ///< disparity, in pixels of the painting, that comes to lie on the screen
+  Placement placement;         ///< that draws them so; the part that both eyes show fills the picture
+};
+
+/// Whether they are other eyes than the painting's own.
+bool are_moved(const TwoEyes& eyes);
+
+/// Shows a painting to two eyes, the left one first.
+Presentation for_two_eyes(const TwoEyes& eyes = {});
+
+/// Shows it to its own eyes and, where `separation` is less than 1, also to eyes that are so far apart. The last two
+/// views are the ones to look at; drawn together, the four cost less than two and two.
+Presentation for_own_and_nearer_eyes(float separation);
+
+/// How far apart two eyes look at a painting, in its own eye separations, at most 1: near enough together for the
+/// disparities from the scene's farthest point to its nearest, but for outliers, to take no more than `depth_budget` of
+/// the width. 1 where there is no budget, or the painting has no surfaces.
+float comfortable_separation(const Painting& painting, std::optional<float> depth_budget);
+
+/// Eyes near enough together for a film's scene, from its farthest point to its nearest, to take no more than
+/// `depth_budget` of the width; a third of that before the screen and two thirds behind it, as broadcasters allow it.
+/// The film's own screen plane is kept as far as that lets it. Of a scene that fits, they are the film's own.
+TwoEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_budget);
+
+/// The disparity of the nearest mark, but for outliers; 0 where there are no marks.
+float nearest_disparity(const Painting& painting);
+
+}  // namespace wheatstone
