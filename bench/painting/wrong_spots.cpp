@@ -45,8 +45,10 @@ void measure(const Subject& subject, const Limit& limit, bool matched, const std
   const StereoPair painted = paint_photograph(subject.photographs, options).painted.pictures;
   const WrongSpots spots = measure_wrong_spots(painted, subject.photographs);
   const bool fails = spots.spots_per_100000_px > limit.spots_per_100000_px || spots.share > most_share;
-  fmt::print("  {:14} {:8} {:6.2f} (at most {:3.1f})   {:.3f} %{}\n", limit.style, matched ? "our own" : "true",
-             spots.spots_per_100000_px, limit.spots_per_100000_px, 100 * spots.share, fails ? "   over" : "");
+  const WrongSpots seen = measure_wrong_spots(painted, subject.photographs, ColourDistance::oklab);
+  fmt::print("  {:14} {:8} {:6.2f} (at most {:3.1f})   {:.3f} %      {:6.2f}   {:.3f} %{}\n", limit.style,
+             matched ? "our own" : "true", spots.spots_per_100000_px, limit.spots_per_100000_px, 100 * spots.share,
+             seen.spots_per_100000_px, 100 * seen.share, fails ? "   over" : "");
   if (folder.empty()) return;
   const int width = painted.left.width(), height = painted.left.height();
   Image<Rgb8> drawing(width, 2 * height);
@@ -69,8 +71,10 @@ int main(int argument_count, char** arguments) {
   if (auto teddy = bench::read_subject(shared / "teddy", 4.f)) subjects.push_back(std::move(*teddy));
   if (auto motorcycle = bench::read_subject(shared / "motorcycle", {})) subjects.push_back(std::move(*motorcycle));
   for (const bench::Subject& subject : subjects) {
-    fmt::print("\n{}\n  style          disparity  wrong spots a 100 000 px   share of the pixels (at most {:.1f} %)\n",
-               subject.name, 100 * bench::most_share);
+    fmt::print(
+        "\n{}\n  style          disparity  wrong spots a 100 000 px   share (at most {:.1f} %)   "
+        "in OKLab\n",
+        subject.name, 100 * bench::most_share);
     for (const bench::Limit& limit : bench::limits) {
       if (!only_style.empty() && limit.style != only_style) continue;
       for (const bool matched : {true, false}) bench::measure(subject, limit, matched, folder);

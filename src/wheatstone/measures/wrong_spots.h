@@ -12,14 +12,22 @@ struct WrongSpots {
   double share = 0;  ///< of the pixels, 0..1, that lie in a spot
 };
 
-/// 255 where every pixel of the photograph within 4 pixels (of a picture 640 wide, in proportion otherwise) has an RGB
-/// distance of more than 60 (of 441) from the painting's. Throws Error{bad_input} where the sizes differ.
-Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph);
+/// By what two colours are told apart: a distance in RGB, 0..441, of more than 60, which is also the residual of the
+/// planners (marks/residual.h); or one in OKLab of more than 0.11, which no planner knows. On the way to OKLab, 1 % of
+/// white is added to both, as what a display reflects (IEC 61966-2-1): without it, black would differ from everything.
+enum class ColourDistance { rgb, oklab };
+
+/// 255 where all colours of the photograph within 4 pixels (of a picture 640 wide, in proportion otherwise) differ from
+/// the painting's. Throws Error{bad_input} where the sizes differ.
+Image<std::uint8_t> wrong_pixels(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph,
+                                 ColourDistance distance = ColourDistance::rgb);
 
 /// A spot is a connected set, at sides or corners, of at least 4 wrong pixels. Throws as wrong_pixels.
-WrongSpots measure_wrong_spots(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph);
+WrongSpots measure_wrong_spots(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph,
+                               ColourDistance distance = ColourDistance::rgb);
 
 /// Of both eyes together.
-WrongSpots measure_wrong_spots(const StereoPairView& painted, const StereoPairView& photographs);
+WrongSpots measure_wrong_spots(const StereoPairView& painted, const StereoPairView& photographs,
+                               ColourDistance distance = ColourDistance::rgb);
 
 }  // namespace wheatstone

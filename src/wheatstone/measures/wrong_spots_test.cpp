@@ -46,6 +46,19 @@ TEST(WrongSpots, CountFromFourPixelsOnAndByDistance) {
   EXPECT_GT(measure_wrong_spots(with_square(300, 40, 9, {135, 135, 135}), photograph).share, 0) << "60.6 away";
 }
 
+TEST(WrongSpots, CountInOklabWhereColoursLookDifferent) {
+  constexpr auto oklab = ColourDistance::oklab;
+  const Image<Rgb8> photograph(640, 100, grey);
+  EXPECT_EQ(measure_wrong_spots(photograph, photograph, oklab).share, 0);
+  EXPECT_DOUBLE_EQ(measure_wrong_spots(with_square(300, 40, 10, white), photograph, oklab).share, 100.0 / 64000);
+  EXPECT_EQ(measure_wrong_spots(with_square(300, 40, 9, {132, 132, 132}), photograph, oklab).share, 0) << "0.106";
+  EXPECT_GT(measure_wrong_spots(with_square(300, 40, 9, {134, 134, 134}), photograph, oklab).share, 0) << "0.113";
+  // A little blue in a yellow is 70 away in RGB, and hardly seen.
+  const Image<Rgb8> yellow(640, 100, {220, 220, 0}), other(640, 100, {220, 220, 70});
+  EXPECT_EQ(measure_wrong_spots(other, yellow).share, 1);
+  EXPECT_EQ(measure_wrong_spots(other, yellow, oklab).share, 0);
+}
+
 TEST(WrongSpots, OfAPairAreThoseOfBothEyes) {
   const Image<Rgb8> photograph(640, 100, grey);
   const StereoPair painted{with_square(300, 40, 10, white), photograph}, photographs{photograph, photograph};

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "wheatstone/image/oklab.h"
 #include "wheatstone/image/srgb.h"
 #include "wheatstone/multiview/colour_bar.h"
 #include "wheatstone/multiview/tone_map_internal.h"
@@ -10,43 +11,19 @@
 namespace wheatstone {
 namespace {
 
-/// Lightness and two opponent colours in which equal steps look equal (Ottosson 2020, "A perceptual color space for
-/// image processing").
-struct Oklab {
-  float lightness, a, b;
-};
-
 Oklab oklab_of(Rgb8 colour) {
-  const float r = linear_from_srgb(colour.r);
-  const float g = linear_from_srgb(colour.g);
-  const float b = linear_from_srgb(colour.b);
-  const float l = std::cbrt(0.4122214708f * r + 0.5363325363f * g + 0.0514459929f * b);
-  const float m = std::cbrt(0.2119034982f * r + 0.6806995451f * g + 0.1073969566f * b);
-  const float s = std::cbrt(0.0883024619f * r + 0.2817188376f * g + 0.6299787005f * b);
-  return {0.2104542553f * l + 0.7936177850f * m - 0.0040720468f * s,
-          1.9779984951f * l - 2.4285922050f * m + 0.4505937099f * s,
-          0.0259040371f * l + 0.7827717662f * m - 0.8086757660f * s};
-}
-
-std::array<float, 3> linear_of(const Oklab& colour) {
-  const auto cube = [](float x) { return x * x * x; };
-  const float l = cube(colour.lightness + 0.3963377774f * colour.a + 0.2158037573f * colour.b);
-  const float m = cube(colour.lightness - 0.1055613458f * colour.a - 0.0638541728f * colour.b);
-  const float s = cube(colour.lightness - 0.0894841775f * colour.a - 1.2914855480f * colour.b);
-  return {4.0767416621f * l - 3.3077115913f * m + 0.2309699292f * s,
-          -1.2684380046f * l + 2.6097574011f * m - 0.3413193965f * s,
-          -0.0041960863f * l - 0.7034186147f * m + 1.7076147010f * s};
+  return oklab_from_linear({linear_from_srgb(colour.r), linear_from_srgb(colour.g), linear_from_srgb(colour.b)});
 }
 
 /// The colour of this lightness and hue, with as much of its chroma as sRGB has: nothing is clipped.
 Rgb8 shown_as(const Oklab& colour) {
   float share = 1;
   for (int step = 0; step < 50; ++step, share *= 0.95f) {
-    const std::array<float, 3> light = linear_of({colour.lightness, colour.a * share, colour.b * share});
+    const std::array<float, 3> light = linear_from_oklab({colour.lightness, colour.a * share, colour.b * share});
     if (std::ranges::all_of(light, [](float channel) { return channel > -1e-4f && channel < 1.0001f; }))
       return {srgb_from_linear(light[0]), srgb_from_linear(light[1]), srgb_from_linear(light[2])};
   }
-  const std::uint8_t grey = srgb_from_linear(linear_of({colour.lightness, 0, 0})[1]);
+  const std::uint8_t grey = srgb_from_linear(linear_from_oklab({colour.lightness, 0, 0})[1]);
   return {grey, grey, grey};
 }
 

@@ -3,78 +3,61 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/drawing/draw.h"
-#include "wheatstone/painting/mend_drawn_internal.h"
-#include "wheatstone/painting/mend_spots_internal.h"
-#include "wheatstone/painting/plan_unmended_internal.h"
+#include "wheatstone/painting/repair_internal.h"
 #include "wheatstone/stopwatch.h"
 
 namespace wheatstone {
 namespace {
 
-/// The scene's views that are shown: the eyes, or the one view there is.
-std::vector<std::size_t> shown_views(const FilmFrame& frame) {
-  std::vector<std::size_t> shown;
+/// The scene's views that are shown: the eyes, or the one view there is. Not drawn yet.
+std::vector<ShownView> shown_views(std::span<const SceneView> views) {
+  std::vector<ShownView> shown;
   for (const ViewPosition eye : {left_eye, right_eye})
-    for (std::size_t i = 0; i < frame.views.size(); ++i)
-      if (frame.views[i].position == eye) shown.push_back(i);
-  if (shown.empty()) shown.push_back(0);
+    for (const SceneView& view : views)
+      if (view.position == eye) shown.push_back({view, {}});
+  if (shown.empty()) shown.push_back({views.front(), {}});
   return shown;
 }
 
-/// A frame, and how it is to be painted.
-struct FrameTask {
-  const FilmFrame& frame;
-  const Style& style;
-  const CarryOptions& options;
-  const Progress& progress;
-  Device device;
-};
-
-/// Draws the views that are shown.
-std::vector<DrawnView> draw_shown(const FrameTask& task, const std::vector<std::size_t>& shown,
-                                  const Painting& painting) {
-  report(task.progress, "drawing", 0);
-  const PreparedPainting prepared = prepare(painting, {}, task.device);
-  const bool over_picture = task.style.background == Background::photograph;
+void draw_shown(const Painting& painting, Background background, Device device, std::vector<ShownView>& shown) {
   std::vector<ViewPosition> positions;
   std::vector<ImageView<const Rgb8>> backgrounds;
-  for (const std::size_t i : shown) {
-    positions.push_back(task.frame.views[i].position);
-    if (over_picture) backgrounds.push_back(task.frame.views[i].picture);
+  for (const ShownView& eye : shown) {
+    positions.push_back(eye.view.position);
+    if (background == Background::photograph) backgrounds.push_back(eye.view.picture);
   }
-  return draw(prepared, positions, backgrounds);
+  std::vector<DrawnView> drawn = draw(prepare(painting, {}, device), positions, backgrounds);
+  for (std::size_t i = 0; i < shown.size(); ++i) shown[i].drawn = std::move(drawn[i]);
 }
 
-void take_pictures(std::vector<DrawnView> drawn, PaintedPair& painted) {
-  painted.pictures.left = std::move(drawn.front().picture);
-  painted.left_bare_share = drawn.front().bare_share;
-  if (drawn.size() < 2) return;
-  painted.pictures.right = std::move(drawn.back().picture);
-  painted.right_bare_share = drawn.back().bare_share;
+void take_pictures(std::vector<ShownView> shown, PaintedPair& painted) {
+  painted.pictures.left = std::move(shown.front().drawn.picture);
+  painted.left_bare_share = shown.front().drawn.bare_share;
+  if (shown.size() < 2) return;
+  painted.pictures.right = std::move(shown.back().drawn.picture);
+  painted.right_bare_share = shown.back().drawn.bare_share;
 }
 
 }  // namespace
 
 PaintedFrame paint_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                          PaintingMemory& memory, const Progress& progress, Device device) {
-  const FrameTask task{frame, style, options, progress, device};
   PaintedFrame result;
   PaintedPair& painted = result.painted;
-  bool is_to_mend = false;
   {
     const Stopwatch watch(painted.times.planning_s);
-    PlannedFrame planned = plan_unmended(frame, style, options, memory, progress);
-    is_to_mend = is_mended_when_drawn(planned.painting, style);
-    if (!is_to_mend) mend_spots(frame.views, style, planned.painting);
+    PlannedFrame planned = plan_without_repair(frame, style, options, memory, progress);
     painted.painting = std::move(planned.painting);
     result.counts = planned.counts;
+    if (!is_repaired_when_drawn(painted.painting, style)) repair(frame.views, style, painted.painting);
   }
   const Stopwatch watch(painted.times.rasterising_s);
-  const std::vector<std::size_t> shown = shown_views(frame);
-  std::vector<DrawnView> drawn = draw_shown(task, shown, painted.painting);
-  if (is_to_mend) mend_drawn(frame.views, shown, style, painted.painting, drawn);
-  take_pictures(std::move(drawn), painted);
+  report(progress, "drawing", 0);
+  std::vector<ShownView> shown = shown_views(frame.views);
+  draw_shown(painted.painting, style.background, device, shown);
+  if (is_repaired_when_drawn(painted.painting, style))
+    repair_drawn(shown, frame.views.front().position, style, painted.painting);
+  take_pictures(std::move(shown), painted);
   return result;
 }
 

@@ -10,8 +10,7 @@
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/motion/fitting_scene.h"
-#include "wheatstone/painting/mend_spots_internal.h"
-#include "wheatstone/painting/plan_unmended_internal.h"
+#include "wheatstone/painting/repair_internal.h"
 #include "wheatstone/stereo/outer_view.h"
 #include "wheatstone/strokes/layer_planner.h"
 
@@ -104,8 +103,8 @@ PlannedFrame plan_from_views(const FilmFrame& frame, const Style& style, const C
 
 }  // namespace
 
-PlannedFrame plan_unmended(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                           PaintingMemory& memory, const Progress& progress) {
+PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                                 PaintingMemory& memory, const Progress& progress) {
   check_style(style);
   check_fits(frame.views);
   if (style.marks == Marks::strokes && frame.flow == nullptr)
@@ -117,8 +116,8 @@ PlannedFrame plan_unmended(const FilmFrame& frame, const Style& style, const Car
 
 PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                            PaintingMemory& memory, const Progress& progress) {
-  PlannedFrame planned = plan_unmended(frame, style, options, memory, progress);
-  mend_spots(frame.views, style, planned.painting);
+  PlannedFrame planned = plan_without_repair(frame, style, options, memory, progress);
+  repair(frame.views, style, planned.painting);
   return planned;
 }
 

@@ -13,7 +13,7 @@ namespace wheatstone {
 std::vector<PaletteColour> find_palette(ImageView<const Rgb8> picture, int count, std::uint64_t seed);
 
 /// How many of a style's colours are found so. The others are left for small things whose colours are like none of them
-/// (regions/accents.h).
+/// (regions/repair.h).
 constexpr int palette_size(int colours) {
   constexpr int ninths = 2;
   return colours - colours * ninths / 9;

@@ -13,8 +13,8 @@
 #include "wheatstone/error.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/painting/paint.h"
-#include "wheatstone/regions/accents.h"
 #include "wheatstone/regions/colour_palette_internal.h"
+#include "wheatstone/regions/repair.h"
 
 namespace wheatstone {
 namespace {
@@ -173,7 +173,7 @@ TEST(Posterise, CoversACurvedSurfaceOfOneColour) {
     EXPECT_LT(draw(prepared, view).bare_share, 1e-3);
 }
 
-TEST(Posterise, HasAccentsThatComeAndGoInAFewSteps) {
+TEST(Posterise, IsRepairedByRegionsThatComeAndGoInAFewSteps) {
   constexpr int size = 60;
   Image<Rgb8> photograph(size, size, {40, 60, 160});
   Image<std::uint8_t> spots(size, size);
@@ -188,7 +188,7 @@ TEST(Posterise, HasAccentsThatComeAndGoInAFewSteps) {
   const std::size_t before = painting.marks.size();
   const Image<float> disparity(size, size, 0);
   const ViewRange about{ViewPosition(0.25f), ViewPosition(0.75f)};
-  add_accents({photograph, spots, disparity, right_eye, left_eye, about}, small_style("posterise"), painting);
+  repair({photograph, spots, disparity, right_eye, left_eye, about}, small_style("posterise"), painting);
   ASSERT_GE(painting.marks.size(), before + 16);
   std::vector<float> first;
   for (const RegionMark& mark : std::span(painting.marks).subspan(before)) {

@@ -7,12 +7,13 @@
 
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/flatten_internal.h"
-#include "wheatstone/strokes/cover_bare_internal.h"
+#include "wheatstone/strokes/bare_pixels_internal.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/layer_planner.h"
 #include "wheatstone/strokes/reference_picture.h"
+#include "wheatstone/strokes/repair.h"
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/trace_stroke_internal.h"
 
@@ -217,28 +218,38 @@ TEST(Plan, MisplacedPaintIsPaintedOverWhateverTheThreshold) {
   EXPECT_TRUE(misplaced_paint(planner, jittered).empty()) << "its colours are meant to be others";
 }
 
-TEST(CoverBare, ADotBehindADepthEdgeHasItsSurfacesColour) {
-  Bench bench(grey_then_red());
-  for (int y = 0; y < 60; ++y) std::fill_n(&bench.disparity(51, y), 29, 20.f);  // column 50 is red and far
+/// The marks that cover places of a bench's bare canvas.
+Layer repaired(const Bench& bench, ImageView<const std::uint8_t> places) {
   const LayerPlanner planner(bench.photograph, bench.disparity, left_eye, bench.style);
   const ScaledStyle scaled(bench.style, 640);
   const LayerInputs inputs = make_layer_inputs(planner, bench.style, scaled, 2);
+  const Image<std::uint8_t> bare = bare_pixels(planner.canvas, places);
+  return repair({.target = {.picture = bench.photograph,
+                            .places = bare,
+                            .disparity = bench.disparity,
+                            .view = left_eye,
+                            .reference_view = left_eye},
+                 .scaled = scaled,
+                 .mixed_colours = inputs.mixed_colours},
+                bench.style);
+}
+
+TEST(RepairOfStrokes, ADotBehindADepthEdgeHasItsSurfacesColour) {
+  Bench bench(grey_then_red());
+  for (int y = 0; y < 60; ++y) std::fill_n(&bench.disparity(51, y), 29, 20.f);  // column 50 is red and far
   Image<std::uint8_t> wanted(80, 60);
   wanted(50, 30) = 255;
-  const Layer dots = cover_bare(planner, inputs, scaled, bench.style, bare_pixels(planner.canvas, wanted));
+  const Layer dots = repaired(bench, wanted);
   ASSERT_EQ(dots.strokes.size(), 1u);
   EXPECT_EQ(dots.strokes[0].colour, (Rgb8{100, 100, 100}));
 }
 
-TEST(CoverBare, BarePixelsOfOneColourAreCoveredByOneThread) {
+TEST(RepairOfStrokes, BarePixelsOfOneColourAreCoveredByOneThread) {
   Bench bench(grey_then_red());
-  const LayerPlanner planner(bench.photograph, bench.disparity, left_eye, bench.style);
-  const ScaledStyle scaled(bench.style, 640);
-  const LayerInputs inputs = make_layer_inputs(planner, bench.style, scaled, 2);
   Image<std::uint8_t> wanted(80, 60);
   for (int y = 10; y < 16; ++y) wanted(20, y) = 255;
   wanted(60, 30) = 255;
-  const Layer cover = cover_bare(planner, inputs, scaled, bench.style, bare_pixels(planner.canvas, wanted));
+  const Layer cover = repaired(bench, wanted);
   ASSERT_EQ(cover.strokes.size(), 2u);
   EXPECT_EQ(cover.strokes[1].point_count, 1u);
   EXPECT_NE(cover.strokes[0].colour, cover.strokes[1].colour);
@@ -247,7 +258,7 @@ TEST(CoverBare, BarePixelsOfOneColourAreCoveredByOneThread) {
   EXPECT_GE(thread.back().y + cover.strokes[0].radius_px, 15.5f);
 
   bench.style.max_length = bench.style.min_length = 0;
-  const Layer dots = cover_bare(planner, inputs, scaled, bench.style, bare_pixels(planner.canvas, wanted));
+  const Layer dots = repaired(bench, wanted);
   EXPECT_GT(dots.strokes.size(), 2u);
   EXPECT_TRUE(std::ranges::all_of(dots.strokes, [](const Stroke& dot) { return dot.point_count == 1; }));
 }

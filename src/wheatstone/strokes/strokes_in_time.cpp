@@ -15,13 +15,14 @@
 #include "wheatstone/marks/residual.h"
 #include "wheatstone/marks/resize_strokes.h"
 #include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/strokes/bare_pixels_internal.h"
 #include "wheatstone/strokes/carried_points_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
-#include "wheatstone/strokes/cover_bare_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/layer_planner.h"
 #include "wheatstone/strokes/misplaced_strokes_internal.h"
 #include "wheatstone/strokes/missing_strokes_internal.h"
+#include "wheatstone/strokes/repair.h"
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/sized_view_internal.h"
 #include "wheatstone/strokes/visible_runs_internal.h"
@@ -104,7 +105,15 @@ class ViewAtWork {
     Image<std::uint8_t> bare = bare_pixels(planner.canvas, part);
     const Layer near = strokes_near_bare(begun, bare);
     bare = left_bare(near, planner.view, hiding(), std::move(bare));
-    Layer dots = cover_bare(planner, inputs, at_->scaled, style_, std::move(bare));
+    Layer dots = repair({.target = {.picture = planner.photograph,
+                                    .places = bare,
+                                    .disparity = planner.disparity,
+                                    .view = planner.view,
+                                    .reference_view = planner.view},
+                         .scaled = at_->scaled,
+                         .mixed_colours = inputs.mixed_colours,
+                         .least_dot_px = planner.least_dot_px},
+                        style_);
     if (!part_.is_whole()) append_strokes(dots_left_out({tracked, carried}), dots);
     numbers_.give(dots);
     add(std::move(dots), inputs, before, options, tracked);
@@ -113,11 +122,11 @@ class ViewAtWork {
 
   /// Once all layers are planned: marks for this frame alone where the carried strokes show what the frame has nowhere
   /// near. What is new there may lie under them, and comes in slowly.
-  Layer accents() {
-    if (!part_.is_whole() || misplaced_.empty() || part_.view.picture.width() < least_repaired_width_px) return {};
+  Layer repairs() {
+    const SceneView& view = part_.view;
+    if (!part_.is_whole() || misplaced_.empty() || view.picture.width() < least_repaired_width_px) return {};
     remove_occlusion_specks(misplaced_, least_repaired_px);
-    return cover_places({part_.view.picture, part_.view.disparity, part_.view.position, {}, std::move(misplaced_)},
-                        at_->scaled, style_);
+    return repair({{view.picture, misplaced_, view.disparity, view.position, view.position}, at_->scaled}, style_);
   }
 
  private:
@@ -458,7 +467,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
     result.counts.before = living_strokes(memory);
     carry(frame, style, options, memory);
   }
-  std::vector<Layer> accents(frame.views.size());
+  std::vector<Layer> repairs(frame.views.size());
   ViewsPlan plan(progress, frame.views.size(), layers);
   plan.run([&](std::size_t view) {
     plan.report_step();
@@ -473,7 +482,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
       if (style.jitter == ColourJitter{}) drop_misplaced(frame.views[view], frame.views, depth_threshold_px, tracked);
       drop_needless(frame, view, memory.last_number, depth_threshold_px, tracked);
     }
-    if (!scene_begins) accents[view] = work.accents();
+    if (!scene_begins) repairs[view] = work.repairs();
   });
   result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;
@@ -484,7 +493,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
       std::ranges::copy(disparity.row(y), memory.reference_disparity.row(y).begin());
   }
   result.painting = shown_painting(frame, style, memory);
-  for (const Layer& marks : accents) append_strokes(marks, result.painting.layers.back());
+  for (const Layer& marks : repairs) append_strokes(marks, result.painting.layers.back());
   return result;
 }
 

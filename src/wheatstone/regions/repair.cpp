@@ -1,4 +1,4 @@
-#include "wheatstone/regions/accents.h"
+#include "wheatstone/regions/repair.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ namespace {
 /// regions have the mean of their pixels and outlines are smooth.
 constexpr int alike = 45;
 
-/// Of the views in which accents may be drawn. They are few, since files tell ranges apart.
+/// Of the views in which marks may be drawn. They are few, since files tell ranges apart.
 constexpr std::array shares_of_range{0.5f, 0.8f, 1.1f, 1.4f};
 
 int squared_distance(Rgb8 a, Rgb8 b) {
@@ -77,15 +77,15 @@ std::int32_t label_colours(std::vector<SpotPixel> rest, std::int32_t label, Imag
 }
 
 /// The pixels of the spots, grown by two so that smooth outlines lie around them, by spot and colour; −1 elsewhere.
-Image<std::int32_t> label_spots(const SpotsOfView& view) {
+Image<std::int32_t> label_places(const RepairTarget& target) {
   cv::Mat grown, numbers;
-  cv::dilate(as_mat(view.spots), grown, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  cv::dilate(as_mat(target.places), grown, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
   const int spots = cv::connectedComponents(grown, numbers);
   std::vector<std::vector<SpotPixel>> pixels(static_cast<std::size_t>(spots));
   for (int y = 0; y < numbers.rows; ++y)
     for (int x = 0; x < numbers.cols; ++x)
       if (const int spot = numbers.at<int>(y, x); spot > 0)  // 0 is what is not wrong
-        pixels[static_cast<std::size_t>(spot)].push_back({x, y, view.photograph(x, y)});
+        pixels[static_cast<std::size_t>(spot)].push_back({x, y, target.picture(x, y)});
   Image<std::int32_t> labels(numbers.cols, numbers.rows, -1);
   std::int32_t label = 0;
   for (std::vector<SpotPixel>& spot : pixels) label = label_colours(std::move(spot), label, labels);
@@ -97,34 +97,34 @@ Rgb8 mean_colour(const RegionMeans& means) {
   return {level(means.red), level(means.green), level(means.blue)};
 }
 
-/// The palette, and the colours of accents that it lacks, the largest first, as long as it may grow.
-void add_missing_colours(std::vector<RegionMeans> accents, std::size_t most_colours, std::vector<Rgb8>& palette) {
-  std::ranges::stable_sort(accents, std::greater{}, &RegionMeans::area);
-  for (const RegionMeans& accent : accents) {
+/// The palette, and the colours of the places that it lacks, the largest first, as long as it may grow.
+void add_missing_colours(std::vector<RegionMeans> places, std::size_t most_colours, std::vector<Rgb8>& palette) {
+  std::ranges::stable_sort(places, std::greater{}, &RegionMeans::area);
+  for (const RegionMeans& place : places) {
     if (palette.size() >= most_colours) return;
-    const Rgb8 mean = mean_colour(accent);
+    const Rgb8 mean = mean_colour(place);
     if (squared_distance(palette[nearest_colour(palette, mean)], mean) > alike * alike) palette.push_back(mean);
   }
 }
 
 }  // namespace
 
-void add_accents(const SpotsOfView& view, const Style& style, RegionPainting& painting) {
+void repair(const RepairTarget& target, const Style& style, RegionPainting& painting) {
   if (painting.marks.empty()) return;
-  const RegionMap regions = connected_regions(label_spots(view), view.disparity, view.depth_threshold_px);
-  const std::vector<RegionMeans> means = means_of(regions, view.photograph, view.disparity);
+  const RegionMap regions = connected_regions(label_places(target), target.disparity, target.depth_threshold_px);
+  const std::vector<RegionMeans> means = means_of(regions, target.picture, target.disparity);
   std::vector<Rgb8> palette = colours_of(painting);
   add_missing_colours(means, static_cast<std::size_t>(style.colours), palette);
   const std::size_t first = painting.marks.size(), first_point = painting.points.size();
-  add_outlines(regions, view.disparity, view.view, {.depth_threshold_px = view.depth_threshold_px}, painting);
+  add_outlines(regions, target.disparity, target.view, {.depth_threshold_px = target.depth_threshold_px}, painting);
   for (std::size_t i = first_point; i < painting.points.size(); ++i)
-    painting.points[i].x = x_in_view(painting.points[i], view.view, view.reference_view);
+    painting.points[i].x = x_in_view(painting.points[i], target.view, target.reference_view);
   for (std::size_t i = 0; i < means.size(); ++i) {
     RegionMark& mark = painting.marks[first + i];
     mark.colour = palette[nearest_colour(palette, mean_colour(means[i]))];
     mark.disparity = static_cast<float>(means[i].disparity);
-    mark.reference_view = view.reference_view;
-    mark.views = range_of_accent(view, shares_of_range[i % shares_of_range.size()]);
+    mark.reference_view = target.reference_view;
+    mark.views = part_of_range(target, shares_of_range[i % shares_of_range.size()]);
   }
   std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.ring_count == 0; });
 }

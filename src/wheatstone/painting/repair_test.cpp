@@ -48,11 +48,11 @@ TEST(Posterise, IsRightForTheOtherEyeAlsoWhereTheDisparityIsWrong) {
   expect_right(paint_flat(photographs, style_by_name("posterise")), photographs);
 }
 
-class MendedSpots : public testing::TestWithParam<const char*> {};
+class RepairedSpots : public testing::TestWithParam<const char*> {};
 
 bool is_red(Rgb8 colour) { return colour.r > 150 && colour.g < 100 && colour.b < 100; }
 
-TEST_P(MendedSpots, ShowTheOtherEyeWhatItsPhotographShows) {
+TEST_P(RepairedSpots, ShowTheOtherEyeWhatItsPhotographShows) {
   // The bar is 12 pixels nearer than the disparities say.
   const StereoPair photographs{with_bar(40, 30, 8, 36), with_bar(28, 30, 8, 36)};
   const Image<Rgb8> right = paint_flat(photographs, style_by_name(GetParam())).pictures.right;
@@ -62,7 +62,7 @@ TEST_P(MendedSpots, ShowTheOtherEyeWhatItsPhotographShows) {
   }
 }
 
-TEST_P(MendedSpots, AreMendedForTheViewsAboutTheOtherEyeOnly) {
+TEST_P(RepairedSpots, AreRepairedForTheViewsAboutTheOtherEyeOnly) {
   const StereoPair photographs{with_bar(40, 30, 8, 36), with_bar(28, 30, 8, 36)};
   const Painting painting = paint_flat(photographs, style_by_name(GetParam())).painting;
   const auto has_two_bars = [&](float position) {
@@ -75,7 +75,7 @@ TEST_P(MendedSpots, AreMendedForTheViewsAboutTheOtherEyeOnly) {
 }
 
 /// Something near on the left; beside it the right eye sees a red part of what is behind.
-TEST_P(MendedSpots, AreNotOfWhatOnlyTheOtherEyeSees) {
+TEST_P(RepairedSpots, AreNotOfWhatOnlyTheOtherEyeSees) {
   constexpr int outline = 60, near_px = 16;
   StereoPair photographs{with_bar(0, 0, 0, 0), with_bar(outline - near_px, 0, near_px, height)};
   Image<float> left(width, height, 0), right(width, height, 0);
@@ -92,7 +92,7 @@ TEST_P(MendedSpots, AreNotOfWhatOnlyTheOtherEyeSees) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, MendedSpots, testing::Values("impressionist", "dual", "posterise", "diffusion"),
+INSTANTIATE_TEST_SUITE_P(Of, RepairedSpots, testing::Values("impressionist", "dual", "posterise", "diffusion"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 /// A soft light that has no edge.
@@ -141,7 +141,7 @@ TEST(FrameOfStrokes, ShowsTheEyesNoColourThatTheyDoNotHave) {
   nothing_before = {};
   const PaintedPair painted = paint_frame(FilmFrame{.views = views}, style, {}, nothing_before).painted;
   EXPECT_EQ(measure_wrong_spots(painted.pictures, frame.pictures).share, 0);
-  // What mends the pictures belongs to the painting.
+  // What repairs the pictures belongs to the painting.
   const PreparedPainting prepared = prepare(painted.painting);
   constexpr int rounding = 2;
   EXPECT_LE(largest_difference(draw(prepared, left_eye, frame.pictures.left).picture, painted.pictures.left), rounding);

@@ -1,0 +1,185 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "wheatstone/curves/repair.h"
+#include "wheatstone/marks/residual.h"
+#include "wheatstone/painting/over_spots_internal.h"
+#include "wheatstone/painting/repair_internal.h"
+#include "wheatstone/regions/repair.h"
+#include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/repair.h"
+
+namespace wheatstone {
+namespace {
+
+bool has_any(const Image<std::uint8_t>& mask) {
+  return std::memchr(mask.pixels().data(), 255, mask.pixels().size()) != nullptr;
+}
+
+/// What belongs to places of a view.
+RepairTarget target_for(const SceneView& view, ViewPosition reference, const Image<std::uint8_t>& places,
+                        ImageView<const float> disparity, float depth_threshold_px) {
+  const ViewRange seen_from = view.position == reference ? all_views : views_about(view.position, reference);
+  return {view.picture, places, disparity, view.position, reference, seen_from, depth_threshold_px};
+}
+
+Layer strokes_for(const RepairTarget& target, const Style& style) {
+  return repair({target, ScaledStyle(style, target.picture.width())}, style);
+}
+
+void add_marks(const RepairTarget& target, const Style& style, Painting& painting) {
+  if (auto* const regions = std::get_if<RegionPainting>(&painting.marks))
+    repair(target, style, *regions);
+  else if (auto* const lines = std::get_if<DiffusionPainting>(&painting.marks))
+    repair(target, *lines);
+  else if (auto& layers = std::get<StrokePainting>(painting.marks).layers; !layers.empty())
+    append_strokes(strokes_for(target, style), layers.back());
+}
+
+/// What a view would show if it saw the reference view's colours where its disparities say so.
+Image<Rgb8> colours_of_reference(const SceneView& view, const SceneView& reference) {
+  Image<Rgb8> colours(view.picture.width(), view.picture.height());
+  const float separation = view.position - reference.position;
+  tbb::parallel_for(0, colours.height(), [&](int y) {
+    const auto from = reference.picture.row(y), own = view.picture.row(y);
+    const auto to = colours.row(y);
+    for (int x = 0; x < colours.width(); ++x) {
+      const float place = static_cast<float>(x) + 0.5f + separation * view.disparity(x, y);
+      const bool is_shared = (view.only_here.empty() || view.only_here(x, y) == 0) && place >= 0 &&
+                             place < static_cast<float>(colours.width());
+      to[x] = is_shared ? from[static_cast<std::size_t>(place)] : own[x];
+    }
+  });
+  return colours;
+}
+
+/// Marks of the reference view lie on what another view shows something else of where their disparity is wrong. Nearly
+/// all that is wrong with strokes is: drawing them would tell little more, and cost more.
+void repair_displaced(std::span<const SceneView> views, const Style& style, Painting& painting) {
+  constexpr int rim_px = 2;
+  const SceneView& reference = views.front();
+  for (const SceneView& view : views.subspan(1)) {
+    if (view.continued) continue;
+    Image<std::uint8_t> places = residual(colours_of_reference(view, reference), view.picture);
+    remove_occlusion_specks(places, least_repaired_px);
+    if (!has_any(places)) continue;
+    places = dilate_occlusion(places, rim_px);
+    const Image<float> before = disparity_before(view.disparity, places);
+    add_marks(target_for(view, reference.position, places, before, painting.surfaces.tolerance_px), style, painting);
+  }
+}
+
+/// Draws regions or lines, and looks at them. What has no edges of its own, as a soft light, or edges too short to
+/// follow, is missing between the lines: that is known only when their colours have spread. The reference view's is
+/// repaired first, for all views. That suffices for eyes beside a central view, which are half as far from it and are
+/// moved towards it where depth is reduced; one eye lacks more of what the other shows.
+void repair_shown(std::span<const SceneView> views, const Style& style, Painting& painting) {
+  const bool of_lines = style.marks == Marks::curves;
+  const ViewPosition reference = views.front().position;
+  const bool refers_to_eye = reference == left_eye || reference == right_eye;
+  for (const SceneView& view : views) {
+    const bool is_reference = view.position == reference;
+    if (view.continued || (of_lines && !is_reference && !refers_to_eye)) continue;
+    Image<std::uint8_t> places = residual(draw(painting, view.position).picture, view.picture);
+    if (of_lines) remove_occlusion_specks(places, least_repaired_px);
+    if (!has_any(places)) continue;
+    const Image<float> before = is_reference || of_lines ? Image<float>() : disparity_before(view.disparity, places);
+    add_marks(target_for(view, reference, places, before.empty() ? view.disparity : before.view(),
+                         painting.surfaces.tolerance_px),
+              style, painting);
+  }
+}
+
+struct Rows {
+  int first, end;
+};
+
+/// The rows that strokes may touch.
+Rows rows_of(const Layer& strokes, int height) {
+  const auto [top, bottom] = std::ranges::minmax(strokes.points, {}, &ControlPoint::y);
+  const float reach = std::ranges::max(strokes.strokes, {}, &Stroke::radius_px).radius_px + 2;
+  return {std::max(static_cast<int>(top.y - reach), 0), std::min(static_cast<int>(bottom.y + reach) + 1, height)};
+}
+
+ImageView<const Rgb8> part_of(ImageView<const Rgb8> picture, Rows rows) {
+  return {picture.row(rows.first).data(), picture.width(), rows.end - rows.first, picture.stride()};
+}
+
+/// Draws strokes over rows of a picture. No surface hides them: they lie before all that is about them.
+void draw_over(Layer strokes, Rows rows, ViewPosition position, DrawnView& drawn) {
+  for (ControlPoint& point : strokes.points) point.y -= static_cast<float>(rows.first);
+  Painting painting;
+  painting.marks =
+      StrokePainting{.width = drawn.picture.width(), .height = rows.end - rows.first, .layers = {std::move(strokes)}};
+  const DrawnView repaired = draw(prepare(painting), position, part_of(drawn.picture, rows));
+  std::int64_t covered = 0;
+  for (int y = rows.first; y < rows.end; ++y) {
+    std::ranges::copy(repaired.picture.row(y - rows.first), drawn.picture.row(y).begin());
+    const auto still_bare = repaired.bare.row(y - rows.first);
+    const auto bare = drawn.bare.row(y);
+    for (std::size_t x = 0; x < bare.size(); ++x) {
+      covered += bare[x] != 0 && still_bare[x] == 0 ? 1 : 0;
+      bare[x] &= still_bare[x];
+    }
+  }
+  drawn.bare_share -= static_cast<double>(covered) / static_cast<double>(drawn.bare.pixels().size());
+}
+
+/// The residual of some rows.
+Image<std::uint8_t> residual_in(Rows rows, const Image<Rgb8>& painted, ImageView<const Rgb8> target) {
+  const int width = painted.width(), near_px = static_cast<int>(std::ceil(nearness_px(width)));
+  const Rows judged{std::max(rows.first - near_px, 0), std::min(rows.end + near_px, painted.height())};
+  const Image<std::uint8_t> in_judged = residual(part_of(painted, judged), part_of(target, judged));
+  Image<std::uint8_t> wrong(width, painted.height());
+  for (int y = rows.first; y < rows.end; ++y) std::ranges::copy(in_judged.row(y - judged.first), wrong.row(y).begin());
+  return wrong;
+}
+
+}  // namespace
+
+void repair(std::span<const SceneView> views, const Style& style, Painting& painting) {
+  if (style.propagation == Propagation::independent || style.marks == Marks::tiles) return;
+  const bool of_regions = style.marks == Marks::regions;
+  if (!of_regions && views.front().picture.width() < least_repaired_width_px) return;
+  const bool changes_colours = style.marks == Marks::strokes && style.jitter != ColourJitter{};
+  if (!of_regions && !changes_colours) repair_displaced(views, style, painting);
+  if (style.marks != Marks::strokes) repair_shown(views, style, painting);
+}
+
+bool is_repaired_when_drawn(const Painting& painting, const Style& style) {
+  // Where less is near than the finest brush is wide, noise makes spots come and go.
+  constexpr double least_near_px = 2;
+  const auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
+  return strokes != nullptr && !strokes->layers.empty() && nearness_px(strokes->width) >= least_near_px &&
+         style.jitter == ColourJitter{} && style.propagation != Propagation::independent &&
+         painting.relief.depth_px <= 0;
+}
+
+void repair_drawn(std::span<ShownView> shown, ViewPosition reference, const Style& style, Painting& painting) {
+  constexpr int most_rounds = 3;  // dots may reach over their neighbours
+  Style dots = style;             // the curve of longer strokes passes beside their points
+  dots.max_length = 1;
+  std::vector<Layer>& layers = std::get<StrokePainting>(painting.marks).layers;
+  for (auto& [view, drawn] : shown) {
+    Image<std::uint8_t> places = residual(drawn.picture, view.picture);
+    for (int round = 0; round < most_rounds; ++round) {
+      remove_occlusion_specks(places, least_repaired_px);
+      if (!has_any(places)) break;
+      const Image<float> before = disparity_before(view.disparity, places);
+      Layer strokes = strokes_for(target_for(view, reference, places, before, painting.surfaces.tolerance_px), dots);
+      append_strokes(strokes, layers.back());
+      const Rows rows = rows_of(strokes, view.picture.height());
+      draw_over(std::move(strokes), rows, view.position, drawn);
+      places = residual_in(rows, drawn.picture, view.picture);
+    }
+  }
+}
+
+}  // namespace wheatstone

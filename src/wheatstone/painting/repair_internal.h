@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/painting/plan_painting.h"
+
+namespace wheatstone {
+
+/// As plan_painting, but without the marks of `repair`.
+PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, const CarryOptions& options,
+                                 PaintingMemory& memory, const Progress& progress = {});
+
+/// Adds small marks where a photographed view would show a colour that its photograph has nowhere near
+/// (marks/residual.h). Paintings of regions and of lines are drawn and looked at: small things may have been joined to
+/// large ones, colours be missing, and no edge may bound what differs (lines beside a central reference view are looked
+/// at in that one only). Strokes and lines are repaired in other views than the reference, too, where its colours
+/// contradict the view's because a disparity is wrong. What is wrong in the reference view is repaired for all views,
+/// else for those about the view. Paintings of tiles, those whose colours are changed at random, and those of eyes
+/// apart are left as they are. The painting has its surfaces.
+void repair(std::span<const SceneView> views, const Style& style, Painting& painting);
+
+/// True for paintings of strokes that are repaired once they are drawn: what is wrong is then known, whatever made it.
+/// Not for those whose colours are changed at random, or whose paint is lit, those of eyes apart, and narrow ones.
+bool is_repaired_when_drawn(const Painting& painting, const Style& style);
+
+/// A view of a scene, drawn.
+struct ShownView {
+  const SceneView& view;
+  DrawnView drawn;
+};
+
+/// Adds strokes where pictures that were drawn show such colours, and draws them over the pictures. `reference` is the
+/// position of the scene's reference view.
+void repair_drawn(std::span<ShownView> shown, ViewPosition reference, const Style& style, Painting& painting);
+
+}  // namespace wheatstone
