@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "wheatstone/error.h"
@@ -74,24 +75,25 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
     throw Error(ErrorKind::wrong_usage, fmt::format("there are {} depth planes, expected at least 1", options.planes));
 }
 
-/// Refuses what the graphics processor does not do here.
+/// The graphics processor adds light, in one process: into views, with highlights, or into depth planes, without them.
+/// Of what hides what is behind it, it draws opaque discs of the thesis's look into views. Refuses everything else.
 void check_gpu_can(const Scene& scene, const RenderOptions& options) {
-  if (scene.splat_style.blend == Blend::over)
-    throw Error(ErrorKind::wrong_usage, "--device gpu does not render --blend over, expected --device cpu");
-  if (scene.shine.lit() && (options.method == Method::layered || options.focus))
-    throw Error(ErrorKind::wrong_usage,
-                "--device gpu does not render --shine with --method layered or --focus, expected --device cpu");
-  if (!options.ranks.alone())
-    throw Error(ErrorKind::wrong_usage, "--device gpu works in one process, expected --device cpu under mpirun");
-  if (options.opaque && (options.method == Method::layered || options.focus || scene.splat_style.look == Look::mass))
-    throw Error(
-        ErrorKind::wrong_usage,
-        "--device gpu does not render --opaque with --look mass, --method layered or --focus, expected --device "
-        "cpu");
-  if (options.method == Method::exact)
-    throw Error(
-        ErrorKind::wrong_usage,
-        "--device gpu does not render by --method exact, expected auto, incremental or layered, or --device cpu");
+  const bool planes = options.method == Method::layered || options.focus.has_value();
+  struct Refused {
+    bool is_wanted;
+    std::string_view what, expected = "--device cpu";
+  };
+  const Refused all[] = {
+      {scene.splat_style.blend == Blend::over, "--blend over"},
+      {scene.shine.lit() && planes, "--shine with --method layered or --focus"},
+      {options.opaque && (planes || scene.splat_style.look == Look::mass),
+       "--opaque with --look mass, --method layered or --focus"},
+      {!options.ranks.alone(), "under mpirun"},
+      {options.method == Method::exact, "by --method exact", "auto, incremental or layered, or --device cpu"}};
+  for (const Refused& refused : all)
+    if (refused.is_wanted)
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("--device gpu does not render {}, expected {}", refused.what, refused.expected));
 }
 
 /// The diameter, in the picture that it is drawn in, of a splat of mean area.
