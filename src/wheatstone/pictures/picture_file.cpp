@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/module.h"
 #include "wheatstone/pictures/encode_png_internal.h"
+#include "wheatstone/pictures/exr_header_internal.h"
 #include "wheatstone/pictures/picture_module_internal.h"
 #include "wheatstone/pictures/png_reader_internal.h"
 
@@ -46,6 +48,8 @@ void StoredPicture::put(const std::string& name, PictureAttribute attribute) {
 }
 
 OpenedPicture open_picture_file(const std::filesystem::path& path, StoredAlpha alpha) {
+  std::ifstream file(path, std::ios::binary);
+  if (!exr_header_fits(file)) return {nullptr, "its header is longer than the file"};
   return module().open_file(path, alpha);
 }
 
