@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/match_internal.h"
 
 namespace wheatstone {
@@ -24,11 +25,7 @@ struct CheckedView {
   cv::Mat frame;           ///< as `frame_of` has it
 };
 
-cv::Mat small_copy(const Image<Rgb8>& picture, double scale) {
-  cv::Mat small;
-  cv::resize(as_mat(picture), small, {}, scale, scale, cv::INTER_AREA);
-  return small;
-}
+cv::Mat small_copy(const Image<Rgb8>& picture, double scale) { return shrunk(as_mat(picture), scale); }
 
 cv::Mat lab(const cv::Mat& rgb) {
   cv::Mat values;
