@@ -10,6 +10,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/pictures/read_image.h"
 
 namespace wheatstone {
@@ -52,8 +53,7 @@ constexpr int search_side_px = 1024;
 /// Searching a large picture that shows none would take minutes.
 bool find_roughly(const cv::Mat& luminance, cv::Size size, std::vector<cv::Point2f>& corners) {
   const double scale = std::min(1.0, static_cast<double>(search_side_px) / std::max(luminance.cols, luminance.rows));
-  cv::Mat small = luminance;
-  if (scale < 1) cv::resize(luminance, small, {}, scale, scale, cv::INTER_AREA);
+  const cv::Mat small = scale < 1 ? shrunk(luminance, scale) : luminance;
   if (!cv::findChessboardCornersSB(small, size, corners, exactly) && !find_by_quads(small, size, corners)) return false;
   const auto back = static_cast<float>(1 / scale);
   for (cv::Point2f& corner : corners) corner = (corner + cv::Point2f(0.5f, 0.5f)) * back - cv::Point2f(0.5f, 0.5f);

@@ -234,6 +234,10 @@ void check_rectifiable(const StereoPair& pair) {
     throw Error(ErrorKind::bad_input,
                 fmt::format("the pictures are {}x{} pixels, expected at least {}x{}", pair.left.width(),
                             pair.left.height(), least_rectified_side_px, least_rectified_side_px));
+  constexpr int most_side_px = 32766;  // OpenCV counts the pixels of a side in 16 bits
+  if (std::max(pair.left.width(), pair.left.height()) > most_side_px)
+    throw Error(ErrorKind::bad_input, fmt::format("the pictures are {}x{} pixels, expected at most {} on each side",
+                                                  pair.left.width(), pair.left.height(), most_side_px));
 }
 
 bool shows_one_scene(const EpipolarGeometry& geometry, std::size_t matches, const FeatureMatches& features) {

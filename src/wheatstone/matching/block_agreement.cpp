@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/block_agreement.h"
 
 namespace wheatstone {
@@ -18,8 +19,7 @@ constexpr double least_correlation = 0.7;
 
 cv::Mat small_luminance(ImageView<const Rgb8> picture) {
   const double scale = std::min(1.0, static_cast<double>(small_width_px) / picture.width());
-  cv::Mat small;
-  cv::resize(as_mat(picture), small, {}, scale, scale, cv::INTER_AREA);
+  cv::Mat small = shrunk(as_mat(picture), scale);
   cv::cvtColor(small, small, cv::COLOR_RGB2GRAY);
   return small;
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match_internal.h"
@@ -51,14 +51,46 @@ cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
   return sixteenths;
 }
 
+namespace {
+
+/// The pixels, as indices into the rows one after the other, that are connected with `first` by steps to neighbours of
+/// like disparity. None of them is in `seen` before, all are afterwards.
+void find_patch(const Image<float>& disparity, std::size_t first, std::vector<bool>& seen,
+                std::vector<std::size_t>& patch) {
+  constexpr auto same_surface = static_cast<long>(2 * sixteenths_a_px);
+  const auto width = static_cast<std::size_t>(disparity.width());
+  const std::span<const float> values = disparity.pixels();
+  // Sixteenths, so that patches do not depend on the last bits of a disparity.
+  const auto sixteenths = [&](std::size_t at) { return std::lround(values[at] * sixteenths_a_px); };
+  const auto step_to = [&](std::size_t from, std::size_t at) {
+    if (seen[at] || !std::isfinite(values[at]) || std::abs(sixteenths(at) - sixteenths(from)) > same_surface) return;
+    seen[at] = true;
+    patch.push_back(at);
+  };
+  patch.assign(1, first);
+  seen[first] = true;
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const std::size_t at = patch[i], x = at % width;
+    if (x > 0) step_to(at, at - 1);
+    if (x + 1 < width) step_to(at, at + 1);
+    if (at >= width) step_to(at, at - width);
+    if (at + width < values.size()) step_to(at, at + width);
+  }
+}
+
+}  // namespace
+
+// OpenCV's filterSpeckles keeps places as 16-bit numbers: it writes beyond its memory where a side is longer.
 void remove_speckles(Image<float>& disparity, int least_surface_px) {
-  cv::Mat sixteenths = in_sixteenths(disparity, 1);
-  constexpr int same_surface = 2 * sixteenths_a_px;
-  cv::filterSpeckles(sixteenths, unknown_sixteenths, least_surface_px, same_surface);
-  tbb::parallel_for(0, disparity.height(), [&](int y) {
-    for (int x = 0; x < disparity.width(); ++x)
-      if (sixteenths.at<std::int16_t>(y, x) == unknown_sixteenths) disparity(x, y) = unknown;
-  });
+  const std::span<float> values = disparity.pixels();
+  std::vector<bool> seen(values.size());
+  std::vector<std::size_t> patch;
+  for (std::size_t first = 0; first < values.size(); ++first) {
+    if (seen[first] || !std::isfinite(values[first])) continue;
+    find_patch(disparity, first, seen, patch);
+    if (patch.size() > static_cast<std::size_t>(least_surface_px)) continue;
+    for (const std::size_t at : patch) values[at] = unknown;
+  }
 }
 
 cv::Mat unknown_places(const cv::Mat& disparity) { return ~(disparity == disparity); }

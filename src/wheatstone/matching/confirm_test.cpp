@@ -42,6 +42,19 @@ TEST(RemoveSpecklesButHoles, KeepsWhatIsSeenThroughAFence) {
   EXPECT_EQ(disparity(120, 100), fence);
 }
 
+TEST(RemoveSpeckles, RemovesFromASideLongerThan16BitsCount) {
+  constexpr int length = 70000, last = length - 1;
+  Image<float> column(2, length, 3), row(length, 2, 3);
+  for (Image<float>* strip : {&column, &row}) {
+    (*strip)(strip->width() - 1, strip->height() - 1) = 60;
+    remove_speckles(*strip, 10);
+  }
+  EXPECT_TRUE(std::isnan(column(1, last)));
+  EXPECT_TRUE(std::isnan(row(last, 1)));
+  EXPECT_EQ(column(0, last), 3);
+  EXPECT_EQ(row(0, 0), 3);
+}
+
 TEST(RemoveSpecklesButHoles, RemovesWhatCanBeNoHole) {
   Image<float> disparity = fenced_wall();
   set_patch(disparity, {80, 60, 8, 7}, fence + 10);  // nearer than what is around it

@@ -10,6 +10,7 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/binary_descriptors_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match.h"
@@ -30,9 +31,7 @@ std::vector<float> coarse_disparities(const StereoPair& pair) {
   constexpr int small_width_px = 320, least_surface_px = 60;
   constexpr double least_share = 0.01;
   const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());
-  cv::Mat left, right;
-  cv::resize(as_mat(pair.left), left, {}, scale, scale, cv::INTER_AREA);
-  cv::resize(as_mat(pair.right), right, {}, scale, scale, cv::INTER_AREA);
+  const cv::Mat left = shrunk(as_mat(pair.left), scale), right = shrunk(as_mat(pair.right), scale);
   const SearchBand band{Image<std::int16_t>(left.cols, left.rows, static_cast<std::int16_t>(-left.cols / 6)),
                         left.cols / 6 + left.cols / 3 + 1};
   const BandMatch match = match_semi_global(left, right, band);
@@ -49,8 +48,7 @@ std::vector<float> coarse_disparities(const StereoPair& pair) {
 cv::Mat reduced_luminance(const Image<Rgb8>& picture, double scale) {
   cv::Mat luminance;
   cv::cvtColor(as_mat(picture), luminance, cv::COLOR_RGB2GRAY);
-  if (scale < 1) cv::resize(luminance, luminance, {}, scale, scale, cv::INTER_AREA);
-  return luminance;
+  return scale < 1 ? shrunk(luminance, scale) : luminance;
 }
 
 /// Disparities of corners that are each other's best match and lie on one scan line.
@@ -59,6 +57,8 @@ std::vector<float> sparse_disparities(const cv::Mat& left, const cv::Mat& right)
   constexpr float largest_vertical_px = 1.5f;
   const auto orb = cv::ORB::create(corners);
   orb->setFastThreshold(8);
+  // Nearer to an edge there are no corners, and of a strip the pyramid has levels without rows.
+  if (std::min({left.cols, left.rows, right.cols, right.rows}) <= 2 * orb->getEdgeThreshold()) return {};
   std::vector<cv::KeyPoint> left_corners, right_corners;
   cv::Mat left_descriptors, right_descriptors;
   orb->detectAndCompute(left, {}, left_corners, left_descriptors);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/match_internal.h"
 
 namespace wheatstone {
@@ -30,8 +31,9 @@ double asked_scale(int width_px, int height_px) {
 }
 
 cv::Mat asked_copy(const Image<Rgb8>& picture, double scale) {
+  if (scale <= 1) return shrunk(as_mat(picture), scale);
   cv::Mat copy;
-  cv::resize(as_mat(picture), copy, {}, scale, scale, scale > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
+  cv::resize(as_mat(picture), copy, {}, scale, scale, cv::INTER_CUBIC);
   return copy;
 }
 

@@ -12,6 +12,7 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/seen_disparities_internal.h"
 #include "wheatstone/percentile.h"
 
@@ -66,8 +67,7 @@ int streaks_of_row(const cv::Mat& framed, int y, float tolerance) {
 double detail_of(const Image<Rgb8>& picture) {
   constexpr int side_px = 640;
   const double scale = std::min(1.0, static_cast<double>(side_px) / picture.width());
-  cv::Mat small, edges;
-  cv::resize(as_mat(picture), small, {}, scale, scale, cv::INTER_AREA);
+  cv::Mat small = shrunk(as_mat(picture), scale), edges;
   cv::cvtColor(small, small, cv::COLOR_RGB2GRAY);
   cv::Laplacian(small, edges, CV_32F);
   return cv::mean(cv::abs(edges))[0] / std::max(cv::mean(small)[0], 1.0);
@@ -148,8 +148,10 @@ Spread compare_partners(const StereoPair& pair, const StereoGeometry& geometry, 
 double streak_share(ImageView<const float> disparity) {
   constexpr int columns = 640;
   constexpr double share_of_range = 0.03;
-  const int rows =
-      std::max(1, static_cast<int>(std::lround(static_cast<double>(disparity.height()) * columns / disparity.width())));
+  // Of a tall strip only so many: it would be enlarged to many times its size.
+  constexpr int most_rows = 4 * columns;
+  const double own_shape = static_cast<double>(disparity.height()) * columns / disparity.width();
+  const int rows = std::clamp(static_cast<int>(std::lround(std::min<double>(own_shape, most_rows))), 1, most_rows);
   Image<float> reduced(columns, rows);
   const cv::Mat map = as_mat(reduced);
   cv::resize(as_mat(disparity), map, map.size(), 0, 0, cv::INTER_NEAREST);

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/nearest_descriptors_internal.h"
 
 namespace wheatstone {
@@ -29,7 +30,7 @@ SearchedCopy searched_copy(ImageView<const Rgb8> picture, int side_px) {
   const double scale = std::min(1.0, static_cast<double>(side_px) / std::max(picture.width(), picture.height()));
   SearchedCopy copy;
   cv::cvtColor(as_mat(picture), copy.luminance, cv::COLOR_RGB2GRAY);
-  if (scale < 1) cv::resize(copy.luminance, copy.luminance, {}, scale, scale, cv::INTER_AREA);
+  if (scale < 1) copy.luminance = shrunk(copy.luminance, scale);
   copy.x_scale = static_cast<double>(copy.luminance.cols) / picture.width();
   copy.y_scale = static_cast<double>(copy.luminance.rows) / picture.height();
   return copy;

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 
 namespace wheatstone {
@@ -20,9 +21,12 @@ constexpr double most_costs = 60e6;
 /// Mean absolute difference of the windows around each pixel, the right one shifted by a disparity.
 cv::Mat cost_at(const cv::Mat& left, const cv::Mat& right, int disparity) {
   constexpr int window_px = 9;
-  cv::Mat moved, cost;
-  const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, disparity, 0, 1, 0);
-  cv::warpAffine(right, moved, shift, right.size(), cv::INTER_NEAREST, cv::BORDER_REPLICATE);
+  cv::Mat moved(right.size(), right.type()), cost;
+  for (int y = 0; y < right.rows; ++y) {
+    const auto* from = right.ptr<std::uint8_t>(y);
+    auto* to = moved.ptr<std::uint8_t>(y);
+    for (int x = 0; x < right.cols; ++x) to[x] = from[std::clamp(x - disparity, 0, right.cols - 1)];
+  }
   cv::absdiff(left, moved, cost);
   cv::boxFilter(cost, cost, CV_32F, {window_px, window_px});
   return cost;
@@ -126,8 +130,8 @@ Image<std::uint8_t> find_distinct_matches(const cv::Mat& left, const cv::Mat& ri
   cv::cvtColor(right, small_right, cv::COLOR_RGB2GRAY);
   small_disparity = as_mat(disparity);
   if (scale < 1) {
-    cv::resize(small_left, small_left, {}, scale, scale, cv::INTER_AREA);
-    cv::resize(small_right, small_right, {}, scale, scale, cv::INTER_AREA);
+    small_left = shrunk(small_left, scale);
+    small_right = shrunk(small_right, scale);
     cv::resize(small_disparity, small_disparity, small_left.size(), 0, 0, cv::INTER_NEAREST);
     small_disparity *= scale;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/block_agreement.h"
 
 namespace wheatstone {
@@ -15,8 +16,7 @@ namespace {
 cv::Mat luminance(const Image<Rgb8>& picture) {
   constexpr int widest_px = 640;
   const double scale = std::min(1.0, static_cast<double>(widest_px) / picture.width());
-  cv::Mat small;
-  cv::resize(as_mat(picture), small, {}, scale, scale, cv::INTER_AREA);
+  cv::Mat small = shrunk(as_mat(picture), scale);
   cv::cvtColor(small, small, cv::COLOR_RGB2GRAY);
   return small;
 }

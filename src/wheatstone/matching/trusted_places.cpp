@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -15,8 +16,7 @@ namespace {
 /// The deviation in the plainest parts of a picture: its noise, where it has any plain part.
 float noise_of(const cv::Mat& deviation) {
   constexpr double plainest = 0.1, sampled = 0.25;
-  cv::Mat small;
-  cv::resize(deviation, small, {}, sampled, sampled, cv::INTER_NEAREST);
+  const cv::Mat small = shrunk(deviation, sampled, cv::INTER_NEAREST);
   std::vector<float> values(small.begin<float>(), small.end<float>());
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(plainest * static_cast<double>(values.size()));
   std::ranges::nth_element(values, at);

@@ -17,6 +17,7 @@ namespace {
 
 /// The pyramids of both methods need this much.
 constexpr int least_side_px = 16;
+constexpr int most_side_px = 32766;  // OpenCV counts the pixels of a side in 16 bits
 
 cv::Mat luminance(ImageView<const Rgb8> picture) {
   cv::Mat grey;
@@ -113,6 +114,10 @@ FlowPair estimate_flow(ImageView<const Rgb8> first, ImageView<const Rgb8> second
     throw Error(ErrorKind::bad_input,
                 fmt::format("the frame is {}x{} pixels, expected at least {} on each side for optical flow",
                             first.width(), first.height(), least_side_px));
+  if (std::max(first.width(), first.height()) > most_side_px)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("the frame is {}x{} pixels, expected at most {} on each side for optical flow",
+                            first.width(), first.height(), most_side_px));
   expect_size(second, first, "second frame");
   if (options.start != nullptr)
     for (const Flow* flow : {&options.start->forward, &options.start->backward})

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/pair_network_internal.h"
 #include "wheatstone/motion/flow_network_internal.h"
 
@@ -36,9 +37,7 @@ Image<float> at_size(const cv::Mat& map, cv::Size frame, double scale) {
 cv::Mat reduced(ImageView<const Rgb8> picture, double size) {
   const cv::Mat whole = as_mat(picture);
   if (size >= 1) return whole;
-  cv::Mat result;
-  cv::resize(whole, result, {}, size, size, cv::INTER_AREA);
-  return result;
+  return shrunk(whole, size);
 }
 
 }  // namespace

@@ -151,5 +151,15 @@ TEST(Sample, InterpolatesBetweenCentresAndContinuesTheBorder) {
   EXPECT_EQ(sample(picture.view(), 1, 0.5f).g, 50);
 }
 
+TEST(EstimateFlow, OfStripsIsFoundOrRefused) {
+  for (const auto& [width, height] : {std::pair(20000, 16), std::pair(16, 20000)}) {
+    const Image<Rgb8> strip(width, height);
+    EXPECT_EQ(estimate_flow(strip, strip, {}).forward.x.width(), width);
+  }
+  const Image<Rgb8> long_strip(40000, 16);
+  expect_error(ErrorKind::bad_input, "40000x16 pixels, expected at most",
+               [&] { estimate_flow(long_strip, long_strip, {}); });
+}
+
 }  // namespace
 }  // namespace wheatstone

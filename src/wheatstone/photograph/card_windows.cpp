@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/block_agreement.h"
 #include "wheatstone/photograph/card_windows_internal.h"
 
@@ -264,7 +265,7 @@ double turn_of(const cv::Mat& mask) {
   constexpr double most_turn_deg = 3, coarse_step_deg = 0.25, fine_step_deg = 0.05;
   cv::Mat smooth;
   mask.convertTo(smooth, CV_32F);
-  cv::resize(smooth, smooth, {}, 0.5, 0.5, cv::INTER_AREA);
+  smooth = shrunk(smooth, 0.5);
   // As smooth as turning makes it: else not to turn at all would always be sharpest.
   cv::GaussianBlur(smooth, smooth, {}, 0.8);
   double best_turn = 0, best = -1;
@@ -334,10 +335,11 @@ std::optional<CardWindows> find_card_windows(ImageView<const Rgb8> picture) {
   constexpr int least_side_px = 64;
   if (picture.width() < least_side_px || picture.height() < least_side_px) return {};
   const double scale = std::max(static_cast<double>(picture.width()) / searched_width_px, 1.0);
+  const cv::Size size(static_cast<int>(picture.width() / scale), static_cast<int>(picture.height() / scale));
+  constexpr int least_rows = 16;  // of a strip that is flatter, no card is told
+  if (size.height < least_rows) return {};
   cv::Mat small;
-  cv::resize(as_mat(picture), small,
-             {static_cast<int>(picture.width() / scale), static_cast<int>(picture.height() / scale)}, 0, 0,
-             cv::INTER_AREA);
+  cv::resize(as_mat(picture), small, size, 0, 0, cv::INTER_AREA);
   small.convertTo(small, CV_32FC3);
   constexpr double grain_px = 1.2;
   cv::GaussianBlur(small, small, {}, grain_px);
