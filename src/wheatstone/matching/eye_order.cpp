@@ -31,10 +31,7 @@ double asked_scale(int width_px, int height_px) {
 }
 
 cv::Mat asked_copy(const Image<Rgb8>& picture, double scale) {
-  if (scale <= 1) return shrunk(as_mat(picture), scale);
-  cv::Mat copy;
-  cv::resize(as_mat(picture), copy, {}, scale, scale, cv::INTER_CUBIC);
-  return copy;
+  return shrunk(as_mat(picture), scale, scale > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
 }
 
 cv::Mat lab(const cv::Mat& rgb) {
