@@ -1,7 +1,5 @@
 #include "wheatstone/app/display_views.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -30,11 +28,7 @@ float span_for(const DisplayViewsOptions& options, const DepthEnds& ends, float 
 /// which fills a view.
 Placement placement_for(PictureSize painting, const DisplayViewsOptions& options, float zero_parallax_px) {
   const auto [width, height] = painting;
-  const double shared = static_cast<double>(width) - std::abs(static_cast<double>(zero_parallax_px));
-  if (shared < 1)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("a disparity of {} px on the screen plane leaves nothing of {} px to show",
-                            zero_parallax_px, width));
+  const double shared = shared_width(width, zero_parallax_px);
   Placement placement{.width = options.width, .height = options.height, .zero_parallax_px = zero_parallax_px};
   placement.scale = std::max(options.width / shared, static_cast<double>(options.height) / height);
   placement.left = (width - options.width / placement.scale) / 2;
@@ -66,7 +60,8 @@ DisplayViewsOptions views_of_display(const DisplayPreset& display) {
 }
 
 DisplayViewsPlan plan_display_views(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options) {
-  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
+  check_number("views", options.views, view_count_range);
+  check_number("span", options.span, view_span_range);
   DisplayViewsPlan plan;
   plan.zero_parallax_px = options.zero_parallax_px.value_or(ends.middle_px());
   plan.placement = placement_for(painting, options, plan.zero_parallax_px);
@@ -84,6 +79,7 @@ DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOpti
                                                    depth_ends(painting.surfaces.seen.front().disparity), options);
   DisplayViews result{
       .views = {}, .picture = {}, .rig = plan.rig, .span = plan.span, .zero_parallax_px = plan.zero_parallax_px};
+  if (!composition) check_views_fit(result.rig);
   report(progress, "views", 0);
   const PreparedPainting prepared = prepare(painting, {.placement = plan.placement}, options.device);
   if (composition) {
@@ -96,6 +92,7 @@ DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOpti
   const ViewSink keep = [&](std::size_t /*place*/, DrawnView view) {
     result.worst_bare_share = std::max(result.worst_bare_share, view.bare_share);
     result.views.push_back(std::move(view.picture));
+    report(progress, "views", static_cast<double>(result.views.size()) / static_cast<double>(options.views));
   };
   draw(prepared, result.rig.positions, keep);
   report(progress, "views", 1);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "wheatstone/app/present_pair.h"
+#include "wheatstone/depth/convergence.h"
 #include "wheatstone/app/write_svg.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
@@ -39,6 +40,7 @@ Painting scaled(const Painting& painting, double scale) {
 void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options,
                 const Progress& progress) {
   Painting sized = scaled(painting, options.scale);
+  if (options.zero_parallax_px) shared_width(width_of(sized), *options.zero_parallax_px);
   sized = place_depth(std::move(sized), options.depth, width_of(sized));
   const bool is_placed = !options.depth.regions.empty();
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };

@@ -154,6 +154,7 @@ LinearRgba look_between(const SliceStack& stack, const ViewPixel& pixel) {
 
 std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, SliceFilter filter,
                                        const Progress& progress, const std::optional<Focus>& focus) {
+  check_views_fit(rig);
   if (focus) check_focus(*focus, largest_shift_px(stack, rig.positions));
   std::vector<Image<Rgb8>> views(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
   const std::vector<ImageView<Rgb8>> pictures(views.begin(), views.end());
