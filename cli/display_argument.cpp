@@ -27,7 +27,7 @@ DisplayViewsOptions display_views_options(const DisplayPreset& display, const Di
   if (arguments.views > 0) options.views = arguments.views;
   options.span = arguments.span;
   if (!arguments.size.empty()) {
-    const Size size = parse_size("--size", arguments.size, {1, 16384});
+    const Size size = parse_size("--size", arguments.size, view_side_range);
     options.width = size.width;
     options.height = size.height;
   }
@@ -48,7 +48,7 @@ void add_film_display_options(CLI::App& command, DisplayArguments& arguments) {
   command.add_option("--size", arguments.size, "Size of a view, WIDTHxHEIGHT; the display's own by default")
       ->needs(display)
       ->group(display_group);
-  add_number(command, "--span", arguments.span, {0.01, 20},
+  add_number(command, "--span", arguments.span, {0.01, view_span_range.most},
              "Distance from the first view to the last, in eye separations; chosen from the depth by default")
       ->default_str("")
       ->needs(display)

@@ -15,20 +15,9 @@
 namespace wheatstone::cli {
 namespace {
 
-/// What has no better bound: far beyond anything sensible, and yet safe to calculate with in single precision.
-constexpr double no_bound = 1e30;
-
 [[noreturn]] void refuse(const std::string& option, std::string_view text, std::string_view expected) {
   throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected {}", option, text, expected));
 }
-
-std::string words_of(NumberRange range) {
-  if (range.least <= -no_bound && range.most >= no_bound) return {};
-  if (range.most >= no_bound) return fmt::format(" of at least {}", range.least);
-  return fmt::format(" from {} to {}", range.least, range.most);
-}
-
-bool in_range(double value, NumberRange range) { return value >= range.least && value <= range.most; }
 
 /// A number and what follows it; nothing where the text does not begin with a finite number.
 template <class Number>
@@ -56,7 +45,7 @@ std::vector<Number> parse_list(const std::string& option, std::string_view text,
   while (true) {
     const std::size_t stop = rest.find(list.between);
     const std::optional<Number> number = whole_number<Number>(rest.substr(0, stop));
-    if (!number || !in_range(static_cast<double>(*number), list.range)) break;
+    if (!number || !list.range.has(static_cast<double>(*number))) break;
     numbers.push_back(*number);
     if (stop == std::string_view::npos) {
       if (numbers.size() == list.count) return numbers;
@@ -71,13 +60,13 @@ std::vector<Number> parse_list(const std::string& option, std::string_view text,
 
 double parse_number(const std::string& option, std::string_view text, NumberRange range) {
   const std::optional<double> value = whole_number<double>(text);
-  if (!value || !in_range(*value, range)) refuse(option, text, "a number" + words_of(range));
+  if (!value || !range.has(*value)) refuse(option, text, "a number" + words_of(range));
   return *value;
 }
 
 long long parse_integer(const std::string& option, std::string_view text, NumberRange range) {
   const std::optional<long long> value = whole_number<long long>(text);
-  if (!value || !in_range(static_cast<double>(*value), range)) refuse(option, text, "a whole number" + words_of(range));
+  if (!value || !range.has(static_cast<double>(*value))) refuse(option, text, "a whole number" + words_of(range));
   return *value;
 }
 
@@ -94,7 +83,7 @@ double parse_length_mm(const std::string& option, std::string_view text, NumberR
       {{"", 1}, {"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}}};
   if (const auto number = leading_number<double>(text))
     for (const auto& [unit, millimetres] : units)
-      if (number->second == unit && in_range(number->first * millimetres, range_mm)) return number->first * millimetres;
+      if (number->second == unit && range_mm.has(number->first * millimetres)) return number->first * millimetres;
   refuse(option, text, fmt::format("a length{} mm, as 30mm, 3cm, 0.03m or 1.2in", words_of(range_mm)));
 }
 
@@ -122,7 +111,7 @@ std::optional<double> parse_time_s(const std::string& option, std::string_view t
     const bool last = colon == std::string_view::npos;
     const double value = whole_number<double>(rest.substr(0, colon)).value_or(-1);
     // Below the first, minutes and seconds end at 60; only the last has a fraction.
-    if (!in_range(value, {0, parts > 1 ? std::nextafter(60.0, 0.0) : 1e9}) || parts > 3) wrong();
+    if (!NumberRange{0, parts > 1 ? std::nextafter(60.0, 0.0) : 1e9}.has(value) || parts > 3) wrong();
     if (!last && value != std::floor(value)) wrong();
     seconds = 60 * seconds + value;
     if (last) return seconds;
@@ -136,7 +125,7 @@ Rational parse_frame_rate(const std::string& option, std::string_view text) {
   // More than a million frames per second are a slip, fewer than one in a thousand seconds as well.
   const auto part = [](std::string_view number, bool whole) -> std::optional<double> {
     const std::optional<double> value = whole_number<double>(number);
-    if (!value || !in_range(*value, {0.001, 1e6}) || (whole && *value != std::floor(*value))) return std::nullopt;
+    if (!value || !NumberRange{0.001, 1e6}.has(*value) || (whole && *value != std::floor(*value))) return std::nullopt;
     return value;
   };
   const std::optional<double> above = part(text.substr(0, slash), is_ratio);
@@ -154,7 +143,7 @@ std::size_t parse_bytes(const std::string& option, std::string_view text) {
   const auto number = leading_number<double>(text);
   const auto* const unit =
       number ? std::ranges::find(units, number->second, &std::pair<std::string_view, double>::first) : units.end();
-  if (unit == units.end() || !in_range(number->first * unit->second, {1e3, 1e12}))
+  if (unit == units.end() || !NumberRange{1e3, 1e12}.has(number->first * unit->second))
     refuse(option, text, "a size of at least 1kB, as 8MB, 500kB or 1500000");
   return static_cast<std::size_t>(number->first * unit->second);
 }

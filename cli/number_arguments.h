@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/number_range.h"
 #include "wheatstone/video/frame.h"
 
 namespace wheatstone::cli {
@@ -14,12 +15,6 @@ namespace wheatstone::cli {
 // The one place where numbers are read from the command line. Nothing but decimal numbers is taken: NaN, infinity and
 // trailing text are refused everywhere. Each function throws Error{wrong_usage} that names the option, what was typed
 // and what was expected.
-
-/// What a number may be, both ends included.
-struct NumberRange {
-  double least;
-  double most;
-};
 
 double parse_number(const std::string& option, std::string_view text, NumberRange range);
 long long parse_integer(const std::string& option, std::string_view text, NumberRange range);

@@ -34,11 +34,6 @@ struct Arguments {
 
 /// The views of which the packing needs all: shifted, and with the window where it is wanted.
 std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const Arguments& arguments) {
-  if (!views.empty() &&
-      std::abs(arguments.shift_px) * static_cast<float>(views.size() - 1) > static_cast<float>(views[0].width() - 1))
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--zero-parallax: a shift of {} px from view to view leaves nothing of {} views of {} px",
-                            arguments.shift_px, views.size(), views[0].width()));
   if (arguments.shift_px != 0) views = shifted_views(std::move(views), arguments.shift_px);
   if (!arguments.floating_window.empty()) {
     if (views.size() != 2)

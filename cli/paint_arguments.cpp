@@ -48,12 +48,12 @@ void add_display_options(CLI::App& command, PaintArguments& arguments) {
   for (const DisplayPreset& preset : display_presets()) names += fmt::format(" {}", preset.name);
   auto* display = command.add_option("--display", arguments.display,
                                      "Paint the views of a display, as one quilt where the display takes one:" + names);
-  add_number(command, "--views", arguments.views, {1, 1000}, "Number of views; the display's own by default")
+  add_number(command, "--views", arguments.views, view_count_range, "Number of views; the display's own by default")
       ->default_str("")
       ->needs(display);
   command.add_option("--size", arguments.size, "Size of a view, WIDTHxHEIGHT; the display's own by default")
       ->needs(display);
-  add_number(command, "--span", arguments.span, {0.01, 20},
+  add_number(command, "--span", arguments.span, {0.01, view_span_range.most},
              "Distance from the first view to the last, in eye separations; chosen from the depth by default")
       ->default_str("")
       ->needs(display);

@@ -13,6 +13,7 @@
 #include "output_option.h"
 #include "picture_format.h"
 #include "typed_options.h"
+#include "wheatstone/app/render_limits.h"
 #include "wheatstone/app/write_values.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
@@ -44,18 +45,16 @@ constexpr std::array<std::pair<std::string_view, SizeRule>, 5> size_rules{
 constexpr auto particles_group = "Particles", appearance_group = "Appearance", views_group = "Views and depth",
                method_group = "Method and output";
 
-constexpr NumberRange coordinates{-1e30, 1e30};
-
 /// "sphere:X,Y,Z,R" or "box:X0,Y0,Z0,X1,Y1,Z1"; nothing of something else. `expected` is for the message.
 Cut parse_region(const std::string& option, const std::string& text, std::string_view expected) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   const std::string_view kind = std::string_view(text).substr(0, colon);
   const std::string_view rest = std::string_view(text).substr(std::min(colon + 1, text.size()));
   if (kind == "sphere") {
-    const auto n = parse_numbers(option, rest, {',', 4, coordinates, expected});
+    const auto n = parse_numbers(option, rest, {',', 4, coordinate_range, expected});
     if (n[3] > 0) return Sphere{{n[0], n[1], n[2]}, n[3]};
   } else if (kind == "box") {
-    const auto n = parse_numbers(option, rest, {',', 6, coordinates, expected});
+    const auto n = parse_numbers(option, rest, {',', 6, coordinate_range, expected});
     if (n[0] < n[3] && n[1] < n[4] && n[2] < n[5]) return Box{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
   }
   throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected {}", option, text, expected));
@@ -87,9 +86,9 @@ void add_particle_options(CLI::App& command, RenderArguments& arguments) {
   text("--mass", choice.mass, "Dataset or column of the mass; each particle counts 1 where there is none");
   text("--centre", arguments.centre, "Point X,Y,Z of a periodic box that is moved to the middle of the views");
   text("--select", arguments.selection, "Keep the particles in sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1 only");
-  add_number(command, "--subsample", arguments.options.selection.every, {1, 1e12}, "Keep every Nth particle")
+  add_number(command, "--subsample", arguments.options.selection.every, every_range, "Keep every Nth particle")
       ->group(particles_group);
-  add_number(command, "--neighbours", arguments.options.neighbours, {2, 1000},
+  add_number(command, "--neighbours", arguments.options.neighbours, neighbours_range,
              "Particles in a kernel, from which the density is estimated where the file has none")
       ->group(particles_group);
   CLI::Option* stream = command
@@ -117,9 +116,9 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
   add_choice<Stretch>(command, "--stretch", arguments.options.rendering.tone.stretch, stretches,
                       "How numbers between --least and --most become brightness")
       ->group(appearance_group);
-  number("--least", arguments.options.least, coordinates,
+  number("--least", arguments.options.least, coordinate_range,
          "Column density, or quantity, where brightness begins; 0 or the 1st percentile by default");
-  number("--most", arguments.options.most, coordinates,
+  number("--most", arguments.options.most, coordinate_range,
          "Column density, or quantity, where brightness ends; the 99.9th percentile by default");
   add_choice<Kernel>(command, "--kernel", appearance.kernel, kernels, "How a particle's mass is spread")
       ->group(appearance_group);
@@ -130,12 +129,12 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
       ->group(appearance_group);
   add_choice<SizeRule>(command, "--size-rule", appearance.size_rule, size_rules, "What sets the size of a splat")
       ->group(appearance_group);
-  number("--opacity", appearance.opacity, {1e-6, 1000}, "Opacity of the densest particles");
-  number("--least-opacity", appearance.least_opacity, {0, 1},
+  number("--opacity", appearance.opacity, opacity_range, "Opacity of the densest particles");
+  number("--least-opacity", appearance.least_opacity, least_opacity_range,
          "Opacity of the least dense particles, as a fraction of --opacity");
-  number("--density-slope", appearance.density_slope, {-100, 100},
+  number("--density-slope", appearance.density_slope, density_slope_range,
          "Slope of the sigmoid that turns density into opacity, per factor of ten in density");
-  number("--density-shift", appearance.density_shift, {-30, 30},
+  number("--density-shift", appearance.density_shift, density_shift_range,
          "Centre of that sigmoid, in factors of ten above the median density");
   CLI::Option* map = command
                          .add_option("--colours", appearance.colour_map,
@@ -146,22 +145,22 @@ void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
       ->excludes(map)
       ->group(appearance_group);
   command.add_option("--hot", arguments.hot, "Colour of the hottest particles")->excludes(map)->group(appearance_group);
-  number("--coldest", appearance.coldest, coordinates,
+  number("--coldest", appearance.coldest, coordinate_range,
          "Temperature where the colours begin; 2nd percentile by default");
-  number("--hottest", appearance.hottest, coordinates, "Temperature where they end; 98th percentile by default");
+  number("--hottest", appearance.hottest, coordinate_range, "Temperature where they end; 98th percentile by default");
   command
       .add_flag("--annotate", arguments.annotate,
                 "Draw a scale bar, the colours with their limits and units, and the redshift into each view")
       ->group(method_group);
   command.add_flag("!--linear-colours", appearance.logarithmic, "Map the temperature to colours linearly")
       ->group(appearance_group);
-  number("--exposure", arguments.options.rendering.exposure, {1e-9, 1e9},
+  number("--exposure", arguments.options.rendering.exposure, exposure_range,
          "Factor on the light before tone mapping; from the central view by default");
   add_choice<Blend>(command, "--blend", appearance.blend, blends,
                     "How particles that lie behind each other come together: their light is added, or the nearer ones "
                     "also absorb light, so that they are in front")
       ->group(appearance_group);
-  number("--shine", appearance.shine, {0, 1000},
+  number("--shine", appearance.shine, shine_range,
          "Light of highlights on the surfaces of clumps, which move from view to view, as a multiple of the particles' "
          "own");
   command
@@ -187,9 +186,9 @@ void add_camera_options(CLI::App& command, RenderArguments& arguments) {
       ->capture_default_str()
       ->group(views_group);
   number("--azimuth", framing.azimuth_deg, {-360, 360}, "Direction that the camera looks from, in degrees");
-  number("--elevation", framing.elevation_deg, {-90, 90}, "Height of the camera above the horizon, in degrees");
-  number("--fov", framing.field_of_view_deg, {1, 150}, "Horizontal field of view, in degrees");
-  number("--zoom", framing.zoom, {0.01, 1000}, "Magnification: 2 shows half as much");
+  number("--elevation", framing.elevation_deg, elevation_range, "Height of the camera above the horizon, in degrees");
+  number("--fov", framing.field_of_view_deg, field_of_view_range, "Horizontal field of view, in degrees");
+  number("--zoom", framing.zoom, zoom_range, "Magnification: 2 shows half as much");
   add_choice<bool>(command, "--projection", framing.orthographic, projections,
                    "Perspective, or orthographic: everything is as large as at the point that is looked at, and the "
                    "views are sheared")
@@ -201,12 +200,12 @@ void add_depth_options(CLI::App& command, RenderArguments& arguments) {
   const auto length = [&](const char* name, float& value, NumberRange range, const char* help) {
     add_length(command, name, value, range, help)->group(views_group);
   };
-  length("--near", depth.near_mm, {0, 100'000}, "Depth in front of the screen, in mm");
-  length("--far", depth.far_mm, {0, 1e9}, "Depth behind the screen, in mm");
-  length("--eye", depth.viewing.eye_separation_mm, {1, 1000},
+  length("--near", depth.near_mm, near_range_mm, "Depth in front of the screen, in mm");
+  length("--far", depth.far_mm, far_range_mm, "Depth behind the screen, in mm");
+  length("--eye", depth.viewing.eye_separation_mm, eye_range_mm,
          "Eye separation, or the width of a viewing window, in mm");
-  length("--distance", depth.viewing.viewing_distance_mm, {1, 1e6}, "Viewing distance, in mm");
-  length("--screen-width", depth.viewing.screen_width_mm, {1, 1e6}, "Width of the screen, in mm");
+  length("--distance", depth.viewing.viewing_distance_mm, distance_range_mm, "Viewing distance, in mm");
+  length("--screen-width", depth.viewing.screen_width_mm, screen_width_range_mm, "Width of the screen, in mm");
   CLI::Option* mapping =
       command
           .add_option("--depth-mapping", arguments.depth_mapping,
@@ -238,8 +237,9 @@ void add_view_options(CLI::App& command, RenderArguments& arguments) {
       .add_option("--display", arguments.display,
                   "Set views, span, size, distance, depth and quilt for a display:" + names)
       ->group(views_group);
-  add_number(command, "--views", options.views, {1, 1000}, "Number of views")->group(views_group);
-  add_number(command, "--span", options.span, {0, 100}, "Distance from the first view to the last, in eye separations")
+  add_number(command, "--views", options.views, view_count_range, "Number of views")->group(views_group);
+  add_number(command, "--span", options.span, view_span_range,
+             "Distance from the first view to the last, in eye separations")
       ->group(views_group);
   command.add_option("--size", arguments.size, "Size of a view: WIDTHxHEIGHT")
       ->capture_default_str()
@@ -255,7 +255,7 @@ void add_method_options(CLI::App& command, RenderArguments& arguments) {
   add_device_option(command, rendering.device, "What renders")->group(method_group);
   add_choice<SliceFilter>(command, "--filter", rendering.filter, filters, "Depth-plane filter of the layered method")
       ->group(method_group);
-  add_number(command, "--planes", rendering.planes, {1, 100'000},
+  add_number(command, "--planes", rendering.planes, {1, planes_range.most},
              "Number of depth planes; one per pixel of parallax by default")
       ->default_str("")
       ->group(method_group);
@@ -328,16 +328,6 @@ void refuse_for_look(const CLI::App& command, const RenderArguments& arguments) 
   if (!arguments.options.quantity.empty())
     refuse_options(command, {"--cold", "--hot", "--coldest", "--hottest", "--linear-colours"}, "with --quantity",
                    "the colours are those of --colours between --least and --most");
-}
-
-/// Throws Error{wrong_usage} for limits the wrong way round.
-void check_limits(const RenderParticlesOptions& options) {
-  if (options.least >= options.most)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--least: is {}, expected below --most, {}", options.least, options.most));
-  if (options.rendering.tone.stretch == Stretch::log && options.least <= 0)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--least: is {}, expected above 0 with --stretch log", options.least));
 }
 
 void refuse_for_particles(const CLI::App& command, const RenderArguments& arguments) {
@@ -432,23 +422,22 @@ std::optional<Focus> focus_in(const RenderArguments& arguments, const Size& size
 
 RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   RenderParticlesOptions options = arguments.options;
-  constexpr double most_pixels = 16384;
   const std::string splat_text = arguments.splat.empty() ? "2,6" : arguments.splat;
   const auto splat = parse_numbers("--splat", splat_text, {',', 2, {0, SplatStyle::widest_px}, "MIN,MAX"});
   if (!(splat[0] > 0 && splat[0] <= splat[1]))
     throw Error(ErrorKind::wrong_usage, fmt::format("--splat: is '{}', expected MIN,MAX with 0 < MIN <= MAX <= {}",
                                                     splat_text, SplatStyle::widest_px));
-  const Size size = parse_size("--size", arguments.size, {1, most_pixels});
+  const Size size = parse_size("--size", arguments.size, view_side_range);
   options.width = size.width;
   options.height = size.height;
   options.appearance.smallest_px = static_cast<float>(splat[0]);
   options.appearance.largest_px = static_cast<float>(splat[1]);
   if (!arguments.centre.empty()) {
-    const auto centre = parse_numbers("--centre", arguments.centre, {',', 3, coordinates, "X,Y,Z"});
+    const auto centre = parse_numbers("--centre", arguments.centre, {',', 3, coordinate_range, "X,Y,Z"});
     options.selection.centre = {centre[0], centre[1], centre[2]};
   }
   if (!arguments.look_at.empty()) {
-    const auto point = parse_numbers("--look-at", arguments.look_at, {',', 3, coordinates, "X,Y,Z"});
+    const auto point = parse_numbers("--look-at", arguments.look_at, {',', 3, coordinate_range, "X,Y,Z"});
     options.look_at = {point[0], point[1], point[2]};
   }
   if (!arguments.selection.empty())
@@ -459,7 +448,7 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   options.rendering.focus = focus_in(arguments, size);
   if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);
   if (!arguments.hot.empty()) options.appearance.hot = parse_colour("--hot", arguments.hot);
-  check_limits(options);
+  check_render_options(options);
   if (!option_of_thesis(arguments).empty()) options.appearance.look = Look::thesis;
   options.values = !arguments.values.empty();
   if (options.values) check_values_ending("--values", arguments.values);

@@ -105,8 +105,8 @@ void add_synth_still(CLI::App& synth, const Session& session) {
              "Disparity of the wall in pixels; 6 per 640 pixels of width by default");
   command.add_flag("--converged", arguments->still.converged,
                    "Put disparity 0 in the middle of the range, so that both signs occur");
-  CLI::Option* views =
-      add_number(command, "--views", arguments->views, {1, 1000}, "Number of views from the left eye to the right eye");
+  CLI::Option* views = add_number(command, "--views", arguments->views, view_count_range,
+                                  "Number of views from the left eye to the right eye");
   CLI::Option* view = add_number(command, "--view", arguments->view, {-10, 10},
                                  "Write one view only, at this position: left eye -0.5, centre 0, right eye 0.5")
                           ->excludes(views);

@@ -177,9 +177,10 @@ void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
                      "Read the picture as a quilt of COLUMNSxROWS views; by default where its name says so, as in "
                      "gas_qs8x6a0.75.png");
   command.add_flag("--swap", arguments.swap, "Reverse the order of the views: they are stored from right to left");
-  add_number(command, "--views", arguments.views, {1, 1000}, "Number of views to make from a painting or from slices")
+  add_number(command, "--views", arguments.views, view_count_range,
+             "Number of views to make from a painting or from slices")
       ->default_str("");
-  add_number(command, "--span", arguments.span, {0, 100},
+  add_number(command, "--span", arguments.span, view_span_range,
              "Distance from the first view to the last, in eye separations, for a painting or slices");
 }
 

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-
-#include "wheatstone/error.h"
+#include <string_view>
 
 namespace wheatstone::python {
 namespace {
@@ -24,6 +23,18 @@ namespace py = pybind11;
   throw py::value_error(fmt::format("{} is {}, expected {}", name, what, expected));
 }
 
+/// A mask would be lost, and an array without elements is no picture.
+void refuse_mask_and_nothing(const py::object& given, const std::string& name, const std::string& expected) {
+  if (py::isinstance(given, py::module_::import("numpy").attr("ma").attr("MaskedArray")))
+    throw py::value_error(fmt::format("{} is a masked array, expected {}", name, expected));
+  if (py::isinstance<py::array>(given) && py::cast<py::array>(given).size() == 0) refuse(given, name, expected);
+}
+
+/// Copies of many views take their time.
+void let_signals_end() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 /// An array that owns a picture; its numbers are those of the picture's pixels.
 template <class Number, class Pixel>
 py::array owning(Image<Pixel> image, const std::vector<py::ssize_t>& shape) {
@@ -38,6 +49,7 @@ py::array owning(Image<Pixel> image, const std::vector<py::ssize_t>& shape) {
 
 ImageView<const Rgb8> picture_in(const py::object& given, const std::string& name) {
   const std::string expected = "an array of uint8 and shape (height, width, 3), without gaps in memory";
+  refuse_mask_and_nothing(given, name, expected);
   if (!py::isinstance<Array<std::uint8_t>>(given)) refuse(given, name, expected);
   const auto array = py::cast<Array<std::uint8_t>>(given);
   if (array.ndim() != 3 || array.shape(2) != 3) refuse(given, name, expected);
@@ -47,11 +59,22 @@ ImageView<const Rgb8> picture_in(const py::object& given, const std::string& nam
 
 ImageView<const float> disparities_in(const py::object& given, const std::string& name) {
   const std::string expected = "an array of float32 and shape (height, width), without gaps in memory";
+  refuse_mask_and_nothing(given, name, expected);
   if (!py::isinstance<Array<float>>(given)) refuse(given, name, expected);
   const auto array = py::cast<Array<float>>(given);
   if (array.ndim() != 2) refuse(given, name, expected);
   const auto width = static_cast<int>(array.shape(1));
   return {array.data(), width, static_cast<int>(array.shape(0)), width};
+}
+
+py::array real_numbers(const py::object& given, const std::string& name, const std::string& expected) {
+  auto array = py::array::ensure(given);
+  PyErr_Clear();
+  if (!array) refuse(given, name, expected);
+  refuse_mask_and_nothing(given, name, expected);
+  constexpr std::string_view real_kinds = "biuf";
+  if (real_kinds.find(array.dtype().kind()) == std::string_view::npos) refuse(array, name, expected);
+  return array;
 }
 
 StereoPair pair_in(const py::object& left, const py::object& right) {
@@ -60,23 +83,23 @@ StereoPair pair_in(const py::object& left, const py::object& right) {
 
 std::vector<Image<Rgb8>> views_in(const py::object& given, const std::string& name) {
   const std::string expected = "an array of uint8 and shape (number, height, width, 3), without gaps in memory";
+  refuse_mask_and_nothing(given, name, expected);
   if (!py::isinstance<Array<std::uint8_t>>(given)) refuse(given, name, expected);
   const auto array = py::cast<Array<std::uint8_t>>(given);
   if (array.ndim() != 4 || array.shape(3) != 3) refuse(given, name, expected);
   std::vector<Image<Rgb8>> views;
-  for (const py::handle view : array)
+  for (const py::handle view : array) {
+    let_signals_end();
     views.push_back(copy_of(picture_in(py::reinterpret_borrow<py::object>(view), name)));
+  }
   return views;
 }
 
 std::vector<float> column_of(const py::object& given, std::size_t count, const std::string& name) {
   if (given.is_none()) return {};
   const std::string expected = fmt::format("{} numbers, one a particle", count);
-  const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(given);
-  if (!array) {
-    PyErr_Clear();
-    refuse(given, name, expected);
-  }
+  const auto array =
+      py::cast<py::array_t<float, py::array::c_style | py::array::forcecast>>(real_numbers(given, name, expected));
   if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != count) refuse(given, name, expected);
   std::vector<float> column(array.data(), array.data() + count);
   if (std::ranges::any_of(column, [](float number) { return std::isinf(number); }))
@@ -105,16 +128,11 @@ py::array array_of(const std::vector<Image<Rgb8>>& views) {
                     width = views.empty() ? 0 : views.front().width();
   py::array_t<std::uint8_t> array({count, height, width, py::ssize_t{3}});
   auto* to = reinterpret_cast<Rgb8*>(array.mutable_data());
-  for (const Image<Rgb8>& view : views) to = std::ranges::copy(view.pixels(), to).out;
+  for (const Image<Rgb8>& view : views) {
+    let_signals_end();
+    to = std::ranges::copy(view.pixels(), to).out;
+  }
   return array;
-}
-
-Progress with_signals(py::handle told) {
-  return [told](std::string_view step, double done) {
-    const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (told && told(step, done).is(py::handle(Py_False))) throw Error(ErrorKind::interrupted, "the job was cancelled");
-  };
 }
 
 }  // namespace wheatstone::python

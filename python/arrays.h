@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "wheatstone/image/image.h"
-#include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone::python {
@@ -38,6 +37,9 @@ StereoPair pair_in(const pybind11::object& left, const pybind11::object& right);
 /// Pictures of one size, from left to right, copied: an array of number × height × width × 3 bytes.
 std::vector<Image<Rgb8>> views_in(const pybind11::object& array, const std::string& name);
 
+/// What has real numbers as an array. Throws ValueError that names the argument.
+pybind11::array real_numbers(const pybind11::object& given, const std::string& name, const std::string& expected);
+
 /// One number a particle; empty for None. Throws ValueError where there are not `count`.
 std::vector<float> column_of(const pybind11::object& array, std::size_t count, const std::string& name);
 
@@ -47,10 +49,5 @@ pybind11::array array_of(Image<float> numbers);
 pybind11::array array_of(Image<std::uint8_t> mask);
 /// Views of one size as number × height × width × 3.
 pybind11::array array_of(const std::vector<Image<Rgb8>>& views);
-
-/// Lets Python's signals end a long call: Ctrl-C becomes KeyboardInterrupt. For calls without the interpreter's lock.
-/// `told`, which must live as long, is called with each step and how much of it is done; False from it ends the call
-/// with Error{interrupted}.
-Progress with_signals(pybind11::handle told = {});
 
 }  // namespace wheatstone::python

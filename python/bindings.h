@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
 #include <string>
 
 #include "wheatstone/marks/painting.h"
@@ -12,13 +13,13 @@ namespace wheatstone::python {
 
 /// A painting, and the pictures of its eyes: None for an eye that it was not painted for.
 struct PyPainting {
-  Painting painting;
+  std::shared_ptr<const Painting> painting;
   pybind11::object left, right;
 };
 
 /// Slices of particles.
 struct PySlices {
-  SliceStack stack;
+  std::shared_ptr<const SliceStack> stack;
 };
 
 void add_displays(pybind11::module_& module);

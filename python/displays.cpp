@@ -11,6 +11,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "calls.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
@@ -18,6 +19,7 @@
 #include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/display/wiggle.h"
+#include "wheatstone/error.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/packed_pair.h"
@@ -56,26 +58,16 @@ Image<Rgb8> packed_pair(const Views& views, const std::string& to) {
 
 py::array pack(const py::object& given, const std::string& to, std::pair<int, int> quilt, const std::string& screen,
                float screen_disparity) {
-  Views views = views_in(given, "views");
-  Image<Rgb8> picture;
-  {
-    const py::gil_scoped_release unlocked;
+  return array_of(result_of([=, views = views_in(given, "views")](const Progress& /*progress*/) mutable {
     if (screen_disparity != 0) views = shifted_views(std::move(views), screen_disparity);
-    if (to == "quilt") {
-      picture = make_quilt(views, {quilt.first, quilt.second});
-    } else if (to == "lenticular") {
-      picture = interleave(views, find_lenticular(screen));
-    } else {
-      picture = packed_pair(views, to);
-    }
-  }
-  return array_of(std::move(picture));
+    if (to == "quilt") return make_quilt(views, {quilt.first, quilt.second});
+    if (to == "lenticular") return interleave(views, find_lenticular(screen));
+    return packed_pair(views, to);
+  }));
 }
 
 /// Writes views to one file, by its ending.
-void write_views(const fs::path& path, const py::object& given) {
-  const Views views = views_in(given, "views");
-  const py::gil_scoped_release unlocked;
+void write_views(const fs::path& path, const Views& views) {
   const std::string ending = path.extension().string();
   if (ending == ".mpo") {
     write_mpo(path, std::vector<ImageView<const Rgb8>>(views.begin(), views.end()));
@@ -86,21 +78,17 @@ void write_views(const fs::path& path, const py::object& given) {
   } else if (ending == ".jps" && views.size() == 2) {
     write_jps(path, views[0], views[1]);
   } else {
-    throw py::value_error(
-        fmt::format("{}: {} views, expected a name that ends in .mpo, .exr, .gif or .webp; .jps holds "
-                    "2 views; other pictures are made by pack()",
-                    path.string(), views.size()));
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: {} views, expected a name that ends in .mpo, .exr, .gif or .webp; .jps holds "
+                            "2 views; other pictures are made by pack()",
+                            path.string(), views.size()));
   }
 }
 
 py::dict measure(const py::object& left, const py::object& right, const py::object& disparity) {
-  const StereoPair pair = pair_in(left, right);
-  const Image<float> truth = copy_of(disparities_in(disparity, "disparity"));
-  PairMeasures measured;
-  {
-    const py::gil_scoped_release unlocked;
-    measured = measure_pair(pair, truth);
-  }
+  const PairMeasures measured =
+      result_of([pair = pair_in(left, right), truth = copy_of(disparities_in(disparity, "disparity"))](
+                    const Progress& /*progress*/) { return measure_pair(pair, truth); });
   py::dict result;
   result["mean_absolute_difference"] = measured.difference.mean_absolute;
   result["rmse"] = measured.difference.rmse;
@@ -118,9 +106,13 @@ py::dict measure(const py::object& left, const py::object& right, const py::obje
 
 void add_displays(py::module_& module) {
   module.def("pack", &pack);
-  module.def("write_views", &write_views);
-  module.def("write_picture", [](const fs::path& path, const py::object& picture) {
-    write_image(path, picture_in(picture, "picture"));
+  module.def("write_views", [](const fs::path& path, const py::object& given) {
+    result_of([path, views = views_in(given, "views")](const Progress& /*progress*/) { write_views(path, views); });
+  });
+  module.def("write_picture", [](const fs::path& path, const py::object& given) {
+    result_of([path, picture = copy_of(picture_in(given, "picture"))](const Progress& /*progress*/) {
+      write_image(path, picture);
+    });
   });
   module.def("measure", &measure);
 }

@@ -2,26 +2,42 @@
 
 #include <pybind11/pybind11.h>
 
+#include <exception>
+#include <filesystem>
+#include <string>
+
 #include "bindings.h"
+#include "calls.h"
 #include "wheatstone/error.h"
 
 namespace py = pybind11;
 
 namespace {
 
-/// Our errors as Python's own kinds.
+/// Raises; names of files may be any bytes.
+void raise(PyObject* kind, const std::string& message) {
+  PyErr_SetObject(kind, py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(message.c_str())).ptr());
+}
+
+PyObject* kind_of(wheatstone::ErrorKind kind) {
+  switch (kind) {
+    case wheatstone::ErrorKind::cannot_read_write:
+      return PyExc_OSError;
+    case wheatstone::ErrorKind::interrupted:
+      return PyExc_KeyboardInterrupt;
+    default:
+      return PyExc_ValueError;
+  }
+}
+
+/// Our errors, and those of the system, as Python's own kinds.
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const wheatstone::Error& error) {
-    switch (error.kind()) {
-      case wheatstone::ErrorKind::cannot_read_write:
-        return PyErr_SetString(PyExc_OSError, error.what());
-      case wheatstone::ErrorKind::interrupted:
-        return PyErr_SetString(PyExc_KeyboardInterrupt, error.what());
-      default:
-        return PyErr_SetString(PyExc_ValueError, error.what());
-    }
+    raise(kind_of(error.kind()), error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    raise(PyExc_OSError, error.path1().string() + ": " + error.code().message());
   }
 }
 
@@ -30,6 +46,7 @@ void translate(std::exception_ptr thrown) {
 PYBIND11_MODULE(_wheatstone, module) {
   module.attr("__version__") = WHEATSTONE_VERSION;
   py::register_exception_translator(translate);
+  wheatstone::python::add_end_of_calls(module);
   wheatstone::python::add_painting(module);
   wheatstone::python::add_particles(module);
   wheatstone::python::add_photographs(module);

@@ -11,14 +11,13 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "calls.h"
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/app/paint_photograph.h"
-#include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/painting/two_eyes.h"
-#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::python {
@@ -27,13 +26,8 @@ namespace {
 namespace py = pybind11;
 
 py::dict match_pictures(const py::object& left, const py::object& right, const std::string& quality) {
-  const MatchOptions options = matching_for(quality);
-  const StereoPair pictures = pair_in(left, right);
-  MatchedPair matched;
-  {
-    const py::gil_scoped_release unlocked;
-    matched = match(pictures, options, with_signals());
-  }
+  MatchedPair matched = result_of([options = matching_for(quality), pictures = pair_in(left, right)](
+                                      const Progress& progress) { return match(pictures, options, progress); });
   py::dict result;
   result["left_disparity"] = array_of(std::move(matched.geometry.left_disparity));
   result["right_disparity"] = array_of(std::move(matched.geometry.right_disparity));
@@ -55,41 +49,43 @@ Style style_of(const std::string& preset, const std::map<std::string, std::strin
   return style;
 }
 
-std::unique_ptr<PyPainting> paint_pictures(const py::object& left, const py::object& right, const Style& style,
-                                           const std::string& quality, const py::object& disparity) {
-  PaintPhotographOptions options{.style = style, .matching = matching_for(quality), .depth_budget = {}};
-  const StereoPair photographs = pair_in(left, right);
-  if (!disparity.is_none()) options.left_disparity = copy_of(disparities_in(disparity, "disparity"));
-  std::optional<PaintedPhotograph> made;
-  {
-    const py::gil_scoped_release unlocked;
-    made = paint_photograph(photographs, options, with_signals());
-  }
-  StereoPair& pictures = made->painted.pictures;
-  return std::make_unique<PyPainting>(PyPainting{std::move(made->painted.painting), array_of(std::move(pictures.left)),
+std::unique_ptr<PyPainting> painting_of(PaintedPair painted) {
+  StereoPair& pictures = painted.pictures;
+  return std::make_unique<PyPainting>(PyPainting{std::make_shared<const Painting>(std::move(painted.painting)),
+                                                 array_of(std::move(pictures.left)),
                                                  array_of(std::move(pictures.right))});
 }
 
+std::unique_ptr<PyPainting> paint_pictures(const py::object& left, const py::object& right, const Style& style,
+                                           const std::string& quality, const py::object& disparity) {
+  PaintPhotographOptions options{.style = style, .matching = matching_for(quality), .depth_budget = {}};
+  StereoPair photographs = pair_in(left, right);
+  if (!disparity.is_none()) options.left_disparity = copy_of(disparities_in(disparity, "disparity"));
+  return painting_of(
+      result_of([photographs = std::move(photographs), options = std::move(options)](const Progress& progress) {
+        return paint_photograph(photographs, options, progress).painted;
+      }));
+}
+
 py::array draw_views(const PyPainting& painting, int count, float span, std::optional<float> screen_disparity) {
-  if (count < 1) throw py::value_error("the number of views is " + std::to_string(count) + ", expected at least 1");
+  // 0 would leave the choice to the library.
+  check_number("span", span, {0.01, view_span_range.most});
   const DisplayViewsOptions options{.views = count,
-                                    .width = width_of(painting.painting),
-                                    .height = height_of(painting.painting),
+                                    .width = width_of(*painting.painting),
+                                    .height = height_of(*painting.painting),
                                     .span = span,
                                     .zero_parallax_px = screen_disparity};
-  std::vector<Image<Rgb8>> views;
-  {
-    const py::gil_scoped_release unlocked;
-    views = draw_display_views(painting.painting, options, with_signals()).shown.views;
-  }
-  return array_of(views);
+  return array_of(result_of([painting = painting.painting, options](const Progress& progress) {
+    return draw_display_views(*painting, options, progress).shown.views;
+  }));
 }
 
 std::unique_ptr<PyPainting> load_painting(const std::filesystem::path& path) {
-  Painting painting = read_painting(path);
-  std::vector<Image<Rgb8>> eyes = present(painting, for_two_eyes()).views;
-  return std::make_unique<PyPainting>(
-      PyPainting{std::move(painting), array_of(std::move(eyes.front())), array_of(std::move(eyes.back()))});
+  return painting_of(result_of([path](const Progress& /*progress*/) {
+    Painting painting = read_painting(path);
+    std::vector<Image<Rgb8>> eyes = present(painting, for_two_eyes()).views;
+    return PaintedPair{std::move(painting), {std::move(eyes.front()), std::move(eyes.back())}};
+  }));
 }
 
 }  // namespace
@@ -111,15 +107,20 @@ void add_painting(py::module_& module) {
   py::class_<PyPainting>(module, "Painting")
       .def_readonly("left", &PyPainting::left)
       .def_readonly("right", &PyPainting::right)
-      .def_property_readonly("width", [](const PyPainting& p) { return width_of(p.painting); })
-      .def_property_readonly("height", [](const PyPainting& p) { return height_of(p.painting); })
+      .def_property_readonly("width", [](const PyPainting& p) { return width_of(*p.painting); })
+      .def_property_readonly("height", [](const PyPainting& p) { return height_of(*p.painting); })
       .def("views", &draw_views)
-      .def("save", [](const PyPainting& p, const std::filesystem::path& path) { write_painting(path, p.painting); });
+      .def("save", [](const PyPainting& p, const std::filesystem::path& path) {
+        result_of([painting = p.painting, path](const Progress& /*progress*/) { write_painting(path, *painting); });
+      });
   module.def("match", &match_pictures);
   module.def("paint", &paint_pictures);
   module.def("load_painting", &load_painting);
-  module.def("load_picture", [](const std::filesystem::path& path) { return array_of(read_image(path)); });
-  module.def("png", [](const py::object& picture) { return py::bytes(encode_png(picture_in(picture, "picture"))); });
+  module.def("png", [](const py::object& given) {
+    return py::bytes(result_of([picture = copy_of(picture_in(given, "picture"))](const Progress& /*progress*/) {
+      return encode_png(picture);
+    }));
+  });
 }
 
 }  // namespace wheatstone::python

@@ -1,15 +1,21 @@
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "bindings.h"
+#include "calls.h"
+#include "wheatstone/app/render_limits.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
@@ -22,20 +28,25 @@ namespace py = pybind11;
 
 /// Positions relative to their middle, in double precision until then.
 void put_positions(const py::object& given, Cloud& cloud) {
-  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
-  if (!array || array.ndim() != 2 || array.shape(1) != 3) {
-    PyErr_Clear();
-    throw py::value_error("positions are not an array of shape (number, 3)");
-  }
+  const std::string expected = "real numbers of shape (number, 3), at least one row";
+  const auto array = py::cast<py::array_t<double, py::array::c_style | py::array::forcecast>>(
+      real_numbers(given, "positions", expected));
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw py::value_error(
+        fmt::format("positions have {} dimensions and {} numbers, expected {}", array.ndim(), array.size(), expected));
   const auto count = static_cast<std::size_t>(array.shape(0));
-  if (count == 0) throw py::value_error("there are no positions, expected at least one");
   const double* const numbers = array.data();
   const std::array<std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     cloud.origin[axis] = numbers[axis];
     axes[axis]->resize(count);
-    for (std::size_t i = 0; i < count; ++i)
-      (*axes[axis])[i] = static_cast<float>(numbers[3 * i + axis] - cloud.origin[axis]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double along = numbers[3 * i + axis] - cloud.origin[axis];
+      if (!(std::abs(along) <= position_range.most) && std::isfinite(numbers[3 * i + axis]))
+        throw py::value_error(
+            fmt::format("positions are up to {} apart, expected at most {}", std::abs(along), position_range.most));
+      (*axes[axis])[i] = static_cast<float>(along);
+    }
   }
 }
 
@@ -46,8 +57,16 @@ struct PyParticles {
   std::vector<std::pair<std::string, std::string>> units;
 };
 
-std::unique_ptr<PyParticles> particles_at(const py::object& positions, const py::dict& columns) {
-  auto particles = std::make_unique<PyParticles>(PyParticles{.name = "positions", .format = "arrays"});
+/// Columns of arrays belong to whoever calls; of files, the library leaves out such particles, and tells their number.
+void check_not_negative(const std::vector<float>& column, const std::string& name) {
+  const auto wrong = std::ranges::find_if_not(column, [](float number) { return number >= 0; });
+  if (wrong != column.end())
+    throw py::value_error(
+        fmt::format("{} has {} at {}, expected numbers of at least 0", name, *wrong, wrong - column.begin()));
+}
+
+std::shared_ptr<PyParticles> particles_at(const py::object& positions, const py::dict& columns) {
+  auto particles = std::make_shared<PyParticles>(PyParticles{.name = "positions", .format = "arrays"});
   Cloud& cloud = particles->cloud;
   put_positions(positions, cloud);
   const auto column = [&](const char* name) { return column_of(columns[name], cloud.size(), name); };
@@ -55,14 +74,21 @@ std::unique_ptr<PyParticles> particles_at(const py::object& positions, const py:
   cloud.temperature = column("temperature");
   cloud.smoothing_length = column("smoothing_length");
   cloud.mass = column("mass");
+  check_not_negative(cloud.smoothing_length, "smoothing_length");
+  check_not_negative(cloud.mass, "mass");
   return particles;
 }
 
-std::unique_ptr<PyParticles> load_particles(const std::filesystem::path& path) {
-  const py::gil_scoped_release unlocked;
-  const CloudSource source = open_cloud(path);
-  Cloud cloud = read_cloud(source, path, with_signals());
-  return std::make_unique<PyParticles>(PyParticles{std::move(cloud), path.string(), source.format, source.units});
+/// The libraries behind some formats are for one thread at a time.
+std::mutex reading;
+
+std::shared_ptr<PyParticles> load_particles(const std::filesystem::path& path) {
+  return result_of([path](const Progress& progress) {
+    const std::scoped_lock alone(reading);
+    const CloudSource source = open_cloud(path);
+    Cloud cloud = read_cloud(source, path, progress);
+    return std::make_shared<PyParticles>(PyParticles{std::move(cloud), path.string(), source.format, source.units});
+  });
 }
 
 py::array positions_of(const PyParticles& particles) {
@@ -96,18 +122,20 @@ RenderParticlesOptions options_for(int views, std::pair<int, int> size, float sp
   return options;
 }
 
-RenderedParticles rendered(const PyParticles& particles, const RenderParticlesOptions& options) {
-  const py::gil_scoped_release unlocked;
-  return render_ready(ready_particles(particles.cloud, particles.name, options, with_signals()), options,
-                      with_signals());
+using Particles = std::shared_ptr<PyParticles>;
+
+RenderedParticles rendered(const Particles& particles, const RenderParticlesOptions& options) {
+  return result_of([particles, options](const Progress& progress) {
+    return render_ready(ready_particles(particles->cloud, particles->name, options, progress), options, progress);
+  });
 }
 
-py::array views_of(const PyParticles& particles, const RenderParticlesOptions& options) {
+py::array views_of(const Particles& particles, const RenderParticlesOptions& options) {
   return array_of(rendered(particles, options).rendered.views);
 }
 
 /// The central view's column densities, and how large a pixel is in the scene.
-py::tuple column_density(const PyParticles& particles, RenderParticlesOptions options) {
+py::tuple column_density(const Particles& particles, RenderParticlesOptions options) {
   options.framing.orthographic = true;
   options.values = true;
   RenderedParticles made = rendered(particles, options);
@@ -115,35 +143,33 @@ py::tuple column_density(const PyParticles& particles, RenderParticlesOptions op
   return py::make_tuple(array_of(std::move(made.values.front().column)), camera.orthographic_depth / camera.focal_px);
 }
 
-PySlices slices_of(const PyParticles& particles, RenderParticlesOptions options) {
+PySlices slices_of(const Particles& particles, RenderParticlesOptions options) {
   options.slices = options.without_views = true;
-  return {rendered(particles, options).stack};
+  return {std::make_shared<const SliceStack>(rendered(particles, options).stack)};
 }
 
 PySlices load_slices(const std::filesystem::path& path) {
-  const py::gil_scoped_release unlocked;
-  return {read_slices(path)};
+  return {std::make_shared<const SliceStack>(
+      result_of([path](const Progress& /*progress*/) { return read_slices(path); }))};
 }
 
 py::array views_of_slices(const PySlices& slices, int count, float span) {
-  if (count < 1) throw py::value_error("the number of views is " + std::to_string(count) + ", expected at least 1");
-  std::vector<Image<Rgb8>> views;
-  {
-    const py::gil_scoped_release unlocked;
-    const Rig rig = evenly_spaced(slices.stack.width, slices.stack.height, count, span);
-    views = render_slices(slices.stack, rig, RenderOptions{}.filter, with_signals());
-  }
-  return array_of(views);
+  return array_of(result_of([stack = slices.stack, count, span](const Progress& progress) {
+    const Rig rig = evenly_spaced(stack->width, stack->height, count, span);
+    return render_slices(*stack, rig, RenderOptions{}.filter, progress);
+  }));
 }
 
 void add_slices(py::module_& module) {
   py::class_<PySlices>(module, "Slices")
-      .def_property_readonly("width", [](const PySlices& s) { return s.stack.width; })
-      .def_property_readonly("height", [](const PySlices& s) { return s.stack.height; })
-      .def_property_readonly("span", [](const PySlices& s) { return s.stack.span; })
-      .def("__len__", [](const PySlices& s) { return s.stack.slices.size(); })
+      .def_property_readonly("width", [](const PySlices& s) { return s.stack->width; })
+      .def_property_readonly("height", [](const PySlices& s) { return s.stack->height; })
+      .def_property_readonly("span", [](const PySlices& s) { return s.stack->span; })
+      .def("__len__", [](const PySlices& s) { return s.stack->slices.size(); })
       .def("views", &views_of_slices)
-      .def("save", [](const PySlices& s, const std::filesystem::path& path) { write_slices(path, s.stack); });
+      .def("save", [](const PySlices& s, const std::filesystem::path& path) {
+        result_of([stack = s.stack, path](const Progress& /*progress*/) { write_slices(path, *stack); });
+      });
   module.def("load_slices", &load_slices);
 }
 
@@ -162,6 +188,7 @@ void add_options(py::module_& module) {
       .def_property(
           "exposure", [](const RenderParticlesOptions& o) { return o.rendering.exposure; },
           [](RenderParticlesOptions& o, float value) {
+            check_number("exposure", value, exposure_range);
             o.rendering.exposure = value;
             o.appearance.look = Look::thesis;  // the only one that has an exposure
           });
@@ -171,7 +198,7 @@ void add_options(py::module_& module) {
 
 void add_particles(py::module_& module) {
   add_options(module);
-  py::class_<PyParticles>(module, "Particles")
+  py::class_<PyParticles, std::shared_ptr<PyParticles>>(module, "Particles")
       .def(py::init(&particles_at))
       .def("__len__", [](const PyParticles& p) { return p.cloud.size(); })
       .def("positions", &positions_of)
@@ -184,7 +211,12 @@ void add_particles(py::module_& module) {
       .def_property_readonly("smoothing_length",
                              [](const py::object& p) { return column_in(p, &Cloud::smoothing_length); });
   module.def("load_particles", &load_particles);
-  module.def("holds_particles", [](const std::filesystem::path& path) { return holds_particles(path); });
+  module.def("holds_particles", [](const std::filesystem::path& path) {
+    return result_of([path](const Progress& /*progress*/) {
+      const std::scoped_lock alone(reading);
+      return holds_particles(path);
+    });
+  });
   module.def("render", &views_of);
   module.def("column_density", &column_density);
   module.def("slices", &slices_of);

@@ -1,11 +1,10 @@
 """Views, and what displays, files and pages take of them."""
 
 import dataclasses
-import os
 
 import numpy as np
 
-from . import _wheatstone
+from . import _arguments, _wheatstone
 from ._notebook import Shown, words_for
 
 
@@ -41,14 +40,21 @@ def _views_of(given):
         shapes = {getattr(view, "shape", None) for view in given}
         if len(shapes) != 1 or None in shapes:
             raise ValueError(f"views have the shapes {sorted(map(str, shapes))}, expected arrays of one shape")
-        return np.stack(given)
+        return _stacked(given)
     views = getattr(given, "views", None)
     if isinstance(views, np.ndarray):
         return views
     if getattr(given, "right", None) is not None:
-        return np.stack([given.left, given.right])
+        return _stacked([given.left, given.right])
     raise ValueError(f"views is {type(given).__name__}, expected an array of shape (number, height, width, 3), two "
                      "pictures, a photograph or a painting")
+
+
+def _stacked(pictures):
+    arrays = [picture for picture in pictures if isinstance(picture, np.ndarray)]
+    if len(arrays) != len(pictures):
+        raise ValueError("views are not all arrays, expected pictures of uint8 and shape (height, width, 3)")
+    return np.stack(arrays)
 
 
 def pack(views, to="anaglyph", *, quilt=(8, 6), screen="", screen_disparity=0.0):
@@ -58,11 +64,14 @@ def pack(views, to="anaglyph", *, quilt=(8, 6), screen="", screen_disparity=0.0)
     rows, or "lenticular" for `screen`, the name of a display or its calibration (.json). Of a painting the two eyes are
     taken; `painting.views(48)` makes more. `screen_disparity` lies on the screen, in pixels from view to view.
     """
-    return _wheatstone.pack(_views_of(views), to, tuple(quilt), os.fspath(screen), screen_disparity)
+    return _wheatstone.pack(
+        _views_of(views), _arguments.text("to", to), _arguments.two_whole("quilt", quilt, "(columns, rows)"),
+        _arguments.path("screen", screen) if screen else b"", _arguments.number("screen_disparity", screen_disparity))
 
 
 def save(path, picture):
     """Writes a picture, or views to one file (.mpo, .jps, .exr, .gif, .webp), by the name's ending."""
+    path = _arguments.path("path", path)
     if isinstance(picture, np.ndarray) and picture.ndim == 3:
         _wheatstone.write_picture(path, picture)
     else:
@@ -99,4 +108,5 @@ def share(shown, path, *, title="Wheatstone", caption="", description=""):
     """Writes a page that any browser shows: of a painting, photograph, views, slices or a film."""
     if not isinstance(shown, Shown):
         raise ValueError(f"shown is {type(shown).__name__}, expected a painting, photograph, views, slices or a film")
+    path = _arguments.path("path", path)
     _wheatstone.write_page(path, shown._page_at(words_for(title, caption, description), path))

@@ -3,7 +3,7 @@
 import errno
 import os
 
-from . import _wheatstone
+from . import _arguments, _wheatstone
 from ._films import Film
 from ._paintings import Painting, load_photograph
 from ._particles import Particles, Slices
@@ -17,7 +17,7 @@ def load(path, *, layout=""):
     a Photograph; and any other picture an array. `layout` says how a film or a picture holds both views ("left-right",
     "top-bottom-half", …), where the file itself does not.
     """
-    path = os.fspath(path)
+    path, layout = os.fsdecode(_arguments.path("path", path)), _arguments.text("layout", layout)
     if _wheatstone.is_film(path) or (not os.path.exists(path) and "," in path):
         return Film(path, layout)
     if not os.path.exists(path):

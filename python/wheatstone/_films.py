@@ -3,11 +3,10 @@
 import concurrent.futures
 import dataclasses
 import os
-import threading
 
 import numpy as np
 
-from . import _styles, _wheatstone
+from . import _arguments, _styles, _wheatstone
 from ._notebook import Shown
 from ._paintings import Painting
 
@@ -34,8 +33,8 @@ class Film(Shown):
     """A film of one or two eyes; iterating over it gives its frames, each time from the first."""
 
     def __init__(self, path, layout=""):
-        self.path = os.fspath(path)
-        self._layout = layout
+        self.path = os.fsdecode(_arguments.path("film", path))
+        self._layout = _arguments.text("layout", layout)
         facts = self._open().facts()
         self.frame_rate = facts["frame_rate"]
         self.duration = facts["duration"]
@@ -45,9 +44,7 @@ class Film(Shown):
 
     def frames(self, start=None, end=None, every=1):
         """The frames from a second to another, of which the last is left out, and of these every so many-th."""
-        film = self._open((start, end, every))
-        while (read := film.next()) is not None:
-            yield Frame(*read)
+        return _frames_in(self._open(_part(start, end, every)))
 
     def __iter__(self):
         return self.frames()
@@ -57,13 +54,13 @@ class Film(Shown):
         return rotoscope(self.path, style, layout=self._layout, **options)
 
     def _open(self, part=(None, None, 1)):
-        return _wheatstone.open_film(self.path, self._layout, part)
+        return _wheatstone.open_film(os.fsencode(self.path), self._layout, part)
 
     def _page(self, words):
         return self._page_at(words, "")
 
     def _page_at(self, words, path):
-        return _wheatstone.page_of_film(self.path, self._layout, path, words)
+        return _wheatstone.page_of_film(os.fsencode(self.path), self._layout, path, words)
 
     def _repr_html_(self):
         try:
@@ -79,30 +76,23 @@ class Film(Shown):
 class Job:
     """A film that is painted in the background. `step` and `done`, 0..1, say how far it is."""
 
-    def __init__(self, paint):
-        self.step, self.done = "", 0.0
-        self._cancelled = threading.Event()
-        self._future = concurrent.futures.Future()
-        self._future.set_running_or_notify_cancel()
-        threading.Thread(target=self._run, args=(paint,), daemon=True).start()
+    def __init__(self, made):
+        self._made = made
 
-    def _run(self, paint):
-        try:
-            self._future.set_result(paint(self._told))
-        except BaseException as error:
-            stopped = self._cancelled.is_set() and isinstance(error, KeyboardInterrupt)
-            self._future.set_exception(concurrent.futures.CancelledError() if stopped else error)
+    @property
+    def step(self):
+        return self._made.step
 
-    def _told(self, step, done):
-        self.step, self.done = step, done
-        return not self._cancelled.is_set()
+    @property
+    def done(self):
+        return self._made.done
 
     def cancel(self):
         """Asks it to end. What was painted is kept beside the film and gone on with by `resume=True`."""
-        self._cancelled.set()
+        self._made.cancel()
 
     def is_finished(self):
-        return self._future.done()
+        return self._made.has_ended()
 
     def result(self, timeout=None):
         """Waits for the film and gives its number of frames and scenes, the seconds that it took, and notes.
@@ -111,8 +101,12 @@ class Job:
         seconds. Ctrl-C cancels the job.
         """
         try:
-            return self._future.result(timeout)
+            if not self._made.wait(_arguments.number_or_none("timeout", timeout)):
+                raise concurrent.futures.TimeoutError
+            return self._made.result()
         except KeyboardInterrupt:
+            if self._made.has_ended() and self._made.is_cancelled():
+                raise concurrent.futures.CancelledError from None
             self.cancel()
             raise
 
@@ -127,10 +121,23 @@ def rotoscope(film, style="impressionist", *, output=None, layout="", start=None
     if isinstance(film, Film):
         layout = layout or film._layout
         film = film.path
-    painted = _wheatstone.Rotoscoping(os.fspath(film), layout, (start, end, every), _styles.made(style), depth_budget)
+    painted = _wheatstone.Rotoscoping(
+        _arguments.path("film", film), _arguments.text("layout", layout), _part(start, end, every), _styles.made(style),
+        _arguments.number_or_none("depth_budget", depth_budget))
     if output is None:
         return _frames_of(painted)
-    return Job(lambda told: painted.write(output, codec, crf, resume, told))
+    return Job(painted.write(_arguments.path("output", output), _arguments.text("codec", codec),
+                             _arguments.number_or_none("crf", crf), _arguments.flag("resume", resume)))
+
+
+def _part(start, end, every):
+    return (_arguments.number_or_none("start", start), _arguments.number_or_none("end", end),
+            _arguments.whole("every", every))
+
+
+def _frames_in(film):
+    while (read := film.next()) is not None:
+        yield Frame(*read)
 
 
 def _frames_of(painted):

@@ -7,7 +7,7 @@ import webbrowser
 
 import numpy as np
 
-from . import _wheatstone
+from . import _arguments, _wheatstone
 
 
 class Shown:
@@ -37,7 +37,8 @@ class Shown:
 
 
 def words_for(title, caption="", description=""):
-    return _wheatstone.PageWords(title, caption, description)
+    return _wheatstone.PageWords(_arguments.text("title", title), _arguments.text("caption", caption),
+                                 _arguments.text("description", description))
 
 
 def frame(page, width, height):

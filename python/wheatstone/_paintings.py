@@ -1,11 +1,10 @@
 """Photographs and paintings of them."""
 
 import dataclasses
-import os
 
 import numpy as np
 
-from . import _styles, _wheatstone
+from . import _arguments, _styles, _wheatstone
 from ._displays import Views
 from ._notebook import Shown
 
@@ -87,11 +86,12 @@ class Painting(Shown):
         `span` is the distance from the first view to the last in eye separations; the photographs' eyes are 1 apart.
         `screen_disparity` lies on the screen, in pixels; the middle of the scene's by default.
         """
-        return Views.of(self._made.views(count, span, screen_disparity))
+        return Views.of(self._made.views(_arguments.whole("views", count), _arguments.number("span", span),
+                                         _arguments.number_or_none("screen_disparity", screen_disparity)))
 
     def save(self, path):
         """Writes the painting as .wst."""
-        self._made.save(path)
+        self._made.save(_arguments.path("path", path))
 
     def _page(self, words):
         return _wheatstone.page_of_painting(self._made, words)
@@ -102,7 +102,7 @@ class Painting(Shown):
 
 def match(left, right, quality="good"):
     """Disparities of a rectified pair. `quality` is fast, good or best."""
-    return Geometry(**_wheatstone.match(left, right, quality))
+    return Geometry(**_wheatstone.match(left, right, _arguments.text("quality", quality)))
 
 
 @dataclasses.dataclass(eq=False)
@@ -123,7 +123,9 @@ class Rectified:
 
 def rectify(left, right, *, calibration=None, match_colour=True, keep_size=False):
     """Rectifies two photographs by what they have in common, or by a calibration file of the rig."""
-    return Rectified(**_wheatstone.rectify(left, right, calibration, match_colour, keep_size))
+    return Rectified(**_wheatstone.rectify(
+        left, right, None if calibration is None else _arguments.path("calibration", calibration),
+        _arguments.flag("match_colour", match_colour), _arguments.flag("keep_size", keep_size)))
 
 
 def paint(left, right, style="impressionist", *, quality="good", disparity=None):
@@ -131,12 +133,14 @@ def paint(left, right, style="impressionist", *, quality="good", disparity=None)
 
     `style` is a Style, the name of a preset or a style file. `disparity` is that of the left picture, where it is known.
     """
-    return Painting(_wheatstone.paint(left, right, _styles.made(style), quality, disparity))
+    return Painting(_wheatstone.paint(left, right, _styles.made(style), _arguments.text("quality", quality),
+                                      disparity))
 
 
 def still(size=(640, 480), *, seed=1):
     """A synthetic still life with its exact disparity, to try things on."""
-    return photograph_of(_wheatstone.still(tuple(size), seed))
+    return photograph_of(_wheatstone.still(_arguments.two_whole("size", size, "(width, height)"),
+                                          _arguments.seed(seed)))
 
 
 def photograph_of(read):
@@ -145,5 +149,5 @@ def photograph_of(read):
 
 
 def load_photograph(path, layout):
-    read = _wheatstone.read_photograph(os.fspath(path), layout)
+    read = _wheatstone.read_photograph(path, layout)
     return photograph_of(read) if isinstance(read, tuple) else read

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from . import _wheatstone
+from . import _arguments, _wheatstone
 from ._displays import Views
 from ._notebook import Shown
 
@@ -31,7 +31,7 @@ class Particles:
     def load(cls, path):
         """Those of a file."""
         particles = cls.__new__(cls)
-        particles._made = _wheatstone.load_particles(os.fspath(path))
+        particles._made = _wheatstone.load_particles(_arguments.path("path", path))
         particles.units = dict(particles._made.units)
         return particles
 
@@ -98,11 +98,11 @@ class Slices(Shown):
 
     def views(self, count, span=1.0):
         """`count` views, leftmost first, as an array of shape (count, height, width, 3)."""
-        return Views.of(self._made.views(count, span))
+        return Views.of(self._made.views(_arguments.whole("views", count), _arguments.number("span", span)))
 
     def save(self, path):
         """Writes the slices as OpenEXR (.exr)."""
-        self._made.save(path)
+        self._made.save(_arguments.path("path", path))
 
     def _page(self, words):
         return _wheatstone.page_of_slices(self._made, words)
@@ -154,10 +154,12 @@ def column_density(particles, *, mass=None, smoothing_length=None, size=(640, 36
 
 
 def _options(views, size, span, **camera):
-    options = _wheatstone.RenderOptions(views, tuple(size), span)
+    options = _wheatstone.RenderOptions(_arguments.whole("views", views),
+                                        _arguments.two_whole("size", size, "(width, height)"),
+                                        _arguments.number("span", span))
     for name, value in camera.items():
         if value is not None:
-            setattr(options, name, value)
+            setattr(options, name, _arguments.number(name, value))
     return options
 
 

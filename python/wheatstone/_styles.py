@@ -1,9 +1,12 @@
 """Styles of paintings."""
 
 import dataclasses
+import numbers
 import os
 
-from . import _wheatstone
+import numpy as np
+
+from . import _arguments, _wheatstone
 
 
 @dataclasses.dataclass
@@ -54,15 +57,18 @@ def made(style):
     """The library's own style of a Style, or of the name of a preset or file."""
     if not isinstance(style, Style):
         style = Style(style)
-    changes = {name.replace("_", "-"): _text(value) for name, value in dataclasses.asdict(style).items()
-               if name not in ("preset", "seed") and value is not None}
-    return _wheatstone.style(os.fspath(style.preset), changes, style.seed)
+    changes = {}
+    for field in dataclasses.fields(style):
+        value = getattr(style, field.name)
+        if field.name not in ("preset", "seed") and value is not None:
+            changes[field.name.replace("_", "-")] = _text(field.name, value)
+    return _wheatstone.style(_arguments.path("style", style.preset), changes, _arguments.seed(style.seed))
 
 
-def _text(value):
+def _text(name, value):
     """A parameter as it is typed on a command line."""
-    if isinstance(value, bool):
+    if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
-    if isinstance(value, (list, tuple)):
-        return ",".join(str(entry) for entry in value)
-    return str(value)
+    if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) == 1:
+        return ",".join(_text(name, entry) for entry in value)
+    return str(value) if isinstance(value, numbers.Real) and abs(value) < 1e300 else _arguments.text(name, value)

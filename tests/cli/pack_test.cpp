@@ -96,8 +96,9 @@ TEST(PackCommand, MakesWhatScreensShow) {
   expect_refused(folder,
                  {"pack", "left.png", "right.png", "--to", "anaglyph", "--floating-window", "120,120", "-o", "a.png"},
                  2, "--floating-window: is '120,120', which leaves nothing of 240 pixels");
-  expect_refused(folder, {"pack", "left.png", "right.png", "--to", "anaglyph", "--shift", "-240", "-o", "a.png"}, 2,
-                 "a shift of -240 px from view to view leaves nothing of 2 views of 240 px");
+  expect_refused(
+      folder, {"pack", "left.png", "right.png", "--to", "anaglyph", "--shift", "-240", "-o", "a.png"}, 2,
+      "screen disparity: is -240 px, with which the eyes' pictures share 0 of 240 px, expected a quarter at least");
   run_in(folder, {"pack", "left.png", "right.png", "--swap", "--to", "irl", "-o", "rows.png"});
   EXPECT_EQ(read_image(folder / "rows.png")(7, 0), still().right(7, 0));
   EXPECT_EQ(read_image(folder / "rows.png")(7, 1), still().left(7, 1));

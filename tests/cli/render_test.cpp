@@ -157,8 +157,8 @@ TEST(RenderCommand, RefusesNumbersThatThereAreNot) {
   };
   refused({"--quantity", "spin"}, 3, "no column 'spin', but x, y, z, mass, age");
   refused({"--quantity", "temperature"}, 3, "no temperature");
-  refused({"--least", "5", "--most", "2"}, 2, "--least: is 5, expected below --most, 2");
-  refused({"--least", "0", "--stretch", "log"}, 2, "--least");
+  refused({"--least", "5", "--most", "2"}, 2, "least: is 5, expected below the most, 2");
+  refused({"--least", "0", "--stretch", "log"}, 2, "least: is 0");
   refused({"--values", "n.txt"}, 2, "--values: is 'n.txt', expected a name ending in .fits, .exr or .npy");
   refused({"--exposure", "2"}, 2, "--look thesis");
   refused({"--look", "thesis", "--values", "n.npy"}, 2, "--look mass");

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/app/render_limits.h"
 #include "wheatstone/depth/monotone_cubic.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
@@ -18,14 +19,15 @@ namespace {
 struct Channel {
   const char* name;
   std::optional<double> CameraKey::*value;
-  double least, most;
+  NumberRange range;
   bool by_factors = false;
 };
 constexpr double any = 1e300;
-constexpr std::array channels{
-    Channel{"azimuth", &CameraKey::azimuth_deg, -36000, 36000},
-    Channel{"elevation", &CameraKey::elevation_deg, -90, 90}, Channel{"fov", &CameraKey::field_of_view_deg, 1, 150},
-    Channel{"zoom", &CameraKey::zoom, 0.01, 1000, true}, Channel{"time", &CameraKey::time, -any, any}};
+constexpr std::array channels{Channel{"azimuth", &CameraKey::azimuth_deg, {-36000, 36000}},
+                              Channel{"elevation", &CameraKey::elevation_deg, elevation_range},
+                              Channel{"fov", &CameraKey::field_of_view_deg, field_of_view_range},
+                              Channel{"zoom", &CameraKey::zoom, zoom_range, true},
+                              Channel{"time", &CameraKey::time, {-any, any}}};
 
 /// A curve that begins and ends at rest; nothing where no key has the value.
 template <class Value>
@@ -43,11 +45,11 @@ std::optional<double> eased(const CameraPath& path, double at, Value value) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", name, what));
 }
 
-double number_of(const toml::node& node, const std::string& name, std::string_view key, double least, double most) {
+double number_of(const toml::node& node, const std::string& name, std::string_view key, NumberRange range) {
   const std::optional<double> number = node.value<double>();
-  if (!number || !(*number >= least && *number <= most))
-    refuse(name, most < any ? fmt::format("'{}' is not a number from {} to {}", key, least, most)
-                            : fmt::format("'{}' is not a finite number", key));
+  if (!number || !range.has(*number))
+    refuse(name, range.most < any ? fmt::format("'{}' is not a number{}", key, words_of(range))
+                                  : fmt::format("'{}' is not a finite number", key));
   return *number;
 }
 
@@ -55,7 +57,8 @@ std::array<double, 3> point_of(const toml::node& node, const std::string& name) 
   const toml::array* list = node.as_array();
   if (list == nullptr || list->size() != 3) refuse(name, "'centre' is not a point [X, Y, Z]");
   std::array<double, 3> point{};
-  for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = number_of(*list->get(axis), name, "centre", -any, any);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    point[axis] = number_of(*list->get(axis), name, "centre", position_range);
   return point;
 }
 
@@ -63,7 +66,7 @@ CameraKey key_of(const toml::table& table, const std::string& name) {
   CameraKey key;
   const toml::node* at = table.get("at");
   if (at == nullptr) refuse(name, "a [[key]] has no 'at', expected 0 for the first frame to 1 for the last");
-  key.at = number_of(*at, name, "at", 0, 1);
+  key.at = number_of(*at, name, "at", {0, 1});
   for (const auto& [toml_key, node] : table) {
     const std::string_view text = toml_key.str();
     if (text == "at") continue;
@@ -77,7 +80,7 @@ CameraKey key_of(const toml::table& table, const std::string& name) {
       for (const Channel& known : channels) names.emplace_back(known.name);
       refuse(name, fmt::format("unknown key '{}', expected one of {}", text, fmt::join(names, ", ")));
     }
-    key.*(channel->value) = number_of(node, name, text, channel->least, channel->most);
+    key.*(channel->value) = number_of(node, name, text, channel->range);
   }
   return key;
 }

@@ -64,6 +64,7 @@ TEST(CameraPath, RefusesWhatItDoesNotKnowInOneLine) {
   refused("[[key]]\nat = 0\nzoom = nan", "'zoom' is not a number from 0.01 to 1000");
   refused("[[key]]\nat = 0\ntime = inf", "'time' is not a finite number");
   refused("[[key]]\nat = 0\ncentre = [1, 2]", "'centre' is not a point");
+  refused("[[key]]\nat = 0\ncentre = [1e300, 2, 3]", "path.toml: 'centre' is not a");
   refused("[[key]]\nat = 0.5\n[[key]]\nat = 0.5", "a keyframe at 0.5 follows one at 0.5");
   refused("[[key]\nat = 0", "path.toml: line 1:");
 }

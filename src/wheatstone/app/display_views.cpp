@@ -1,7 +1,5 @@
 #include "wheatstone/app/display_views.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -29,11 +27,7 @@ float span_for(const DisplayViewsOptions& options, const DepthEnds& ends, float 
 /// which fills a view.
 Placement placement_for(PictureSize painting, const DisplayViewsOptions& options, float zero_parallax_px) {
   const auto [width, height] = painting;
-  const double shared = static_cast<double>(width) - std::abs(static_cast<double>(zero_parallax_px));
-  if (shared < 1)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("a disparity of {} px on the screen plane leaves nothing of {} px to show",
-                            zero_parallax_px, width));
+  const double shared = shared_width(width, zero_parallax_px);
   Placement placement{.width = options.width, .height = options.height, .zero_parallax_px = zero_parallax_px};
   placement.scale = std::max(options.width / shared, static_cast<double>(options.height) / height);
   placement.left = (width - options.width / placement.scale) / 2;
@@ -65,7 +59,8 @@ DisplayViewsOptions views_of_display(const DisplayPreset& display) {
 }
 
 DisplayPlan plan_display(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options) {
-  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
+  check_number("views", options.views, view_count_range);
+  check_number("span", options.span, view_span_range);
   DisplayPlan plan;
   plan.zero_parallax_px = options.zero_parallax_px.value_or(ends.middle_px());
   const Placement placement = placement_for(painting, options, plan.zero_parallax_px);
@@ -85,6 +80,7 @@ DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOpti
   result.plan = plan_display({width_of(painting), height_of(painting)},
                              depth_ends(painting.surfaces.seen.front().disparity), options);
   result.plan.presentation.composition = composition;
+  if (!composition) check_views_fit({options.width, options.height, result.plan.presentation.views});
   report(progress, "views", 0);
   result.shown = present(painting, result.plan.presentation);
   report(progress, "views", 1);

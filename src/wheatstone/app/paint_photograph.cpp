@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "wheatstone/depth/convergence.h"
@@ -50,13 +51,15 @@ FoundGeometry find_geometry(const StereoPair& photographs, const PaintPhotograph
 PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
                                    const Progress& progress) {
   check_style(options.style);
+  if (options.zero_parallax.disparity_px) shared_width(photographs.left.width(), *options.zero_parallax.disparity_px);
   PaintedPhotograph result;
   FoundGeometry found = find_geometry(photographs, options, progress);
   result.geometry = std::move(found.geometry);
   result.matched = std::move(found.matched);
   result.confidence = found.confidence;
-  result.painted = paint(photographs, result.geometry, options.style, progress, {options.depth_budget, options.device});
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
+  shared_width(photographs.left.width(), result.zero_parallax_px);
+  result.painted = paint(photographs, result.geometry, options.style, progress, {options.depth_budget, options.device});
   return result;
 }
 
@@ -85,6 +88,10 @@ PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOpt
 }
 
 PairMeasures measure_pair(const StereoPair& pair, ImageView<const float> left_disparity) {
+  bool is_known = false;
+  for (int y = 0; y < left_disparity.height(); ++y)
+    is_known = is_known || std::ranges::any_of(left_disparity.row(y), [](float d) { return std::isfinite(d); });
+  if (!is_known) throw Error(ErrorKind::bad_input, "the disparity is unknown everywhere, expected numbers of pixels");
   return {measure_left_right_difference(pair, left_disparity), measure_depth_survival(pair, left_disparity),
           gradient_energy(pair.left), gradient_energy(pair.right)};
 }

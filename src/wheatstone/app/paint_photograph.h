@@ -84,7 +84,8 @@ struct PairMeasures {
   double right_gradient_energy = 0;
 };
 
-/// `left_disparity` is the truth, or what is taken for it; NaN where unknown.
+/// `left_disparity` is the truth, or what is taken for it; NaN where unknown. Throws Error{bad_input} where it is
+/// unknown everywhere, or sizes differ.
 PairMeasures measure_pair(const StereoPair& pair, ImageView<const float> left_disparity);
 
 }  // namespace wheatstone

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "wheatstone/app/particle_chunks_internal.h"
+#include "wheatstone/app/render_limits.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
 #include "wheatstone/multiview/make_slices.h"
@@ -188,6 +189,7 @@ ShownUnits units_of(const CloudSource& source, const RenderParticlesOptions& opt
 
 ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, const RenderParticlesOptions& options,
                                const Progress& progress) {
+  check_render_options(options);
   ReadyParticles ready{.cloud = std::move(cloud)};
   put_quantity(ready.cloud, file, options.quantity);
   ready.counts = select_particles(ready.cloud, options.selection);
@@ -206,6 +208,7 @@ ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, c
 
 ReadyParticles read_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                               const Progress& progress) {
+  check_render_options(options);
   return ready_particles(read_cloud(file, choice_of(options), progress), file, options, progress);
 }
 
@@ -253,6 +256,13 @@ Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& 
   const float distance = depth_of(framing.look_at.value_or(statistics.centre())), radius = statistics.radius();
   // A camera that looks at a point far from the particles may stand among them, or before them all.
   const float depth = std::max(depth_of(statistics.centre()), distance * 0.01f);
+  // In single precision, what is so far away has one depth.
+  constexpr float farthest = 1e4f;
+  if (!(std::abs(depth_of(statistics.centre())) <= farthest * radius) || !(std::abs(distance) <= farthest * radius))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("look-at: lies {} from the middle of the particles, expected at most {}, {} times their "
+                            "radius",
+                            std::abs(depth_of(statistics.centre()) - distance), farthest * radius, farthest));
   scene.mapping = mapping_for(options.depth, options.width, std::max(depth - radius, depth * 0.01f), depth + radius);
   scene.splat_style = make_splat_style(options.appearance, statistics);
   scene.splat_style.size_depth = distance;
@@ -278,6 +288,7 @@ DepthMapping mapping_for(const PerceivedDepth& depth, int width_px, float neares
 
 RenderedParticles render_ready(const ReadyParticles& particles, const RenderParticlesOptions& options,
                                const Progress& progress) {
+  check_render_options(options);
   const Chunks chunks = chunks_of(particles.cloud, options.rendering.ranks);
   RenderedParticles result = render_known({chunks, particles.statistics, particles.counts}, options, progress);
   result.density = particles.density;
@@ -287,7 +298,7 @@ RenderedParticles render_ready(const ReadyParticles& particles, const RenderPart
 
 RenderedParticles render_particles(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                    const Progress& progress) {
-  if (options.views < 1) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
+  check_render_options(options);
   make_splat_style(options.appearance, {});  // what makes no sense is said before the long work
   const CloudSource source = open_cloud(file, options.choice);
   if (options.selection.centre && !(source.box_size > 0))

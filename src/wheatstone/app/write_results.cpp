@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "wheatstone/app/gallery.h"
+#include "wheatstone/depth/convergence.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/disparity_picture.h"
@@ -112,6 +113,7 @@ Painting scaled(const Painting& painting, double scale) {
 void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options,
                 const Progress& progress) {
   Painting sized = scaled(painting, options.scale);
+  if (options.zero_parallax_px) shared_width(width_of(sized), *options.zero_parallax_px);
   sized = place_depth(std::move(sized), options.depth, width_of(sized));
   const bool is_placed = !options.depth.regions.empty();
   report(progress, "drawing", 0);

@@ -6,6 +6,13 @@
 
 namespace wheatstone {
 
+void check_framing(const Framing& framing) {
+  check_number("azimuth", framing.azimuth_deg, azimuth_range);
+  check_number("elevation", framing.elevation_deg, elevation_range);
+  check_number("fov", framing.field_of_view_deg, field_of_view_range);
+  check_number("zoom", framing.zoom, zoom_range);
+}
+
 Camera camera_around(const std::array<float, 3>& centre, float radius, int width, int height, const Framing& framing) {
   constexpr float degree = std::numbers::pi_v<float> / 180;
   const float azimuth = framing.azimuth_deg * degree;

@@ -3,6 +3,8 @@
 #include <array>
 #include <optional>
 
+#include "wheatstone/number_range.h"
+
 namespace wheatstone {
 
 /// Where the reference view is taken from: a pinhole camera in scene units. The axes are of length 1 and at right
@@ -36,6 +38,13 @@ struct Framing {
   std::optional<std::array<float, 3>> look_at = {};
   friend bool operator==(const Framing&, const Framing&) = default;
 };
+
+/// What a framing's numbers may be. Orbits and paths turn a camera around many times.
+inline constexpr NumberRange azimuth_range{-100'000, 100'000}, elevation_range{-90, 90}, field_of_view_range{1, 150},
+    zoom_range{0.01, 1000};
+
+/// Throws Error{wrong_usage} that names a number out of its range.
+void check_framing(const Framing& framing);
 
 /// A camera outside a sphere that sees just all of it, in views of the given size, in pixels. Where the framing looks
 /// at another point than the sphere's centre, the camera is moved with it.

@@ -1,11 +1,14 @@
 #include "wheatstone/depth/convergence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "wheatstone/error.h"
 #include "wheatstone/percentile.h"
 
 namespace wheatstone {
@@ -47,6 +50,17 @@ DepthEnds depth_ends(ImageView<const float> disparity) {
   std::vector<float> known = known_disparities(disparity);
   const float farthest = percentile_of(known, outliers);
   return {farthest, percentile_of(std::move(known), 1 - outliers)};
+}
+
+double shared_width(int width_px, double screen_disparity_px) {
+  constexpr double least_share = 0.25;
+  const double shared = width_px - std::abs(screen_disparity_px);
+  if (!(shared >= least_share * width_px))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("screen disparity: is {} px, with which the eyes' pictures share {:.0f} of {} px, expected "
+                            "a quarter at least",
+                            static_cast<float>(screen_disparity_px), shared > 0 ? shared : 0, width_px));
+  return shared;
 }
 
 }  // namespace wheatstone

@@ -18,6 +18,10 @@ struct DepthEnds {
   float middle_px() const { return (farthest_px + nearest_px) / 2; }
 };
 
+/// How much of the width two eyes' pictures share that are moved against each other so that a disparity comes to lie on
+/// the screen. Throws Error{wrong_usage} unless it is a quarter at least: less is no picture of the scene.
+double shared_width(int width_px, double screen_disparity_px);
+
 /// NaN where no pixel is finite.
 DepthEnds depth_ends(ImageView<const float> disparity);
 

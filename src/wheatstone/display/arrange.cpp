@@ -29,7 +29,8 @@ Image<Rgb8> side_by_side(const StereoPairView& pair) {
 
 StereoPair set_convergence(const StereoPairView& pair, float zero_parallax_px) {
   const int width = pair.left.width();
-  const int shift = std::clamp(static_cast<int>(std::lround(zero_parallax_px)), 1 - width, width - 1);
+  shared_width(width, zero_parallax_px);
+  const auto shift = static_cast<int>(std::lround(zero_parallax_px));
   const int common = width - std::abs(shift);
   return {columns_of(pair.left, std::max(shift, 0), common), columns_of(pair.right, std::max(-shift, 0), common)};
 }
@@ -37,14 +38,14 @@ StereoPair set_convergence(const StereoPairView& pair, float zero_parallax_px) {
 std::vector<Image<Rgb8>> shifted_views(std::vector<Image<Rgb8>> views, float disparity_px) {
   if (views.empty()) return views;
   const int width = views.front().width();
+  shared_width(width, static_cast<double>(disparity_px) * static_cast<double>(views.size() - 1));
   // A point of this disparity stands at x − i·d in the view i: all take their columns from there.
   std::vector<int> first(views.size());
   for (std::size_t i = 0; i < views.size(); ++i)
     first[i] = -static_cast<int>(std::lround(static_cast<double>(disparity_px) * static_cast<double>(i)));
   const auto [least, most] = std::ranges::minmax(first);
-  const int common = std::max(width - (most - least), 1);
-  for (std::size_t i = 0; i < views.size(); ++i)
-    views[i] = columns_of(views[i], std::clamp(first[i] - least, 0, width - common), common);
+  const int common = width - (most - least);
+  for (std::size_t i = 0; i < views.size(); ++i) views[i] = columns_of(views[i], first[i] - least, common);
   return views;
 }
 

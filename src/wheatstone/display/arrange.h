@@ -10,12 +10,13 @@ namespace wheatstone {
 Image<Rgb8> side_by_side(const StereoPairView& pair);
 
 /// Moves the zero-parallax plane to where the disparity is `zero_parallax_px` (Stavrakis & Gelautz 2004, sec. 3.4): the
-/// pictures are shifted against each other by that many whole pixels and cropped to what both show, the same height and
-/// at least one column. Points nearer than the plane then stand in front of the screen.
+/// pictures are shifted against each other by that many whole pixels and cropped to what both show, the same height.
+/// Points nearer than the plane then stand in front of the screen. Throws Error{wrong_usage} where they show less than
+/// a quarter of the width both.
 StereoPair set_convergence(const StereoPairView& pair, float zero_parallax_px);
 
 /// The same for any number of views: each is moved by `disparity_px` to the left against the one on its left, in whole
-/// pixels from the middle view, and all are cropped to what all show, at least one column.
+/// pixels from the middle view, and all are cropped to what all show. Throws Error{wrong_usage} as it does.
 std::vector<Image<Rgb8>> shifted_views(std::vector<Image<Rgb8>> views, float disparity_px);
 
 /// Black strips that bring the stereo window before the screen, where something near is cut off by its sides: of

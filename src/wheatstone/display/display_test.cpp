@@ -6,6 +6,7 @@
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/disparity_picture.h"
+#include "wheatstone/error.h"
 
 namespace wheatstone {
 namespace {
@@ -45,7 +46,15 @@ TEST(Translation, BringsTheChosenDisparityToTheSameColumn) {
   }
 }
 
-TEST(Translation, NeverLeavesLessThanAColumn) { EXPECT_EQ(set_convergence(plain_pair({}, {}), 1000).left.width(), 1); }
+TEST(Translation, IsRefusedWhereTheEyesWouldShareNoPicture) {
+  const StereoPair pair = plain_pair({}, {});
+  const auto width = static_cast<float>(pair.left.width());
+  EXPECT_NO_THROW(set_convergence(pair, 0.7f * width));
+  for (const float disparity : {0.8f * width, -60000.f, 1e30f, std::nanf("")}) {
+    EXPECT_THROW(set_convergence(pair, disparity), Error) << disparity;
+    EXPECT_THROW(shifted_views({pair.left, pair.right}, disparity), Error) << disparity;
+  }
+}
 
 TEST(DisparityPicture, ShowsNearRedFarBlueAndUnknownBlack) {
   Image<float> disparity(3, 1);

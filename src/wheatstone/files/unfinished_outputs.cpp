@@ -1,8 +1,12 @@
 #include "wheatstone/files/unfinished_outputs.h"
 
+#include <fmt/format.h>
+
 #include <set>
 #include <system_error>
 #include <utility>
+
+#include "wheatstone/error.h"
 
 namespace wheatstone {
 namespace {
@@ -26,7 +30,13 @@ Outputs& outputs() {
   return *all;
 }
 
+/// Empty: wanted.
+thread_local std::function<bool()> are_wanted;
+
 }  // namespace
+
+OutputsOnlyWhile::OutputsOnlyWhile(std::function<bool()> wanted) { are_wanted = std::move(wanted); }
+OutputsOnlyWhile::~OutputsOnlyWhile() { are_wanted = nullptr; }
 
 UnfinishedOutput::~UnfinishedOutput() {
   if (temporary_.empty()) return;
@@ -56,6 +66,9 @@ void UnfinishedOutput::keep(bool kept) {
 void UnfinishedOutput::finish(const std::function<void()>& rename) {
   if (temporary_.empty()) return;
   const auto hold = hold_outputs();
+  if (are_wanted && !are_wanted())
+    throw Error(ErrorKind::interrupted,
+                fmt::format("{}: is not finished, its call was cancelled", temporary_.string()));
   rename();
   outputs().leave_out(temporary_, kept_);
   temporary_.clear();

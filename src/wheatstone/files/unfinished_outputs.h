@@ -32,6 +32,16 @@ class UnfinishedOutput {
   bool kept_ = false;
 };
 
+/// While this lives, outputs of this thread are finished only where `wanted` holds, which is asked under the lock of
+/// hold_outputs; else finish throws Error{interrupted}. For work that goes on when nobody waits for it any more.
+class OutputsOnlyWhile {
+ public:
+  explicit OutputsOnlyWhile(std::function<bool()> wanted);
+  ~OutputsOnlyWhile();
+  OutputsOnlyWhile(const OutputsOnlyWhile&) = delete;
+  OutputsOnlyWhile& operator=(const OutputsOnlyWhile&) = delete;
+};
+
 /// While this is held, other threads neither begin nor finish an output: several outputs can be finished as one.
 [[nodiscard]] std::unique_lock<std::recursive_mutex> hold_outputs();
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "temporary_folder.h"
+#include "wheatstone/error.h"
 #include "wheatstone/files/temporary_file.h"
 
 namespace wheatstone {
@@ -33,6 +34,20 @@ TEST(UnfinishedOutputs, AreFinishedWhenTheLastHasItsName) {
   second.commit();
   EXPECT_TRUE(outputs_are_finished());
   remove_unfinished_outputs();
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / ""), {}), 2);
+}
+
+TEST(UnfinishedOutputs, OfWorkThatNobodyWaitsForAreNotFinished) {
+  const TemporaryFolder folder;
+  bool wanted = true;
+  {
+    const OutputsOnlyWhile only([&] { return wanted; });
+    TemporaryFile first(folder / "left.png"), second(folder / "right.png");
+    first.commit();
+    wanted = false;
+    EXPECT_THROW(second.commit(), Error);
+  }
+  TemporaryFile(folder / "other.png").commit();
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / ""), {}), 2);
 }
 

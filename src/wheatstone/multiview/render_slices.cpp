@@ -104,6 +104,7 @@ float checked_shift(const SliceStack& stack, std::span<const ViewPosition> views
 
 std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, SliceFilter filter,
                                        const Progress& progress, const std::optional<Focus>& focus) {
+  check_views_fit(rig);
   const float shift = checked_shift(stack, rig.positions, focus);
   std::vector<Image<Rgb8>> views(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
   if (stack.slices.empty() || views.empty()) return views;

@@ -18,11 +18,11 @@ void check(const SyntheticStillOptions& options) {
   constexpr int least_px = 16, most_px = 16384;
   const auto refuse = [](const std::string& what) { throw Error(ErrorKind::wrong_usage, what); };
   if (options.width < least_px || options.height < least_px || options.width > most_px || options.height > most_px)
-    refuse(fmt::format("still life of {}x{} pixels, expected {} to {} a side", options.width, options.height, least_px,
+    refuse(fmt::format("size: is {}x{} pixels, expected {} to {} a side", options.width, options.height, least_px,
                        most_px));
   constexpr int most_aspect = 8;
   if (options.width > most_aspect * options.height || options.height > most_aspect * options.width)
-    refuse(fmt::format("still life of {}x{} pixels, expected sides of at most 1:{}", options.width, options.height,
+    refuse(fmt::format("size: is {}x{} pixels, expected sides of at most 1:{}", options.width, options.height,
                        most_aspect));
   if (options.samples_a_side < 1 || options.samples_a_side > 8)
     refuse(fmt::format("{} samples a side of a pixel, expected 1 to 8", options.samples_a_side));
