@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <string>
 
@@ -10,6 +11,13 @@ namespace wheatstone::cli {
 /// unfinished, says so and leaves with the exit code of an interrupted run. A closed pipe and a file beyond the user's
 /// limit become errors of the write instead of signals. `json`: an error is told on standard output too.
 void watch_signals(bool json);
+
+/// Whether it says that the system has no memory for what was asked: also a thread that cannot be started.
+bool is_for_lack_of_memory(const std::exception& error);
+
+/// From here on what is thrown where nothing catches it, in a thread of a library, ends the program in one line with an
+/// exit code, as any other failure, and leaves nothing unfinished. `json` as above.
+void end_in_one_line_whatever_is_thrown(bool json);
 
 /// Throws Error{interrupted} where a signal was noted.
 void throw_if_interrupted();

@@ -33,6 +33,13 @@ bool is_there(int held, const fs::path& file) {
 fs::path work_folder_of(const fs::path& output) { return output.string() + ".part"; }
 
 WorkFolder::WorkFolder(fs::path output) : folder_(work_folder_of(output)) {
+  const auto hold = hold_outputs();
+  unfinished_.begin(folder_, [&] { take(output); });
+  unfinished_.keep(true);
+}
+
+/// Makes the folder where there is none, and locks it.
+void WorkFolder::take(const fs::path& output) {
   const fs::path file = folder_ / "lock";
   for (;;) {
     std::error_code error;
@@ -50,9 +57,6 @@ WorkFolder::WorkFolder(fs::path output) : folder_(work_folder_of(output)) {
     if (is_there(lock_, file)) break;
     ::close(lock_);
   }
-  const auto hold = hold_outputs();
-  unfinished_.begin(folder_, [] {});
-  unfinished_.keep(true);
 }
 
 WorkFolder::~WorkFolder() {

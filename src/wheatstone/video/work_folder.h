@@ -29,6 +29,8 @@ class WorkFolder {
   void remove();
 
  private:
+  void take(const std::filesystem::path& output);
+
   std::filesystem::path folder_;
   int lock_ = -1;
   UnfinishedOutput unfinished_;
