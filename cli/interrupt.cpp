@@ -10,8 +10,10 @@
 #include <csignal>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -74,6 +76,19 @@ std::string last_words() {
   return std::string(message);
 }
 
+/// Removes what is unfinished and ends the program from another thread than the run's.
+[[noreturn]] void tell_and_end(const std::string& words, int code) {
+  remove_unfinished_outputs();
+  // A file may have been opened by its name in the moment of its removal.
+  std::this_thread::sleep_for(5ms);
+  remove_unfinished_outputs();
+  if (::isatty(STDERR_FILENO) != 0) put(STDERR_FILENO, "\r\033[K");  // the progress bar
+  put(STDERR_FILENO, fmt::format("wheatstone: {}\n", words));
+  if (json_wanted)
+    put(STDOUT_FILENO, json_text(nlohmann::ordered_json{{"error", words}, {"exit_code", code}}, 2) + "\n");
+  ::_exit(code);
+}
+
 /// Ends the program unless the run has ended itself, or has finished its outputs and only says so.
 void end_from_outside() {
   const bool waits = some_wait();
@@ -81,17 +96,37 @@ void end_from_outside() {
   Ending none = Ending::none;
   // What a run that waits for something else has finished does not end it.
   if ((!waits && outputs_are_finished()) || !ending.compare_exchange_strong(none, Ending::from_outside)) return;
-  remove_unfinished_outputs();
-  // A file may have been opened by its name in the moment of its removal.
-  std::this_thread::sleep_for(5ms);
-  remove_unfinished_outputs();
-  constexpr int code = static_cast<int>(ErrorKind::interrupted);
-  if (::isatty(STDERR_FILENO) != 0) put(STDERR_FILENO, "\r\033[K");  // the progress bar
-  const std::string words = last_words();
-  put(STDERR_FILENO, fmt::format("wheatstone: {}\n", words));
-  if (json_wanted)
-    put(STDOUT_FILENO, json_text(nlohmann::ordered_json{{"error", words}, {"exit_code", code}}, 2) + "\n");
-  ::_exit(code);
+  tell_and_end(last_words(), static_cast<int>(ErrorKind::interrupted));
+}
+
+struct Uncaught {
+  ErrorKind kind = ErrorKind::cannot_read_write;
+  bool is_internal = false;
+  std::string message = "not enough memory";
+};
+
+/// Without an exception a library gave up its threads because another one could not be started.
+Uncaught uncaught() {
+  if (!std::current_exception()) return {};
+  try {
+    std::rethrow_exception(std::current_exception());
+  } catch (const Error& error) {
+    return {.kind = error.kind(), .message = error.what()};
+  } catch (const std::exception& error) {
+    if (is_for_lack_of_memory(error)) return {};
+    return {.is_internal = true, .message = fmt::format("internal error: {}", error.what())};
+  } catch (...) {
+    return {.is_internal = true, .message = "internal error"};
+  }
+}
+
+void end_of_uncaught() noexcept {
+  const Uncaught thrown = uncaught();
+  const int code = thrown.is_internal ? 1 : static_cast<int>(thrown.kind);
+  Ending none = Ending::none;
+  if (!ending.compare_exchange_strong(none, Ending::from_outside))
+    while (true) ::pause();
+  tell_and_end(one_line(thrown.message), code);
 }
 
 std::chrono::milliseconds tell_listener() {
@@ -117,6 +152,20 @@ void note(int) {
 }
 
 }  // namespace
+
+bool is_for_lack_of_memory(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return true;
+  if (const auto* const system = dynamic_cast<const std::system_error*>(&error))
+    return system->code() == std::errc::not_enough_memory ||
+           system->code() == std::errc::resource_unavailable_try_again;
+  // TBB's words for a thread that cannot be started.
+  return std::string_view(error.what()).starts_with("pthread_create has failed");
+}
+
+void end_in_one_line_whatever_is_thrown(bool json) {
+  json_wanted = json;
+  std::set_terminate(end_of_uncaught);
+}
 
 void watch_signals(bool json) {
   json_wanted = json;

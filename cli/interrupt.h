@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <string>
 
@@ -16,6 +17,13 @@ void watch_signals(bool json);
 /// has this long to end itself, whatever it has finished. For a run that waits for another program, or for its user.
 /// Empty: nobody is told.
 void on_signal(std::function<void()> told, std::chrono::milliseconds most = std::chrono::milliseconds(400));
+
+/// Whether it says that the system has no memory for what was asked: also a thread that cannot be started.
+bool is_for_lack_of_memory(const std::exception& error);
+
+/// From here on what is thrown where nothing catches it, in a thread of a library, ends the program in one line with an
+/// exit code, as any other failure, and leaves nothing unfinished. `json` as above.
+void end_in_one_line_whatever_is_thrown(bool json);
 
 /// Throws Error{interrupted} where a signal was noted.
 void throw_if_interrupted();

@@ -41,8 +41,11 @@ int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOFBF, 1 << 16);
   std::cerr.tie(nullptr);
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-  wheatstone::cli::watch_signals(std::ranges::find(arguments, "--json") != arguments.end());
-  silence_opencv();
-  return wheatstone::cli::run_command_line(arguments, std::cout, std::cerr,
-                                           wheatstone::cli::style_for_standard_error());
+  const bool json = std::ranges::find(arguments, "--json") != arguments.end();
+  wheatstone::cli::end_in_one_line_whatever_is_thrown(json);
+  return wheatstone::cli::run_command_line(arguments, std::cout, std::cerr, wheatstone::cli::style_for_standard_error(),
+                                           [json] {
+                                             wheatstone::cli::watch_signals(json);
+                                             silence_opencv();
+                                           });
 }

@@ -24,6 +24,7 @@
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/unfinished_outputs.h"
 #include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/marks/style_parameters.h"
@@ -265,10 +266,11 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
 /// Paints each photograph; one that fails does not stop the others.
 void paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, const PaintPhotographOptions& options,
                const Session& session) {
-  std::error_code error;
-  const bool made = fs::create_directory(arguments.folder, error);
+  // Its folder goes again where nothing is put into it.
+  UnfinishedOutput folder;
+  folder.begin(fs::path(arguments.folder) / ".none", [] {});
   if (!fs::is_directory(arguments.folder))
-    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot make this folder", arguments.folder));
+    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: is a file, expected a folder", arguments.folder));
   Json photographs = Json::array();
   std::size_t failed = 0;
   int worst = 0;
@@ -284,7 +286,6 @@ void paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, co
           {{"file", job.left}, {"error", failure.what()}, {"exit_code", static_cast<int>(failure.kind())}});
     }
   }
-  if (made && failed == jobs.size()) fs::remove(arguments.folder, error);
   const std::string summary = fmt::format("{} of {} photographs painted", jobs.size() - failed, jobs.size());
   if (session.json) {
     const Json facts{{"painted", jobs.size() - failed}, {"failed", failed}, {"photographs", photographs}};
@@ -298,7 +299,8 @@ void paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, co
   }
   if (failed == 0) return;
   for (const Json& one : photographs)
-    if (one.contains("error")) fmt::print(session.errors, "wheatstone: {}\n", one["error"].get<std::string>());
+    if (one.contains("error"))
+      fmt::print(session.errors, "wheatstone: {}\n", one_line(one["error"].get<std::string>()));
   throw ErrorTold{worst};
 }
 

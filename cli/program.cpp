@@ -1,8 +1,11 @@
 #include "program.h"
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "typed_options.h"
+#include "wheatstone/files/plain_file.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -49,7 +52,12 @@ void add_shared_options(CLI::App& program, Session& session) {
   CLI::Option* verbose = program.add_flag("-v,--verbose", session.verbose, "Verbose output");
   program.add_flag("--quiet", session.quiet, "Print results and errors only")->excludes(verbose);
   program.set_config("--config", "", "TOML file with option values; those of a command stand under [COMMAND]")
-      ->type_name("FILE.toml");
+      ->type_name("FILE.toml")
+      ->check([](const std::string& name) {
+        std::error_code missing;
+        if (std::filesystem::is_other(name, missing)) check_plain_file(name, "a TOML file", Pipes::accepted);
+        return std::string();
+      });
   program.allow_config_extras(CLI::config_extras_mode::error);
   program.set_version_flag("--version", "wheatstone " WHEATSTONE_VERSION);
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -175,6 +176,8 @@ void check_output(const RenderArguments& arguments, const RenderParticlesOptions
   check_views_output(output);
   check_not_an_input(arguments.save_slices, output.inputs);
   check_not_an_input(arguments.values, output.inputs);
+  check_distinct_outputs(std::array<NamedOutput, 3>{
+      {{"--output", arguments.output}, {"--save-slices", arguments.save_slices}, {"--values", arguments.values}}});
   if (!arguments.interleave.empty()) {
     const LenticularScreen screen = find_lenticular(arguments.interleave);
     if (!slices) check_screen(screen, options.width, options.height);

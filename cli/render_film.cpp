@@ -188,6 +188,8 @@ void run_render_film(const RenderArguments& given, const CLI::App& command, cons
   if (!arguments.film.camera.empty()) film.made_from.emplace_back(arguments.film.camera);
   choose_output(arguments, options, command, film);
   check_not_an_input(arguments.output, film.made_from);
+  check_distinct_outputs(
+      std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--save-slices", arguments.save_slices}}});
   film.writing.frame_rate = parse_frame_rate("--rate", arguments.film.rate);
   film.ranks = session.ranks;
   film.whole_frames = reads_slices(arguments) || arguments.film.distribute == Distribution::frames;

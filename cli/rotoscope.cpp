@@ -266,6 +266,8 @@ FilmFiles films_from(const Arguments& arguments) {
   FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
+  check_distinct_outputs(
+      std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--save-marks", arguments.options.marks}}});
   check_not_an_input(arguments.output,
                      std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model});
   return film;

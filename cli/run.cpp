@@ -36,9 +36,8 @@ int code_of(ErrorKind kind) { return static_cast<int>(kind); }
 int fail(const Session& session, int code, std::string message) {
   Ranks::Failure failure = session.ranks.fail({code, std::move(message)});
   code = failure.exit_code;
-  message = std::move(failure.message);
+  message = one_line(std::move(failure.message));
   run_is_over(!session.ranks.alone());
-  std::replace(message.begin(), message.end(), '\n', ' ');
   fmt::print(session.errors, "wheatstone: {}\n", message);
   session.errors.flush();
   if (session.json) {
@@ -204,23 +203,23 @@ int check_output(int code, const Session& session) {
 }  // namespace
 
 int run_command_line(std::span<const std::string> arguments, std::ostream& output, std::ostream& errors,
-                     ProgressDisplay::Style progress) {
+                     ProgressDisplay::Style progress, const std::function<void()>& begin) {
   Session session{output, errors};
   // Known before the line is understood, so that a line that is not gets its error as JSON too.
   session.json = std::ranges::find(arguments, "--json") != arguments.end();
   // What no one planned for still ends in one line.
   try {
+    if (begin) begin();
     return check_output(run_program(arguments, session, progress), session);
-  } catch (const std::bad_alloc&) {
-    return fail(session, code_of(ErrorKind::cannot_read_write), "not enough memory");
   } catch (const cv::Exception& error) {
     if (error.code == cv::Error::StsNoMem) {
       return fail(session, code_of(ErrorKind::cannot_read_write), "not enough memory");
     }
     return fail(session, internal_error, fmt::format("internal error in OpenCV: {} ({})", error.err, error.func));
-  } catch (const std::system_error& error) {
-    return fail(session, code_of(ErrorKind::cannot_read_write), error.what());
   } catch (const std::exception& error) {
+    if (is_for_lack_of_memory(error)) return fail(session, code_of(ErrorKind::cannot_read_write), "not enough memory");
+    if (dynamic_cast<const std::system_error*>(&error) != nullptr)
+      return fail(session, code_of(ErrorKind::cannot_read_write), error.what());
     return fail(session, internal_error, fmt::format("internal error: {}", error.what()));
   }
 }

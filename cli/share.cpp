@@ -2,6 +2,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -167,6 +168,8 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   most_bytes(arguments);  // refused before anything is read
   const std::vector<fs::path> inputs = files_that_are_read(arguments);
   for (const std::string& output : {arguments.output, arguments.element}) check_not_an_input(output, inputs);
+  check_distinct_outputs(
+      std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--element", arguments.element}}});
   if (arguments.words.title.empty()) arguments.words.title = fs::path(arguments.views.files.front()).stem().string();
   report(session.progress, "reading", 0);
   const SharedPicture picture = share(arguments, command, session);

@@ -273,7 +273,7 @@ TEST(Film, LeavesNothingWhereItsPaintingIsCancelled) {
   EXPECT_FALSE(viewer.session().message_is_error) << viewer.session().message;
   EXPECT_FALSE(fs::exists(folder / "shown.mp4"));
   EXPECT_FALSE(fs::exists(folder / "shown.mp4.part"));
-  run_line(viewer, "paint-film nowhere/at/all/shown.mp4");
+  run_line(viewer, "paint-film /dev/null/at/all/shown.mp4");
   viewer.wait();
   EXPECT_TRUE(viewer.session().message_is_error);
 }

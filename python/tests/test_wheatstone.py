@@ -119,7 +119,7 @@ class Package(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, message):
                 call()
         with self.assertRaises(OSError):
-            wheatstone.paint(self.left, self.right).save("/nowhere/painting.wst")
+            wheatstone.paint(self.left, self.right).save("/dev/null/painting.wst")
         with self.assertRaises(FileNotFoundError):
             wheatstone.load("/nowhere/painting.wst")
 

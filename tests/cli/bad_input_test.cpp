@@ -2,6 +2,10 @@
 // `readers`.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <thread>
 
 #include "cli/run_program.h"
 #include "wheatstone/pictures/write_image.h"
@@ -74,6 +78,38 @@ TEST(BadInput, TinyPicturesAreRefused) {
       expect_refused(folder, {command, name, name, "-o", "results", "--quiet"}, 3, name.substr(0, 3));
     }
   }
+}
+
+TEST(BadInput, WhatHasNoEndIsNotRead) {
+  const TemporaryFolder folder;
+  write_image(folder / "good.png", ramp());
+  std::vector<std::vector<std::string>> lines = readers("/dev/zero");
+  for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
+           {"render", "/dev/zero", "-o", "results"},
+           {"share", "/dev/zero", "-o", "page.html"},
+           {"pack", "good.png", "/dev/zero", "-o", "packed"},
+           {"rotoscope", "/dev/zero", "-o", "film.mp4"},
+           {"calibrate", "--left", "/dev/zero", "--right", "good.png", "-o", "rig.yml"},
+           {"paint", "good.png", "good.png", "--style", "/dev/zero", "-o", "results"},
+           {"paint", "good.png", "--depth", "/dev/zero", "-o", "results"},
+           {"measure", "views", "/dev/zero", "--against", "good.png"}})
+    lines.push_back(line);
+  for (const std::vector<std::string>& line : lines) expect_refused(folder, line, 3, "/dev/zero: is a device");
+  expect_refused(folder, {"--config", "/dev/zero", "info", "good.png"}, 3, "/dev/zero: is a device");
+}
+
+TEST(BadInput, OfAPipeWithoutAPictureIsRefused) {
+  const TemporaryFolder folder;
+  write_image(folder / "good.png", ramp());
+  ASSERT_EQ(::mkfifo((folder / "pipe.png").c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(folder / "pipe.png") << "Dear Sir"; });
+  expect_refused(folder, {"match", "good.png", "pipe.png", "-o", "results"}, 3, "pipe.png: ");
+  writer.join();
+}
+
+TEST(BadInput, OfANameThatBreaksLinesIsToldInOne) {
+  const TemporaryFolder folder;
+  expect_refused(folder, {"info", "a\nb\x1b[2J\r\xff.png"}, 3, "a b [2J \xff.png: no such file");
 }
 
 TEST(BadInput, DamagedPaintingIsRefused) {

@@ -113,6 +113,33 @@ TEST(EndingLong, OfOtherLongStagesTakesLessThanASecondAndLeavesNothing) {
        {"measure", "stereo", left, right, "--photographs", left, right}});
 }
 
+TEST(Ending, WithoutMemoryIsExitCodeFour) {
+  const TemporaryFolder folder;
+  constexpr std::size_t mib = std::size_t{1} << 20;
+  std::mt19937 random(1);
+  Image<Rgb8> noise(800, 600);
+  for (Rgb8& pixel : noise.pixels()) pixel.g = static_cast<std::uint8_t>(random());
+  for (const char* name : {"left.jpg", "right.jpg"}) write_image(folder / name, noise);
+  const std::set<std::string> before = files_in(folder / "");
+  std::size_t least = 150 * mib;
+  const auto starts = [&] { return run_program({"--version"}, {.most_addresses = least}).exit_code != 127; };
+  while (!starts()) least += mib;
+  for (const std::size_t more : {0, 1, 2, 8, 32, 64, 100, 150, 200, 250, 300, 400}) {
+    for (const std::vector<std::string>& line : Lines{{"--version"},
+                                                      {"match", "left.jpg", "right.jpg", "-o", "results"},
+                                                      {"paint", "left.jpg", "right.jpg", "-o", "results"}}) {
+      const ProgramResult result = run_program(line, {.folder = folder / "", .most_addresses = least + more * mib});
+      if (result.exit_code == 0) {
+        std::filesystem::remove_all(folder / "results");
+        continue;
+      }
+      EXPECT_EQ(result.exit_code, 4) << line[0] << " " << more;
+      EXPECT_EQ(result.errors, "wheatstone: not enough memory\n") << line[0] << " " << more;
+      EXPECT_EQ(files_in(folder / ""), before) << line[0] << " " << more;
+    }
+  }
+}
+
 TEST(Ending, OnAFullDiskIsExitCodeFour) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program({"synth", "still", "-o", "results", "--size", "320x240", "--quiet"},

@@ -381,7 +381,7 @@ TEST(SeveralPhotographs, WhatCouldBeLeftAndRightIsNotGuessed) {
   write_inputs(folder);
   expect_refused(folder, {"paint", "photo.mpo", "left.png", "-o", "out"}, 2, "expected LEFT and RIGHT");
   expect_refused(folder, {"paint", "both.png", "both.png", "both.png", "-o", "out"}, 2, "the same folder");
-  expect_refused(folder, {"paint", "a.mpo", "b.mpo", "c.mpo", "-o", "no/such/folder"}, 4, "no/such/folder");
+  expect_refused(folder, {"paint", "a.mpo", "b.mpo", "c.mpo", "-o", "left.png/such"}, 4, "left.png/such");
 }
 
 TEST(Progress, NamesEveryStage) {

@@ -154,8 +154,8 @@ TEST(RotoscopeRefusal, OfAnOutputThatWouldDestroySomething) {
 TEST(RotoscopeRefusal, OfPlacesWithoutRoomIsExitCodeFour) {
   const TemporaryFolder folder;
   make_film(folder / "a.mp4", 3, {.preset = "ultrafast"});
-  refused(folder, {"a.mp4", "--layout", "mono", "-o", "nowhere/o.mp4"}, 4, "nowhere/o.mp4: cannot write");
-  refused(folder, {"a.mp4", "--layout", "mono", "--save-marks", "nowhere/m_%d.wst"}, 4, "nowhere/m_%d.wst");
+  refused(folder, {"a.mp4", "--layout", "mono", "-o", "a.mp4/o.mp4"}, 4, "a.mp4/o.mp4: cannot write");
+  refused(folder, {"a.mp4", "--layout", "mono", "--save-marks", "a.mp4/m_%d.wst"}, 4, "a.mp4/m_%d.wst");
 }
 
 }  // namespace

@@ -37,6 +37,8 @@ void redirect(int descriptor, const fs::path& path, int flags) {
   redirect(STDERR_FILENO, errors, O_WRONLY | O_CREAT);
   const rlimit limit = {run.largest_file, run.largest_file};
   if (run.largest_file > 0 && ::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(127);
+  const rlimit addresses = {run.most_addresses, run.most_addresses};
+  if (run.most_addresses > 0 && ::setrlimit(RLIMIT_AS, &addresses) != 0) ::_exit(127);
   if (run.while_running) {
     // A program that is stopped amid its work keeps its memory, and its threads run on while a sanitizer looks for
     // leaks.
@@ -122,7 +124,8 @@ ProgramResult run_in_own_process(const std::vector<std::string>& arguments, cons
 }  // namespace
 
 ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramRun& run) {
-  const bool here = !run.own_process && run.standard_output.empty() && run.largest_file == 0 && !run.while_running;
+  const bool here = !run.own_process && run.standard_output.empty() && run.largest_file == 0 &&
+                    run.most_addresses == 0 && !run.while_running;
   using Style = cli::ProgressDisplay::Style;
   return here ? run_here(arguments, run.folder, run.every_step ? Style::every_step : Style::lines)
               : run_in_own_process(arguments, run);

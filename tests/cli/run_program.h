@@ -25,6 +25,7 @@ struct ProgramRun {
   bool own_process = false;
   std::filesystem::path standard_output;           ///< takes the output instead of the result, where it is given
   std::size_t largest_file = 0;                    ///< in bytes, 0 for no limit; a write beyond fails as on a full disk
+  std::size_t most_addresses = 0;                  ///< in bytes, 0 for no limit, as ulimit -v has it
   std::function<void(int process)> while_running;  ///< called once the program has started
 };
 

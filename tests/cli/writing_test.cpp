@@ -103,6 +103,36 @@ TEST(Writing, GivesTheSameBytesAtAnyTime) {
   for (const auto& [name, bytes] : first) EXPECT_TRUE(bytes == second.at(name)) << name;
 }
 
+TEST(Writing, MakesTheFoldersOfAnOutputAndLeavesNoneOfAFailedRun) {
+  const TemporaryFolder folder;
+  write_inputs(folder);
+  const std::set<std::string> before = files_in(folder / "");
+  for (std::vector<std::string> line : writers()) {
+    if (line.front() == "study") continue;
+    (std::ranges::find(line, "-o") + 1)->insert(0, "new/below/");
+    line.emplace_back("--quiet");
+    const FileSizeLimit limit(64);
+    const ProgramResult result = run_program(line, {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 4) << line[0] << result.errors;
+    EXPECT_EQ(files_in(folder / ""), before) << line[0];
+  }
+  const ProgramResult packed = run_program(
+      {"pack", "left.png", "right.png", "--to", "left-right", "-o", "new/below/both.png"}, {.folder = folder / ""});
+  EXPECT_EQ(packed.exit_code, 0) << packed.errors;
+  EXPECT_TRUE(fs::exists(folder / "new/below/both.png"));
+}
+
+TEST(Writing, FollowsALinkThatLeadsNowhereYet) {
+  const TemporaryFolder folder;
+  write_inputs(folder);
+  fs::create_symlink("target.png", folder / "link.png");
+  const ProgramResult result =
+      run_program({"pack", "left.png", "right.png", "--to", "left-right", "-o", "link.png"}, {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(fs::is_symlink(folder / "link.png"));
+  EXPECT_TRUE(fs::is_regular_file(folder / "target.png"));
+}
+
 TEST(Writing, ToAFullDiskLeavesNothing) {
   const TemporaryFolder folder;
   write_inputs(folder);

@@ -22,6 +22,7 @@
 #include "cli/view_arguments.h"
 #include "end_signals.h"
 #include "kept_settings.h"
+#include "plain_numbers.h"
 #include "study.h"
 #include "viewer/command_table.h"
 #include "viewer/control.h"
@@ -179,6 +180,7 @@ int run_view(int argc, char** argv) {
   choose_platform(arguments);
   int none = 1;
   const QApplication application(none, argv);
+  use_plain_numbers();
   QApplication::setApplicationName("Wheatstone");
   return run(arguments);
 }

@@ -12,6 +12,7 @@
 #include "cli/interrupt.h"
 #include "cli/study_run_arguments.h"
 #include "end_signals.h"
+#include "plain_numbers.h"
 #include "study_window.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/error.h"
@@ -126,6 +127,7 @@ int run_study(int argc, char** argv) {
                 "study run: there is no screen: neither DISPLAY nor WAYLAND_DISPLAY is set");
   int none = 1;
   const QApplication application(none, argv);
+  use_plain_numbers();
   return run_session(arguments);
 }
 

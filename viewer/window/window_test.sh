@@ -25,6 +25,15 @@ sed 's/WINDOW/offscreen.png/' tour.txt >offscreen.txt
 grep --quiet '"mode":"left-right"' state.json || fail "the state does not tell the mode: $(cat state.json)"
 [[ -s offscreen.png ]] || fail "there is no picture of the window"
 
+
+# Numbers are written as in English, whatever the user's language.
+printf '%s\n' 'resize 900 700' wait 'panel style' wait 'screenshot PANEL' >panel.txt
+for language in C de_DE.UTF-8; do
+  sed "s/PANEL/panel-$language.png/" panel.txt >panel-$language.txt
+  LANG=$language LC_ALL=$language "$view" painted/painting.wst --script panel-$language.txt >out.txt
+done
+cmp panel-C.png panel-de_DE.UTF-8.png || fail "the panel is another one in German"
+
 if "$view" painted/missing.wst --script offscreen.txt >out.txt 2>err.txt; then fail "a missing file is no error"; fi
 echo 'fly' >bad.txt
 code=0

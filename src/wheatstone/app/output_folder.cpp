@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/followed_path_internal.h"
 #include "wheatstone/files/input_guard.h"
 
 namespace wheatstone {
@@ -102,13 +103,11 @@ OutputFolder::OutputFolder(const fs::path& folder, std::vector<fs::path> inputs)
   std::error_code error;
   final_ = fs::absolute(folder).lexically_normal();
   if (!final_.has_filename()) final_ = final_.parent_path();
-  if (fs::exists(final_, error)) final_ = fs::canonical(final_);
+  if (fs::is_symlink(fs::symlink_status(final_, error)) || fs::exists(final_, error)) final_ = followed(final_);
   if (fs::exists(final_, error) && !fs::is_directory(final_, error)) {
     check_not_an_input(folder, inputs_);
     refuse(folder, "is a file, expected a folder");
   }
-  if (!fs::is_directory(final_.parent_path(), error))
-    refuse(folder, fmt::format("there is no folder {}", final_.parent_path().string()));
   temporary_ = growing_folder(final_);
   unfinished_.begin(temporary_, [&] {
     const bool made = fs::create_directory(temporary_, error);

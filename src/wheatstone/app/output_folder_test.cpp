@@ -149,11 +149,34 @@ TEST(OutputFolder, NeedsNothingFromTheFolderAbove) {
   EXPECT_THAT(names_in(folder / "above/mine"), UnorderedElementsAre("a.txt"));
 }
 
+TEST(OutputFolder, MakesTheFoldersAboveAndRemovesThemWhenItIsNotFinished) {
+  const TemporaryFolder folder;
+  {
+    const OutputFolder output(folder / "new/below/views");
+    put_bytes(output.file("a.txt"), "a");
+  }
+  EXPECT_TRUE(folder.is_empty());
+  OutputFolder output(folder / "new/below/views");
+  put_bytes(output.file("a.txt"), "a");
+  output.commit();
+  EXPECT_THAT(names_in(folder / "new/below/views"), UnorderedElementsAre("a.txt"));
+}
+
+TEST(OutputFolder, FollowsALinkThatLeadsNowhereYet) {
+  const TemporaryFolder folder;
+  fs::create_symlink("target", folder / "link");
+  OutputFolder output(folder / "link");
+  put_bytes(output.file("a.txt"), "a");
+  output.commit();
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_THAT(names_in(folder / "target"), UnorderedElementsAre("a.txt"));
+}
+
 TEST(OutputFolder, RefusesWhatCannotBeAFolder) {
   const TemporaryFolder folder;
   put_bytes(folder / "file", "x");
   expect_error(ErrorKind::cannot_read_write, "is a file", [&] { OutputFolder(folder / "file"); });
-  expect_error(ErrorKind::cannot_read_write, "there is no folder", [&] { OutputFolder(folder / "no/such"); });
+  expect_error(ErrorKind::cannot_read_write, "file/such", [&] { OutputFolder(folder / "file/such"); });
   expect_error(ErrorKind::wrong_usage, "empty", [] { OutputFolder(""); });
 }
 

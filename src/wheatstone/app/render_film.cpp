@@ -135,6 +135,10 @@ RenderedFilm write_film(const FrameSource& source, const fs::path& output, const
   } catch (const Error& error) {
     if (out) leave(error, output, *out);
     throw;
+  } catch (...) {
+    // What is no Error, such as too little memory, leaves no empty folder, either.
+    if (out && out->frames_done() == 0) out->discard();
+    throw;
   }
   if (out) film.notes = out->notes();
   return film;

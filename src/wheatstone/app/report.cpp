@@ -62,9 +62,13 @@ PaintingMeasures measure_painting(const StereoPair& photographs, const PaintedPh
   return measures;
 }
 
-std::string wrong_spots_json(const WrongSpots& spots) { return to_json(spots).dump(2); }
+std::string wrong_spots_json(const WrongSpots& spots) {
+  return to_json(spots).dump(2, ' ', false, Json::error_handler_t::replace);
+}
 
-std::string pair_measures_json(const PairMeasures& measures) { return to_json(measures).dump(2); }
+std::string pair_measures_json(const PairMeasures& measures) {
+  return to_json(measures).dump(2, ' ', false, Json::error_handler_t::replace);
+}
 
 std::string rectification_json(const Rectification& how) {
   const auto map_json = [](const RectifyingMap& map) {
@@ -72,7 +76,8 @@ std::string rectification_json(const Rectification& how) {
                 {"homography", map.homography},
                 {"row_correction_px", map.row_correction}};
   };
-  return Json{{"left", map_json(how.left)}, {"right", map_json(how.right)}}.dump(2);
+  return Json{{"left", map_json(how.left)}, {"right", map_json(how.right)}}.dump(2, ' ', false,
+                                                                                 Json::error_handler_t::replace);
 }
 
 std::string preparation_json(const PreparedPair& pair) {
@@ -91,7 +96,7 @@ std::string preparation_json(const PreparedPair& pair) {
   if (pair.eyes != EyeOrder::undecided) facts["eyes_look_swapped"] = pair.eyes == EyeOrder::swapped;
   if (pair.rectification) facts["rectification"] = Json::parse(rectification_json(*pair.rectification));
   if (!warning.empty()) facts["warning"] = warning;
-  return facts.dump(2);
+  return facts.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string confidence_json(const MatchConfidence& confidence) {
@@ -105,7 +110,7 @@ std::string confidence_json(const MatchConfidence& confidence) {
              {"depth_px", rounded(confidence.depth_px)},
              {"warning", nullptr}};
   if (!warning.empty()) facts["warning"] = warning;
-  return facts.dump(2);
+  return facts.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string report_json(const PaintingReport& told) {
@@ -142,7 +147,7 @@ std::string report_json(const PaintingReport& told) {
                           {"strokes", to_json(measures->strokes)},
                           {"wrong_spots", to_json(measures->wrong_spots)}};
   }
-  return report.dump(2) + "\n";
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace wheatstone

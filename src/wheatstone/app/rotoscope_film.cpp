@@ -440,6 +440,10 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     if (!out) throw error;
     if (!options.ranks.alone()) remove_passed_frames(work_folder_of(output));
     leave(error, painted, *out, output, options.marks);
+  } catch (...) {
+    // What is no Error, such as too little memory, leaves no empty folder, either.
+    if (out && out->frames_done() == 0) out->discard();
+    throw;
   }
   film.loss = source.loss();
   if (film.loss && !options.keep_going)

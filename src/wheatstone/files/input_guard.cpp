@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/followed_path_internal.h"
 
 namespace wheatstone {
 
@@ -14,6 +15,20 @@ void check_not_an_input(const std::filesystem::path& output, std::span<const std
     if (!std::filesystem::equivalent(output, input, missing)) continue;
     throw Error(ErrorKind::wrong_usage, fmt::format("{}: is the same file as the input {}, expected another output",
                                                     output.string(), input.string()));
+  }
+}
+
+void check_distinct_outputs(std::span<const NamedOutput> outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const NamedOutput &one = outputs[j], &other = outputs[i];
+      if (one.file.empty() || other.file.empty()) continue;
+      std::error_code missing;
+      if (followed(one.file) != followed(other.file) && !std::filesystem::equivalent(one.file, other.file, missing))
+        continue;
+      throw Error(ErrorKind::wrong_usage, fmt::format("{}: {} is the same file as that of {}, expected another name",
+                                                      other.option, other.file.string(), one.option));
+    }
   }
 }
 

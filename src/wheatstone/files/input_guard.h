@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace wheatstone {
 
@@ -9,5 +10,15 @@ namespace wheatstone {
 /// the same file as one of the inputs, also through symbolic or hard links. Names of files that do not exist, and empty
 /// names, are the same as none.
 void check_not_an_input(const std::filesystem::path& output, std::span<const std::filesystem::path> inputs);
+
+/// An output and the option that names it.
+struct NamedOutput {
+  std::string option;
+  std::filesystem::path file;  ///< empty: it is not wanted
+};
+
+/// Throws Error{wrong_usage} that names both options where two outputs are the same file, under whatever name, also
+/// where it does not exist yet.
+void check_distinct_outputs(std::span<const NamedOutput> outputs);
 
 }  // namespace wheatstone

@@ -35,5 +35,18 @@ TEST(InputGuard, AllowsWhatIsNoInput) {
   EXPECT_NO_THROW(check_not_an_input("", inputs));
 }
 
+TEST(InputGuard, RefusesOneFileForTwoOutputs) {
+  const TemporaryFolder folder;
+  fs::create_symlink("page.html", folder / "link.html");
+  const auto outputs = [&](const char* other) {
+    return std::array<NamedOutput, 3>{
+        {{"--output", folder / "page.html"}, {"--log", ""}, {"--element", folder / other}}};
+  };
+  for (const char* same : {"page.html", "./page.html", "no/../page.html", "link.html"})
+    expect_error(ErrorKind::wrong_usage, "is the same file as that of --output",
+                 [&] { check_distinct_outputs(outputs(same)); });
+  EXPECT_NO_THROW(check_distinct_outputs(outputs("element.js")));
+}
+
 }  // namespace
 }  // namespace wheatstone

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace wheatstone {
 
 /// A function of a module: code that stands apart from the program with the libraries that it needs, so that a run
 /// without need of it does not wait for them to load. `module` is its name without lib and .so; it is looked for where
-/// the program's own libraries are (its run path, then the system's), is loaded at the first call and stays. Throws
-/// Error{cannot_read_write} where it is missing, cannot be loaded or is of another version.
-void* function_of_module(const std::string& module, const std::string& function);
+/// the program's own libraries are (its run path, then the system's), is loaded at the first call and stays. Its
+/// libraries and what they begin with take `address_space_bytes`. Throws Error{cannot_read_write} where it is missing,
+/// cannot be loaded or is of another version, std::bad_alloc where there is too little memory.
+void* function_of_module(const std::string& module, const std::string& function, std::size_t address_space_bytes);
 
 }  // namespace wheatstone

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/followed_path_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -40,8 +41,8 @@ TemporaryFile::TemporaryFile(fs::path final_path) : name_(std::move(final_path))
     return;
   }
 
-  // A link keeps pointing at its target: the target is what is replaced.
-  if (fs::exists(status)) final_path_ = fs::canonical(final_path_);
+  // A link keeps pointing at its target: the target is what is replaced, or made.
+  if (fs::is_symlink(fs::symlink_status(final_path_, error))) final_path_ = followed(final_path_);
   temporary_path_ = temporary_name(final_path_);
   unfinished_.begin(temporary_path_, [this] {
     const int file = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

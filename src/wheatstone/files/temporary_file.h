@@ -11,8 +11,9 @@ namespace wheatstone {
 /// What exists and is no plain file (a pipe, a device) is written to directly: there `path()` is the real name.
 class TemporaryFile {
  public:
-  /// Creates the temporary file, empty. Throws Error{cannot_read_write} where the folder of `final_path` does not exist
-  /// or cannot be written, or where `final_path` is itself a folder.
+  /// Creates the temporary file, empty. A folder of `final_path` that does not exist is made, and removed again if the
+  /// file is not finished. Throws Error{cannot_read_write} where the folder cannot be made or written, or where
+  /// `final_path` is itself a folder.
   explicit TemporaryFile(std::filesystem::path final_path);
 
   const std::filesystem::path& path() const { return temporary_path_; }

@@ -72,11 +72,37 @@ TEST(TemporaryFile, OfADeviceIsTheDevice) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(TemporaryFile, RefusesAMissingFolderAndAFolder) {
+TEST(TemporaryFile, RefusesAFolderAndWhatCannotBeInOne) {
   const TemporaryFolder folder;
-  expect_error(ErrorKind::cannot_read_write, "left.png: cannot write",
-               [&] { TemporaryFile(folder / "missing/left.png"); });
+  put_bytes(folder / "file", "x");
+  expect_error(ErrorKind::cannot_read_write, "file", [&] { TemporaryFile(folder / "file/left.png"); });
   expect_error(ErrorKind::cannot_read_write, "cannot write", [&] { TemporaryFile(folder / ""); });
+}
+
+TEST(TemporaryFile, MakesItsFoldersAndRemovesThemWhenItIsNotFinished) {
+  const TemporaryFolder folder;
+  { const TemporaryFile file(folder / "new/below/left.png"); }
+  EXPECT_TRUE(folder.is_empty());
+  {
+    const TemporaryFile file(folder / "new/left.png");
+    TemporaryFile other(folder / "new/right.png");
+    other.commit();
+  }
+  EXPECT_FALSE(fs::exists(folder / "new/left.png"));
+  EXPECT_TRUE(fs::exists(folder / "new/right.png"));
+  const TemporaryFile file(folder / "at/once/left.png");
+  remove_unfinished_outputs();
+  EXPECT_FALSE(fs::exists(folder / "at"));
+}
+
+TEST(TemporaryFile, FollowsALinkThatLeadsNowhereYet) {
+  const TemporaryFolder folder;
+  fs::create_symlink("below/target.png", folder / "link.png");
+  TemporaryFile file(folder / "link.png");
+  put_bytes(file.path(), "x");
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(folder / "link.png"));
+  EXPECT_EQ(bytes_of(folder / "below/target.png"), "x");
 }
 
 }  // namespace

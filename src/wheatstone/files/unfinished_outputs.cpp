@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -18,9 +19,13 @@ struct Outputs {
   // Several may have one name: of a folder that several parts of a program go on with.
   std::multiset<fs::path> unfinished;
   std::multiset<fs::path> kept;
+  std::multiset<fs::path> made_folders;  ///< above what is unfinished; those within others come later
   bool some_finished = false;
 
   std::multiset<fs::path>& those(bool are_kept) { return are_kept ? kept : unfinished; }
+  void forget_folders(const std::vector<fs::path>& made) {
+    for (const fs::path& folder : made) made_folders.extract(folder);
+  }
   void leave_out(const fs::path& path, bool is_kept) { those(is_kept).extract(path); }
 };
 
@@ -33,6 +38,30 @@ Outputs& outputs() {
 /// Empty: wanted.
 thread_local std::function<bool()> are_wanted;
 
+/// Removes folders that hold nothing, those within others first.
+template <class Folders>
+void remove_empty(const Folders& folders) {
+  std::error_code ignored;
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) fs::remove(*folder, ignored);
+}
+
+/// Makes the folders that lead to this one, and tells which they were, from the outermost on.
+std::vector<fs::path> make_missing_folders(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, error); at = at.parent_path()) missing.push_back(at);
+  std::ranges::reverse(missing);
+  std::vector<fs::path> made;
+  for (const fs::path& path : missing) {
+    if (fs::create_directory(path, error)) made.push_back(path);
+    if (!error) continue;
+    remove_empty(made);
+    throw Error(ErrorKind::cannot_read_write,
+                fmt::format("{}: the folder cannot be made: {}", path.string(), error.message()));
+  }
+  return made;
+}
+
 }  // namespace
 
 OutputsOnlyWhile::OutputsOnlyWhile(std::function<bool()> wanted) { are_wanted = std::move(wanted); }
@@ -44,13 +73,23 @@ UnfinishedOutput::~UnfinishedOutput() {
   std::error_code ignored;
   if (!kept_) fs::remove_all(temporary_, ignored);
   const auto hold = hold_outputs();
+  remove_empty(made_);
+  outputs().forget_folders(made_);
   outputs().leave_out(temporary_, kept_);
 }
 
 void UnfinishedOutput::begin(fs::path temporary, const std::function<void()>& make) {
   const auto hold = hold_outputs();
-  make();
+  std::vector<fs::path> made = make_missing_folders(temporary.parent_path());
+  try {
+    make();
+  } catch (...) {
+    remove_empty(made);
+    throw;
+  }
   temporary_ = std::move(temporary);
+  made_ = std::move(made);
+  outputs().made_folders.insert(made_.begin(), made_.end());
   kept_ = false;
   outputs().unfinished.insert(temporary_);
 }
@@ -70,6 +109,7 @@ void UnfinishedOutput::finish(const std::function<void()>& rename) {
     throw Error(ErrorKind::interrupted,
                 fmt::format("{}: is not finished, its call was cancelled", temporary_.string()));
   rename();
+  outputs().forget_folders(made_);
   outputs().leave_out(temporary_, kept_);
   temporary_.clear();
   // What is written inside an unfinished folder is no result yet.
@@ -93,6 +133,7 @@ void remove_unfinished_outputs() {
          ++tries)
       fs::remove_all(path, error);
   }
+  remove_empty(outputs().made_folders);
 }
 
 }  // namespace wheatstone

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <vector>
 
 namespace wheatstone {
 
@@ -16,7 +17,9 @@ class UnfinishedOutput {
   UnfinishedOutput(const UnfinishedOutput&) = delete;
   UnfinishedOutput& operator=(const UnfinishedOutput&) = delete;
 
-  /// Calls `make`, which creates what has this temporary name. What `make` throws is passed on; then nothing is begun.
+  /// Makes the folders above that do not exist, and calls `make`, which creates what has this temporary name. The
+  /// folders are removed with it, unless something else lies in them by then. What `make` throws is passed on; then
+  /// nothing is begun. Throws Error{cannot_read_write} where a folder cannot be made.
   void begin(std::filesystem::path temporary, const std::function<void()>& make);
 
   /// Whether it stays under its temporary name when it is not finished, because another run goes on with it. What is
@@ -28,7 +31,8 @@ class UnfinishedOutput {
   void finish(const std::function<void()>& rename);
 
  private:
-  std::filesystem::path temporary_;  ///< empty where nothing is unfinished
+  std::filesystem::path temporary_;          ///< empty where nothing is unfinished
+  std::vector<std::filesystem::path> made_;  ///< folders above it, from the outermost on
   bool kept_ = false;
 };
 

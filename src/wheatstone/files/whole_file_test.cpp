@@ -1,10 +1,13 @@
 #include "wheatstone/files/whole_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <csignal>
+#include <fstream>
+#include <thread>
 
 #include "temporary_folder.h"
 #include "throws_error.h"
@@ -27,6 +30,28 @@ TEST(WholeFile, RefusesToReadWhatIsTooLongMissingOrAFolder) {
   expect_error(ErrorKind::bad_input, "7 bytes", [&] { read_whole_file(folder / "file.bin", 6); });
   expect_error(ErrorKind::bad_input, "missing.bin", [&] { read_whole_file(folder / "missing.bin", 6); });
   expect_error(ErrorKind::bad_input, "folder", [&] { read_whole_file(folder / "", 6); });
+}
+
+TEST(WholeFile, IsReadFromAPipeWithAnEndAndFromNoDevice) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string bytes(200'000, 'x');
+  std::thread writer([&] { std::ofstream(pipe) << bytes; });
+  EXPECT_EQ(read_whole_file(pipe, bytes.size()), bytes);
+  writer.join();
+  expect_error(ErrorKind::bad_input, "only once", [&] { read_whole_file(pipe, bytes.size()); });
+  ::signal(SIGPIPE, SIG_IGN);
+  const fs::path other = folder / "other";
+  ASSERT_EQ(::mkfifo(other.c_str(), 0600), 0);
+  std::thread endless([&] {
+    std::ofstream file(other);
+    while (file << bytes) continue;
+  });
+  expect_error(ErrorKind::bad_input, "other: is a pipe of more than 200000 bytes",
+               [&] { read_whole_file(other, bytes.size()); });
+  endless.join();
+  expect_error(ErrorKind::bad_input, "/dev/zero: is a device", [&] { read_whole_file("/dev/zero", 6); });
 }
 
 TEST(WholeFile, SaysThatTheDiskIsFull) {

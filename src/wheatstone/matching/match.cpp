@@ -90,7 +90,8 @@ Image<float> match_right(const cv::Mat& left, const cv::Mat& right, const Dispar
 /// far and wide the filter returns numbers without meaning; there the disparity stays as it was.
 Image<float> refined(const Image<float>& left, const Image<float>& right, const cv::Mat& left_picture,
                      const DisparityRange& range, const MatchOptions& options) {
-  static auto* const refine = reinterpret_cast<RefineWls*>(function_of_module(wls_module_name, refine_wls_name));
+  static auto* const refine =
+      reinterpret_cast<RefineWls*>(function_of_module(wls_module_name, refine_wls_name, wls_module_bytes));
   cv::Mat result;
   refine({.left_disparity = in_sixteenths(left, 1),
           .right_disparity = in_sixteenths(right, -1),

@@ -16,6 +16,7 @@ struct WlsInputs {
 /// than all others that matching needs.
 using RefineWls = void(const WlsInputs& inputs, cv::Mat& refined);
 inline constexpr auto wls_module_name = "wheatstone_ximgproc";
+inline constexpr std::size_t wls_module_bytes = std::size_t{16} << 20;
 inline constexpr auto refine_wls_name = "wheatstone_refine_wls";
 
 }  // namespace wheatstone

@@ -1,12 +1,10 @@
 #include "wheatstone/multiview/slice_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
 #include <exception>
 #include <fstream>
@@ -20,6 +18,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/plain_file.h"
 #include "wheatstone/files/temporary_file.h"
 #include "wheatstone/pictures/picture_file.h"
 
@@ -135,6 +134,7 @@ PixelRows limited(const Slice& slice, std::vector<LinearRgba>& scratch) {
 
 /// OpenEXR does not notice when a full disk swallows its last bytes: whether the last line of the last slice is there.
 bool is_whole(const std::string& file, std::size_t count) {
+  if (fs::is_empty(file)) return false;
   const std::unique_ptr<PictureReader> reader = open_picture_file(file).reader;
   if (!reader || !reader->go_to(static_cast<int>(count) - 1)) return false;
   const StoredPicture& last = reader->picture();
@@ -160,12 +160,7 @@ void write_parts(const fs::path& path, const std::string& file, const SliceStack
 }
 
 void check_opens(const fs::path& path) {
-  if (!fs::exists(path)) refuse(path, "no such file, expected slices (.exr)");
-  if (!fs::is_regular_file(path)) refuse(path, "is no plain file, expected slices (.exr)");
-  if (::access(path.c_str(), R_OK) != 0) {
-    throw Error(ErrorKind::cannot_read_write,
-                fmt::format("{}: cannot read: {}", path.string(), std::generic_category().message(errno)));
-  }
+  check_plain_file(path, "slices (.exr)");
   std::array<char, 4> magic{};
   std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
   if (std::string_view(magic.data(), magic.size()) != "\x76\x2f\x31\x01")

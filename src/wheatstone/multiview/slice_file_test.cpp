@@ -143,9 +143,9 @@ TEST(SliceFile, AnotherPictureIsRefused) {
   write_disparity(folder / "plain.exr", Image<float>(8, 8, 1.f));
   expect_error(ErrorKind::bad_input, "plain.exr: is an OpenEXR picture without Wheatstone's slices",
                [&] { read_slices(folder / "plain.exr"); });
-  expect_refused(folder, "", "is no OpenEXR file");
+  expect_refused(folder, "", "is empty, expected slices");
   expect_refused(folder, "\x89PNG\r\n\x1a\n and so on", "is no OpenEXR file");
-  expect_error(ErrorKind::bad_input, "is no plain file", [&] { read_slices(folder / "."); });
+  expect_error(ErrorKind::bad_input, "is a folder", [&] { read_slices(folder / "."); });
   expect_error(ErrorKind::bad_input, "missing.exr: no such file", [&] { read_slices(folder / "missing.exr"); });
 }
 
@@ -224,8 +224,8 @@ TEST(SliceFile, DamageIsRefusedOrHarmless) {
 
 TEST(SliceFile, WhatCannotBeWrittenLeavesNothing) {
   const TemporaryFolder folder;
-  expect_error(ErrorKind::cannot_read_write, "nowhere",
-               [&] { write_slices(folder / "nowhere" / "a.exr", some_slices()); });
+  expect_error(ErrorKind::cannot_read_write, "cannot write",
+               [&] { write_slices("/dev/null/a.exr", some_slices()); });
 }
 
 TEST(SliceFile, AFullDiskIsNoticedAtAnyByte) {

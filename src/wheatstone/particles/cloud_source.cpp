@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/plain_file.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 
@@ -81,13 +82,8 @@ const Format* format_of(std::string_view first_bytes) {
 }
 
 std::string first_bytes(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path))
-    throw Error(ErrorKind::bad_input, fmt::format("{}: is a folder, expected a file of particles", path.string()));
-  if (!std::ifstream(path, std::ios::binary))
-    throw Error(ErrorKind::bad_input, fmt::format("{}: cannot be opened", path.string()));
-  std::string bytes = some_bytes(path);
-  if (bytes.empty()) throw Error(ErrorKind::bad_input, fmt::format("{}: is empty, expected particles", path.string()));
-  return bytes;
+  check_plain_file(path, "particles");
+  return some_bytes(path);
 }
 
 void append(Cloud& to, const Cloud& more) {

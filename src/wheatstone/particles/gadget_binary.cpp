@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/plain_file.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/gas_temperature.h"
@@ -144,6 +145,7 @@ void read_blocks(BinaryPart& part, std::ifstream& file) {
 }
 
 BinaryPart open_part(const std::filesystem::path& path) {
+  check_plain_file(path, "a GADGET snapshot");
   BinaryPart part{.path = path.string()};
   std::ifstream file(path, std::ios::binary);
   std::array<char, 4> first{};

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/plain_file.h"
 #include "wheatstone/particles/hdf5_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
 
@@ -56,6 +57,7 @@ void read_as(hid_t type, const Hdf5Column& column, const RowRange& rows, std::ve
 
 Hdf5Handle open_hdf5(const std::filesystem::path& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  check_plain_file(path, "a HDF5 file");
   Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file)
     throw Error(ErrorKind::bad_input,

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <new>
 #include <optional>
@@ -12,11 +10,14 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/address_space.h"
+#include "wheatstone/files/plain_file.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/pictures/embedded_profile_internal.h"
 #include "wheatstone/pictures/jpeg_end_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/picture_module_internal.h"
 #include "wheatstone/pictures/plain_png_internal.h"
 #include "wheatstone/pictures/png_reader_internal.h"
 
@@ -27,18 +28,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), what));
-}
-
-void check_readable(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) refuse(path, "no such file, expected a picture");
-  if (fs::is_directory(status)) refuse(path, "is a folder, expected a picture");
-  if (::access(path.c_str(), R_OK) != 0) {
-    const std::string reason = std::generic_category().message(errno);
-    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot read: {}", path.string(), reason));
-  }
-  if (fs::is_regular_file(status) && fs::file_size(path, error) == 0) refuse(path, "is empty, expected a picture");
 }
 
 // OpenImageIO also opens films, medical scans and text: named, so that only pictures come in.
@@ -94,6 +83,8 @@ std::unique_ptr<PictureReader> opened_file(const fs::path& path) {
   try {
     return open_picture_file(path, alpha).reader;
   } catch (const std::bad_alloc&) {
+    // Where there is not even what every picture takes, the header is not at fault.
+    require_address_space(picture_module_bytes);
     refuse_damaged(path, "its header asks for more memory than there is");
   } catch (const std::length_error&) {
     refuse_damaged(path, "its header asks for more memory than can be");
@@ -109,7 +100,7 @@ void refuse_damaged(const fs::path& path, std::string reason) {
 }
 
 std::string read_picture_bytes(const fs::path& path) {
-  check_readable(path);
+  check_plain_file(path, "a picture", Pipes::accepted);
   return read_whole_file(path, most_picture_bytes);
 }
 

@@ -9,6 +9,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/module.h"
+#include "wheatstone/files/plain_file.h"
 #include "wheatstone/pictures/encode_png_internal.h"
 #include "wheatstone/pictures/exr_header_internal.h"
 #include "wheatstone/pictures/picture_module_internal.h"
@@ -18,8 +19,8 @@ namespace wheatstone {
 namespace {
 
 const PictureModule& module() {
-  static const PictureModule* const loaded =
-      reinterpret_cast<GivePictureModule*>(function_of_module(picture_module_name, give_picture_module_name))();
+  static const PictureModule* const loaded = reinterpret_cast<GivePictureModule*>(
+      function_of_module(picture_module_name, give_picture_module_name, picture_module_bytes))();
   return *loaded;
 }
 
@@ -48,6 +49,7 @@ void StoredPicture::put(const std::string& name, PictureAttribute attribute) {
 }
 
 OpenedPicture open_picture_file(const std::filesystem::path& path, StoredAlpha alpha) {
+  check_plain_file(path, "a picture");
   std::ifstream file(path, std::ios::binary);
   if (!exr_header_fits(file)) return {nullptr, "its header is longer than the file"};
   return module().open_file(path, alpha);

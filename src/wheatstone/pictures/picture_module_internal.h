@@ -17,6 +17,7 @@ struct PictureModule {
 /// The module's function that gives the others.
 using GivePictureModule = const PictureModule*();
 inline constexpr auto picture_module_name = "wheatstone_openimageio";
+inline constexpr std::size_t picture_module_bytes = std::size_t{384} << 20;  // more than 200 libraries, and threads
 inline constexpr auto give_picture_module_name = "wheatstone_picture_module";
 
 }  // namespace wheatstone

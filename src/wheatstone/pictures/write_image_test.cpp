@@ -76,8 +76,8 @@ TEST(WriteImage, WritesTheSameBytesTwice) {
 
 TEST(WriteImage, LeavesNothingBehindWhenItCannot) {
   const TemporaryFolder folder;
-  expect_error(ErrorKind::cannot_read_write, "missing/a.png: cannot write",
-               [&] { write_image(folder / "missing/a.png", ramp(4, 4)); });
+  expect_error(ErrorKind::cannot_read_write, "/dev/null/a.png: cannot write",
+               [&] { write_image("/dev/null/a.png", ramp(4, 4)); });
   expect_error(ErrorKind::wrong_usage, "a.xyz: unknown picture format",
                [&] { write_image(folder / "a.xyz", ramp(4, 4)); });
   expect_error(ErrorKind::cannot_read_write, "no pixels", [&] { write_image(folder / "a.png", Image<Rgb8>()); });

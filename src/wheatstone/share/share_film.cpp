@@ -39,6 +39,7 @@ struct FilmViews {
   QuiltLayout places;
   bool upwards = true, leftwards = false;
   Image<Rgb8> still;
+  std::optional<std::string> loss = {};
 };
 
 FilmViews views_of_quilts(const fs::path& film, const QuiltLayout& quilt) {
@@ -46,7 +47,8 @@ FilmViews views_of_quilts(const fs::path& film, const QuiltLayout& quilt) {
   Frame frame;
   if (!reader.read(frame)) throw Error(ErrorKind::bad_input, fmt::format("{}: has no frames", film.string()));
   std::vector<Image<Rgb8>> views = views_of_quilt(frame.picture, quilt);
-  return {reader.facts(), quilt, true, false, std::move(views[views.size() / 2])};
+  reader.skip(std::numeric_limits<std::int64_t>::max());
+  return {reader.facts(), quilt, true, false, std::move(views[views.size() / 2]), reader.loss()};
 }
 
 FilmViews views_of_eyes(const fs::path& film, std::optional<StereoLayout> layout) {
@@ -60,8 +62,9 @@ FilmViews views_of_eyes(const fs::path& film, std::optional<StereoLayout> layout
                             film.string(), traits.name));
   StereoFrame frame;
   if (!reader.read(frame)) throw Error(ErrorKind::bad_input, fmt::format("{}: has no frames", film.string()));
-  if (beside) return {reader.facts(), {2, 1}, true, traits.right_first, std::move(frame.left)};
-  return {reader.facts(), {1, 2}, traits.right_first, false, std::move(frame.left)};
+  reader.skip(std::numeric_limits<std::int64_t>::max());
+  if (beside) return {reader.facts(), {2, 1}, true, traits.right_first, std::move(frame.left), reader.loss()};
+  return {reader.facts(), {1, 2}, traits.right_first, false, std::move(frame.left), reader.loss()};
 }
 
 /// Subtitles as the page has them. What browsers would not read is refused here, where somebody can mend it.
@@ -105,6 +108,8 @@ SharedPicture share_film(const fs::path& film, const ShareFilmOptions& options) 
   const int steps = std::max(count - 1, 1), apart = std::max(steps / eye_share, 1);
   SharedPicture shared{.width = views.still.width(), .height = views.still.height()};
   shared.still_jpeg = still_of(views.still);
+  // The page plays what there is.
+  if (views.loss) shared.note = *views.loss;
   Json facts{{"kind", "views"},
              {"title", options.title},
              {"width", shared.width},
@@ -129,7 +134,8 @@ SharedPicture share_film(const fs::path& film, const ShareFilmOptions& options) 
   } else {
     facts["file"] = address_of(film, options.page);
     shared.has_file_beside = true;
-    shared.note = fmt::format(
+    shared.note += shared.note.empty() ? "" : "; ";
+    shared.note += fmt::format(
         "the film takes {:.1f} MB, so that the page plays {} from where it is; a server has to "
         "send both",
         static_cast<double>(bytes) / 1e6, film.string());

@@ -33,6 +33,8 @@ std::vector<std::int64_t> durations_of(const WebPAnimDecoder* decoder) {
 }  // namespace
 
 bool is_webp(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   std::array<char, 12> head{};
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), head.size());

@@ -278,7 +278,7 @@ TEST(FilmWriter, RefusesWhatMakesNoSense) {
   refused("a.mkv", {.codec = "ffv1", .crf = 10}, "lossless");
   refused("a.mp4", {.preset = "hurry"}, "preset: hurry");
   refused("a.mp4", {.pixel_format = "bgr0"}, "pixel format: bgr0");
-  expect_error(ErrorKind::cannot_read_write, "a.mp4: cannot write", [&] { FilmWriter(folder / "no" / "a.mp4"); });
+  expect_error(ErrorKind::cannot_read_write, "the folder cannot be made", [&] { FilmWriter("/dev/null/no/a.mp4"); });
 
   FilmWriter writer(folder / "a.mp4");
   expect_error(ErrorKind::wrong_usage, "no frame", [&] { writer.finish(); });

@@ -1,17 +1,15 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <mutex>
 #include <new>
-#include <system_error>
 
 extern "C" {
 #include <libavutil/log.h>
 }
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/plain_file.h"
 #include "wheatstone/video/libav_internal.h"
 
 namespace wheatstone {
@@ -22,18 +20,6 @@ namespace fs = std::filesystem;
 constexpr const char* containers =
     "mov,mp4,matroska,webm,avi,gif,mpegts,mpeg,mpegvideo,m4v,h264,hevc,asf,flv,ogg,nut,mxf,ivf,obu,dv,wtv,rm,"
     "yuv4mpegpipe";
-
-void check_readable(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) refuse_film(path, "no such file, expected a film");
-  if (fs::is_directory(status)) refuse_film(path, "is a folder, expected a film");
-  if (::access(path.c_str(), R_OK) != 0) {
-    throw Error(ErrorKind::cannot_read_write,
-                fmt::format("{}: cannot read: {}", path.string(), std::generic_category().message(errno)));
-  }
-  if (fs::is_regular_file(status) && fs::file_size(path, error) == 0) refuse_film(path, "is empty, expected a film");
-}
 
 }  // namespace
 
@@ -61,6 +47,8 @@ void silence_libav() {
 }
 
 std::string libav_reason(int error) {
+  // "Try again" is what it says where a thread cannot be started.
+  if (error == AVERROR(ENOMEM) || error == AVERROR(EAGAIN)) throw std::bad_alloc();
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   av_strerror(error, text.data(), text.size());
   return text.data();
@@ -76,7 +64,7 @@ void fail_to_write_film(const fs::path& path, int error) {
 
 OwnedInput open_input(const fs::path& path) {
   silence_libav();
-  check_readable(path);
+  check_plain_file(path, "a film");
   AVDictionary* options = nullptr;
   av_dict_set(&options, "format_whitelist", containers, 0);
   av_dict_set(&options, "protocol_whitelist", "file", 0);

@@ -14,6 +14,7 @@ extern "C" {
 }
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/address_space.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
 
 namespace wheatstone {
@@ -41,6 +42,14 @@ constexpr const char* presets[] = {"ultrafast", "superfast", "veryfast", "faster
 
 // Bytes depend on the number of threads: fixed, not the machine's. x265 3.5 that codes several frames at a time gives
 // other bytes every time; its rows are coded by a pool of threads all the same.
+/// What an encoder takes for frames of this size, and for the frames that it looks ahead: x264 writes on standard error
+/// where it has too little.
+std::size_t bytes_of_encoder(const std::string& codec, int width, int height) {
+  constexpr std::size_t for_threads = std::size_t{160} << 20, bytes_a_pixel = 250;
+  if (codec == "ffv1") return 0;
+  return for_threads + bytes_a_pixel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
 int threads_of(const std::string& codec) { return codec == "hevc" ? 1 : 4; }
 
 // What x264 core 164 computes with AVX-512 for its macroblock tree differs from run to run.
@@ -154,6 +163,7 @@ VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int heig
   codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
   tag_colours(codec, options, (format.flags & AV_PIX_FMT_FLAG_RGB) != 0);
   set_private_options(codec, options, coding);
+  require_address_space(bytes_of_encoder(options.codec, width, height));
   const int error = avcodec_open2(&codec, encoder, nullptr);
   if (error < 0) {
     refuse(fmt::format("{} cannot encode {}x{} pixels as {}: {}", coding.name, codec.width, codec.height, format.name,

@@ -22,6 +22,13 @@ namespace fs = std::filesystem;
 fs::path work_folder_of(const fs::path& output) { return output.string() + ".part"; }
 
 WorkFolder::WorkFolder(fs::path output) : folder_(work_folder_of(output)) {
+  const auto hold = hold_outputs();
+  unfinished_.begin(folder_, [&] { take(output); });
+  unfinished_.keep(true);
+}
+
+/// Makes the folder where there is none, and locks it.
+void WorkFolder::take(const fs::path& output) {
   for (;;) {
     std::error_code error;
     fs::create_directory(folder_, error);
@@ -35,9 +42,6 @@ WorkFolder::WorkFolder(fs::path output) : folder_(work_folder_of(output)) {
     // The run that held it may have removed the folder.
     if (error != std::errc::no_such_file_or_directory) fail(output, error.value());
   }
-  const auto hold = hold_outputs();
-  unfinished_.begin(folder_, [] {});
-  unfinished_.keep(true);
 }
 
 WorkFolder::~WorkFolder() { unfinished_.keep(true); }

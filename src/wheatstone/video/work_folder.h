@@ -29,6 +29,8 @@ class WorkFolder {
   void remove();
 
  private:
+  void take(const std::filesystem::path& output);
+
   std::filesystem::path folder_;
   FileLock lock_;
   UnfinishedOutput unfinished_;
