@@ -261,13 +261,13 @@ void take_device(const CLI::App& command, const Session& session, const std::str
 }
 
 FilmFiles films_from(const Arguments& arguments) {
+  check_distinct_outputs(
+      std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--save-marks", arguments.options.marks}}});
   std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
   if (has_depth(arguments.depth) && !layout) layout = StereoLayout::mono;
   FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
-  check_distinct_outputs(
-      std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--save-marks", arguments.options.marks}}});
   check_not_an_input(arguments.output,
                      std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model});
   return film;

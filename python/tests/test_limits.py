@@ -104,8 +104,8 @@ class Limits(unittest.TestCase):
             self.assert_refused("every", film.frames, every=every)
 
     def test_names_of_files_are_any_bytes(self):
-        for name in [b"/nowhere/\xff.png", "x" * 5000]:
-            with self.assertRaisesRegex((OSError, ValueError), "nowhere|xxx"):
+        for name in [b"/dev/null/\xff.png", "x" * 5000]:
+            with self.assertRaisesRegex((OSError, ValueError), "dev/null|xxx"):
                 wheatstone.save(name, self.still.left)
             with self.assertRaises((OSError, ValueError)):
                 wheatstone.render(name)
@@ -148,7 +148,7 @@ class Limits(unittest.TestCase):
                 run = start(f"{prepare}print('go', flush=True)\ntry: {call}\nexcept KeyboardInterrupt: print('ended', flush=True)\n",
                             self.folder)
                 self.assertEqual(run.stdout.readline(), "go\n")
-                time.sleep(0.4)
+                time.sleep(0.1)
                 run.send_signal(signal.SIGINT)
                 begin = time.monotonic()
                 word, took = run.stdout.readline(), time.monotonic() - begin

@@ -130,7 +130,6 @@ RenderedFilm write_film(const FrameSource& source, const fs::path& output, const
       for (Image<Rgb8>& picture : make_frames(source, begin, options, film, progress))
         if (out) out->write({std::move(picture), frame++, {rate.denominator, rate.numerator}, 1});
     }
-    report(progress, "join", 0);
     if (out) out->finish(progress);
   } catch (const Error& error) {
     if (out) leave(error, output, *out);

@@ -432,7 +432,6 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     film = options.ranks.alone() ? paint_frames(source, *out, options, progress, state)
                                  : SharedWork(source, out ? &*out : nullptr, output, options, progress).paint(state);
     painted = true;
-    report(progress, "join", 0);
     if (!out) return film;
     for (std::string& note : out->finish(state, progress)) film.notes.push_back(std::move(note));
   } catch (const Error& thrown) {

@@ -83,7 +83,8 @@ void write_multiview_exr(const std::filesystem::path& path, std::span<const Imag
 }
 
 bool is_multiview_exr(const std::filesystem::path& path) {
-  if (path.extension() != ".exr") return false;
+  std::error_code error;
+  if (path.extension() != ".exr" || !std::filesystem::exists(path, error)) return false;
   const std::unique_ptr<PictureReader> reader = open_picture_file(path).reader;
   return reader && views_named_in(reader->picture()).size() > 1;
 }
