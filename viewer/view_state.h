@@ -52,7 +52,7 @@ struct ViewState {
   std::string screen;                   ///< calibration or name of a lenticular screen; empty: the display's
   int finest_layer = 1 << 20;           ///< of strokes, from the coarsest, 0, on
   float layers_apart_deg = 0;           ///< a look from so far to the side at the layers of detail; 0: from the front
-  float crosstalk = 0;                  ///< share, 0..1, of the light in each eye that comes from the neighbouring views
+  float crosstalk = 0;  ///< share, 0..1, of the light in each eye that comes from the neighbouring views
   std::vector<DepthRegion> depth_regions;   ///< where the scene's parts are to seem; none: as in the photographs
   std::optional<DepthAround> depth_around;  ///< more depth where somebody looks; none: everywhere the same
   Comparison comparison = Comparison::painting;

@@ -224,8 +224,7 @@ TEST(SliceFile, DamageIsRefusedOrHarmless) {
 
 TEST(SliceFile, WhatCannotBeWrittenLeavesNothing) {
   const TemporaryFolder folder;
-  expect_error(ErrorKind::cannot_read_write, "cannot write",
-               [&] { write_slices("/dev/null/a.exr", some_slices()); });
+  expect_error(ErrorKind::cannot_read_write, "cannot write", [&] { write_slices("/dev/null/a.exr", some_slices()); });
 }
 
 TEST(SliceFile, AFullDiskIsNoticedAtAnyByte) {
