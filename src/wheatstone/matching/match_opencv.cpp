@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match_internal.h"
 
 namespace wheatstone {
@@ -32,13 +33,17 @@ cv::Ptr<cv::StereoMatcher> make_bm(const DisparityRange& range, int block_px) {
 
 /// Runs a matcher and reads its result. OpenCV finds nothing in the columns whose counterparts may lie outside, and is
 /// neither safe nor repeatable where they are most of the picture. Repeated edge pixels on both sides keep all of ours
-/// clear of them.
+/// clear of them. Its filter of speckles counts the pixels of a side in 16 bits, and writes elsewhere beyond that: ours
+/// takes its place.
 Image<float> run(cv::StereoMatcher& matcher, const cv::Mat& own, const cv::Mat& other) {
   const int least = matcher.getMinDisparity(), largest = least + matcher.getNumDisparities();
   const int margin = std::max(std::abs(least), std::abs(largest)) + 2 * matcher.getBlockSize();
   cv::Mat wide_own, wide_other, sixteenths;
   cv::copyMakeBorder(own, wide_own, 0, 0, margin, margin, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(other, wide_other, 0, 0, margin, margin, cv::BORDER_REPLICATE);
+  constexpr int most_side_px = 32766;
+  const int own_speckle_px = std::max(wide_own.cols, wide_own.rows) > most_side_px ? matcher.getSpeckleWindowSize() : 0;
+  if (own_speckle_px > 0) matcher.setSpeckleWindowSize(0);
   matcher.compute(wide_own, wide_other, sixteenths);
 
   Image<float> disparity(own.cols, own.rows);
@@ -49,6 +54,7 @@ Image<float> run(cv::StereoMatcher& matcher, const cv::Mat& own, const cv::Mat& 
       to[x] = from[x] < least * sixteenths_a_px ? std::numeric_limits<float>::quiet_NaN()
                                                 : static_cast<float>(from[x]) / sixteenths_a_px;
   }
+  if (own_speckle_px > 0) remove_speckles(disparity, own_speckle_px);
   return disparity;
 }
 
