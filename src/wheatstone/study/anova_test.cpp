@@ -166,11 +166,11 @@ TEST(Anova, WithoutVarianceIsNotAvailable) {
     data.units.push_back("sub-" + std::to_string(unit));
     data.values.push_back({18 + 0.1 * unit, 18.3 + 0.1 * unit, 18.7 + 0.1 * unit});
   }
-  const AnovaEffect& differs = repeated_measures_anova(data).effects.at(0);
+  const AnovaEffect differs = repeated_measures_anova(data).effects.at(0);
   EXPECT_TRUE(std::isnan(differs.f) && std::isnan(differs.p) && std::isnan(differs.partial_eta_squared));
   EXPECT_FALSE(differs.sphericity);
   for (std::vector<double>& cells : data.values) cells = {18.1, 18.1, 18.1};
-  const AnovaEffect& equal = repeated_measures_anova(data).effects.at(0);
+  const AnovaEffect equal = repeated_measures_anova(data).effects.at(0);
   EXPECT_TRUE(std::isnan(equal.f) && std::isnan(equal.p) && std::isnan(equal.generalised_eta_squared));
   EXPECT_TRUE(std::isnan(min_f_prime(differs, equal).p));
 }
@@ -181,7 +181,7 @@ TEST(Anova, DifferencesOfWhichOneHasNoVarianceHaveNoMauchly) {
     data.units.push_back("sub-" + std::to_string(unit));
     data.values.push_back({18, 18, 18.7 + 0.1 * unit * unit});
   }
-  const AnovaEffect& effect = repeated_measures_anova(data).effects.at(0);
+  const AnovaEffect effect = repeated_measures_anova(data).effects.at(0);
   EXPECT_GT(effect.f, 0);
   ASSERT_TRUE(effect.sphericity);
   EXPECT_NEAR(effect.sphericity->mauchly_w, 0, 1e-12);
