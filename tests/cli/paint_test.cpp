@@ -261,8 +261,8 @@ TEST(PaintCommand, CountsADualStrokeOnceInSummaryReportAndInfo) {
     in_layers += report["layers"][i]["strokes"].get<std::size_t>();
   }
   EXPECT_EQ(in_layers, count);
-  for (const Layer& layer : layers_of(read_painting(folder / "painted/painting.wst")))
-    parts_and_strokes += layer.strokes.size();
+  const Painting painting = read_painting(folder / "painted/painting.wst");
+  for (const Layer& layer : layers_of(painting)) parts_and_strokes += layer.strokes.size();
   EXPECT_GT(parts_and_strokes, count * 5 / 4);
 }
 
