@@ -5,7 +5,7 @@ set(CMAKE_FIND_PACKAGE_NAME Wheatstone)
 set(Wheatstone_FIND_REQUIRED TRUE)
 include(${CMAKE_CURRENT_LIST_DIR}/WheatstoneLibraries.cmake)
 wheatstone_find_libraries(
-  opencv_core opencv_imgproc opencv_calib3d opencv_dnn opencv_features2d opencv_video opencv_ximgproc
+  opencv_core opencv_imgproc opencv_calib3d opencv_dnn opencv_features2d opencv_objdetect opencv_video opencv_ximgproc
   OpenImageIO::OpenImageIO TBB::tbb fmt::fmt nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus
   nanoflann::nanoflann ZLIB::ZLIB PNG::PNG Eigen3::Eigen Boost::headers PkgConfig::HWY PkgConfig::HDF5
   PkgConfig::CFITSIO PkgConfig::ZIP PkgConfig::FFTW
