@@ -10,6 +10,7 @@ void add_measure_command(CLI::App& program, const Session& session) {
   measure.footer(
       "Example:\n  wheatstone measure stereo painted/left.png painted/right.png --photographs left.png right.png");
   add_measure_film(measure, session);
+  add_measure_painting(measure, session);
   add_measure_stereo(measure, session);
   add_measure_views(measure, session);
 }
