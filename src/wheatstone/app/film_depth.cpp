@@ -26,7 +26,7 @@ Image<float> depth_of_picture(const Image<Rgb8>& picture) {
 }
 
 bool is_grey(const Image<Rgb8>& picture) {
-  // What the coding of chroma leaves of grey.
+  // Largest mean difference of colour channels that lossy coding adds to a grey picture.
   constexpr double most_levels = 6;
   double sum = 0;
   for (const Rgb8 pixel : picture.pixels())

@@ -25,8 +25,8 @@ struct ScenePart {
   int rank = 0;
 };
 
-/// What is left of a film after its first `done` frames, scene by scene in order. Each goes to the rank that has the
-/// least to do before it, so that all come to about the same place at a time; the first also writes all frames.
+/// Divides the frames after the first `done` among ranks, scene by scene in order. Each scene goes to the rank with the
+/// least work so far, so that all ranks advance together; the first rank also writes all frames.
 std::vector<ScenePart> deal_out_scenes(const FilmScenes& film, std::int64_t done, int ranks);
 
 }  // namespace wheatstone

@@ -51,7 +51,7 @@ std::optional<NumberedName> numbered(const std::string& name) {
   return std::nullopt;
 }
 
-/// Whether both are of one series: 999 is followed by 1000, but 20261122 counts nothing that began with 000.
+/// True if both names belong to one numbered series. 1000 may follow 999; 20261122 does not continue a series from 000.
 bool same_series(const NumberedName& one, const NumberedName& other) {
   const auto follows = [](const std::string& number, const std::string& longer) {
     return longer.size() == number.size() + 1 && longer.front() == '1';

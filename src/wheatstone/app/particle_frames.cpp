@@ -48,7 +48,7 @@ void ParticleFrames::survey(const std::string& input, const Progress& progress) 
   hold_brightness(at_ends);
 }
 
-/// The darker of what the first and the last frame would choose: nothing is too bright.
+/// Takes the darker of the choices for the first and the last frame, so that no frame is too bright.
 void ParticleFrames::hold_brightness(const std::array<CloudStatistics, 2>& at_ends) {
   RenderParticlesOptions& options = options_.particles;
   const bool thesis = options.appearance.look == Look::thesis;

@@ -104,7 +104,7 @@ std::vector<Image<Rgb8>> make_frames(const FrameSource& source, int begin, const
   return pictures;
 }
 
-/// Keeps what can be gone on with of a film that was stopped by the error being handled, which is passed on.
+/// Keeps the finished part of a film that an error stopped, if it can be resumed, and throws the error.
 [[noreturn]] void leave(const Error& error, const fs::path& output, SegmentedFilm& out) {
   const std::int64_t kept = out.frames_done();
   const bool can_go_on = error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;

@@ -221,8 +221,8 @@ Brightness brightness_for(const CloudStatistics& statistics, const RenderParticl
   return {.exposure = tone.exposure, .least = tone.least * unit, .most = tone.most * unit};
 }
 
-// A point that is only looked at does not count: a window that looks elsewhere keeps the cloud it has, and shows the
-// same picture.
+// The point that the camera looks at is left out: a window that looks elsewhere keeps its cloud and shows the same
+// picture.
 CloudChoice choice_of(const RenderParticlesOptions& options) {
   CloudChoice choice = options.choice;
   const std::string quantity = quantity_name_of(options.quantity);

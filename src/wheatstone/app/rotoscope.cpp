@@ -56,14 +56,14 @@ void check_eyes(const StereoPair& eyes, const RotoscopeOptions& options, const R
                             eyes.left.height(), state.left_before.width(), state.left_before.height()));
 }
 
-/// Scenes are looked at again with fewer and fewer frames, which show what a fade hid.
+/// A scene's range is measured again, at first often and then every 24 frames, because a fade may hide parts of it.
 bool looks_again(std::int64_t frame_of_scene) {
   constexpr std::int64_t frames_between_looks = 24;
   return frame_of_scene % frames_between_looks == 0 ||
          (frame_of_scene < frames_between_looks && std::has_single_bit(static_cast<std::uint64_t>(frame_of_scene)));
 }
 
-/// The range of a frame that is looked at again: in a smaller copy, since what it adds is what the first frame hid.
+/// The range of a frame that is measured again, in a smaller copy: it only adds what the first frame hid.
 std::optional<DisparityRange> range_of_later_frame(const StereoPair& eyes) {
   constexpr int widest_px = 640;
   const int width = eyes.left.width();
@@ -142,7 +142,7 @@ struct FirstLook {
   Flow to_before;  ///< as in FrameTask
 };
 
-/// Tells a cut from the frames as they come, and the flow to the frame before where it had to be found for that.
+/// Detects a cut in the frames as they come. Also returns the flow to the previous frame if the detection needed it.
 bool tells_cut_of(const FrameTask& photographed, const RotoscopeState& state, Flow& to_before) {
   if (state.left_before.empty()) return true;
   const KnownFrame* known = photographed.known;
@@ -280,7 +280,7 @@ void paint_presented(const FilmFrame& frame, const FrameTask& task, RotoscopeSta
   result.pictures = frame_pictures(std::move(shown));
 }
 
-/// Plans the frame and draws it for its own eyes in one: what is wrong there is mended as it is drawn.
+/// Plans the frame and draws it for the film's own eyes in one step, so that wrong paint is mended while it is drawn.
 void paint_for_own_eyes(const FilmFrame& frame, const FrameTask& task, RotoscopeState& state, RotoscopedFrame& result) {
   const RotoscopeOptions& options = task.options;
   PaintedFrame made = paint_frame(frame, options.style, options.carrying, state.memory, task.progress, options.device);

@@ -32,7 +32,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Of all threads of this process.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The sources of the film's bytes, the networks among them.
+/// The files that decide the film's bytes, including networks.
 std::vector<fs::path> sources_of(const RotoscopeFilmOptions& options) {
   std::vector<fs::path> sources = options.made_from;
   for (const fs::path& network : {options.frames.matching.model, options.frames.flow_model})
@@ -101,7 +101,7 @@ class Output {
   }
 
   std::vector<std::string> finish(const RotoscopeState& state, const Progress& progress) {
-    // From the film's name to those of the marks nothing may end the program.
+    // The film and its marks get their names together: no signal may end the program in between.
     const auto hold = hold_outputs();
     if (film_) {
       // Joining closes the last segment, and may be stopped, too.
@@ -115,7 +115,7 @@ class Output {
     return film_ ? film_->notes() : std::vector<std::string>();
   }
 
-  /// What cannot be gone on with is not kept.
+  /// Removes what cannot be resumed.
   void discard() {
     if (marks_) marks_->discard();
     if (film_) film_->discard();
@@ -246,7 +246,7 @@ class SharedWork {
         parts_(deal_out_scenes(options.scenes, done_, options.ranks.count())),
         passed_(work_folder_of(path), output != nullptr) {}
 
-  /// `state` is, at the first, that after the frames that are done; it becomes that after the last.
+  /// At the first rank, `state` is the state after the frames that are done; it becomes the state after the last frame.
   RotoscopedFilm paint(RotoscopeState& state) {
     if (options_.scenes.frames == 0)
       throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
@@ -334,7 +334,7 @@ class SharedWork {
            static_cast<double>(written) / static_cast<double>(all));
   }
 
-  /// Only then the source knows what is missing of it.
+  /// The source reports missing frames only when it was read to its end.
   void read_to_the_end() {
     read_ += source_.skip(options_.scenes.frames - read_);
     StereoFrame none;
@@ -378,7 +378,7 @@ class SharedWork {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), met_ = start_;
 };
 
-/// Keeps what can be gone on with of a film that was stopped by an error, and throws it, or what to do about it.
+/// Keeps the finished part of a film that an error stopped, if it can be resumed. Throws the error, or UnfinishedFilm.
 [[noreturn]] void leave(const Error& error, bool painted, Output& out, const fs::path& output, const fs::path& marks) {
   const bool can_go_on =
       painted || error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
@@ -390,7 +390,7 @@ class SharedWork {
   throw error;
 }
 
-/// What all ranks end with, where one of them throws: after this, none paints any more.
+/// The error that all ranks end with if one of them throws. Afterwards no rank paints.
 Error agreed(const Error& error, const Ranks& ranks) {
   const Ranks::Failure failure = ranks.fail({static_cast<int>(error.kind()), error.what()});
   return {static_cast<ErrorKind>(failure.exit_code), failure.message};
@@ -424,7 +424,7 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
                               const Progress& progress) {
   std::optional<Output> out;
   if (options.ranks.first()) out.emplace(output, options);
-  // A rest that is damaged is named and not removed: what it was worth is for the user to say.
+  // A damaged state is reported but not removed: the user decides.
   RotoscopeState state = out ? out->state() : RotoscopeState();
   RotoscopedFilm film;
   bool painted = false;

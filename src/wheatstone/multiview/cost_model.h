@@ -25,7 +25,7 @@ struct Costs {
 };
 Costs estimate_costs(const Workload& workload);
 
-/// The cheapest way, and why, in words for people.
+/// The fastest method, and the reason in words.
 struct Choice {
   Method method = Method::exact;
   std::string reason;

@@ -9,12 +9,12 @@
 
 namespace wheatstone {
 
-/// Gives each rank the splats of its bands, of all ranks' blocks: block by block as they were, first those of rank 0,
-/// without the splats of other ranks' bands.
+/// Sends each splat to the rank that owns its band. Returns the received blocks in the order of their ranks, from rank
+/// 0 on; each holds only the splats of this rank's bands.
 std::vector<std::vector<SplatBlock>> deal_out(std::vector<std::vector<SplatBlock>> blocks, const SplatOrders& orders,
                                               const Ranks& ranks);
 
-/// Gives this rank's bands of a picture's targets to all ranks, or to the first only, and takes theirs.
+/// Exchanges the bands of a picture's targets: every rank sends its own, to all ranks or to the first only.
 void share_bands(const SplatOrder& order, std::span<const ViewTarget> targets, bool to_all, const Ranks& ranks);
 
 }  // namespace wheatstone

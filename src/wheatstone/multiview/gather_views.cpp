@@ -75,7 +75,7 @@ void ViewGatherer::gather() {
     const Chunks chunks = chunks_of(particles);
     for_each_ordered(of_chunks(job_, chunks), projection, window, orders_, memory, draw);
   };
-  // Those that shine are few: their light is each view's own, and the rest is not done again.
+  // Few particles have highlights: only these are gathered again, for each view on its own.
   for_each_chunk_and_highlights(
       job_, views_,
       [&](const Cloud& chunk) { take(chunk, [&](std::vector<SplatBlock> blocks) { waiting.add(std::move(blocks)); }); },

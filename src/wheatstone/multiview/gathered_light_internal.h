@@ -57,13 +57,13 @@ void for_each_ordered(const RenderJob& job, const Projection& projection, const 
                       const SplatOrders& orders, OrderingMemory& memory,
                       const std::function<void(std::vector<SplatBlock>)>& take);
 
-/// Blocks of splats that are waiting to be drawn. The more of them are drawn at a time, the more splats lie in each
-/// bin, and the less often its light is fetched. How many depends on nothing but the blocks that come, because sums of
-/// light depend on their order.
+/// Blocks of splats that are waiting to be drawn. The more blocks are drawn at a time, the more splats lie in each bin,
+/// and the less often its light is fetched. The number of blocks drawn at a time depends on the blocks alone, because
+/// sums of light depend on their order.
 class WaitingBlocks {
  public:
   using Draw = std::function<void(const std::vector<SplatBlock>& blocks)>;
-  /// Blocks that were drawn are spare.
+  /// Blocks that were drawn go back to `memory` for reuse.
   WaitingBlocks(OrderingMemory& memory, Draw draw) : memory_(memory), draw_(std::move(draw)) {}
   void add(std::vector<SplatBlock> blocks);
   /// Draws what is left.
@@ -90,7 +90,7 @@ class ViewPyramid {
   /// Gives the ranks' bands of a picture's targets to the others: those of smaller pictures to all, which need them for
   /// the next larger one, and those of the view's own to the first.
   void share(std::size_t picture, std::span<const ViewTarget> targets, const Ranks& ranks) const;
-  /// Of the view's own picture, where it stayed light.
+  /// The light of the view's own picture, if it was not converted to bytes.
   const ViewLight& light(std::size_t view) const { return light_[0][view]; }
 
  private:

@@ -24,15 +24,15 @@ constexpr int most_kinds = PictureTable::most * kinds_a_picture;
 /// As many particles as are gathered at a time.
 constexpr std::size_t most_gathered = 1 << 20;
 
-/// What the programs that put splats into lists and gather them read of their work (splat_lists.glsl): numbers of four
-/// bytes, without gaps.
+/// The parameters of the programs that put splats into lists and gather them (splat_lists.glsl): numbers of four bytes,
+/// without gaps.
 struct ListWork {
   std::int32_t splats = 0;
   GpuTargets targets = GpuTargets::views;
   std::int32_t picture = 0, first_target = 0, end_target = 0, base = 0;
   std::int32_t channels = 0;
   GpuWritten written = GpuWritten::sums;
-  /// Of a kind its number among those that are there (-1: none), and of that number the rest.
+  /// `index`: compact number of the kind, -1 if no splat has it; the other fields are indexed by that number.
   struct Kind {
     std::int32_t index = 0, first_list = 0, brightness = 0;
     float reach = 0;
@@ -54,8 +54,8 @@ struct ListWork {
 struct GpuKernel {
   enum Spread : std::int32_t { light = 0, mass = 1, spline = 2, disc = 3 };
   Spread spread = light;
-  bool counts_rest() const { return spread == mass || spread == spline; }  ///< what is left of whole steps
-  std::size_t entries_at_once() const { return spread == disc ? 1 : 4; }   ///< that an iteration of gathering takes
+  bool counts_rest() const { return spread == mass || spread == spline; }  ///< also counts fractions of a step
+  std::size_t entries_at_once() const { return spread == disc ? 1 : 4; }   ///< entries per iteration of gathering
 };
 
 /// Adds splats to sums in fixed point, of 64 bits and with steps of 2^−28, or makes light of these at once. Projected
@@ -68,8 +68,8 @@ class SplatGatherer {
   /// Where project_splats.comp writes: splats, and how far the widest of each kind reaches.
   const GpuBuffer& splats() const { return splats_; }
   const GpuBuffer& reaches() const { return reaches_; }
-  /// Adds so many that were projected, to all targets or to one; where light is written, all there are. False where
-  /// their lists do not fit into a buffer.
+  /// Adds the first `count` projected splats to all targets or to one; if light is written, these must be all splats.
+  /// Returns false if their lists do not fit into a buffer.
   bool add(std::size_t count, std::optional<int> target = {});
   /// The sums or the light of each group.
   std::vector<GpuBuffer> gathered() &&;

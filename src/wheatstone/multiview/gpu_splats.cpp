@@ -285,7 +285,7 @@ LightOnGpu light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPi
   ParticleGatherer gatherer(job, facts, pictures, targets, views, light.groups, GpuWritten::sums);
   std::optional<ParticleGatherer> highlights;
   if (shines) highlights.emplace(job, facts, pictures, targets, views, light.groups, GpuWritten::more_sums);
-  // Those that shine are few: their light is each view's own, and the rest is not done again.
+  // Few particles have highlights: only these are gathered again, for each view on its own.
   for_each_chunk_and_highlights(
       job, shines ? views : std::span<const ViewPosition>(), [&](const Cloud& chunk) { gatherer.add_all(chunk); },
       [&](const Cloud& shining, std::size_t view) { highlights->add_all(shining, static_cast<int>(view)); });

@@ -12,18 +12,18 @@
 
 namespace wheatstone {
 
-/// What particles are added to (splat_lists.glsl), or drawn into as discs, of which each pixel shows the nearest.
+/// The targets that particles are added to (splat_lists.glsl); in discs_in_views each pixel shows its nearest disc.
 enum class GpuTargets : std::int32_t { views = 0, nearest_plane = 1, between_planes = 2, discs_in_views = 3 };
 
-/// What gathering writes: sums; sums to which it adds; or light, where all particles are gathered at once.
+/// What gathering writes: new sums, additions to sums, or light if all particles are gathered at once.
 enum class GpuWritten : std::int32_t { sums = 0, more_sums = 1, light = 2 };
 
 /// The pictures of every size (SplatOrder), as the graphics processor keeps what is added to them: target after target,
 /// which is a view or a depth plane, then row after row, pixel after pixel, channel after channel.
 struct GpuPictures {
   SplatOrders orders;
-  std::vector<int> left, width;  ///< of each: its first column in the central view, and its columns
-  std::vector<int> targets;      ///< of each: how many
+  std::vector<int> left, width;  ///< of each picture: first column in the central view, and number of columns
+  std::vector<int> targets;      ///< of each picture: number of targets
   int channels = 2;
 
   std::size_t size() const { return orders.size(); }

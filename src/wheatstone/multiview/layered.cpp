@@ -49,7 +49,7 @@ PlaneFiller::PlaneFiller(const Window& window, const SplatOrder& order, Deposit 
 
 LightBand& PlaneFiller::fill(const std::vector<SplatBlock>& blocks, int b, int plane) {
   const bool shared = order_.within == SplatOrder::Within::nearer_plane;
-  // What the plane before gave to this one is there already; the other band was taken, and is dark.
+  // `next_` holds the previous plane's share in this plane; `plane_` was read and darkened.
   if (shared && plane > 0) std::swap(plane_, next_);
   for (const SplatBlock& block : blocks) deposit_plane(block, order_, kind_, {b, plane}, plane_, next_);
   return plane_;
@@ -112,8 +112,8 @@ struct KeptForPlanes {
   std::optional<GatheredLight> light;
 };
 
-/// Light that all views see, and after it what only some of them see: the highlights of views between which they are
-/// interpolated.
+/// kept[0] is the light that all views see; kept[1 + k] are the highlights seen from keys[k]. Highlights of other views
+/// are interpolated between keys.
 struct PlanesOfViews {
   std::vector<KeptForPlanes> kept;
   std::vector<ViewPosition> keys;
@@ -167,8 +167,8 @@ struct Workplace {
   SliceBand slices;
 };
 
-/// How much each view sees of each plane: all of the common light, and its share of the highlights. Empty where there
-/// are none.
+/// The share of each plane's light that each view sees: 1 for the common light, less for highlights. Empty if there
+/// are no highlights.
 std::vector<std::vector<float>> shares_of_planes(const PlanesOfViews& planes, const Rig& rig, int parts) {
   if (planes.keys.empty()) return {};
   const auto planes_a_set = static_cast<std::size_t>(parts);

@@ -52,7 +52,7 @@ class LightBand {
   }
   /// All that is stored, for a band of the same shape.
   std::span<std::byte> bytes() { return std::as_writable_bytes(std::span(lines_)); }
-  /// Whether anything was drawn since it was dark; who draws says so.
+  /// True if anything was drawn since the band was dark; code that draws calls note_light().
   bool lit() const { return lit_; }
   void note_light() { lit_ = true; }
 
@@ -80,9 +80,9 @@ struct PlanePair {
   float spacing_px;   ///< from it to the farther one
 };
 
-/// Adds splats that lie between two planes to both, by their distances, so that the middle of each is right in every
-/// view. One that is nearly in a plane goes there alone: within a quarter of the way, which moves it by at most an
-/// eighth of a pixel in an eye's view where planes are a pixel apart.
+/// Adds each splat between two planes to both, weighted by its distances, so that its centre is right in every view. A
+/// splat within a quarter of the spacing from a plane is added to that plane alone; this moves it by at most 1/8 px in
+/// an eye's view if planes are 1 px apart.
 void deposit_between(Deposit kind, std::span<const Splat> splats, int top, const PlanePair& planes, LightBand& nearer,
                      LightBand& farther);
 

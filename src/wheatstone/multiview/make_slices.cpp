@@ -205,8 +205,8 @@ SliceMaker::SliceMaker(const Scene& scene, const CloudStatistics& statistics, co
   state.orders = orders_by_plane({nothing, scene, rig, statistics, none, {}, options.ranks}, state.planes,
                                  options.opaque ? SliceFilter::nearest : options.filter);
 
-  // Sixteen bytes a pixel while they are filled, and again when they are cropped; opaque ones have a depth too, and
-  // highlights are added to the rest when all are there.
+  // 16 bytes per pixel while slices are filled, and 16 more when they are cropped. Opaque slices also store a depth;
+  // highlights are stored apart until the end.
   const double pixels = static_cast<double>(state.right() - state.left() + 2 * LightBand::margin) *
                         state.order().band_rows * static_cast<double>(state.order().bins());
   const bool shines = scene.shine.lit() && !options.opaque;

@@ -21,8 +21,8 @@ struct OpaqueBand {
   Image<LinearRgba> light;
 };
 
-/// Draws discs where they are nearer than what is there, moved for the view at `view`. Of two that are equally near the
-/// first stays.
+/// Draws discs, moved for the view at `view`, where they are nearer than what was drawn before. Of two equally near
+/// discs, the first stays.
 void draw_discs(std::span<const Splat> splats, int top, ViewPosition view, OpaqueBand& band);
 
 }  // namespace wheatstone

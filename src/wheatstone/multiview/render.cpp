@@ -47,7 +47,7 @@ ToneSettings tone_for(const Scene& scene, const RenderOptions& options) {
   ToneSettings tone = options.tone;
   tone.look = scene.splat_style.look;
   tone.exposure = options.exposure;
-  // What absorbs is never brighter than its own colour, which is shown as it is.
+  // Absorbing particles never add up to more than their own colour, which is shown unchanged.
   if (tone.look == Look::thesis)
     tone.stretch = scene.splat_style.blend == Blend::over ? Stretch::linear : Stretch::asinh;
   if (scene.splat_style.colour_source == ColourSource::own) tone.shown = Shown::colours;
@@ -75,8 +75,8 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
     throw Error(ErrorKind::wrong_usage, fmt::format("there are {} depth planes, expected at least 1", options.planes));
 }
 
-/// The graphics processor adds light, in one process: into views, with highlights, or into depth planes, without them.
-/// Of what hides what is behind it, it draws opaque discs of the thesis's look into views. Refuses everything else.
+/// The graphics processor adds light, in one process: into views with highlights, or into depth planes without them.
+/// Of particles that hide others, it draws only opaque discs of the thesis's look into views. All else is refused here.
 void check_gpu_can(const Scene& scene, const RenderOptions& options) {
   const bool planes = options.method == Method::layered || options.focus.has_value();
   struct Refused {

@@ -67,8 +67,8 @@ float largest_shift_px(const SliceStack& stack, std::span<const ViewPosition> vi
   return largest;
 }
 
-/// How slices are read between their pixels. Opaque edges stay sharp; a cubic has weights below 0, with which nothing
-/// can be hidden.
+/// How slices are interpolated between their pixels. Opaque edges stay sharp. Slices with alpha are not read by cubic
+/// weights, which can be negative.
 Resampling resampling_for(const Hiding& hiding, SliceFilter filter) {
   if (!hiding.any) return resampling_of(filter);
   return hiding.sharp || filter == SliceFilter::nearest ? Resampling::nearest : Resampling::linear;

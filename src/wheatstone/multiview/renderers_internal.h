@@ -28,8 +28,8 @@ struct DepthPlanes {
   float spacing_px = 1;
 };
 
-/// `count` of them; 0 for one at each pixel by which a point moves between two eyes, or between the outermost views
-/// where those are farther apart.
+/// Makes `count` planes. 0: one plane per pixel of parallax range between two eyes, or between the outermost views if
+/// these are farther apart.
 DepthPlanes planes_of(const DepthMapping& mapping, int count, float span = 1);
 
 Resampling resampling_of(SliceFilter filter);
@@ -38,7 +38,7 @@ Resampling resampling_of(SliceFilter filter);
 /// multiplied by up to `gain`.
 Window window_around(const Scene& scene, const Rig& rig, float gain = 1);
 
-/// What any view sees of depth planes.
+/// The columns of the depth planes that any view sees.
 Window window_of_planes(const RenderJob& job);
 
 /// A view's focus in the pixels of one of its pictures.
@@ -51,7 +51,7 @@ struct BandPlane {
   int band, plane;
 };
 
-/// Adds a plane's splats of one block to its light; of those that lie between planes, a part to the next.
+/// Adds the splats of one block in one plane to `here`, the plane's light, and their share in the next plane to `next`.
 void deposit_plane(const SplatBlock& block, const SplatOrder& order, Deposit kind, BandPlane at, LightBand& here,
                    LightBand& next);
 
@@ -64,7 +64,7 @@ class PlaneFiller {
  public:
   PlaneFiller(const Window& window, const SplatOrder& order, Deposit kind);
   void begin_band();
-  /// The light of one plane, which the caller darkens when it has taken it. Planes are asked for in order, every one.
+  /// The light of one plane; the caller darkens it after use. Every plane must be asked for, in ascending order.
   LightBand& fill(const std::vector<SplatBlock>& blocks, int b, int plane);
 
  private:
@@ -88,7 +88,7 @@ void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
 /// Particles that absorb as they shine (Blend::over), in each of the views, one target each.
 void render_front_to_back(const RenderJob& job, std::span<const ViewPosition> views,
                           std::span<const ViewTarget> targets);
-/// Without pictures, the planes are filled and nothing is made of them.
+/// If `pictures` is empty, the planes are filled but not composited.
 void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,
                     std::span<const ImageView<Rgb8>> pictures);
 

@@ -15,8 +15,8 @@ struct Reduced {
   float light = 1;  ///< that a unit of the small picture's light is in the whole one
 };
 
-/// As few particles in each pixel of a quarter of the width and height as in the whole picture, or more: then they are
-/// wider, as far as they are apart. Of few particles in the thesis's look the picture is as large as the whole.
+/// A quarter of the width and height, so that a pixel holds at least as many particles as in the whole picture. They
+/// are wider, as the sample is thinner. With few particles in the thesis's look, the picture keeps its size.
 Reduced reduced(const Scene& scene, const CloudStatistics& statistics, const Rig& rig) {
   const auto taken = static_cast<float>(std::max<std::size_t>(statistics.sample.cloud().size(), 1));
   const float every = static_cast<float>(statistics.count) / taken;
@@ -37,7 +37,7 @@ Reduced reduced(const Scene& scene, const CloudStatistics& statistics, const Rig
   style.radius_factor *= std::cbrt(every);
   style.fixed_radius *= std::cbrt(every);
   if (style.blend == Blend::over) {
-    // What is in front hides what is behind: each of the few absorbs as much as those in whose place it is.
+    // Each particle of the sample absorbs as much as all the particles that it represents.
     style.opacity *= small.light;
     style.least_opacity *= small.light;
     small.light = 1;

@@ -60,8 +60,8 @@ constexpr int taps_of(Resampling resampling) {
   return resampling == Resampling::nearest ? 1 : resampling == Resampling::linear ? 2 : 4;
 }
 
-/// What compositing needs besides the slices, which are added; or, where they hide each other, laid over each other
-/// from the first to the last.
+/// The parameters of compositing. Slices are added; slices with alpha are blended front to back, from the first to the
+/// last.
 struct Compositing {
   std::span<const float> parallaxes;  ///< of the planes, in pixels
   std::span<const ViewPosition> views;

@@ -38,14 +38,14 @@ enum class Deposit : std::uint8_t {
 /// middle of a pixel.
 constexpr bool keeps_sums(Deposit deposit) { return deposit == Deposit::mass || deposit == Deposit::colours; }
 Deposit deposit_of(const SplatStyle& splat_style);
-/// The same without what tells kernels apart.
+/// The same deposit with the Gaussian kernel.
 constexpr Deposit channels_of(Deposit deposit) {
   if (deposit == Deposit::mass_by_spline) return Deposit::mass;
   return deposit == Deposit::colours_by_spline ? Deposit::colours : deposit;
 }
 
-/// Channels of a pixel that splats add to: of mass its light and how much goes with it; else four, of which the last
-/// may stay 0.
+/// Channels of a pixel that splats add to. Mass has two: light, and light times the second number. All others have
+/// four, the last of which may stay 0.
 constexpr int channels_in(Deposit deposit) { return channels_of(deposit) == Deposit::mass ? 2 : 4; }
 
 /// Linear light 0..1 that is packed in 32 bits: the square roots of red and green in eleven bits each, and of blue in
@@ -105,8 +105,8 @@ struct SplatOrder {
 /// The view's picture, and smaller ones for wider splats.
 using SplatOrders = std::vector<SplatOrder>;
 
-/// Some thousand splats, ordered: those of bin b are splats[begin[b]] … splats[begin[b + 1] − 1]. A splat that reaches
-/// into two bands stands in both.
+/// Some thousand splats in order of bins: bin b holds splats[begin[b]] … splats[begin[b + 1] − 1]. A splat that reaches
+/// into two bands is stored in both.
 struct SplatBlock {
   std::vector<Splat> splats;
   std::vector<std::uint32_t> begin;
