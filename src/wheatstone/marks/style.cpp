@@ -72,7 +72,9 @@ Style style_by_name(std::string_view name) {
   if (name == "colorist-wash") {
     style.threshold = 200;
     style.opacity = 0.5f;
-    style.jitter.red = style.jitter.green = style.jitter.blue = 0.3f;
+    style.jitter.hue = 0.1f;
+    style.jitter.saturation = 0.3f;
+    style.jitter.value = 0.1f;
     return style;
   }
   if (name == "pointillist") {
@@ -80,8 +82,9 @@ Style style_by_name(std::string_view name) {
     style.grid = 0.5f;
     style.min_length = 0;
     style.max_length = 0;
-    style.jitter.value = 1;
-    style.jitter.hue = 0.3f;
+    style.jitter.hue = 0.2f;
+    style.jitter.saturation = 0.6f;
+    style.jitter.value = 0.06f;
     return style;
   }
   if (name == "psychedelic") {
@@ -90,7 +93,7 @@ Style style_by_name(std::string_view name) {
     style.opacity = 0.7f;
     style.min_length = 10;
     style.jitter.hue = 0.5f;
-    style.jitter.saturation = 0.25f;
+    style.jitter.saturation = 0.5f;
     return style;
   }
   if (name == "dual") {

@@ -1,60 +1,70 @@
 #include "wheatstone/strokes/jitter_internal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
+#include "wheatstone/image/oklab.h"
+#include "wheatstone/image/srgb.h"
 #include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {
 
-/// Red, green and blue, or hue, saturation and value, each 0..1.
-struct Triple {
-  float a, b, c;
+/// An OKLab colour by its hue, an angle.
+struct Tint {
+  float lightness = 0, chroma = 0, hue = 0;
 };
 
-Triple hsv_from_rgb(const Triple& rgb) {
-  const float high = std::max({rgb.a, rgb.b, rgb.c}), low = std::min({rgb.a, rgb.b, rgb.c});
-  const float chroma = high - low;
-  if (chroma <= 0) return {0, 0, high};
-  float sixth = 0;
-  if (high == rgb.a) {
-    sixth = (rgb.b - rgb.c) / chroma;
-  } else if (high == rgb.b) {
-    sixth = 2 + (rgb.c - rgb.a) / chroma;
-  } else {
-    sixth = 4 + (rgb.a - rgb.b) / chroma;
-  }
-  return {sixth / 6 - std::floor(sixth / 6), chroma / high, high};
+std::array<float, 3> linear_of(const Tint& tint) {
+  return linear_from_oklab({tint.lightness, tint.chroma * std::cos(tint.hue), tint.chroma * std::sin(tint.hue)});
 }
 
-Triple rgb_from_hsv(const Triple& hsv) {
-  const auto channel = [&](float offset) {
-    const float k = std::fmod(offset + hsv.a * 6, 6.f);
-    return hsv.c - hsv.c * hsv.b * std::clamp(std::min(k, 4 - k), 0.f, 1.f);
-  };
-  return {channel(5), channel(3), channel(1)};
+/// The most chroma that sRGB has at this lightness and hue.
+float most_chroma(float lightness, float hue) {
+  constexpr int halvings = 10;
+  float inside = 0, outside = 0.4f;
+  for (int i = 0; i < halvings; ++i) {
+    const float middle = (inside + outside) / 2;
+    const bool is_inside =
+        std::ranges::all_of(linear_of({lightness, middle, hue}), [](float light) { return light >= 0 && light <= 1; });
+    (is_inside ? inside : outside) = middle;
+  }
+  return inside;
 }
 
 }  // namespace
 
 Rgb8 jittered(Rgb8 colour, const ColourJitter& jitter, std::uint64_t random) {
   if (jitter == ColourJitter{}) return colour;
-  const auto change = [&](float amount, std::uint64_t number) {
-    return amount * (unit_float(hash_keys({random, number})) - 0.5f);
-  };
-  const auto clamped = [](float value) { return std::clamp(value, 0.f, 1.f); };
+  const auto unit = [&](std::uint64_t number) { return unit_float(hash_keys({random, number})); };
+  const auto change = [&](float amount, std::uint64_t number) { return amount * (unit(number) - 0.5f); };
+  constexpr float full_circle = 2 * std::numbers::pi_v<float>;
 
-  Triple hsv = hsv_from_rgb(
-      {static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255, static_cast<float>(colour.b) / 255});
-  hsv.a += change(jitter.hue, 0);
-  hsv.a -= std::floor(hsv.a);
-  hsv.b = clamped(hsv.b + change(jitter.saturation, 1));
-  hsv.c = clamped(hsv.c + change(jitter.value, 2));
-  const Triple rgb = rgb_from_hsv(hsv);
-  const auto byte = [&](float value) { return static_cast<std::uint8_t>(std::lround(clamped(value) * 255)); };
-  return {byte(rgb.a + change(jitter.red, 3)), byte(rgb.b + change(jitter.green, 4)),
-          byte(rgb.c + change(jitter.blue, 5))};
+  std::array<float, 3> light{linear_from_srgb(colour.r), linear_from_srgb(colour.g), linear_from_srgb(colour.b)};
+  if (jitter.hue != 0 || jitter.saturation != 0) {
+    const Oklab own = oklab_from_linear(light);
+    constexpr float least_chroma = 0.004f;  // a grey has no hue: it may get any
+    Tint tint{own.lightness, std::hypot(own.a, own.b), std::atan2(own.b, own.a)};
+    if (tint.chroma < least_chroma) tint.hue = full_circle * unit(6);
+    tint.hue += full_circle * change(jitter.hue, 0);
+    tint.chroma += change(jitter.saturation, 1) * most_chroma(tint.lightness, tint.hue);
+    if (tint.chroma < 0) tint = {tint.lightness, -tint.chroma, tint.hue + full_circle / 2};
+    tint.chroma = std::min(tint.chroma, most_chroma(tint.lightness, tint.hue));
+    light = linear_of(tint);
+  }
+  std::array<float, 3> rgb{};
+  std::ranges::transform(light, rgb.begin(), [](float linear) {
+    return static_cast<float>(srgb_from_linear(std::clamp(linear, 0.f, 1.f))) / 255;
+  });
+  // The value of HSV is the largest channel.
+  const float value = std::ranges::max(rgb), changed_value = std::clamp(value + change(jitter.value, 2), 0.f, 1.f);
+  for (float& channel : rgb) channel = value > 0 ? channel * changed_value / value : changed_value;
+  const auto level = [&](float channel, float amount, std::uint64_t number) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(channel + change(amount, number), 0.f, 1.f) * 255));
+  };
+  return {level(rgb[0], jitter.red, 3), level(rgb[1], jitter.green, 4), level(rgb[2], jitter.blue, 5)};
 }
 
 }  // namespace wheatstone

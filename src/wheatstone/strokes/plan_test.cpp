@@ -7,6 +7,9 @@
 
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/flatten_internal.h"
+#include "wheatstone/image/oklab.h"
+#include "wheatstone/image/srgb.h"
+#include "wheatstone/random.h"
 #include "wheatstone/strokes/bare_pixels_internal.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
@@ -378,6 +381,23 @@ TEST(Jitter, StaysWithinHalfOfItsAmountAndIsSpreadOverIt) {
     reds.insert(colour.r);
   }
   EXPECT_GT(reds.size(), 60u);
+}
+
+TEST(Jitter, OfHueAndSaturationKeepsTheLightnessAndColoursGreys) {
+  const auto seen = [](Rgb8 c) {
+    return oklab_from_linear({linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)});
+  };
+  const ColourJitter jitter{.hue = 0.5f, .saturation = 0.8f};
+  for (const Rgb8 colour : {Rgb8{200, 200, 200}, Rgb8{250, 250, 252}, Rgb8{20, 30, 90}, Rgb8{230, 30, 40}}) {
+    float most_changed = 0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      const Oklab before = seen(colour), after = seen(jittered(colour, jitter, hash_keys({i})));
+      constexpr float of_rounding = 0.012f;
+      ASSERT_NEAR(after.lightness, before.lightness, of_rounding);
+      most_changed = std::max(most_changed, std::hypot(after.a - before.a, after.b - before.b));
+    }
+    EXPECT_GT(most_changed, 0.01f);
+  }
 }
 
 TEST(Jitter, LeavesColoursAloneWithoutAny) { EXPECT_EQ(jittered({1, 2, 3}, {}, 99), (Rgb8{1, 2, 3})); }
