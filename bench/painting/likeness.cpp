@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <numeric>
@@ -33,6 +34,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/stereo/reduced_pair.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::bench {
@@ -92,6 +94,37 @@ Photographed stereo_photograph(const std::filesystem::path& file) {
   return {file.stem().string(), std::move(prepared.pictures), {}};
 }
 
+/// Portraits before a wood, reduced until their faces are 40 to 100 pixels wide in a picture of 1200: each portrait
+/// several times, in rows from left to right.
+Photographed small_faces(const std::filesystem::path& data) {
+  const ViewsFile wood = read_views(data / "photographs" / "stereo_camera_sbs.jpg");
+  Image<Rgb8> picture = reduced(wood.views.front(), {1200, 675});
+  constexpr std::array face_widths_px{40.0, 52.0, 64.0, 76.0, 88.0, 100.0};
+  constexpr std::array portraits{"P0", "P2", "P4"};
+  int left = 0, top = 0, row_height = 0;
+  for (std::size_t i = 0; i < 2 * face_widths_px.size(); ++i) {
+    const Image<Rgb8> portrait =
+        read_image(data / "paintings" / fmt::format("{}.jpg", portraits[i % portraits.size()]));
+    const auto faces = find_faces(portrait);
+    if (!faces || faces->empty()) continue;
+    const double scale =
+        std::min(face_widths_px[(i + i / portraits.size()) % face_widths_px.size()] / faces->front().width, 1.0);
+    const PictureSize size{static_cast<int>(portrait.width() * scale), static_cast<int>(portrait.height() * scale)};
+    if (left + size.width > picture.width()) {
+      left = 0;
+      top += row_height;
+      row_height = 0;
+    }
+    if (top + size.height > picture.height()) continue;
+    const Image<Rgb8> small = reduced(portrait, size);
+    for (int y = 0; y < size.height; ++y)
+      std::ranges::copy(small.row(y), picture.row(top + y).begin() + static_cast<std::ptrdiff_t>(left));
+    left += size.width;
+    row_height = std::max(row_height, size.height);
+  }
+  return {"small_faces", {std::move(picture), {}}, {}};
+}
+
 std::vector<Photographed> subjects(const Options& options) {
   std::vector<Photographed> all;
   const auto add = [&](const std::string& name, auto make) {
@@ -105,6 +138,8 @@ std::vector<Photographed> subjects(const Options& options) {
   std::ranges::sort(files);
   for (const std::filesystem::path& file : files)
     add(file.stem().string(), [&] { return Photographed{file.stem().string(), {read_image(file), {}}, {}}; });
+  if (std::filesystem::exists(options.data / "photographs") && std::filesystem::exists(options.data / "paintings"))
+    add("small_faces", [&] { return small_faces(options.data); });
   add("still", [] {
     SyntheticStill still = make_synthetic_still();
     return Photographed{"still", std::move(still.pictures), std::move(still.geometry.left_disparity)};
