@@ -1,8 +1,10 @@
 #include "wheatstone/files/unfinished_outputs.h"
 
 #include <fmt/format.h>
+#include <pthread.h>
 
 #include <algorithm>
+#include <new>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -23,15 +25,16 @@ struct Outputs {
   bool some_finished = false;
 
   std::multiset<fs::path>& those(bool are_kept) { return are_kept ? kept : unfinished; }
-  void forget_folders(const std::vector<fs::path>& made) {
-    for (const fs::path& folder : made) made_folders.extract(folder);
-  }
   void leave_out(const fs::path& path, bool is_kept) { those(is_kept).extract(path); }
 };
 
 // Never destroyed: a thread that ends the program may come after the end of main.
 Outputs& outputs() {
-  static auto* const all = new Outputs;
+  static auto* const all = [] {
+    // A child that is forked has none of its parent's outputs, nor the thread that may hold the mutex.
+    ::pthread_atfork(nullptr, nullptr, [] { new (&outputs()) Outputs; });
+    return new Outputs;
+  }();
   return *all;
 }
 
@@ -64,6 +67,18 @@ std::vector<fs::path> make_missing_folders(const fs::path& folder) {
 
 }  // namespace
 
+MissingFolders::MissingFolders(const fs::path& folder) {
+  const auto hold = hold_outputs();
+  made_ = make_missing_folders(folder);
+  outputs().made_folders.insert(made_.begin(), made_.end());
+}
+
+MissingFolders::~MissingFolders() {
+  const auto hold = hold_outputs();
+  remove_empty(made_);
+  for (const fs::path& folder : made_) outputs().made_folders.extract(folder);
+}
+
 OutputsOnlyWhile::OutputsOnlyWhile(std::function<bool()> wanted) { are_wanted = std::move(wanted); }
 OutputsOnlyWhile::~OutputsOnlyWhile() { are_wanted = nullptr; }
 
@@ -73,23 +88,16 @@ UnfinishedOutput::~UnfinishedOutput() {
   std::error_code ignored;
   if (!kept_) fs::remove_all(temporary_, ignored);
   const auto hold = hold_outputs();
-  remove_empty(made_);
-  outputs().forget_folders(made_);
+  above_.reset();
   outputs().leave_out(temporary_, kept_);
 }
 
 void UnfinishedOutput::begin(fs::path temporary, const std::function<void()>& make) {
   const auto hold = hold_outputs();
-  std::vector<fs::path> made = make_missing_folders(temporary.parent_path());
-  try {
-    make();
-  } catch (...) {
-    remove_empty(made);
-    throw;
-  }
+  auto above = std::make_unique<MissingFolders>(temporary.parent_path());
+  make();
   temporary_ = std::move(temporary);
-  made_ = std::move(made);
-  outputs().made_folders.insert(made_.begin(), made_.end());
+  above_ = std::move(above);
   kept_ = false;
   outputs().unfinished.insert(temporary_);
 }
@@ -109,9 +117,9 @@ void UnfinishedOutput::finish(const std::function<void()>& rename) {
     throw Error(ErrorKind::interrupted,
                 fmt::format("{}: is not finished, its call was cancelled", temporary_.string()));
   rename();
-  outputs().forget_folders(made_);
   outputs().leave_out(temporary_, kept_);
   temporary_.clear();
+  above_.reset();
   // What is written inside an unfinished folder is no result yet.
   if (outputs().unfinished.empty() && outputs().kept.empty()) outputs().some_finished = true;
 }

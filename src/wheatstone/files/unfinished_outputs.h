@@ -2,10 +2,25 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <vector>
 
 namespace wheatstone {
+
+/// The folders that lead to one, and itself, made where they do not exist. Those in which nothing lies by then are
+/// removed at the end of its life, or when the process must end at once.
+class MissingFolders {
+ public:
+  /// Throws Error{cannot_read_write} where a folder cannot be made.
+  explicit MissingFolders(const std::filesystem::path& folder);
+  ~MissingFolders();
+  MissingFolders(const MissingFolders&) = delete;
+  MissingFolders& operator=(const MissingFolders&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< from the outermost on
+};
 
 /// A file or folder under a temporary name, removed with all that is in it unless it gets its real name. Those of the
 /// whole process are known, so that a program that must end at once can leave none behind.
@@ -17,9 +32,8 @@ class UnfinishedOutput {
   UnfinishedOutput(const UnfinishedOutput&) = delete;
   UnfinishedOutput& operator=(const UnfinishedOutput&) = delete;
 
-  /// Makes the folders above that do not exist, and calls `make`, which creates what has this temporary name. The
-  /// folders are removed with it, unless something else lies in them by then. What `make` throws is passed on; then
-  /// nothing is begun. Throws Error{cannot_read_write} where a folder cannot be made.
+  /// Makes the folders above as MissingFolders, and calls `make`, which creates what has this temporary name. What
+  /// `make` throws is passed on; then nothing is begun.
   void begin(std::filesystem::path temporary, const std::function<void()>& make);
 
   /// Whether it stays under its temporary name when it is not finished, because another run goes on with it. What is
@@ -31,8 +45,8 @@ class UnfinishedOutput {
   void finish(const std::function<void()>& rename);
 
  private:
-  std::filesystem::path temporary_;          ///< empty where nothing is unfinished
-  std::vector<std::filesystem::path> made_;  ///< folders above it, from the outermost on
+  std::filesystem::path temporary_;  ///< empty where nothing is unfinished
+  std::unique_ptr<MissingFolders> above_;
   bool kept_ = false;
 };
 

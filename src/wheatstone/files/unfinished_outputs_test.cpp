@@ -1,10 +1,15 @@
 #include "wheatstone/files/unfinished_outputs.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <future>
 #include <stdexcept>
+#include <thread>
 
 #include "temporary_folder.h"
+#include "throws_error.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/temporary_file.h"
 
@@ -49,6 +54,53 @@ TEST(UnfinishedOutputs, OfWorkThatNobodyWaitsForAreNotFinished) {
   }
   TemporaryFile(folder / "other.png").commit();
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / ""), {}), 2);
+}
+
+TEST(UnfinishedOutputs, AreNotThoseOfAForkedChild) {
+  const TemporaryFolder folder;
+  const TemporaryFile file(folder / "made/left.png");
+  // The child cannot wait for a thread that it does not have.
+  std::promise<void> held, ended;
+  std::thread holder([&] {
+    const auto hold = hold_outputs();
+    held.set_value();
+    ended.get_future().wait();
+  });
+  held.get_future().wait();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::alarm(20);
+    remove_unfinished_outputs();
+    TemporaryFile own(folder / "made/right.png");
+    own.commit();
+    ::_exit(outputs_are_finished() ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  ended.set_value();
+  holder.join();
+  EXPECT_EQ(status, 0);
+  TemporaryFile(folder / "other.png").commit();
+  EXPECT_TRUE(fs::exists(folder / "made/right.png"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "made"), {}), 2) << "what the parent writes is there";
+}
+
+TEST(MissingFolders, AreRemovedWhereNothingCameToLieInThem) {
+  const TemporaryFolder folder;
+  {
+    const MissingFolders made(folder / "a/b"), same(folder / "a/b"), other(folder / "c/d/");
+    EXPECT_TRUE(fs::is_directory(folder / "a/b") && fs::is_directory(folder / "c/d"));
+    put_bytes(folder / "c/e", "1");
+  }
+  EXPECT_FALSE(fs::exists(folder / "a"));
+  EXPECT_TRUE(fs::exists(folder / "c/e") && !fs::exists(folder / "c/d"));
+  {
+    const MissingFolders made(folder / "a/b");
+    remove_unfinished_outputs();
+    EXPECT_FALSE(fs::exists(folder / "a"));
+  }
+  put_bytes(folder / "f", "1");
+  expect_error(ErrorKind::cannot_read_write, "the folder cannot be made", [&] { MissingFolders made(folder / "f/g"); });
 }
 
 TEST(UnfinishedOutputs, ThatAreKeptStay) {
