@@ -8,15 +8,16 @@
 
 namespace wheatstone {
 
-/// What the next frame depends on as bytes (FlatBuffers, docs/rotoscope-state.fbs), for this version only: exactly, to
-/// the bit. Throws Error{cannot_read_write} where it is more than 2 GB.
+/// What the next frame depends on as bytes, exactly to the bit: "WSRSTATE", the CRC-32 of all that
+/// follows, layout_of<RotoscopeState>(), and the members (files/field_bytes.h). For this version only.
 std::string encode_rotoscope_state(const RotoscopeState& state);
 
-/// Reads it back. Checksum, lengths and indices are checked. Throws Error{bad_input} with `name` in front.
+/// Reads it back. Checksum, lengths and indices are checked. Throws Error{bad_input} with `name` in front where it is
+/// damaged or another version has written it.
 RotoscopeState decode_rotoscope_state(std::string_view bytes, std::string_view name);
 
-/// What decode_rotoscope_state takes: the content with its head. For tests that change the content.
-std::string rotoscope_state_with_checksum(std::string_view content);
+/// What decode_rotoscope_state takes: the members' bytes with what stands before them. For tests that change them.
+std::string rotoscope_state_with_checksum(std::string_view members);
 
 /// Writes the file, whole or not at all. Throws Error{cannot_read_write}.
 void write_rotoscope_state(const std::filesystem::path& path, const RotoscopeState& state);

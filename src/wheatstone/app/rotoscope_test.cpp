@@ -1,7 +1,9 @@
 #include "wheatstone/app/rotoscope.h"
 
 #include <gmock/gmock.h>
+#include <zlib.h>
 
+#include <cstring>
 #include <random>
 #include <set>
 
@@ -10,7 +12,7 @@
 #include "throws_error.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/app/rotoscope_state_file.h"
-#include "wheatstone/struct_fields_internal.h"
+#include "wheatstone/files/struct_fields.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone {
@@ -96,6 +98,15 @@ TEST(RotoscopeStateFile, NumbersThatDoNotFitTogetherAreRefused) {
   refused([](RotoscopeState& state) { state.memory.posterised.colour_of = Image<std::uint8_t>(8, 4); });
   refused([](RotoscopeState& state) { state.memory.strokes.views = {{{state.layers_before[0], {}}}}; });
   refused([](RotoscopeState& state) { state.frames_of_scene = 1; });
+}
+
+TEST(RotoscopeStateFile, OfAnotherVersionItIsRefusedWithAHint) {
+  std::string bytes = encode_rotoscope_state({});
+  bytes[12] = static_cast<char>(bytes[12] + 1);  // the layout
+  const auto checksum = static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data() + 12), bytes.size() - 12));  // NOLINT: zlib's own type
+  std::memcpy(bytes.data() + 8, &checksum, sizeof(checksum));
+  expect_error(ErrorKind::bad_input, "s: was written by another version", [&] { decode_rotoscope_state(bytes, "s"); });
 }
 
 TEST(RotoscopeStateFile, TheEmptyStateIsReadBack) {

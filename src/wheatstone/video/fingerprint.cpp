@@ -5,7 +5,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "wheatstone/struct_fields_internal.h"
+#include "wheatstone/files/struct_fields.h"
 #include "wheatstone/video/fingerprint_internal.h"
 #include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/libav_internal.h"
