@@ -71,8 +71,13 @@ std::string summary_of(const PaintingReport& told, std::optional<float> depth_bu
   if (whole.width > 0)
     fmt::format_to(to, "reduced          from {}x{} to {}x{} pixels\n", whole.width, whole.height, width_of(painting),
                    height_of(painting));
-  if (pair != nullptr && !undecided_eyes(*pair).empty())
+  const bool one_view = painted.pictures.right.empty();
+  if (pair != nullptr && !one_view && !undecided_eyes(*pair).empty())
     fmt::format_to(to, "eyes             {}\n", undecided_eyes(*pair));
+  if (one_view) {
+    fmt::format_to(to, "unpainted        {:.2f} %\n", 100 * painted.left_bare_share);
+    return text;
+  }
   fmt::format_to(to, "unpainted        {:.2f} % (left), {:.2f} % (right)\n", 100 * painted.left_bare_share,
                  100 * painted.right_bare_share);
   fmt::format_to(to, "zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
@@ -152,6 +157,7 @@ Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhoto
   StereoArguments files = arguments.photographs;
   files.left = job.left;
   files.right = job.right;
+  files.may_be_flat = arguments.disparity.empty();
   if (is_single_picture(arguments)) {
     SinglePicture single = read_single_picture(files, arguments.depth, session);
     options.left_disparity = std::move(single.pair.geometry.left_disparity);
@@ -244,6 +250,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   const Subject subject = read_subject(arguments, job, options, session);
   const ReadPhotograph& photograph = subject.photograph;
   const StereoPair& pictures = photograph.pair.pictures;
+  if (pictures.right.empty()) refuse_for_flat(arguments, photograph.name);
   results.photographs = subject.strength || photograph.pair.rectification;
   if (!arguments.display.empty()) return paint_for_display(arguments, job, subject, options, session);
 

@@ -183,6 +183,24 @@ void refuse_for_photographs(const CLI::App& command, const PaintArguments& argum
     refuse_options(command, {"--zero-parallax"}, "as 'nearest' with --display", "it works with a disparity in pixels");
 }
 
+void refuse_for_flat(const PaintArguments& arguments, const std::string& picture) {
+  const auto refuse = [&](bool given, std::string_view option) {
+    if (given)
+      throw Error(
+          ErrorKind::wrong_usage,
+          fmt::format("{}: has no effect on {}, one picture without depth, which is painted flat; --depth gives "
+                      "it depth",
+                      option, picture));
+  };
+  refuse(arguments.measure, "--report");
+  refuse(arguments.html, "--html");
+  refuse(arguments.photographs.rectify == RectifyPolicy::always, "--rectify always");
+  refuse(arguments.zero_parallax != "nearest", "--zero-parallax");
+  refuse(!arguments.zero_parallax_at.empty(), "--zero-parallax-at");
+  refuse(!arguments.depth_mapping.empty(), "--depth-mapping");
+  refuse(!arguments.display.empty(), "--display");
+}
+
 std::optional<float> depth_budget_from(const PaintArguments& arguments) {
   if (arguments.depth_budget == "full") return {};
   return parse_share("--depth-budget", arguments.depth_budget, {0.1, 100});

@@ -47,6 +47,9 @@ void refuse_for_printing(const CLI::App& command);
 void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments);
 void refuse_for_photographs(const CLI::App& command, const PaintArguments& arguments, bool several);
 
+/// Throws Error{wrong_usage} for an option that has no effect on `picture`, one picture without depth.
+void refuse_for_flat(const PaintArguments& arguments, const std::string& picture);
+
 /// Of what is looked at, as a share of the width; none: "full".
 std::optional<float> depth_budget_from(const PaintArguments& arguments);
 

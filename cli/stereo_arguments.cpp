@@ -41,10 +41,23 @@ StereoPair middle_pair(ViewsFile& file) {
   return {std::move(file.views[right - 1]), std::move(file.views[right])};
 }
 
+/// One picture without depth.
+NamedPair read_flat(const std::string& file) {
+  Image<Rgb8> picture = read_image(file);
+  check_sizes({picture, picture}, file, file);
+  return {
+      {std::move(picture), {}},
+      file,
+      fmt::format(
+          "{}: one picture without depth, painted flat; --depth gives it depth, --layout says how it holds two views",
+          file)};
+}
+
 NamedPair read_one_file(const StereoArguments& arguments) {
   ReadViewsOptions options = arguments.layout.empty() ? ReadViewsOptions() : options_for_layout(arguments.layout);
   options.swap = arguments.swap;
   std::optional<ViewsFile> found = find_views(arguments.left, options);
+  if (!found && arguments.may_be_flat && arguments.layout.empty() && !arguments.swap) return read_flat(arguments.left);
   if (!found)
     throw Error(
         ErrorKind::bad_input,
@@ -67,7 +80,7 @@ PictureSize reduce(StereoPair& pair, int longest_px) {
   const PictureSize whole{pair.left.width(), pair.left.height()};
   if (longest_px == 0 || std::max(whole.width, whole.height) <= longest_px) return {};
   const PictureSize size = reduced_size(whole, longest_px);
-  pair = {reduced(pair.left, size), reduced(pair.right, size)};
+  pair = {reduced(pair.left, size), pair.right.empty() ? Image<Rgb8>() : reduced(pair.right, size)};
   return whole;
 }
 
@@ -153,6 +166,10 @@ ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity
   report(session.progress, "reading", 0);
   NamedPair read = read_named_pair(arguments);
   const PictureSize whole = reduce(read.pictures, arguments.max_size);
+  if (read.pictures.right.empty()) {
+    tell_of_layout(read, session);
+    return {{.pictures = std::move(read.pictures)}, whole, arguments.left};
+  }
   report(session.progress, "comparing the views", 0);
   PreparedPair prepared;
   if (disparity_is_given) {

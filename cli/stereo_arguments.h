@@ -18,7 +18,8 @@ struct StereoArguments {
   std::string layout;       ///< of one picture that holds both; empty: find it
   bool swap = false;
   RectifyPolicy rectify = RectifyPolicy::automatic;
-  int max_size = 0;  ///< longer side of what is worked on, in pixels; 0: as large as it is
+  bool may_be_flat = false;  ///< one picture without depth will do, too: where nothing says that it holds two views
+  int max_size = 0;          ///< longer side of what is worked on, in pixels; 0: as large as it is
 };
 
 /// Adds --layout and --swap.
@@ -67,7 +68,8 @@ struct ReadPhotograph {
 /// Says on standard error, under the files' name, why a match is poor, where the rows do not tell it already.
 void tell_of_match(const ReadPhotograph& photograph, const MatchConfidence& confidence, const Session& session);
 
-/// Reads photographs from two files or one, and says on standard error how one was understood, and where the eyes look
+/// Reads photographs from two files or one, of which the right one is empty where a flat picture will do and is given,
+/// and says on standard error how one was understood, and where the eyes look
 /// swapped. Where `disparity_is_given` they are taken as they are, and else prepared for matching: what makes them no
 /// pair is refused; that it was rectified, and rows that do not fit, are told on standard error. Throws Error:
 /// bad_input, wrong_usage.

@@ -160,6 +160,75 @@ TEST(PaintSinglePicture, IsFlatWhereTheDepthIsTheSameEverywhere) {
   EXPECT_EQ(read_image(folder / "painted/left.png"), read_image(folder / "painted/right.png"));
 }
 
+TEST(PaintSinglePicture, WithoutDepthIsPaintedFlat) {
+  const TemporaryFolder folder;
+  write_picture_and_depth(folder);
+  for (const std::string style : {"impressionist", "dual", "posterise", "mosaic", "diffusion"}) {
+    const ProgramResult result = run_program(
+        {"paint", "photo.png", "--style", style, "--svg", "--json", "-o", "painted"}, {.folder = folder / ""});
+    ASSERT_EQ(result.exit_code, 0) << style << result.errors;
+    EXPECT_THAT(result.errors, testing::HasSubstr("photo.png: one picture without depth, painted flat"));
+    EXPECT_THAT(files_in(folder / "painted"),
+                testing::UnorderedElementsAre("painted.png", "painted.svg", "painting.wst", "report.json"));
+    EXPECT_EQ(nlohmann::json::parse(result.output)["flat"], true);
+    const Image<Rgb8> painted = read_image(folder / "painted/painted.png");
+    EXPECT_EQ(painted.width(), width);
+    EXPECT_NE(painted, read_image(folder / "photo.png"));
+  }
+}
+
+TEST(PaintSinglePicture, WithoutDepthIsPaintedAsAFrameOfAFilmOfOneEye) {
+  const TemporaryFolder folder;
+  write_picture_and_depth(folder);
+  for (const char* frame : {"frame_000.png", "frame_001.png"})
+    std::filesystem::copy(folder / "photo.png", folder / frame);
+  ASSERT_EQ(run_program(paint_line({}), {.folder = folder / ""}).exit_code, 0);
+  const ProgramResult film =
+      run_program({"rotoscope", "frame_%03d.png", "-o", "film_%03d.png", "--quiet"}, {.folder = folder / ""});
+  ASSERT_EQ(film.exit_code, 0) << film.errors;
+  EXPECT_EQ(read_image(folder / "painted/painted.png"), read_image(folder / "film_001.png"));
+}
+
+TEST(PaintSinglePicture, ThatIsFlatIsDrawnAgainPackedSharedAndTold) {
+  const TemporaryFolder folder;
+  write_picture_and_depth(folder);
+  ASSERT_EQ(run_program(paint_line({}), {.folder = folder / ""}).exit_code, 0);
+  const auto run = [&](const std::vector<std::string>& line) {
+    const ProgramResult result = run_program(line, {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << line[0] << ": " << result.errors;
+    return result.output;
+  };
+  run({"paint", "painted/painting.wst", "--scale", "2", "-o", "large", "--quiet"});
+  EXPECT_EQ(read_image(folder / "large/painted.png").width(), 2 * width);
+  EXPECT_THAT(files_in(folder / "large"), testing::ElementsAre("painted.png"));
+  run({"pack", "painted/painting.wst", "--to", "sbs", "-o", "packed.png", "--quiet"});
+  EXPECT_EQ(read_image(folder / "packed.png").width(), 2 * width);
+  run({"share", "painted/painting.wst", "-o", "page.html", "--quiet"});
+  EXPECT_THAT(run({"info", "painted/painting.wst"}), testing::HasSubstr("strokes"));
+  run({"paint", "painted/painting.wst", "--display", "looking-glass-portrait", "--size", "36x48", "-o", "views",
+       "--quiet"});
+}
+
+TEST(PaintSinglePicture, WithoutDepthRefusesWhatNeedsTwoViews) {
+  const TemporaryFolder folder;
+  write_picture_and_depth(folder);
+  for (const std::vector<std::string>& option :
+       std::vector<std::vector<std::string>>{{"--report"},
+                                             {"--html"},
+                                             {"--rectify", "always"},
+                                             {"--zero-parallax", "3"},
+                                             {"--zero-parallax-at", "3,3"},
+                                             {"--depth-mapping", "0:0,1:40"},
+                                             {"--display", "looking-glass-portrait"}})
+    expect_refused(folder, paint_line(option), 2,
+                   option[0] + (option[0] == "--rectify" ? " always" : "") +
+                       ": has no effect on photo.png, one picture without depth");
+  expect_refused(folder, paint_line({"--swap"}), 3, "photo.png: holds one view");
+  write_image(folder / "tiny.png", Image<Rgb8>(8, 8));
+  expect_refused(folder, {"paint", "tiny.png", "-o", "painted", "--quiet"}, 3, "tiny.png: is 8x8 pixels");
+  EXPECT_FALSE(std::filesystem::exists(folder / "painted"));
+}
+
 TEST(PaintSinglePicture, RefusesDepthThatDoesNotFitOrIsUnknown) {
   const TemporaryFolder folder;
   write_picture_and_depth(folder);

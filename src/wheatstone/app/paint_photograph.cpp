@@ -40,6 +40,8 @@ float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometr
 
 FoundGeometry find_geometry(const StereoPair& photographs, const PaintPhotographOptions& options,
                             const Progress& progress) {
+  if (photographs.right.empty() && !options.left_disparity)
+    return {{.left_disparity = Image<float>(photographs.left.width(), photographs.left.height())}, {}, {}};
   check_fits(photographs);
   if (options.left_disparity) return {given_geometry(photographs, options), {}, {}};
   MatchedPair matched = match(photographs, options.matching, progress);

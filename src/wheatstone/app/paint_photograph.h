@@ -41,7 +41,9 @@ struct PaintedPhotograph {
 };
 
 /// Photographs to painting in one call: match, or take the disparity that is given; paint; choose the screen plane.
-/// Throws Error: bad_input where pictures or disparity do not fit together, wrong_usage for options that do not.
+/// One picture without depth, which is the left one while the right one is empty, is painted flat, at disparity 0: so
+/// is the picture that is made of it. Throws Error: bad_input where pictures or disparity do not fit together,
+/// wrong_usage for options that do not.
 PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPhotographOptions& options,
                                    const Progress& progress = {});
 

@@ -126,12 +126,15 @@ std::string report_json(const PaintingReport& told) {
               {"layers", layers_json(layers_of(painting))},
               {"zero_parallax_px", rounded(result.zero_parallax_px)},
               {"presented_separation", rounded(result.painted.separation)},
-              {"left_occluded_share", occluded_share(result.geometry.left_occlusion)},
-              {"right_occluded_share", occluded_share(result.geometry.right_occlusion)},
               {"left_bare_share", rounded(result.painted.left_bare_share)},
-              {"right_bare_share", rounded(result.painted.right_bare_share)},
               {"planning_s", rounded(result.painted.times.planning_s)},
               {"rasterising_s", rounded(result.painted.times.rasterising_s)}};
+  report["flat"] = result.painted.pictures.right.empty();
+  if (!result.painted.pictures.right.empty()) {
+    report["right_bare_share"] = rounded(result.painted.right_bare_share);
+    report["left_occluded_share"] = occluded_share(result.geometry.left_occlusion);
+    report["right_occluded_share"] = occluded_share(result.geometry.right_occlusion);
+  }
   if (result.matched) {
     report["matched"] = {{"least_disparity_px", result.matched->range.least},
                          {"largest_disparity_px", result.matched->range.largest},

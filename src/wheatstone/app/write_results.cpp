@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <mutex>
@@ -29,6 +30,17 @@ void write_svg(const std::filesystem::path& path, const Painting& painting, View
                    svg_of(painting, view, svg_has_ground(painting) ? encode_png(draw(painting, view).picture) : ""));
 }
 
+/// The results where all views are one picture.
+std::vector<std::string> write_flat(OutputFolder& folder, const PaintingReport& told, const ResultOptions& options) {
+  const PaintedPair& painted = told.painted.painted;
+  write_image(folder.file(fmt::format("painted.{}", options.format)), painted.pictures.left);
+  write_painting(folder.file("painting.wst"), painted.painting);
+  write_whole_file(folder.file("report.json"), report_json(told));
+  if (options.svg) write_svg(folder.file("painted.svg"), painted.painting, central_view);
+  folder.commit();
+  return result_names({.flat = true, .svg = options.svg, .format = options.format});
+}
+
 }  // namespace
 
 std::vector<std::string> result_names(const ResultOptions& options) {
@@ -36,6 +48,12 @@ std::vector<std::string> result_names(const ResultOptions& options) {
   const auto add_pictures = [&](std::initializer_list<const char*> pictures) {
     for (const char* picture : pictures) names.push_back(fmt::format("{}.{}", picture, options.format));
   };
+  if (options.flat) {
+    add_pictures({"painted"});
+    names.insert(names.end(), {"painting.wst", "report.json"});
+    if (options.svg) names.emplace_back("painted.svg");
+    return names;
+  }
   add_pictures({"left", "right", "side_by_side", "anaglyph"});
   names.insert(names.end(), {"disparity.png", "left_disparity.pfm", "right_disparity.pfm", "left_occlusion.png",
                              "right_occlusion.png", "painting.wst", "report.json"});
@@ -56,6 +74,7 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
   const Painting& painting = result.painted.painting;
+  if (pictures.right.empty()) return write_flat(folder, told, options);
   const float separation = result.painted.separation;
   const StereoPair presented =
       set_convergence(separation < 1 ? result.painted.nearer : pictures, separation * result.zero_parallax_px);
@@ -110,12 +129,30 @@ Painting scaled(const Painting& painting, double scale) {
   return placed(painting, {.scale = scale});
 }
 
+namespace {
+
+/// Whether all marks lie at disparity 0: all views show the same picture.
+bool is_flat(const Painting& painting) {
+  const std::vector<float> disparities = disparities_of_marks(painting);
+  return !disparities.empty() && std::ranges::all_of(disparities, [](float disparity) { return disparity == 0; });
+}
+
+void draw_flat_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options) {
+  const Presented shown = present(painting, {.views = {central_view}, .device = options.device});
+  write_image(folder.file(fmt::format("painted.{}", options.format)), shown.views.front());
+  if (options.svg) write_svg(folder.file("painted.svg"), painting, central_view);
+  folder.commit();
+}
+
+}  // namespace
+
 void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options,
                 const Progress& progress) {
   Painting sized = scaled(painting, options.scale);
   if (options.zero_parallax_px) shared_width(width_of(sized), *options.zero_parallax_px);
   sized = place_depth(std::move(sized), options.depth, width_of(sized));
   const bool is_placed = !options.depth.regions.empty();
+  if (!is_placed && is_flat(sized)) return draw_flat_again(sized, folder, options);
   report(progress, "drawing", 0);
   const float separation = is_placed ? 1 : comfortable_separation(sized, options.depth_budget);
   Presentation presentation = for_own_and_nearer_eyes(separation);

@@ -12,6 +12,7 @@
 namespace wheatstone {
 
 struct ResultOptions {
+  bool flat = false;           ///< of one picture without depth: painted.png, painting.wst, report.json, painted.svg
   bool photographs = false;    ///< also left_photograph and right_photograph, the pictures that were painted
   bool html = false;           ///< also these, and an index.html that shows the pictures
   bool svg = false;            ///< also left.svg and right.svg, the marks as vectors
@@ -25,7 +26,9 @@ std::vector<std::string> result_names(const ResultOptions& options = {});
 /// photographs' own geometry; side_by_side.png and anaglyph.png for the nearer eyes, if any, with the zero-parallax
 /// plane on the screen; disparity.png, left_disparity.pfm, right_disparity.pfm, left_occlusion.png,
 /// right_occlusion.png; painting.wst, report.json; and what the options ask for. Masks and the disparity's picture are
-/// PNG in any format. Returns the names written. Throws Error as the folder does; then nothing is committed.
+/// PNG in any format. Of one picture without depth it
+/// writes painted.png, painting.wst, report.json and painted.svg. Returns the names written. Throws Error as the folder
+/// does; then nothing is committed.
 std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs, const PaintingReport& told,
                                        const ResultOptions& options = {}, const Progress& progress = {});
 
@@ -45,7 +48,8 @@ struct RedrawOptions {
 };
 
 /// Draws a painting again, for both eyes, over its canvas colour: left.png, right.png, side_by_side.png and
-/// anaglyph.png, or in another format, in a folder, which is committed. Throws Error as the folder and `scaled` do.
+/// anaglyph.png, or in another format, in a folder, which is committed; of a flat painting painted.png alone. Throws
+/// Error as the folder and `scaled` do.
 void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOptions& options = {},
                 const Progress& progress = {});
 

@@ -36,6 +36,15 @@ void draw_views(const StereoPairView& photographs, const Style& style, const Pai
   if (shown.views.size() > 2) result.nearer = {std::move(shown.views[2]), std::move(shown.views[3])};
 }
 
+/// Draws the one view that there is.
+void draw_one_view(ImageView<const Rgb8> photograph, const Style& style, Device device, PaintedPair& result) {
+  Presentation presentation{.views = {central_view}, .device = device};
+  if (style.background == Background::photograph) presentation.backgrounds = {photograph};
+  Presented shown = present(result.painting, presentation);
+  result.pictures.left = std::move(shown.views.front());
+  result.left_bare_share = shown.worst_bare_share;
+}
+
 /// Stavrakis & Gelautz 2004, sec. 3.2: the left picture is warped over the right eye's paint, but not where the grown
 /// occlusion mask is. The paint of near things reaches beyond their outlines, and what lies there is warped by the
 /// disparity of what is behind them: beside an occlusion it would be seen as a second outline. What the right eye's
@@ -68,8 +77,9 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
                        const Progress& progress, ViewRange wanted) {
   check_style(style);
   check_fits(photographs, geometry);
-  const bool apart = style.propagation == Propagation::independent ||
-                     (style.propagation == Propagation::raster && style.marks == Marks::strokes);
+  const bool one_view = photographs.right.empty();
+  const bool apart = !one_view && (style.propagation == Propagation::independent ||
+                                   (style.propagation == Propagation::raster && style.marks == Marks::strokes));
   if (apart) return plan_eyes_apart(photographs, geometry, style, progress);
   const StillScene scene = make_still_scene(photographs, geometry, wanted);
   PaintingMemory nothing_before;
@@ -86,6 +96,10 @@ PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& g
   }
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);
+  if (photographs.right.empty()) {
+    draw_one_view(photographs.left, style, drawing.device, result);
+    return result;
+  }
   draw_views(photographs, style, drawing, result);
   if (style.propagation == Propagation::raster && style.marks == Marks::strokes)
     draw_right_under_left(photographs, geometry, style, drawing.device, result);

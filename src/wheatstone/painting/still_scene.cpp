@@ -182,6 +182,10 @@ void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scen
 
 StillScene make_still_scene(const StereoPairView& photographs, const StereoGeometryView& geometry, ViewRange wanted) {
   StillScene scene;
+  if (photographs.right.empty()) {
+    scene.views = {{photographs.left, geometry.left_disparity, {}, central_view}};
+    return scene;
+  }
   scene.right_only = not_told_by_left(geometry);
   scene.right_disparity = hidden_from_left(geometry, scene.right_only);
   const StereoGeometryView agreeing{geometry.left_disparity, scene.right_disparity, geometry.left_occlusion,

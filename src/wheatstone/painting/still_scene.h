@@ -26,7 +26,7 @@ struct StillScene {
   std::vector<SceneView> views;  ///< refer to these and to the photographs
 };
 
-/// A scene that can be seen from all `wanted` views.
+/// A scene that can be seen from all `wanted` views. Of one photograph, the left one, it is that view alone.
 StillScene make_still_scene(const StereoPairView& photographs, const StereoGeometryView& geometry, ViewRange wanted);
 
 }  // namespace wheatstone

@@ -21,11 +21,12 @@ void check_fits(const StereoPairView& pair) {
 
 void check_fits(const StereoPairView& photographs, const StereoGeometryView& geometry) {
   if (photographs.left.empty()) throw Error(ErrorKind::bad_input, "the left picture has no pixels");
-  check_fits(photographs);
   const auto check = [&](const auto& image, std::string_view name) {
     check_same_size(name, image, "the photographs'", photographs.left);
   };
   check(geometry.left_disparity, "the left disparity");
+  if (photographs.right.empty()) return check_has_no_unknowns(geometry.left_disparity);
+  check_fits(photographs);
   check(geometry.right_disparity, "the right disparity");
   check(geometry.left_occlusion, "the left occlusion mask");
   check(geometry.right_occlusion, "the right occlusion mask");

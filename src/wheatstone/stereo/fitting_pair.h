@@ -23,7 +23,8 @@ void check_same_size(std::string_view name, const A& image, std::string_view own
 /// Throws Error{bad_input} unless two pictures are of one size.
 void check_fits(const StereoPairView& pair);
 
-/// Throws Error{bad_input} unless photographs and geometry are of one size, not empty, and every disparity is known.
+/// Throws Error{bad_input} unless photographs and geometry are of one size, not empty, and every disparity is known. Of
+/// one view, the right picture is empty, and of its geometry only the left disparity counts.
 void check_fits(const StereoPairView& photographs, const StereoGeometryView& geometry);
 
 /// Throws Error{bad_input} where a disparity is unknown.
