@@ -85,96 +85,134 @@ std::string line_of(const std::string& text, int line) {
   return text.substr(begin, text.find('\n', begin) + 1 - begin);
 }
 
+/// Texts in place of whatever was there.
+std::function<std::string(std::string)> instead(const std::string& text) {
+  return [=](const std::string&) { return text; };
+}
+
+std::function<std::string(std::string)> replace(const std::string& from, const std::string& to) {
+  return [=](const std::string& text) { return replaced(text, from, to); };
+}
+
 struct Damage {
+  const StudyDesign& design;
   const char* file;
   std::function<std::string(std::string)> change;
   std::string message;
 };
 
-void expect_refused(const StudyDesign& design, const std::vector<Damage>& damages) {
-  for (const Damage& damage : damages) {
-    const TemporaryFolder folder;
-    const fs::path study = folder / "data";
-    write_study(study, design);
-    put_bytes(study / damage.file, damage.change(bytes_of(study / damage.file)));
-    SCOPED_TRACE(damage.message);
-    expect_error(ErrorKind::bad_input, (study / damage.file).string() + damage.message,
-                 [&] { analyse_study(read_study(study)); });
-  }
-}
-
-TEST(DamagedStudy, ATrialThatCannotBeIsRefused) {
+std::vector<Damage> damages_of_trials() {
   // trial_type 0, response_time 1, stim_file 2, trial 3, item 4, views_per_10cm 5, expected 6, response 7, correct 8,
   // head_least 9, head_most 10, log_delay 11, observer 12
+  const StudyDesign& paths = path_design();
   const auto twice = [](const std::string& text) { return text + line_of(text, 2); };
-  const auto swapped = [](const std::string& text) {
-    return replaced(text, "trial_type\tresponse_time", "response_time\ttrial_type");
-  };
-  expect_refused(path_design(),
-                 {{table, put(3, 1, "-1.5"), ":3: response_time is '-1.5', expected a number from 0 to 86400"},
-                  {table, put(3, 1, "inf"), ":3: response_time is 'inf'"},
-                  {table, put(3, 1, "nan"), ":3: response_time is 'nan'"},
-                  {table, put(3, 1, "n/a"), ":3: response_time is 'n/a'"},
-                  {table, put(3, 1, "1e300"), ":3: response_time is '1e300'"},
-                  {table, put(3, 3, "1.5"), ":3: trial is '1.5', expected a whole number from 1 to 4"},
-                  {table, put(3, 3, "99999999999"), ":3: trial is '99999999999'"},
-                  {table, put(3, 3, "1"), ":3: trial 1 stands there twice"},
-                  {table, twice, ":6: trial 1 stands there twice"},
-                  {table, put(3, 2, "other.json"), ":3: stim_file is 'other.json', expected 'graphs/item-"},
-                  {table, put(3, 5, "7"), ":3: views_per_10cm is '7', expected '"},
-                  {table, put(3, 6, "maybe"), ":3: expected is 'maybe', expected '"},
-                  {table, put(3, 7, "perhaps"), ":3: response is 'perhaps', expected yes or no"},
-                  {table, put(3, 8, "maybe"), ":3: correct is 'maybe', expected '"},
-                  {table, put(3, 9, "inf"), ":3: head_least is 'inf'"},
-                  {table, put(3, 11, "-3"), ":3: log_delay is '-3'"},
-                  {table, put(3, 12, "person"), ":3: observer is 'person', expected 'simulated'"},
-                  {table, swapped, ":1: is of another design, expected the columns of small"},
-                  {table, [](const std::string&) { return std::string(); }, ": is empty, expected"},
-                  {table, [](const std::string& text) { return replaced(text, "\t", std::string(1, '\0')); }, ":1: "},
-                  {table, [](const std::string& text) { return text + text; }, ":6: "}});
-}
-
-TEST(DamagedStudy, AnItemThatIsMetTwiceIsRefused) {
+  const auto doubled = [](const std::string& text) { return text + text; };
   const auto same_item = [](const std::string& text) {
     return replaced(text, line_of(text, 3), put(1, 3, "2")(line_of(text, 2)));
   };
-  expect_refused(path_design(), {{table, same_item, ":3: item-"}});
+  return {{paths, table, put(3, 1, "-1.5"), ":3: response_time is '-1.5', expected a number from 0 to 86400"},
+          {paths, table, put(3, 1, "inf"), ":3: response_time is 'inf'"},
+          {paths, table, put(3, 1, "nan"), ":3: response_time is 'nan'"},
+          {paths, table, put(3, 1, "n/a"), ":3: response_time is 'n/a'"},
+          {paths, table, put(3, 1, "1e300"), ":3: response_time is '1e300'"},
+          {paths, table, put(3, 3, "1.5"), ":3: trial is '1.5', expected a whole number from 1 to 4"},
+          {paths, table, put(3, 3, "99999999999"), ":3: trial is '99999999999'"},
+          {paths, table, put(3, 3, "1"), ":3: trial 1 stands there twice"},
+          {paths, table, twice, ":6: trial 1 stands there twice"},
+          {paths, table, same_item, ":3: item-"},
+          {paths, table, put(3, 2, "other.json"), ":3: stim_file is 'other.json', expected 'graphs/item-"},
+          {paths, table, put(3, 5, "7"), ":3: views_per_10cm is '7', expected '"},
+          {paths, table, put(3, 6, "maybe"), ":3: expected is 'maybe', expected '"},
+          {paths, table, put(3, 7, "perhaps"), ":3: response is 'perhaps', expected yes or no"},
+          {paths, table, put(3, 8, "maybe"), ":3: correct is 'maybe', expected '"},
+          {paths, table, put(3, 9, "inf"), ":3: head_least is 'inf'"},
+          {paths, table, put(3, 11, "-3"), ":3: log_delay is '-3'"},
+          {paths, table, put(3, 12, "person"), ":3: observer is 'person', expected 'simulated'"},
+          {paths, table, replace("trial_type\tresponse_time", "response_time\ttrial_type"),
+           ":1: is of another design, expected the columns of small"},
+          {paths, table, instead(""), ": is empty, expected"},
+          {paths, table, replace("\t", std::string(1, '\0')), ":1: "},
+          {paths, table, doubled, ":6: "}};
 }
 
-TEST(DamagedStudy, ARatingOutsideTheScaleIsRefused) {
-  constexpr auto ratings = "sub-01/beh/sub-01_task-comfort_beh.tsv";
+std::vector<Damage> damages_of_ratings() {
   // trial_type, response_time, stim_file, trial, item, version, group, expected, response
-  expect_refused(rating_design(),
-                 {{ratings, put(2, 8, "6"), ":2: response is '6', expected a whole number from 1 to 5"},
-                  {ratings, put(2, 8, "0"), ":2: response is '0'"},
-                  {ratings, put(2, 8, "2.5"), ":2: response is '2.5'"},
-                  {ratings, put(2, 8, "n/a"), ":2: response is 'n/a'"},
-                  {ratings, put(2, 6, "n"), ":2: group is 'n', expected 'm'"},
-                  {participants, put(2, 1, "n"), ":2: group is 'n', expected 'm'"}});
+  constexpr auto ratings = "sub-01/beh/sub-01_task-comfort_beh.tsv";
+  const StudyDesign& rated = rating_design();
+  return {{rated, ratings, put(2, 8, "6"), ":2: response is '6', expected a whole number from 1 to 5"},
+          {rated, ratings, put(2, 8, "0"), ":2: response is '0'"},
+          {rated, ratings, put(2, 8, "2.5"), ":2: response is '2.5'"},
+          {rated, ratings, put(2, 8, "n/a"), ":2: response is 'n/a'"},
+          {rated, ratings, put(2, 6, "n"), ":2: group is 'n', expected 'm'"},
+          {rated, participants, put(2, 1, "n"), ":2: group is 'n', expected 'm'"}};
 }
 
-TEST(DamagedStudy, AListOfSubjectsThatCannotBeIsRefused) {
+std::vector<Damage> damages_of_lists() {
+  const StudyDesign& paths = path_design();
   const auto without_second = [](const std::string& text) { return replaced(text, line_of(text, 3), ""); };
-  expect_refused(path_design(),
-                 {{participants, append("sub-01\tsimulated\n"), ":4: sub-01 stands there twice"},
-                  {participants, append("sub-1\tsimulated\n"), ":4: 'sub-1' is no subject"},
-                  {participants, append("peter\tsimulated\n"), ":4: 'peter' is no subject"},
-                  {participants, append("sub-03\n"), ":4: has 1 fields, expected 2"},
-                  {participants, put(3, 1, "person"), ":3: observer is 'person', expected 'simulated'"},
-                  {participants, put(1, 0, "subject"), ":1: has no column participant_id"},
-                  {participants, put(1, 1, "participant_id"), ":1: has two columns participant_id"},
-                  {participants, without_second, ": sub-02 is missing, whose folder is there"},
-                  {questionnaire, append("sub-01\t3\tsimulated\n"), ":4: sub-01 stands there twice"},
-                  {questionnaire, append("sub-04\t3\tsimulated\n"), ":4: sub-04 is not in participants.tsv"},
-                  {questionnaire, put(3, 1, "6"), ":3: tired is '6', expected a whole number from 1 to 5"},
-                  {questionnaire, put(3, 1, "12"), ":3: tired is '12'"},
-                  {questionnaire, put(3, 1, "x"), ":3: tired is 'x'"},
-                  {questionnaire, put(3, 2, "x"), ":3: observer is 'x', expected 'simulated'"},
-                  {questionnaire, put(1, 1, "fired"), ":1: has no column tired"},
-                  {questionnaire, put(3, 0, "sub-02\t4"), ":3: has 4 fields, expected 3"},
-                  {questionnaire, [](const std::string&) { return std::string(); }, ": is empty"},
-                  {description, [](const std::string& text) { return text.substr(0, 20); }, ": is no description"},
-                  {description, [](const std::string&) { return std::string("[]"); }, ": is no description"}});
+  return {{paths, participants, append("sub-01\tsimulated\n"), ":4: sub-01 stands there twice"},
+          {paths, participants, append("sub-1\tsimulated\n"), ":4: 'sub-1' is no subject"},
+          {paths, participants, append("peter\tsimulated\n"), ":4: 'peter' is no subject"},
+          {paths, participants, append("sub-03\n"), ":4: has 1 fields, expected 2"},
+          {paths, participants, put(3, 1, "person"), ":3: observer is 'person', expected 'simulated'"},
+          {paths, participants, put(1, 0, "subject"), ":1: has no column participant_id"},
+          {paths, participants, put(1, 1, "participant_id"), ":1: has two columns participant_id"},
+          {paths, participants, without_second, ": sub-02 is missing, whose folder is there"},
+          {paths, questionnaire, append("sub-01\t3\tsimulated\n"), ":4: sub-01 stands there twice"},
+          {paths, questionnaire, append("sub-04\t3\tsimulated\n"), ":4: sub-04 is not in participants.tsv"},
+          {paths, questionnaire, put(3, 1, "6"), ":3: tired is '6', expected a whole number from 1 to 5"},
+          {paths, questionnaire, put(3, 1, "12"), ":3: tired is '12'"},
+          {paths, questionnaire, put(3, 1, "x"), ":3: tired is 'x'"},
+          {paths, questionnaire, put(3, 2, "x"), ":3: observer is 'x', expected 'simulated'"},
+          {paths, questionnaire, put(1, 1, "fired"), ":1: has no column tired"},
+          {paths, questionnaire, put(3, 0, "sub-02\t4"), ":3: has 4 fields, expected 3"},
+          {paths, questionnaire, instead(""), ": is empty"}};
+}
+
+std::vector<Damage> damages_of_description() {
+  const StudyDesign& paths = path_design();
+  constexpr auto none = ": is no description";
+  const std::string deep(100'000, '[');
+  std::vector<Damage> damages;
+  for (const std::string& text : {std::string(), std::string("[]"), std::string("null"), std::string("{}"),
+                                  std::string("{\"Simulated\": true"), std::string("{\"Simulated\": 1}"),
+                                  std::string("{\"Simulated\": \"true\"}"), std::string("{\"Simulated\": null}"),
+                                  std::string("{\"Simulated\": [true]}"), std::string("{\"simulated\": true}"),
+                                  std::string("\xff\xfe{}"), std::string("{\"Simulated\": true, \"Name\": \"\xff\"}"),
+                                  std::string("{\"Simulated\": true}}"), std::string("{'Simulated': true}"), deep})
+    damages.push_back({paths, description, instead(text), none});
+  damages.push_back({paths, description, [](const std::string& text) { return text.substr(0, 20); }, none});
+  damages.push_back(
+      {paths, description, replace("\"Simulated\": true", "\"Simulated\": false, \"Simulated\": 0"), none});
+  return damages;
+}
+
+TEST(DamagedStudy, IsRefusedWithItsFileAndLine) {
+  for (const auto& damages : {damages_of_trials(), damages_of_ratings(), damages_of_lists(), damages_of_description()})
+    for (const Damage& damage : damages) {
+      const TemporaryFolder folder;
+      const fs::path study = folder / "data";
+      write_study(study, damage.design);
+      put_bytes(study / damage.file, damage.change(bytes_of(study / damage.file)));
+      SCOPED_TRACE(damage.message);
+      expect_error(ErrorKind::bad_input, (study / damage.file).string() + damage.message,
+                   [&] { analyse_study(read_study(study)); });
+    }
+}
+
+/// Descriptions of columns are for people and other programs; the names of what they describe lie in the design.
+TEST(DamagedStudy, DescriptionsOfColumnsDoNotMatter) {
+  const TemporaryFolder folder;
+  const fs::path study = folder / "data";
+  write_study(study, path_design());
+  const StudyData before = read_study(study);
+  const std::string page = analysis_page(before, analyse_study(before));
+  for (const char* file : {"task-paths_beh.json", "participants.json", "phenotype/questionnaire.json", "README"})
+    for (const char* text : {"", "{", "[]", "{\"Simulated\": false}", "\xff\xfe", "null"}) {
+      put_bytes(study / file, text);
+      const StudyData after = read_study(study);
+      EXPECT_EQ(analysis_page(after, analyse_study(after)), page) << file << ' ' << text;
+    }
 }
 
 TEST(DamagedStudy, AFolderInPlaceOfAFileIsRefused) {

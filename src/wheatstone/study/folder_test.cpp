@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "temporary_folder.h"
@@ -178,18 +179,36 @@ class LargestFile {
 
 TEST(TrialLog, AnAnswerIsNotLostOnAFullDisk) {
   const TemporaryFolder folder;
-  const std::string full(5000, 'x');
+  const std::string header = "head\tobserver\n", full(5000, 'x'), answers = "one\tperson\ntwo\tperson\n";
   {
-    TrialLog log(folder / "a.tsv", "head\n");
+    TrialLog log(folder / "a.tsv", header);
     log.append(full + "\n");
-    const LargestFile limit(5010);
-    expect_error(ErrorKind::cannot_read_write, "the answer is kept in", [&] { log.append("the answer\n"); });
+    const LargestFile limit(header.size() + full.size() + 5);
+    expect_error(ErrorKind::cannot_read_write, "the answer is kept in", [&] { log.append(answers); });
   }
-  EXPECT_EQ(read_trial_log(folder / "a.tsv"), "head\n" + full + "\nthe answer\n") << "the analysis sees it";
-  TrialLog log(folder / "a.tsv", "head\n");
-  EXPECT_EQ(bytes_of(folder / "a.tsv"), "head\n" + full + "\nthe answer\n");
+  EXPECT_EQ(read_trial_log(folder / "a.tsv"), header + full + "\n" + answers) << "the analysis sees it";
+  TrialLog log(folder / "a.tsv", header);
+  EXPECT_EQ(bytes_of(folder / "a.tsv"), header + full + "\n" + answers);
   log.finish();
   EXPECT_EQ(read_trial_log(folder / "a.tsv"), bytes_of(folder / "a.tsv"));
+}
+
+TEST(TrialLog, AReserveThatHoldsNoAnswerIsRefused) {
+  const TemporaryFolder folder;
+  const std::string header = "head\tobserver\n";
+  { const TrialLog log(folder / "a.tsv", header); }
+  const std::string table = bytes_of(folder / "a.tsv");
+  for (const char* kept : {"x", "x\n", "1\t2\tperson\n\n", "1\tnobody\n\n", "1\tperson\nx\n\n", "\xff\n\n",
+                           "x\n\n1\tperson\n", "1\tperso", "\t", "\xff"}) {
+    put_bytes(folder / ".a.tsv.reserve", kept);
+    SCOPED_TRACE(kept);
+    const auto refused = [&](const std::function<void()>& open) {
+      expect_error(ErrorKind::bad_input, ".a.tsv.reserve: holds no answer of this study", open);
+    };
+    refused([&] { read_trial_log(folder / "a.tsv"); });
+    refused([&] { const TrialLog log(folder / "a.tsv", header); });
+    EXPECT_EQ(bytes_of(folder / "a.tsv"), table);
+  }
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/number_range.h"
 #include "wheatstone/study/draw_lots_internal.h"
 
 namespace wheatstone {
@@ -160,6 +162,55 @@ void highlight(const PathGraphOptions& options, Lots& lots, PathGraph& graph) {
   }
 }
 
+constexpr double most_nodes = 3000, most_links = 12'000;
+constexpr NumberRange places_mm{-10'000, 10'000}, radii_mm{0.01, 1000};
+
+/// Values of a graph's file. Each is checked: the library would take true for 1, and 1.5 for 1.
+class GraphFile {
+ public:
+  GraphFile(std::string_view name, nlohmann::json json) : name_(name), json_(std::move(json)) {
+    if (at("kind") != "path graph") refuse("kind", "\"path graph\"");
+  }
+
+  [[noreturn]] void refuse(std::string_view key, std::string_view expected) const {
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {}: expected {}", name_, key, expected));
+  }
+  const nlohmann::json& at(const char* key) const { return json_.at(key); }
+
+  std::uint64_t seed() const {
+    if (!at("seed").is_number_unsigned()) refuse("seed", "a whole number of at least 0");
+    return at("seed").get<std::uint64_t>();
+  }
+  bool truth(const char* key) const {
+    if (!at(key).is_boolean()) refuse(key, "true or false");
+    return at(key).get<bool>();
+  }
+  float length(std::string_view key, const nlohmann::json& value, NumberRange range) const {
+    if (!value.is_number() || !range.has(value.get<double>())) refuse(key, "numbers" + words_of(range));
+    return value.get<float>();
+  }
+  const nlohmann::json& list(std::string_view key, const nlohmann::json& values, NumberRange count) const {
+    if (!values.is_array() || !count.has(static_cast<double>(values.size())))
+      refuse(key, count.least == count.most ? fmt::format("lists of {} values", count.least)
+                                            : "a list whose number of entries is" + words_of(count));
+    return values;
+  }
+  /// Two nodes of the graph, by their places in its list.
+  std::array<int, 2> node_pair(std::string_view key, const nlohmann::json& pair) const {
+    list(key, pair, {2, 2});
+    const NumberRange nodes{0, static_cast<double>(at("nodes_mm").size()) - 1};
+    for (const nlohmann::json& node : pair)
+      if (!node.is_number_integer() || !nodes.has(node.get<double>()))
+        refuse(key, "whole numbers" + words_of(nodes) + ", for a node each");
+    if (pair[0] == pair[1]) refuse(key, "two different nodes");
+    return pair.get<std::array<int, 2>>();
+  }
+
+ private:
+  std::string_view name_;
+  nlohmann::json json_;
+};
+
 }  // namespace
 
 PathGraph make_path_graph(const PathGraphOptions& options, std::uint64_t seed, bool connected) {
@@ -206,18 +257,22 @@ std::string graph_json(const PathGraph& graph) {
 
 PathGraph graph_from_json(std::string_view text, std::string_view name) {
   try {
-    const auto json = nlohmann::json::parse(text);
-    PathGraph graph{.seed = json.at("seed").get<std::uint64_t>(),
-                    .nodes = json.at("nodes_mm").get<std::vector<PlaceMm>>(),
-                    .links = json.at("links").get<std::vector<std::array<int, 2>>>(),
-                    .highlighted = json.at("highlighted").get<std::array<int, 2>>(),
-                    .connected = json.at("connected").get<bool>(),
-                    .node_radius_mm = json.at("node_radius_mm").get<float>(),
-                    .link_radius_mm = json.at("link_radius_mm").get<float>()};
-    const auto is_node = [&graph](int node) { return node >= 0 && node < std::ssize(graph.nodes); };
-    const auto are_nodes = [&](const auto& pair) { return is_node(pair[0]) && is_node(pair[1]); };
-    if (!are_nodes(graph.highlighted) || !std::ranges::all_of(graph.links, are_nodes))
-      throw Error(ErrorKind::bad_input, fmt::format("{}: a link names a node that the graph does not have", name));
+    const GraphFile file(name, nlohmann::json::parse(text));
+    PathGraph graph{.seed = file.seed(),
+                    .highlighted = file.node_pair("highlighted", file.at("highlighted")),
+                    .connected = file.truth("connected"),
+                    .node_radius_mm = file.length("node_radius_mm", file.at("node_radius_mm"), radii_mm),
+                    .link_radius_mm = file.length("link_radius_mm", file.at("link_radius_mm"), radii_mm)};
+    for (const nlohmann::json& place : file.list("nodes_mm", file.at("nodes_mm"), {2, most_nodes})) {
+      file.list("nodes_mm", place, {3, 3});
+      graph.nodes.push_back({file.length("nodes_mm", place[0], places_mm), file.length("nodes_mm", place[1], places_mm),
+                             file.length("nodes_mm", place[2], places_mm)});
+    }
+    for (const nlohmann::json& link : file.list("links", file.at("links"), {1, most_links}))
+      graph.links.push_back(file.node_pair("links", link));
+    if (has_path_of_two(graph) != graph.connected)
+      file.refuse("connected",
+                  graph.connected ? "false: no path of two links is there" : "true: a path of two links is there");
     return graph;
   } catch (const nlohmann::json::exception&) {
     throw Error(ErrorKind::bad_input,

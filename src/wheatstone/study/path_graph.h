@@ -53,7 +53,7 @@ PathGraph make_path_graph(const PathGraphOptions& options, std::uint64_t seed, b
 bool has_path_of_two(const PathGraph& graph);
 
 /// The graph as a JSON object, and back. `name` stands for the file in messages. Throws Error{bad_input} where the
-/// text is no graph.
+/// text is no graph, or its answer is not that of its links.
 std::string graph_json(const PathGraph& graph);
 PathGraph graph_from_json(std::string_view text, std::string_view name);
 

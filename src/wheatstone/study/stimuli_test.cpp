@@ -87,13 +87,85 @@ TEST(PathGraph, ComesBackFromItsFile) {
   EXPECT_EQ(graph_from_json(graph_json(graph), "graph.json"), graph);
 }
 
-TEST(PathGraph, ADamagedFileIsNamed) {
-  const auto read = [](const char* text) { return [text] { graph_from_json(text, "graph.json"); }; };
-  expect_error(ErrorKind::bad_input, "graph.json: is no path graph", read("{\"seed\": 1}"));
-  expect_error(ErrorKind::bad_input, "graph.json: is no path graph", read("nonsense"));
-  PathGraph graph = make_path_graph({}, 7, false);
-  graph.links[3][1] = 90;
-  expect_error(ErrorKind::bad_input, "names a node", [&] { graph_from_json(graph_json(graph), "graph.json"); });
+/// The text with one place of it replaced.
+std::string damaged(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST(PathGraph, ADamagedFileIsNamedWithWhatIsWrong) {
+  const PathGraph graph = make_path_graph({}, 7, false);
+  const std::string whole = graph_json(graph);
+  struct Damage {
+    std::string from, to, message;
+  };
+  const std::string nodes = "\"nodes_mm\":[", links = "\"links\":[", no_graph = "is no path graph";
+  const std::string first = whole.substr(whole.find(nodes) + nodes.size(),
+                                         whole.find("],", whole.find(nodes)) - whole.find(nodes) - nodes.size() + 1);
+  const auto connected = [&] {
+    PathGraph other = graph;
+    other.links.push_back({graph.highlighted[0], 40});
+    other.links.push_back({40, graph.highlighted[1]});
+    return graph_json(other);
+  };
+  for (const Damage& damage : std::vector<Damage>{
+           {"{", "", no_graph},
+           {"{", "[", no_graph},
+           {"}", "", no_graph},
+           {"}", "}}", no_graph},
+           {whole.substr(whole.size() / 2), "", no_graph},
+           {whole, "", no_graph},
+           {whole, "[]", no_graph},
+           {whole, "null", no_graph},
+           {whole, "{\"seed\": 1}", no_graph},
+           {whole, "nonsense", no_graph},
+           {whole, std::string(100'000, '['), no_graph},
+           {"\"kind\"", "\"kin\"", no_graph},
+           {"path graph", "other", "kind: expected"},
+           {"path graph", "\xff", no_graph},
+           {"\"seed\":7", "\"seed\":-7", "seed: expected a whole number of at least 0"},
+           {"\"seed\":7", "\"seed\":7.5", "seed: expected"},
+           {"\"seed\":7", "\"seed\":true", "seed: expected"},
+           {"\"seed\":7", "\"seed\":1e400", no_graph},
+           {"\"seed\":7", "\"seed\":\"7\"", "seed: expected"},
+           {"\"seed\":7,", "", no_graph},
+           {"\"connected\":false", "\"connected\":0", "connected: expected true or false"},
+           {"\"connected\":false", "\"connected\":null", "connected: expected true or false"},
+           {"\"connected\":false", "\"connected\":true", "connected: expected false: no path of two links"},
+           {whole, connected(), "connected: expected true: a path of two links is there"},
+           {"\"highlighted\":[", "\"highlighted\":[0,", "highlighted: expected lists of 2 values"},
+           {"\"highlighted\":[", "\"highlighted\":[],\"h\":[", "highlighted: expected lists of 2 values"},
+           {"\"highlighted\":[", "\"highlighted\":[3,3],\"h\":[", "highlighted: expected two different nodes"},
+           {"\"highlighted\":[", "\"highlighted\":[3,90],\"h\":[", "highlighted: expected whole numbers from 0 to 89"},
+           {"\"highlighted\":[", "\"highlighted\":[3,-1],\"h\":[", "highlighted: expected whole numbers from 0 to 89"},
+           {"\"node_radius_mm\":4.0", "\"node_radius_mm\":-4", "node_radius_mm: expected numbers from 0.01 to 1000"},
+           {"\"node_radius_mm\":4.0", "\"node_radius_mm\":0", "node_radius_mm: expected"},
+           {"\"node_radius_mm\":4.0", "\"node_radius_mm\":1e30", "node_radius_mm: expected"},
+           {"\"node_radius_mm\":4.0", "\"node_radius_mm\":null", "node_radius_mm: expected"},
+           {"\"node_radius_mm\":4.0", "\"node_radius_mm\":NaN", no_graph},
+           {"\"link_radius_mm\":1.0", "\"link_radius_mm\":\"1\"", "link_radius_mm: expected"},
+           {"\"link_radius_mm\":1.0", "\"link_radius_mm\":true", "link_radius_mm: expected"},
+           {first, "[1e300,0,0]", "nodes_mm: expected numbers from -10000 to 10000"},
+           {first, "[1,2]", "nodes_mm: expected lists of 3 values"},
+           {first, "[1,2,3,4]", "nodes_mm: expected lists of 3 values"},
+           {first, "[1,2,null]", "nodes_mm: expected numbers"},
+           {first, "[1,2,[3]]", "nodes_mm: expected numbers"},
+           {first, "7", "nodes_mm: expected lists of 3 values"},
+           {first + ",", "", "links: expected whole numbers from 0 to 88"},
+           {nodes, "\"nodes_mm\":[],\"n\":[", "highlighted: expected whole numbers"},
+           {nodes, "\"nodes_mm\":{},\"n\":[", "highlighted: expected whole numbers"},
+           {links, links + "[1,1],", "links: expected two different nodes"},
+           {links, links + "[1,90],", "links: expected whole numbers from 0 to 89"},
+           {links, links + "[1,4294967296],", "links: expected whole numbers"},
+           {links, links + "[1,1.5],", "links: expected whole numbers"},
+           {links, links + "[1,true],", "links: expected whole numbers"},
+           {links, links + "[1],", "links: expected lists of 2 values"},
+           {links, "\"links\":[],\"l\":[", "links: expected a list whose number of entries is from 1"}}) {
+    SCOPED_TRACE(damage.from.substr(0, 40) + " -> " + damage.to.substr(0, 40));
+    expect_error(ErrorKind::bad_input, "graph.json: " + damage.message,
+                 [&] { graph_from_json(damaged(whole, damage.from, damage.to), "graph.json"); });
+  }
 }
 
 TEST(PathGraph, NodesThatCannotBeAreRefused) {

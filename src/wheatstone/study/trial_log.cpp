@@ -41,24 +41,37 @@ fs::path reserve_of(const fs::path& path) {
   return path.parent_path() / fmt::format(".{}.reserve", path.filename().string());
 }
 
-/// How many bytes of a table are whole lines. Where its last line has no end, another program may have saved it so: it
-/// is whole where it has all fields, of which the observer is the last.
-std::size_t whole_bytes(std::string_view table) {
-  const std::size_t ended = table.rfind('\n') + 1;  // 0 where there is none
-  const std::string_view header = table.substr(0, table.find('\n')), last = table.substr(ended);
-  const bool whole = ended > 0 && std::ranges::count(last, '\t') == std::ranges::count(header, '\t') &&
-                     (last.ends_with("\tperson") || last.ends_with("\tsimulated"));
-  return whole ? table.size() : ended;
+/// Whether a line, without its end, has all fields of a table, of which the observer is the last.
+bool is_whole(std::string_view line, std::string_view header) {
+  return std::ranges::count(line, '\t') == std::ranges::count(header, '\t') &&
+         (line.ends_with("\tperson") || line.ends_with("\tsimulated"));
 }
 
-/// The line in a reserve; empty where there is none, and where the table has it already.
-std::string kept_line(const fs::path& reserve, std::string_view table) {
+/// How many bytes of a table are whole lines. Where its last line has no end, another program may have saved it so.
+std::size_t whole_bytes(std::string_view table) {
+  const std::size_t ended = table.rfind('\n') + 1;  // 0 where there is none
+  return ended > 0 && is_whole(table.substr(ended), table.substr(0, table.find('\n'))) ? table.size() : ended;
+}
+
+/// The lines in a reserve; empty where there are none, and where the table has them already. Throws Error{bad_input}
+/// where they are none of the table's.
+std::string kept_lines(const fs::path& reserve, std::string_view table) {
   std::error_code error;
   if (!fs::exists(reserve, error)) return {};
   const std::string bytes = read_whole_file(reserve, most_bytes);
-  const std::size_t end = bytes.find('\n');
-  if (end == std::string::npos || end == 0 || table.ends_with(bytes.substr(0, end + 1))) return {};
-  return bytes.substr(0, end + 1);
+  // None of them is empty.
+  const std::size_t end = bytes.find("\n\n");
+  std::string lines = end == std::string::npos ? bytes : bytes.substr(0, end + 1);
+  if (!lines.ends_with('\n')) lines += '\n';
+  if (lines.find_first_not_of('\n') == std::string::npos || table.ends_with(lines)) return {};
+  const std::string_view header = table.substr(0, table.find('\n'));
+  for (const std::string& line : lines_of(lines))
+    if (!is_whole(line, header))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: holds no answer of this study, expected a line of the table beside it; move it away "
+                              "to go on without it",
+                              reserve.string()));
+  return lines;
 }
 
 }  // namespace
@@ -93,7 +106,7 @@ void TrialLog::add(std::string_view bytes) {
 }
 
 void TrialLog::take_over_reserve() {
-  if (const std::string line = kept_line(reserve_, read_whole_file(path_, most_bytes)); !line.empty()) add(line);
+  if (const std::string lines = kept_lines(reserve_, read_whole_file(path_, most_bytes)); !lines.empty()) add(lines);
 }
 
 void TrialLog::make_reserve() const {
@@ -132,7 +145,7 @@ std::string read_trial_log(const fs::path& path) {
   const std::string present = read_whole_file(path, most_bytes);
   std::string whole = present.substr(0, whole_bytes(present));
   if (!whole.empty() && whole.back() != '\n') whole += '\n';
-  return whole + kept_line(reserve_of(path), whole);
+  return whole + kept_lines(reserve_of(path), whole);
 }
 
 }  // namespace wheatstone
