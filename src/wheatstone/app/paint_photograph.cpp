@@ -8,6 +8,7 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/error.h"
+#include "wheatstone/image/known_values.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
@@ -90,10 +91,7 @@ PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOpt
 }
 
 PairMeasures measure_pair(const StereoPair& pair, ImageView<const float> left_disparity) {
-  bool is_known = false;
-  for (int y = 0; y < left_disparity.height(); ++y)
-    is_known = is_known || std::ranges::any_of(left_disparity.row(y), [](float d) { return std::isfinite(d); });
-  if (!is_known) throw Error(ErrorKind::bad_input, "the disparity is unknown everywhere, expected numbers of pixels");
+  check_known_anywhere(left_disparity, "the disparity");
   return {measure_left_right_difference(pair, left_disparity), measure_depth_survival(pair, left_disparity),
           gradient_energy(pair.left), gradient_energy(pair.right)};
 }

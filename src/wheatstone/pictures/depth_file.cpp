@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "wheatstone/error.h"
+#include "wheatstone/image/known_values.h"
 #include "wheatstone/pictures/jpeg_end_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/png_reader_internal.h"
@@ -37,16 +37,9 @@ Image<float> read_depth(const fs::path& path) {
   const bool is_pfm = bytes.starts_with("Pf") || bytes.starts_with("PF");
   Image<float> depth = is_pfm ? decode_pfm(bytes, path.string())
                               : read_stored_channel(bytes, path, what, GreyInColours::accepted).values;
-  bool some_known = false;
-  for (float& value : depth.pixels()) {
-    if (std::isfinite(value))
-      some_known = true;
-    else
-      value = std::numeric_limits<float>::quiet_NaN();
-  }
-  if (!some_known)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: the depth is unknown everywhere, expected at least one finite value", path.string()));
+  for (float& value : depth.pixels())
+    if (!std::isfinite(value)) value = std::numeric_limits<float>::quiet_NaN();
+  check_known_anywhere(depth, path.string() + ": the depth");
   return depth;
 }
 

@@ -9,6 +9,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/image/known_values.h"
 #include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/pictures/portable_float_map.h"
 #include "wheatstone/pictures/stored_channel_internal.h"
@@ -65,10 +66,7 @@ void write_exr(const std::filesystem::path& path, ImageView<const float> dispari
   write_whole_file(path, encode_picture(path, picture, rows_of(disparity)));
 }
 
-}  // namespace
-
-Image<float> read_disparity(const std::filesystem::path& path, std::optional<float> scale) {
-  check_scale(path, scale);
+Image<float> read_any_disparity(const std::filesystem::path& path, std::optional<float> scale) {
   const std::string bytes = read_whole_file(path, most_bytes);
   if (bytes.starts_with("Pf") || bytes.starts_with("PF")) {
     Image<float> disparity = decode_pfm(bytes, path.string());
@@ -80,6 +78,15 @@ Image<float> read_disparity(const std::filesystem::path& path, std::optional<flo
   const float usual_scale = stored.kind == words_kind ? kitti_scale : 1.f;
   invalidate(stored.values, scale.value_or(usual_scale), integer);
   return std::move(stored.values);
+}
+
+}  // namespace
+
+Image<float> read_disparity(const std::filesystem::path& path, std::optional<float> scale) {
+  check_scale(path, scale);
+  Image<float> disparity = read_any_disparity(path, scale);
+  check_known_anywhere(disparity, path.string() + ": the disparity");
+  return disparity;
 }
 
 void write_disparity(const std::filesystem::path& path, ImageView<const float> disparity) {

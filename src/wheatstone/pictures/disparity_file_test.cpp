@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "temporary_folder.h"
+#include "throws_error.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/portable_float_map.h"
@@ -88,6 +89,12 @@ TEST_F(DisparityFile, TakesInfinityForUnknown) {
   disparity(1, 0) = std::numeric_limits<float>::infinity();
   write_whole_file(in_folder("infinite.pfm"), encode_pfm(disparity));
   EXPECT_TRUE(std::isnan(read_disparity(in_folder("infinite.pfm"))(1, 0)));
+}
+
+TEST_F(DisparityFile, IsRefusedWhereNothingIsKnown) {
+  write_whole_file(in_folder("bad.pfm"), encode_pfm(Image<float>(2, 1, std::numeric_limits<float>::infinity())));
+  expect_error(ErrorKind::bad_input, in_folder("bad.pfm").string() + ": the disparity is unknown everywhere",
+               [this] { read_disparity(in_folder("bad.pfm")); });
 }
 
 TEST_F(DisparityFile, NamesTheFileAndTheTroubleInOneLine) {

@@ -12,6 +12,7 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/error.h"
+#include "wheatstone/image/known_values.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {
@@ -40,10 +41,6 @@ Image<float> inverse_depth(ImageView<const float> depth, DepthKind kind) {
       return std::isfinite(value) ? value : unknown;
     });
   return inverse;
-}
-
-bool is_known_anywhere(const Image<float>& inverse) {
-  return std::ranges::any_of(inverse.pixels(), [](float value) { return std::isfinite(value); });
 }
 
 std::optional<InverseDepthRange> range_of(const Image<float>& inverse) {
@@ -187,8 +184,7 @@ Image<float> disparity_from_depth(ImageView<const float> depth, ImageView<const 
                 fmt::format("the strength is {}, expected a share of the width between 0 and 1", options.strength));
   check_shape(depth, picture);
   Image<float> disparity = inverse_depth(depth, options.kind);
-  if (!is_known_anywhere(disparity))
-    throw Error(ErrorKind::bad_input, "the depth is unknown everywhere, expected at least one known value");
+  check_known_anywhere(disparity, "the depth");
   const std::optional<InverseDepthRange> range = options.range ? options.range : range_of(disparity);
   if (!range) return Image<float>(picture.width(), picture.height());
   scale_to(options.strength * static_cast<float>(picture.width()), *range, disparity);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/image/known_values.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/warp.h"
 
@@ -67,11 +68,10 @@ StereoGeometry with_occlusion(Image<float> left, Image<float> right, const Geome
 }  // namespace
 
 void fill_from_farther_side(Image<float>& disparity) {
+  check_known_anywhere(disparity, "the disparity");
   const int height = disparity.height();
   std::vector<char> known(height);
   tbb::parallel_for(0, height, [&](int y) { known[y] = fill_row(disparity.row(y)) ? 1 : 0; });
-  if (std::ranges::find(known, 1) == known.end())
-    throw Error(ErrorKind::bad_input, "the disparity is unknown everywhere, expected at least one finite value");
   for (int y = 0; y < height; ++y) {
     if (known[y] != 0) continue;
     int distance = 1;
