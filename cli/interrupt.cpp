@@ -10,13 +10,12 @@
 #include <csignal>
 #include <exception>
 #include <mutex>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <system_error>
 #include <thread>
 #include <utility>
 
+#include "failure.h"
 #include "print_facts.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
@@ -99,34 +98,12 @@ void end_from_outside() {
   tell_and_end(last_words(), static_cast<int>(ErrorKind::interrupted));
 }
 
-struct Uncaught {
-  ErrorKind kind = ErrorKind::cannot_read_write;
-  bool is_internal = false;
-  std::string message = "not enough memory";
-};
-
-/// Without an exception a library gave up its threads because another one could not be started.
-Uncaught uncaught() {
-  if (!std::current_exception()) return {};
-  try {
-    std::rethrow_exception(std::current_exception());
-  } catch (const Error& error) {
-    return {.kind = error.kind(), .message = error.what()};
-  } catch (const std::exception& error) {
-    if (is_for_lack_of_memory(error)) return {};
-    return {.is_internal = true, .message = fmt::format("internal error: {}", error.what())};
-  } catch (...) {
-    return {.is_internal = true, .message = "internal error"};
-  }
-}
-
 void end_of_uncaught() noexcept {
-  const Uncaught thrown = uncaught();
-  const int code = thrown.is_internal ? 1 : static_cast<int>(thrown.kind);
+  Ranks::Failure failure = failure_of(std::current_exception());
   Ending none = Ending::none;
   if (!ending.compare_exchange_strong(none, Ending::from_outside))
     while (true) ::pause();
-  tell_and_end(one_line(thrown.message), code);
+  tell_and_end(one_line(std::move(failure.message)), failure.exit_code);
 }
 
 std::chrono::milliseconds tell_listener() {
@@ -153,22 +130,12 @@ void note(int) {
 
 }  // namespace
 
-bool is_for_lack_of_memory(const std::exception& error) {
-  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return true;
-  if (const auto* const system = dynamic_cast<const std::system_error*>(&error))
-    return system->code() == std::errc::not_enough_memory ||
-           system->code() == std::errc::resource_unavailable_try_again;
-  // TBB's words for a thread that cannot be started.
-  return std::string_view(error.what()).starts_with("pthread_create has failed");
-}
-
-void end_in_one_line_whatever_is_thrown(bool json) {
+void end_in_one_line(bool json) {
   json_wanted = json;
   std::set_terminate(end_of_uncaught);
 }
 
-void watch_signals(bool json) {
-  json_wanted = json;
+void watch_signals() {
   ::sem_init(&noted, 0, 0);
   struct sigaction noting = {};
   noting.sa_handler = note;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <exception>
 #include <functional>
 #include <string>
 
@@ -10,20 +9,18 @@ namespace wheatstone::cli {
 /// From here on Ctrl-C, TERM and HUP are noted instead of ending the program at once. A run that reports progress ends
 /// itself soon after; one that is in a long call is ended 0.4 s later by another thread, which removes what is
 /// unfinished, says so and leaves with the exit code of an interrupted run. A closed pipe and a file beyond the user's
-/// limit become errors of the write instead of signals. `json`: an error is told on standard output too.
-void watch_signals(bool json);
+/// limit become errors of the write instead of signals.
+void watch_signals();
 
 /// From here on `told` is called in another thread when a signal comes, or at once where one came already; the run then
 /// has this long to end itself, whatever it has finished. For a run that waits for another program, or for its user.
 /// Empty: nobody is told.
 void on_signal(std::function<void()> told, std::chrono::milliseconds most = std::chrono::milliseconds(400));
 
-/// Whether it says that the system has no memory for what was asked: also a thread that cannot be started.
-bool is_for_lack_of_memory(const std::exception& error);
-
 /// From here on what is thrown where nothing catches it, in a thread of a library, ends the program in one line with an
-/// exit code, as any other failure, and leaves nothing unfinished. `json` as above.
-void end_in_one_line_whatever_is_thrown(bool json);
+/// exit code, as any other failure, and leaves nothing unfinished. `json`: what ends the run, a signal too, is told on
+/// standard output as well.
+void end_in_one_line(bool json);
 
 /// Throws Error{interrupted} where a signal was noted.
 void throw_if_interrupted();

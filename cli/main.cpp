@@ -42,10 +42,10 @@ int main(int argc, char** argv) {
   std::cerr.tie(nullptr);
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
   const bool json = std::ranges::find(arguments, "--json") != arguments.end();
-  wheatstone::cli::end_in_one_line_whatever_is_thrown(json);
+  wheatstone::cli::end_in_one_line(json);
   return wheatstone::cli::run_command_line(arguments, std::cout, std::cerr, wheatstone::cli::style_for_standard_error(),
-                                           [json] {
-                                             wheatstone::cli::watch_signals(json);
+                                           [] {
+                                             wheatstone::cli::watch_signals();
                                              silence_opencv();
                                            });
 }

@@ -6,17 +6,16 @@
 
 #include <algorithm>
 #include <exception>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
 #include <optional>
 #include <ostream>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "failure.h"
 #include "interrupt.h"
 #include "print_facts.h"
 #include "program.h"
@@ -27,16 +26,11 @@
 namespace wheatstone::cli {
 namespace {
 
-constexpr int internal_error = 1;
-
-int code_of(ErrorKind kind) { return static_cast<int>(kind); }
-
 /// Says on one line what went wrong, as an object too where JSON is asked for, and hands the exit code on. Of ranks
 /// that share the run, all end with what one of them says.
-int fail(const Session& session, int code, std::string message) {
-  Ranks::Failure failure = session.ranks.fail({code, std::move(message)});
-  code = failure.exit_code;
-  message = one_line(std::move(failure.message));
+int fail(const Session& session, Ranks::Failure own) {
+  auto [code, message] = session.ranks.fail(std::move(own));
+  message = one_line(std::move(message));
   run_is_over(!session.ranks.alone());
   fmt::print(session.errors, "wheatstone: {}\n", message);
   session.errors.flush();
@@ -183,21 +177,16 @@ int run_program(std::span<const std::string> arguments, Session& session, Progre
     const bool asked_for_help = error.get_exit_code() == 0;
     if (asked_for_help) return program->exit(error, session.output, session.errors);
     const bool missing_file = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
-    return fail(session, code_of(missing_file ? ErrorKind::bad_input : ErrorKind::wrong_usage),
-                usage_message(*program, error));
+    throw Error(missing_file ? ErrorKind::bad_input : ErrorKind::wrong_usage, usage_message(*program, error));
   } catch (const ErrorTold& told) {
     return told.exit_code;
-  } catch (const Error& error) {
-    display.reset();
-    return fail(session, code_of(error.kind()), error.what());
   }
 }
 
 /// A result must reach its reader: a full disk or a closed pipe behind the output is an error.
-int check_output(int code, const Session& session) {
+void check_output(const Session& session) {
   session.output.flush();
-  if (session.output) return code;
-  return fail(session, code_of(ErrorKind::cannot_read_write), "standard output: cannot write");
+  if (!session.output) throw Error(ErrorKind::cannot_read_write, "standard output: cannot write");
 }
 
 }  // namespace
@@ -207,20 +196,13 @@ int run_command_line(std::span<const std::string> arguments, std::ostream& outpu
   Session session{output, errors};
   // Known before the line is understood, so that a line that is not gets its error as JSON too.
   session.json = std::ranges::find(arguments, "--json") != arguments.end();
-  // What no one planned for still ends in one line.
   try {
     if (begin) begin();
-    return check_output(run_program(arguments, session, progress), session);
-  } catch (const cv::Exception& error) {
-    if (error.code == cv::Error::StsNoMem) {
-      return fail(session, code_of(ErrorKind::cannot_read_write), "not enough memory");
-    }
-    return fail(session, internal_error, fmt::format("internal error in OpenCV: {} ({})", error.err, error.func));
-  } catch (const std::exception& error) {
-    if (is_for_lack_of_memory(error)) return fail(session, code_of(ErrorKind::cannot_read_write), "not enough memory");
-    if (dynamic_cast<const std::system_error*>(&error) != nullptr)
-      return fail(session, code_of(ErrorKind::cannot_read_write), error.what());
-    return fail(session, internal_error, fmt::format("internal error: {}", error.what()));
+    const int code = run_program(arguments, session, progress);
+    check_output(session);
+    return code;
+  } catch (...) {
+    return fail(session, failure_of(std::current_exception()));
   }
 }
 

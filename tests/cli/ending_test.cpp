@@ -6,14 +6,20 @@
 #include <time.h>
 
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <new>
+#include <opencv2/core.hpp>
 #include <random>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
+#include "cli/failure.h"
 #include "cli/run_program.h"
+#include "wheatstone/error.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
@@ -142,6 +148,35 @@ TEST(Ending, WithoutMemoryIsExitCodeFour) {
   }
 }
 #endif
+
+TEST(Ending, OfAnExceptionIsOneExitCodeAndOneLine) {
+  const std::string lack = "not enough memory";
+  const struct {
+    std::exception_ptr thrown;
+    int exit_code;
+    std::string message;
+  } cases[] = {
+      {nullptr, 4, lack},
+      {std::make_exception_ptr(std::bad_alloc()), 4, lack},
+      {std::make_exception_ptr(std::bad_array_new_length()), 4, lack},
+      {std::make_exception_ptr(std::system_error(EAGAIN, std::generic_category())), 4, lack},
+      {std::make_exception_ptr(std::system_error(ENOMEM, std::system_category())), 4, lack},
+      {std::make_exception_ptr(std::runtime_error("pthread_create has failed: too many")), 4, lack},
+      {std::make_exception_ptr(cv::Exception(cv::Error::StsNoMem, "Failed to allocate", "alloc", "a.cpp", 1)), 4, lack},
+      {std::make_exception_ptr(cv::Exception(cv::Error::StsAssert, "a < b", "f", "a.cpp", 1)), 1,
+       "internal error in OpenCV: a < b (f)"},
+      {std::make_exception_ptr(std::filesystem::filesystem_error("no", std::make_error_code(std::errc::io_error))), 4,
+       "filesystem error: no: Input/output error"},
+      {std::make_exception_ptr(Error(ErrorKind::wrong_usage, "--x: is 1")), 2, "--x: is 1"},
+      {std::make_exception_ptr(Error(ErrorKind::interrupted, "interrupted")), 5, "interrupted"},
+      {std::make_exception_ptr(std::logic_error("odd")), 1, "internal error: odd"},
+      {std::make_exception_ptr(7), 1, "internal error"}};
+  for (const auto& expected : cases) {
+    const auto [exit_code, message] = cli::failure_of(expected.thrown);
+    EXPECT_EQ(message, expected.message);
+    EXPECT_EQ(exit_code, expected.exit_code) << message;
+  }
+}
 
 TEST(Ending, OnAFullDiskIsExitCodeFour) {
   const TemporaryFolder folder;

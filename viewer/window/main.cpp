@@ -18,7 +18,9 @@
 #include <string_view>
 #include <thread>
 
+#include "cli/failure.h"
 #include "cli/interrupt.h"
+#include "cli/print_facts.h"
 #include "cli/view_arguments.h"
 #include "end_signals.h"
 #include "kept_settings.h"
@@ -189,18 +191,17 @@ int run_view(int argc, char** argv) {
 }  // namespace wheatstone::viewer
 
 int main(int argc, char** argv) {
+  wheatstone::cli::end_in_one_line(false);
   try {
-    wheatstone::cli::watch_signals(false);
+    wheatstone::cli::watch_signals();
     cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     qInstallMessageHandler(wheatstone::viewer::on_message_of_qt);
     const bool is_study = argc > 1 && std::string_view(argv[1]) == "study";
     return is_study ? wheatstone::viewer::run_study(argc - 1, argv + 1) : wheatstone::viewer::run_view(argc, argv);
-  } catch (const wheatstone::Error& error) {
-    std::fprintf(stderr, "wheatstone: %s\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "wheatstone: internal error: %s\n", error.what());
-    return EXIT_FAILURE;
+  } catch (...) {
+    const wheatstone::Ranks::Failure failure = wheatstone::cli::failure_of(std::current_exception());
+    std::fprintf(stderr, "wheatstone: %s\n", wheatstone::cli::one_line(failure.message).c_str());
+    return failure.exit_code;
   }
 }

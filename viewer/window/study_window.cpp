@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <exception>
 
+#include "cli/failure.h"
+#include "cli/print_facts.h"
 #include "viewer/compose.h"
 #include "wheatstone/error.h"
 
@@ -69,12 +71,10 @@ template <class Action>
 void StudyWindow::guarded(Action action) {
   try {
     action();
-  } catch (const Error& error) {
-    fmt::print(stderr, "wheatstone: {}\n", error.what());
-    end(static_cast<int>(error.kind()));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "wheatstone: internal error: {}\n", error.what());
-    end(EXIT_FAILURE);
+  } catch (...) {
+    const Ranks::Failure failure = cli::failure_of(std::current_exception());
+    fmt::print(stderr, "wheatstone: {}\n", cli::one_line(failure.message));
+    end(failure.exit_code);
   }
 }
 
