@@ -7,7 +7,7 @@ namespace wheatstone {
 MeasuredScene measure_scene(const StereoPair& frame, RectifyPolicy policy, const Progress& progress) {
   MeasuredScene scene;
   try {
-    const PreparedPair pair = prepare_pair(frame, {.rectify = policy, .keep_size = true}, progress);
+    const PreparedPair pair = prepare_pair(frame, {.rectify = policy, .keep_size = true, .ask_eyes = false}, progress);
     scene.rectification = {pair.rows.has_value(), pair.rectification, pair.colour};
     scene.note = pair.rectification ? rectified_note(pair) : row_warning(pair);
   } catch (const Error& error) {

@@ -186,7 +186,7 @@ PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& opti
   check_pictures(photographs);
   PreparedPair prepared;
   prepare_rows(std::move(photographs), options, progress, prepared);
-  prepared.eyes = eye_order(prepared.pictures);
+  if (options.ask_eyes) prepared.eyes = eye_order(prepared.pictures);
   return prepared;
 }
 

@@ -20,6 +20,7 @@ enum class RectifyPolicy {
 struct PreparePairOptions {
   RectifyPolicy rectify = RectifyPolicy::automatic;
   bool keep_size = false;  ///< as RectifyOptions has it
+  bool ask_eyes = true;    ///< whether `eyes` is looked for
 };
 
 /// A pair that can be matched, and how well its rows fit.
@@ -32,7 +33,7 @@ struct PreparedPair {
   std::optional<Rectification> rectification;          ///< none: the pictures are the photographs
   std::optional<ColourTransfer> colour;                ///< of a rectified pair, as RectifiedPair has it
   std::string why_not_rectified;                       ///< where that was tried and failed; empty: it was not
-  EyeOrder eyes = EyeOrder::undecided;                 ///< of `pictures`
+  EyeOrder eyes = EyeOrder::undecided;                 ///< of `pictures`, where that was asked
 };
 
 /// Looks for what makes two pictures no pair, and rectifies them where that is wanted. The rows are measured on
