@@ -273,9 +273,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
 /// Paints each photograph; one that fails does not stop the others.
 void paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, const PaintPhotographOptions& options,
                const Session& session) {
-  // Its folder goes again where nothing is put into it.
-  UnfinishedOutput folder;
-  folder.begin(fs::path(arguments.folder) / ".none", [] {});
+  const MissingFolders made(arguments.folder);
   if (!fs::is_directory(arguments.folder))
     throw Error(ErrorKind::cannot_read_write, fmt::format("{}: is a file, expected a folder", arguments.folder));
   Json photographs = Json::array();
