@@ -166,9 +166,9 @@ void refuse_options_without_effect(const CLI::App& command, const Arguments& arg
   const auto refuse = [&](const std::vector<std::string>& options, std::string_view situation, std::string_view where) {
     refuse_options(command, options, situation, where);
   };
-  if (style.marks == Marks::strokes)
+  if (is_of_strokes(style))
     refuse({"--propagation"}, "on the strokes of a film", "they are planned in the view between the eyes");
-  if (style.marks != Marks::strokes)
+  if (!is_of_strokes(style))
     refuse({"--fade-in", "--fade-out"}, fmt::format("on a painting of {}", name_of(style.marks)),
            "it works with strokes");
   const RotoscopeOptions& frames = arguments.options.frames;

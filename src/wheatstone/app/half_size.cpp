@@ -25,7 +25,7 @@ Image<Rgb8> at_half_size(const Image<Rgb8>& picture) {
 
 bool may_be_planned_at_half_size(const Style& style, int width) {
   constexpr float least_radius_px = 3;
-  return style.marks == Marks::strokes && ScaledStyle(style, width).radii_px.back() >= least_radius_px;
+  return is_of_strokes(style) && ScaledStyle(style, width).radii_px.back() >= least_radius_px;
 }
 
 Style at_half_size(Style style) {

@@ -56,6 +56,7 @@ void place_chain(const SeenLayer& layer, const FlatStroke& stroke, int band_top,
     hn::StoreU(hn::IfThenElse(has_length, hn::Mul(dx, inverse), one), f, chain.course_x.data() + i);
     hn::StoreU(hn::Mul(dy, inverse), f, chain.course_y.data() + i);
     hn::StoreU(length, f, chain.length.data() + i);
+    hn::StoreU(hn::LoadU(f, layer.flat.along.data() + stroke.first_vertex + i), f, chain.begins_px.data() + i);
   }
 }
 
@@ -154,10 +155,28 @@ void find_band_extents(const SeenLayer& layer, const FlatStroke& stroke, int can
   for (std::size_t i = 0; i < segments; ++i) find_columns(i, canvas_width, band);
 }
 
+/// One segment's places along and across the stroke, which are linear in the pixel.
+struct PlacesOfSegment {
+  PlacesOfSegment(const FlatStroke& stroke, std::size_t segment, std::size_t segments, const Chain& chain)
+      : begin(hn::Set(f, chain.begins_px[segment])),
+        length(hn::Set(
+            f, (segment + 1 < segments ? chain.begins_px[segment + 1] : stroke.length) - chain.begins_px[segment])),
+        least(hn::Set(f, segment == 0 ? -ends : 0.f)),
+        most(hn::Set(f, segment + 1 == segments ? ends : 1.f)),
+        course_x(hn::Set(f, chain.course_x[segment])),
+        course_y(hn::Set(f, chain.course_y[segment])),
+        facing(hn::Set(f, light_x * chain.course_y[segment] - light_y * chain.course_x[segment])) {}
+
+  static constexpr float ends = 1e6f;  ///< the first and the last segment go on
+  static constexpr float light_x = 0.6f, light_y = 0.8f;
+  Floats f;
+  hn::Vec<Floats> begin, length, least, most, course_x, course_y, facing;
+};
+
 /// Lowers the band's distances to those of one segment, over the pixels that it paints; `tested`: but for those where a
-/// surface hides it.
-template <bool tested>
-void lower_to_segment(std::size_t segment, const HiddenBelow& below, DistanceBand& band) {
+/// surface hides it. `placed`: notes the places along and across the stroke, too.
+template <bool tested, bool placed>
+void lower_to_segment(const FlatStroke& stroke, std::size_t segment, const HiddenBelow& below, DistanceBand& band) {
   const Floats f;
   const int lanes = static_cast<int>(hn::Lanes(f));
   const Chain& chain = band.chain;
@@ -175,6 +194,7 @@ void lower_to_segment(std::size_t segment, const HiddenBelow& below, DistanceBan
   float* const band_squared = band.squared.data();
   const float* const all_hidden_below = below.pixels.data();
   const float along_y_step = chain.along_y[segment];
+  const PlacesOfSegment places(stroke, segment, std::max(stroke.vertex_count, 2u) - 1, chain);
   const int end_row = chain.end_row[segment];
   for (int row = chain.first_row[segment]; row < end_row; ++row) {
     const int begin = std::max(begins[row], band_begins[row]), end = std::min(ends[row], band_ends[row]);
@@ -187,7 +207,8 @@ void lower_to_segment(std::size_t segment, const HiddenBelow& below, DistanceBan
     auto px = counted_from(f, static_cast<float>(begin) + first_x);
     const auto end_x = hn::Set(f, static_cast<float>(end) - 0.5f + first_x);
     for (int x = begin; x < end; x += lanes) {
-      const auto t = hn::Min(hn::Max(hn::MulAdd(px, along_x, along_y), zero), one);
+      const auto along = hn::MulAdd(px, along_x, along_y);
+      const auto t = hn::Min(hn::Max(along, zero), one);
       const auto ex = hn::NegMulAdd(t, dx, px);
       const auto ey = hn::NegMulAdd(t, dy, py);
       auto distance = hn::MulAdd(ex, ex, hn::Mul(ey, ey));
@@ -197,7 +218,18 @@ void lower_to_segment(std::size_t segment, const HiddenBelow& below, DistanceBan
             hn::Or(hn::Ge(px, end_x), hn::Lt(hn::MulAdd(t, disparity_step, disparity), hn::LoadU(f, hidden_below + x)));
         distance = hn::IfThenElse(is_hidden, far, distance);
       }
-      hn::StoreU(hn::Min(hn::LoadU(f, squared + x), distance), f, squared + x);
+      const auto before = hn::LoadU(f, squared + x);
+      hn::StoreU(hn::Min(before, distance), f, squared + x);
+      if constexpr (placed) {
+        const auto is_nearer = hn::Lt(distance, before);
+        const auto note = [&](auto value, std::vector<float>& plane) {
+          float* const to = plane.data() + row * stride + x;
+          hn::StoreU(hn::IfThenElse(is_nearer, value, hn::LoadU(f, to)), f, to);
+        };
+        note(hn::MulAdd(hn::Min(hn::Max(along, places.least), places.most), places.length, places.begin), band.along);
+        note(hn::NegMulAdd(places.course_y, px, hn::Mul(places.course_x, py)), band.across);
+        note(places.facing, band.facing);
+      }
       px = hn::Add(px, step);
     }
   }
@@ -216,7 +248,9 @@ bool may_be_hidden(const FlatStroke& stroke, const HiddenBelow& below, const Dis
   return false;
 }
 
-void measure_band(const FlatStroke& stroke, const HiddenBelow& below, DistanceBand& band) {
+void measure_band(const FlatStroke& stroke, const HiddenBelow& below, bool with_places, DistanceBand& band) {
+  if (with_places)
+    for (std::vector<float>* plane : {&band.along, &band.across, &band.facing}) plane->resize(band.squared.size());
   const Floats f;
   const int lanes = static_cast<int>(hn::Lanes(f));
   const auto far = hn::Set(f, far_away);
@@ -228,10 +262,12 @@ void measure_band(const FlatStroke& stroke, const HiddenBelow& below, DistanceBa
   const bool tested = may_be_hidden(stroke, below, band);
   const std::size_t segments = std::max(stroke.vertex_count, 2u) - 1;
   for (std::size_t i = 0; i < segments; ++i) {
-    if (tested) {
-      lower_to_segment<true>(i, below, band);
+    if (with_places) {
+      tested ? lower_to_segment<true, true>(stroke, i, below, band)
+             : lower_to_segment<false, true>(stroke, i, below, band);
     } else {
-      lower_to_segment<false>(i, below, band);
+      tested ? lower_to_segment<true, false>(stroke, i, below, band)
+             : lower_to_segment<false, false>(stroke, i, below, band);
     }
   }
 }
@@ -250,8 +286,8 @@ void find_extents(const SeenLayer& layer, const FlatStroke& stroke, int canvas_w
   HWY_DYNAMIC_DISPATCH(find_band_extents)(layer, stroke, canvas_width, aside_px, band);
 }
 
-void measure_distances(const FlatStroke& stroke, const HiddenBelow& below, DistanceBand& band) {
-  HWY_DYNAMIC_DISPATCH(measure_band)(stroke, below, band);
+void measure_distances(const FlatStroke& stroke, const HiddenBelow& below, bool with_places, DistanceBand& band) {
+  HWY_DYNAMIC_DISPATCH(measure_band)(stroke, below, with_places, band);
 }
 
 }  // namespace wheatstone

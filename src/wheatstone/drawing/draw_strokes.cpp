@@ -154,7 +154,8 @@ Piece piece_of(const FlatStroke& stroke, std::uint32_t index, const PreparedSurf
       .right = stroke.right + reach,
       .farthest = stroke.farthest_disparity,
       .nearest = stroke.nearest_disparity,
-      .paint = {stroke.red, stroke.green, stroke.blue, stroke.opacity, stroke.disparity, stroke.depth_slope},
+      .paint = {stroke.red, stroke.green, stroke.blue, stroke.opacity, stroke.red_change, stroke.green_change,
+                stroke.blue_change, stroke.disparity, stroke.depth_slope},
       .views = stroke.views,
       .planned_in = kind_of(stroke.reference_view, surfaces),
       .is_rigid = stroke.is_rigid,
@@ -350,18 +351,21 @@ class BandOfViews {
     PiecesOfLayer& of_layer = layers_[above];
     const Piece& piece = of_layer.pieces[number];
     const FlatLayer& layer = painting_.layers[above].flat;
+    const Brush& brush = painting_.layers[above].brush;
     const ViewPosition view = at_work->view.position;
     if (!piece.is_rigid) {
-      draw_stroke_under({SeenLayer(layer, view), layer.strokes[piece.stroke], *below}, band_, at_work->accumulator);
+      draw_stroke_under({SeenLayer(layer, view), layer.strokes[piece.stroke], *below, brush}, band_,
+                        at_work->accumulator);
       return;
     }
     const float shift = view - central_view;
     const bool between = piece.lies_between(shift);
     Stamp& stamp = (between ? of_layer.stamps_between : of_layer.stamps)[number];
     if ((rows & ~stamp.made) != 0)
-      make({SeenLayer(layer, central_view), layer.strokes[piece.stroke], nothing_hides_}, between,
+      make({SeenLayer(layer, central_view), layer.strokes[piece.stroke], nothing_hides_, brush}, between,
            {of_views.rows & ~stamp.made, of_views.columns}, stamp);
-    lay_stamp_under({stamp, stamps_, piece.paint, *below, band_, shift, columns, rows, may_be_hidden},
+    lay_stamp_under({stamp, stamps_, piece.paint, *below, band_, shift, columns, rows, may_be_hidden,
+                     StrokeInBand{SeenLayer(layer, view), layer.strokes[piece.stroke], *below, brush}.varies()},
                     at_work->accumulator);
   }
 
@@ -380,7 +384,7 @@ class BandOfViews {
         const auto [begin, end] = (*wanted.columns)[row];
         columns_of_stamp_[row] = {begin - static_cast<int>(left), end - static_cast<int>(left)};
       }
-    make_stamp({SeenLayer(of.layer.flat, central_view, stamp.left), stroke, of.hidden_below}, width,
+    make_stamp({SeenLayer(of.layer.flat, central_view, stamp.left), stroke, of.hidden_below, of.brush}, width,
                {wanted.rows, wanted.columns != nullptr ? &columns_of_stamp_ : nullptr}, scratch_, stamp, stamps_);
   }
 
@@ -443,6 +447,8 @@ PreparedStrokes prepare_marks(const StrokePainting& painting) {
     BandedLayer& layer = prepared.layers[i];
     layer.flat = flatten(painting.layers[i]);
     layer.bands = strokes_by_band(layer.flat, painting.height);
+    layer.brush = painting.brush;
+    if (i == 0) layer.brush.dry = 0;
   });
   return prepared;
 }

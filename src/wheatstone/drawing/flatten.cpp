@@ -9,6 +9,7 @@
 
 #include "wheatstone/drawing/rasterise_internal.h"
 #include "wheatstone/marks/spline.h"
+#include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {
@@ -87,11 +88,14 @@ void add_vertices(const BendingSpline& spline, std::vector<SpatialPoint>& vertic
     greatest = {std::max(greatest.x, p.x), std::max(greatest.y, p.y), std::max(greatest.disparity, p.disparity)};
   });
   const std::size_t first = flat.x.size();
-  for (std::vector<float>* values : {&flat.x, &flat.y, &flat.disparity}) values->resize(first + vertices.size());
+  for (std::vector<float>* values : {&flat.x, &flat.y, &flat.disparity, &flat.along})
+    values->resize(first + vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     flat.x[first + i] = vertices[i].x;
     flat.y[first + i] = vertices[i].y;
     flat.disparity[first + i] = vertices[i].disparity;
+    if (i > 0) stroke.length += std::hypot(vertices[i].x - vertices[i - 1].x, vertices[i].y - vertices[i - 1].y);
+    flat.along[first + i] = stroke.length;
   }
   stroke.first_vertex = static_cast<std::uint32_t>(first);
   stroke.vertex_count = static_cast<std::uint32_t>(vertices.size());
@@ -127,16 +131,21 @@ void fit_depth(const FlatLayer& flat, FlatStroke& stroke) {
     if (std::abs(disparities[i] - stroke.disparity - stroke.depth_slope * rows[i]) > rigid_px) stroke.is_rigid = false;
 }
 
-FlatStroke without_vertices(const Stroke& source) {
+/// `place`: in its layer.
+FlatStroke without_vertices(const Stroke& source, std::size_t place) {
   FlatStroke stroke;
   stroke.radius_px = source.radius_px;
   stroke.opacity = source.opacity;
   stroke.views = source.views;
   stroke.number = source.number;
+  stroke.seed = static_cast<std::uint32_t>(hash_keys({source.number != 0 ? source.number : place}));
   stroke.reference_view = source.reference_view;
   stroke.red = source.colour.r;
   stroke.green = source.colour.g;
   stroke.blue = source.colour.b;
+  stroke.red_change = source.change.r;
+  stroke.green_change = source.change.g;
+  stroke.blue_change = source.change.b;
   return stroke;
 }
 
@@ -158,7 +167,7 @@ FlatLayer flatten(const Layer& layer, std::size_t first, std::size_t end) {
     constexpr std::size_t points_ahead = 6;
     if (i + points_ahead < end) ask_for_points(layer, layer.strokes[i + points_ahead]);
     const Stroke& source = layer.strokes[i];
-    FlatStroke& stroke = part.strokes.emplace_back(without_vertices(source));
+    FlatStroke& stroke = part.strokes.emplace_back(without_vertices(source, i));
     spline.set(ClampedSpline(layer.points_of(source), source.reference_view));
     add_vertices(spline, vertices, stroke, part);
     fit_depth(part, stroke);
@@ -183,7 +192,7 @@ FlatLayer flatten(const Layer& layer) {
   }
   FlatLayer flat;
   flat.strokes.resize(count);
-  for (std::vector<float>* values : {&flat.x, &flat.y, &flat.disparity})
+  for (std::vector<float>* values : {&flat.x, &flat.y, &flat.disparity, &flat.along})
     values->resize(vertices + FlatLayer::values_after);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
     FlatLayer& part = parts[i];
@@ -193,6 +202,7 @@ FlatLayer flatten(const Layer& layer) {
     std::ranges::copy(part.x, flat.x.begin() + to);
     std::ranges::copy(part.y, flat.y.begin() + to);
     std::ranges::copy(part.disparity, flat.disparity.begin() + to);
+    std::ranges::copy(part.along, flat.along.begin() + to);
   });
   return flat;
 }

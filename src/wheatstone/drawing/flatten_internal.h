@@ -16,15 +16,20 @@ struct FlatStroke {
   std::uint32_t vertex_count = 0;  ///< one for a dot
   float radius_px = 0;
   float opacity = 1;
-  float red = 0, green = 0, blue = 0;                   ///< 0..255
-  float farthest_disparity = 0, nearest_disparity = 0;  ///< of its points
-  float top = 0, bottom = 0;                            ///< the rows its chain spans, without the radius
-  float left = 0, right = 0;                            ///< the columns, in the central view
+  float red = 0, green = 0, blue = 0;                       ///< 0..255, where it begins
+  float red_change = 0, green_change = 0, blue_change = 0;  ///< from there to its end
+  float length = 0;                                         ///< of its chain in the central view, in pixels
+  float farthest_disparity = 0, nearest_disparity = 0;      ///< of its points
+  float top = 0, bottom = 0;                                ///< the rows its chain spans, without the radius
+  float left = 0, right = 0;                                ///< the columns, in the central view
   float disparity = 0, depth_slope = 0;  ///< disparity + depth_slope · y is about that of all of its points
   bool is_rigid = false;                 ///< … so nearly that the views see its rows shifted
   ViewRange views;
   std::uint32_t number = 0;
+  std::uint32_t seed = 0;  ///< of what its bristles leave
   ViewPosition reference_view;
+
+  bool changes_colour() const { return red_change != 0 || green_change != 0 || blue_change != 0; }
 };
 
 /// The strokes of one layer, in drawing order, for any view; vertices as a structure of arrays. A vertex at x in the
@@ -33,6 +38,7 @@ struct FlatLayer {
   static constexpr std::size_t values_after =
       2 * std::size_t{Canvas::widest_vector};  ///< the last vertex: vectors may be loaded
   std::vector<float> x, y, disparity;
+  std::vector<float> along;  ///< length of the stroke's chain up to the vertex, in the central view
   std::vector<FlatStroke> strokes;
 
   // Strokes of one place lie far apart in memory: what is drawn soon is asked for in good time.

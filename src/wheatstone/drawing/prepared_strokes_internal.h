@@ -10,6 +10,7 @@ namespace wheatstone {
 struct BandedLayer {
   FlatLayer flat;
   std::vector<std::vector<std::uint32_t>> bands;
+  Brush brush = {};
 };
 
 /// All of a painting of strokes that no view changes: a view moves its vertices along their rows.

@@ -29,8 +29,8 @@ void Chain::resize(std::size_t count) {
   const std::size_t padded = count + Canvas::widest_vector;
   if (x.size() >= padded) return;
   for (std::vector<float>* values :
-       {&x, &y, &dx, &dy, &disparity, &disparity_step, &along_x, &along_y, &course_x, &course_y, &length, &along_slope,
-        &along_middle, &along_half, &across_slope, &across_half})
+       {&x, &y, &dx, &dy, &disparity, &disparity_step, &along_x, &along_y, &course_x, &course_y, &length, &begins_px,
+        &along_slope, &along_middle, &along_half, &across_slope, &across_half})
     values->resize(padded);
   for (std::vector<int>* rows : {&first_row, &end_row}) rows->resize(padded);
   for (std::vector<int>* columns : {&begin, &end}) columns->resize(padded * band_rows);
@@ -66,8 +66,8 @@ bool may_be_seen(const SeenLayer& seen, const FlatStroke& stroke, const Distance
 /// Draws a layer band by band, on a canvas of some size. Bands for which `begin(top, drawn)` is false are left out;
 /// `finish(top, drawn)` takes what was drawn.
 template <class Begin, class Finish>
-void draw_bands(const Layer& layer, ViewPosition view, const Hiding& hiding, int width, int height, Begin begin,
-                Finish finish) {
+void draw_bands(const Layer& layer, const Brush& brush, ViewPosition view, const Hiding& hiding, int width, int height,
+                Begin begin, Finish finish) {
   const FlatLayer flat = flatten(layer);
   const SeenLayer seen(flat, view);
   const auto bands = strokes_by_band(flat, height);
@@ -92,7 +92,7 @@ void draw_bands(const Layer& layer, ViewPosition view, const Hiding& hiding, int
       if (nearer >= FlatLayer::vertices_ahead) flat.ask_for_vertices(bands[i][nearer - FlatLayer::vertices_ahead]);
       const FlatStroke& stroke = flat.strokes[bands[i][nearer]];
       if (stroke.views.contains(view) && may_be_seen(seen, stroke, band, drawn))
-        draw_stroke_under({seen, stroke, hides.own}, band, drawn);
+        draw_stroke_under({seen, stroke, hides.own, brush}, band, drawn);
     }
     finish(top, drawn);
     kept.push(std::move(drawn));
@@ -101,13 +101,14 @@ void draw_bands(const Layer& layer, ViewPosition view, const Hiding& hiding, int
 
 }  // namespace
 
-void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas) {
+void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas, const Brush& brush) {
   draw_bands(
-      layer, view, hiding, canvas.width, canvas.height, [](int, const FrontToBackAccumulator&) { return true; },
+      layer, brush, view, hiding, canvas.width, canvas.height, [](int, const FrontToBackAccumulator&) { return true; },
       [&](int top, FrontToBackAccumulator& drawn) { lay_over(drawn, top, canvas); });
 }
 
-Image<std::uint8_t> left_bare(const Layer& layer, ViewPosition view, const Hiding& hiding, Image<std::uint8_t> bare) {
+Image<std::uint8_t> left_bare(const Layer& layer, ViewPosition view, const Hiding& hiding, Image<std::uint8_t> bare,
+                              const Brush& brush) {
   constexpr float least_cover = 0.5f;  // of what is not bare
   const auto begin = [&](int top, FrontToBackAccumulator& drawn) {
     bool any = false;
@@ -125,7 +126,7 @@ Image<std::uint8_t> left_bare(const Layer& layer, ViewPosition view, const Hidin
       }
     }
   };
-  draw_bands(layer, view, hiding, bare.width(), bare.height(), begin, finish);
+  draw_bands(layer, brush, view, hiding, bare.width(), bare.height(), begin, finish);
   return bare;
 }
 

@@ -48,6 +48,7 @@ struct Chain {
   std::vector<float> disparity, disparity_step;
   std::vector<float> along_x, along_y;  ///< (dx, dy) by the squared length; 0 where that is 0
   std::vector<float> course_x, course_y, length;
+  std::vector<float> begins_px;  ///< length of the stroke before each, in the central view
 
   // A segment paints a rectangle: on a row, those columns that are both in a run along it and in one across it.
   std::vector<float> along_slope, along_middle, along_half;
@@ -93,7 +94,11 @@ struct DistanceBand {
   int top;  ///< the picture's row that is the band's first
   int row_count;
   int stride;
-  std::vector<float> squared;      ///< row_count × stride
+  std::vector<float> squared;  ///< row_count × stride
+  /// The same for what varies within a stroke, empty until one does: the place along the stroke, in pixels from its
+  /// first point, which ends reach beyond; the place across it, to the right of its course positive; how much of the
+  /// light from the upper left meets what faces right of the course, −1..1.
+  std::vector<float> along, across, facing;
   int first_row = 0, end_row = 0;  ///< the band's rows that the stroke touches
   std::vector<int> begin, end;     ///< the columns that it touches in each of them
   Chain chain;
@@ -105,7 +110,8 @@ void find_extents(const SeenLayer& layer, const FlatStroke& stroke, int canvas_w
                   DistanceBand& band);
 
 /// Then fills the band with the stroke's squared distances, within its extents; far away where a surface hides it.
-void measure_distances(const FlatStroke& stroke, const HiddenBelow& below, DistanceBand& band);
+/// `with_places`: also with the places along and across it.
+void measure_distances(const FlatStroke& stroke, const HiddenBelow& below, bool with_places, DistanceBand& band);
 
 /// What hides the marks of each kind in a band.
 struct BandHiding {
@@ -234,6 +240,10 @@ struct StrokeInBand {
   const SeenLayer& layer;
   const FlatStroke& stroke;
   const HiddenBelow& hidden_below;
+  const Brush& brush;
+
+  /// Whether its paint is not the same everywhere.
+  bool varies() const { return brush.bristle_px > 0 || stroke.changes_colour(); }
 };
 
 /// Draws what is seen of a stroke under everything that was drawn before, with vectors of whatever width the processor
@@ -275,6 +285,10 @@ struct Stamps {
   std::vector<std::int32_t> begins, ends;   ///< the columns that it covers when it is moved by less than one
   std::size_t line_count = 0;
   std::vector<std::uint16_t> values = std::vector<std::uint16_t>(2 * slack);
+  /// Of strokes whose paint varies, beside the values: the share of the colour's change, in 255ths, and the tone, in
+  /// half levels from `even_tone` on. Both are empty until there is such a stroke.
+  std::vector<std::uint8_t> shares, tones;
+  static constexpr std::uint8_t even_tone = 128;
 };
 
 /// Rows of a band, a bit each, and in each those columns that matter.
@@ -288,9 +302,10 @@ struct RowsOfStamp {
 void make_stamp(const StrokeInBand& stroke, int width, const RowsOfStamp& wanted, DistanceBand& band, Stamp& stamp,
                 Stamps& stamps);
 
-/// What of a stroke its stamps do not hold.
+/// Colour, opacity and disparity of a stamped stroke.
 struct StampPaint {
   float red, green, blue, opacity;
+  float red_change, green_change, blue_change;
   float disparity, depth_slope;
 };
 
@@ -305,6 +320,7 @@ struct StampInBand {
   ColumnRun columns;   ///< of the picture, in which all of it lies that is to be seen
   std::uint32_t rows;  ///< the open ones, a bit each
   bool tested;         ///< a surface may hide some of it
+  bool varies;         ///< its paint is not the same everywhere
 };
 
 /// Those of some rows of a band, a bit each, in which one of the columns is open and shown.

@@ -12,6 +12,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "wheatstone/drawing/bristles-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace wheatstone::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -52,29 +54,46 @@ HWY_INLINE hn::Mask<Floats> lanes_of(std::uint32_t bits) {
   return hn::LoadMaskBits(Floats(), bytes);
 }
 
-/// A stroke's colour, which is slid under what is drawn already.
+/// What some pixels of a stroke show: their cover, 0..1, and where its paint varies the share of the colour's change
+/// and the tone.
+struct PaintHere {
+  hn::Vec<Floats> cover, share, tone;
+};
+
+/// A stroke's colour, which is slid under what is drawn already. `varies`: it is not the same everywhere.
+template <bool varies>
 struct Paint {
   template <class Stroke>
   explicit Paint(const Stroke& stroke)
       : red(hn::Set(Floats(), stroke.red)),
         green(hn::Set(Floats(), stroke.green)),
         blue(hn::Set(Floats(), stroke.blue)),
+        red_change(hn::Set(Floats(), stroke.red_change)),
+        green_change(hn::Set(Floats(), stroke.green_change)),
+        blue_change(hn::Set(Floats(), stroke.blue_change)),
         opacity(hn::Set(Floats(), stroke.opacity)) {}
 
   /// Part of a block, from its column `i` on, as far as it lets light through. Returns which columns still do.
-  HWY_INLINE std::uint32_t slide_under(hn::Vec<Floats> cover, FrontToBackAccumulator::Block& block, int i) const {
+  HWY_INLINE std::uint32_t slide_under(const PaintHere& here, FrontToBackAccumulator::Block& block, int i) const {
     const Floats f;
     const auto through = hn::Load(f, block.light + i);
-    const auto share = hn::Mul(hn::Mul(cover, opacity), through);
-    hn::Store(hn::MulAdd(red, share, hn::Load(f, block.red + i)), f, block.red + i);
-    hn::Store(hn::MulAdd(green, share, hn::Load(f, block.green + i)), f, block.green + i);
-    hn::Store(hn::MulAdd(blue, share, hn::Load(f, block.blue + i)), f, block.blue + i);
+    const auto share = hn::Mul(hn::Mul(here.cover, opacity), through);
+    const auto add = [&](hn::Vec<Floats> level, hn::Vec<Floats> change, float* drawn) {
+      if constexpr (varies) {
+        level = hn::Add(hn::MulAdd(change, here.share, level), here.tone);
+        level = hn::Min(hn::Max(level, hn::Zero(f)), hn::Set(f, 255.f));
+      }
+      hn::Store(hn::MulAdd(level, share, hn::Load(f, drawn + i)), f, drawn + i);
+    };
+    add(red, red_change, block.red);
+    add(green, green_change, block.green);
+    add(blue, blue_change, block.blue);
     const auto left = hn::Sub(through, share);
     hn::Store(left, f, block.light + i);
     return bits_of(hn::Gt(left, hn::Set(f, FrontToBackAccumulator::dark))) << i;
   }
 
-  hn::Vec<Floats> red, green, blue, opacity;
+  hn::Vec<Floats> red, green, blue, red_change, green_change, blue_change, opacity;
 };
 
 /// Columns of a block in one row: a bit each, from the lowest.
@@ -83,26 +102,52 @@ struct ColumnsOfBlock {
   std::uint32_t columns;
 };
 
-/// Slides paint under some open columns of a block; `cover_at(i)` is that of a vector from its column `i` on.
-template <class CoverAt>
-HWY_INLINE void slide_under_block(const Paint& paint, const ColumnsOfBlock& within, FrontToBackAccumulator& accumulator,
-                                  CoverAt cover_at) {
+/// Slides paint under some open columns of a block; `paint_at(i)` is that of a vector from its column `i` on.
+template <bool varies, class PaintAt>
+HWY_INLINE void slide_under_block(const Paint<varies>& paint, const ColumnsOfBlock& within,
+                                  FrontToBackAccumulator& accumulator, PaintAt paint_at) {
   const Floats f;
   FrontToBackAccumulator::Block& block = accumulator.block(within.row, within.number);
   FrontToBackAccumulator::Cover* const most = accumulator.cover(within.row, within.number);
   std::uint32_t open = 0;
   for (int i = 0; i < FrontToBackAccumulator::block_px; i += static_cast<int>(hn::Lanes(f))) {
-    const auto cover = hn::IfThenElseZero(lanes_of(within.columns >> i), cover_at(i));
-    if (most != nullptr) hn::StoreU(hn::Max(cover, hn::LoadU(f, most->data() + i)), f, most->data() + i);
-    open |= paint.slide_under(cover, block, i);
+    PaintHere here = paint_at(i);
+    here.cover = hn::IfThenElseZero(lanes_of(within.columns >> i), here.cover);
+    if (most != nullptr) hn::StoreU(hn::Max(here.cover, hn::LoadU(f, most->data() + i)), f, most->data() + i);
+    open |= paint.slide_under(here, block, i);
   }
   accumulator.set_open_columns(within.row, within.number, open);
 }
 
+/// The paint of a row of a band, from column `x` on, once distances and places are measured.
+HWY_INLINE Bristles::Paint paint_of_row(const Bristles& bristles, const DistanceBand& band, int row, int x) {
+  const Floats f;
+  const std::size_t at =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(band.stride) + static_cast<std::size_t>(x);
+  return bristles.at({hn::Sqrt(hn::LoadU(f, band.squared.data() + at)), hn::LoadU(f, band.along.data() + at),
+                      hn::LoadU(f, band.across.data() + at), hn::LoadU(f, band.facing.data() + at)});
+}
+
+/// Slides what is measured of a stroke under what is drawn; `paint_at(row, x)` is the paint of a vector.
+template <bool varies, class PaintAt>
+HWY_INLINE void slide_band_under(const StrokeInBand& of, const DistanceBand& band, FrontToBackAccumulator& accumulator,
+                                 PaintAt paint_at) {
+  constexpr int block_px = FrontToBackAccumulator::block_px;
+  const Paint<varies> paint(of.stroke);
+  for (int row = band.first_row; row < band.end_row; ++row) {
+    for (int number = band.begin[row] / block_px; number * block_px < band.end[row]; ++number) {
+      const std::uint32_t open =
+          accumulator.open_columns(row, number) & of.hidden_below.shown_columns_in(row, number, band.row_count);
+      if (open == 0) continue;
+      slide_under_block(paint, {row, number, open}, accumulator,
+                        [&](int i) { return paint_at(row, number * block_px + i); });
+    }
+  }
+}
+
 void draw_under(const StrokeInBand& of, DistanceBand& band, FrontToBackAccumulator& accumulator) {
-  const auto& [layer, stroke, below] = of;
-  const BrushProfile brush(stroke.radius_px);
-  const Cover cover(brush);
+  const auto& [layer, stroke, below, brush] = of;
+  const Cover cover{BrushProfile(stroke.radius_px)};
   find_extents(layer, stroke, accumulator.width(), 0, band);
   bool is_seen = false;
   for (int row = band.first_row; row < band.end_row; ++row) {
@@ -116,19 +161,20 @@ void draw_under(const StrokeInBand& of, DistanceBand& band, FrontToBackAccumulat
     band.end[row] += block_px - 1 - (band.end[row] - 1) % block_px;
   }
   if (!is_seen) return;
-  measure_distances(stroke, below, band);
-  const Paint paint(stroke);
-  for (int row = band.first_row; row < band.end_row; ++row) {
-    constexpr int block_px = FrontToBackAccumulator::block_px;
-    const float* squared = band.squared.data() + static_cast<std::size_t>(row) * band.stride;
-    for (int number = band.begin[row] / block_px; number * block_px < band.end[row]; ++number) {
-      const std::uint32_t open =
-          accumulator.open_columns(row, number) & below.shown_columns_in(row, number, band.row_count);
-      if (open == 0) continue;
-      slide_under_block(paint, {row, number, open}, accumulator,
-                        [&](int i) { return cover.of(hn::LoadU(Floats(), squared + number * block_px + i)); });
-    }
+  measure_distances(stroke, below, of.varies(), band);
+  const auto zero = hn::Zero(Floats()), one = hn::Set(Floats(), 1.f);
+  if (of.varies()) {
+    const Bristles bristles(stroke, brush);
+    slide_band_under<true>(of, band, accumulator, [&](int row, int x) -> PaintHere {
+      const Bristles::Paint paint = paint_of_row(bristles, band, row, x);
+      return {hn::Min(hn::Max(paint.cover, zero), one), paint.share, paint.tone};
+    });
+    return;
   }
+  slide_band_under<false>(of, band, accumulator, [&](int row, int x) -> PaintHere {
+    const float* squared = band.squared.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(band.stride);
+    return {cover.of(hn::LoadU(Floats(), squared + x)), zero, zero};
+  });
 }
 
 /// Lays the rows of a block over a canvas. Where no light comes through, some stroke covers it.
@@ -159,23 +205,22 @@ void lay_band_over(FrontToBackAccumulator& accumulator, int top, Canvas& canvas)
                        number * FrontToBackAccumulator::block_px, top + row, canvas);
 }
 
-/// Writes the levels of a row from the value `first` on. Returns where they end; a vector of values after that may be
-/// written, too.
-std::size_t write_line(const float* squared, const BrushProfile& brush, const ColumnRun& columns, std::size_t first,
-                       std::size_t line, Stamps& stamps) {
+/// Writes the levels of a row from the value `first` on; `level_at(x, value)` gives those of a vector from column x on,
+/// which stand from that value on. Returns where they end; a vector of values after that may be written, too.
+template <class LevelAt>
+HWY_INLINE std::size_t write_line(const ColumnRun& columns, std::size_t first, std::size_t line, LevelAt level_at,
+                                  Stamps& stamps) {
   const Floats f;
   const hn::Rebind<std::uint16_t, Floats> halves;
   const hn::RebindToSigned<Floats> integers;
   const int lanes = static_cast<int>(hn::Lanes(f));
-  const auto slope = hn::Set(f, -Stamp::steps / brush.rim_px);
-  const auto offset = hn::Set(f, Stamp::steps * (brush.middle_px / brush.rim_px + 0.5f) + Stamp::zero + 0.5f);
   const auto least = hn::Zero(f), most = hn::Set(f, Stamp::most), no_cover = hn::Set(f, Stamp::zero + 1);
   std::uint16_t* levels = stamps.values.data() + first;
   std::fill_n(levels, Stamps::margin, std::uint16_t{0});
   levels += Stamps::margin;
   int from = columns.end, to = columns.begin;
   for (int x = columns.begin; x < columns.end; x += lanes) {
-    const auto cover = hn::MulAdd(hn::Sqrt(hn::LoadU(f, squared + x)), slope, offset);
+    const auto cover = level_at(x, first + Stamps::margin + static_cast<std::size_t>(x - columns.begin));
     hn::StoreU(hn::DemoteTo(halves, hn::ConvertTo(integers, hn::Min(hn::Max(cover, least), most))), halves,
                levels + (x - columns.begin));
     const std::uint32_t covered = bits_of(hn::Ge(cover, no_cover));
@@ -192,10 +237,23 @@ std::size_t write_line(const float* squared, const BrushProfile& brush, const Co
   return first + 2 * Stamps::margin + static_cast<std::size_t>(to - columns.begin);
 }
 
+/// The share of the colour's change and the tone of some pixels, beside their levels.
+HWY_INLINE void store_shades(const Bristles::Paint& paint, std::size_t value, Stamps& stamps) {
+  const Floats f;
+  const hn::RebindToSigned<Floats> integers;
+  const hn::Rebind<std::uint8_t, Floats> bytes;
+  const auto byte = [&](auto level) {
+    return hn::DemoteTo(bytes, hn::ConvertTo(integers, hn::Min(hn::Max(level, hn::Zero(f)), hn::Set(f, 255.f))));
+  };
+  const auto half = hn::Set(f, 0.5f);
+  hn::StoreU(byte(hn::MulAdd(paint.share, hn::Set(f, 255.f), half)), bytes, stamps.shares.data() + value);
+  hn::StoreU(byte(hn::MulAdd(paint.tone, hn::Set(f, 2.f), hn::Set(f, Stamps::even_tone + 0.5f))), bytes,
+             stamps.tones.data() + value);
+}
+
 void make_stamp(const StrokeInBand& of, int width, const RowsOfStamp& wanted, DistanceBand& band, Stamp& stamp,
                 Stamps& stamps) {
-  const auto& [layer, stroke, below] = of;
-  const BrushProfile brush(stroke.radius_px);
+  const auto& [layer, stroke, below, brush] = of;
   find_extents(layer, stroke, width, Stamps::aside_px, band);
   for (int row = band.first_row; row < band.end_row; ++row) {
     if ((wanted.rows >> row & 1) == 0) {
@@ -206,7 +264,7 @@ void make_stamp(const StrokeInBand& of, int width, const RowsOfStamp& wanted, Di
       band.end[row] = std::min(band.end[row], columns.end);
     }
   }
-  measure_distances(stroke, below, band);
+  measure_distances(stroke, below, of.varies(), band);
   if (stamp.made == 0) {
     stamp.first_row = band.first_row;
     stamp.end_row = std::max(band.end_row, band.first_row);
@@ -217,11 +275,35 @@ void make_stamp(const StrokeInBand& of, int width, const RowsOfStamp& wanted, Di
   for (int row = band.first_row; row < band.end_row; ++row)
     most += 2 * Stamps::margin + static_cast<std::size_t>(std::max(band.end[row] - band.begin[row], 0));
   stamps.values.resize(most);
-  for (int row = band.first_row; row < band.end_row; ++row) {
-    if (band.begin[row] >= band.end[row]) continue;
-    next = write_line(band.squared.data() + static_cast<std::size_t>(row) * band.stride, brush,
-                      {band.begin[row], band.end[row]}, next,
-                      stamp.first_line + static_cast<std::size_t>(row - stamp.first_row), stamps);
+  if (of.varies()) {
+    stamps.shares.resize(most);
+    stamps.tones.resize(most, Stamps::even_tone);
+  }
+  const auto write_lines = [&](auto level_at) {
+    for (int row = band.first_row; row < band.end_row; ++row) {
+      if (band.begin[row] >= band.end[row]) continue;
+      next = write_line(
+          {band.begin[row], band.end[row]}, next, stamp.first_line + static_cast<std::size_t>(row - stamp.first_row),
+          [&](int x, std::size_t value) { return level_at(row, x, value); }, stamps);
+    }
+  };
+  const Floats f;
+  if (of.varies()) {
+    const Bristles bristles(stroke, brush);
+    write_lines([&](int row, int x, std::size_t value) {
+      const Bristles::Paint paint = paint_of_row(bristles, band, row, x);
+      store_shades(paint, value, stamps);
+      return hn::MulAdd(paint.cover, hn::Set(f, Stamp::steps), hn::Set(f, Stamp::zero + 0.5f));
+    });
+  } else {
+    const BrushProfile profile(stroke.radius_px);
+    const auto slope = hn::Set(f, -Stamp::steps / profile.rim_px);
+    const auto offset = hn::Set(f, Stamp::steps * (profile.middle_px / profile.rim_px + 0.5f) + Stamp::zero + 0.5f);
+    write_lines([&](int row, int x, std::size_t) {
+      const float* squared =
+          band.squared.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(band.stride);
+      return hn::MulAdd(hn::Sqrt(hn::LoadU(f, squared + x)), slope, offset);
+    });
   }
   stamps.values.resize(next + Stamps::slack);
   std::fill(stamps.values.begin() + static_cast<std::ptrdiff_t>(next), stamps.values.end(), std::uint16_t{0});
@@ -256,6 +338,15 @@ HWY_INLINE hn::Vec<Floats> interpolated(const float* weights, const std::uint16_
     level = hn::MulAdd(hn::Set(f, weights[i]), hn::ConvertTo(f, hn::PromoteTo(integers, hn::LoadU(halves, from + i))),
                        level);
   return hn::Min(hn::Max(level, hn::Zero(f)), hn::Set(f, 1.f));
+}
+
+/// What stands beside the levels, between the columns at and before a vector's; in its own steps.
+HWY_INLINE hn::Vec<Floats> interpolated(float fraction, const std::uint8_t* from) {
+  const Floats f;
+  const hn::Rebind<std::uint8_t, Floats> bytes;
+  const hn::RebindToSigned<Floats> integers;
+  const auto at = [&](int i) { return hn::ConvertTo(f, hn::PromoteTo(integers, hn::LoadU(bytes, from + i))); };
+  return hn::MulAdd(hn::Set(f, fraction), hn::Sub(at(1), at(2)), at(2));
 }
 
 /// A stamp's lines as a view sees them, from its first row on. Their places lie along a line.
@@ -342,12 +433,12 @@ HWY_INLINE RowsToDraw find_columns_to_draw(const StampInBand& of, const FrontToB
 }
 
 /// Slides what is to be drawn of some rows of a block under what is there. `tested`: as far as no surface hides it.
-template <bool tested>
+template <bool tested, bool varies>
 HWY_INLINE void lay_rows_under(const StampInBand& of, const SeenLines& seen, int number, std::uint32_t rows,
                                FrontToBackAccumulator& accumulator) {
   constexpr int block_px = FrontToBackAccumulator::block_px;
   const Floats f;
-  const Paint paint(of.paint);
+  const Paint<varies> paint(of.paint);
   const std::uint16_t* levels = of.stamps.values.data() + number * block_px;
   const float* hidden_below = tested ? of.hidden_below.pixels.data() + number * block_px : nullptr;
   const std::ptrdiff_t stride = of.band.stride;
@@ -365,7 +456,16 @@ HWY_INLINE void lay_rows_under(const StampInBand& of, const SeenLines& seen, int
         const auto disparity = hn::Set(f, seen.disparities[i]);
         cover = hn::IfThenElseZero(hn::Ge(disparity, hn::LoadU(f, hidden_below + row * stride + x)), cover);
       }
-      open |= paint.slide_under(hn::IfThenElseZero(lanes_of(seen.columns[i] >> x), cover), blocks[row], x);
+      cover = hn::IfThenElseZero(lanes_of(seen.columns[i] >> x), cover);
+      PaintHere here{cover, cover, cover};
+      if constexpr (varies) {
+        const std::ptrdiff_t value = number * block_px + seen.levels[i] + x;
+        const float fraction = static_cast<float>(seen.fraction[i]) / Fractions::count;
+        here.share = hn::Mul(interpolated(fraction, of.stamps.shares.data() + value), hn::Set(f, 1.f / 255));
+        here.tone = hn::MulAdd(interpolated(fraction, of.stamps.tones.data() + value), hn::Set(f, 0.5f),
+                               hn::Set(f, -0.5f * Stamps::even_tone));
+      }
+      open |= paint.slide_under(here, blocks[row], x);
     }
     open_columns[row] = static_cast<std::uint16_t>(open);
     closed |= (open == 0 ? std::uint32_t{1} : std::uint32_t{0}) << row;
@@ -374,7 +474,7 @@ HWY_INLINE void lay_rows_under(const StampInBand& of, const SeenLines& seen, int
 }
 
 /// `tested`: a surface may hide some of the stamp.
-template <bool tested>
+template <bool tested, bool varies>
 void lay_lines_under(const StampInBand& of, FrontToBackAccumulator& accumulator) {
   constexpr int block_px = FrontToBackAccumulator::block_px;
   const Floats f;
@@ -391,8 +491,8 @@ void lay_lines_under(const StampInBand& of, FrontToBackAccumulator& accumulator)
   for (int number = of.columns.begin / block_px; number * block_px < of.columns.end; ++number) {
     if ((stamped & accumulator.open_rows(number)) == 0) continue;
     const RowsToDraw rows = find_columns_to_draw<tested>(of, accumulator, number, seen);
-    lay_rows_under<false>(of, seen, number, rows.shown & stamped, accumulator);
-    if constexpr (tested) lay_rows_under<true>(of, seen, number, rows.tested & stamped, accumulator);
+    lay_rows_under<false, varies>(of, seen, number, rows.shown & stamped, accumulator);
+    if constexpr (tested) lay_rows_under<true, varies>(of, seen, number, rows.tested & stamped, accumulator);
   }
 }
 
@@ -428,10 +528,10 @@ std::uint32_t find_rows_to_draw(std::uint32_t rows, const ColumnRun& columns, co
 }
 
 void lay_stamp_under(const StampInBand& stamp, FrontToBackAccumulator& accumulator) {
-  if (stamp.tested) {
-    lay_lines_under<true>(stamp, accumulator);
+  if (stamp.varies) {
+    stamp.tested ? lay_lines_under<true, true>(stamp, accumulator) : lay_lines_under<false, true>(stamp, accumulator);
   } else {
-    lay_lines_under<false>(stamp, accumulator);
+    stamp.tested ? lay_lines_under<true, false>(stamp, accumulator) : lay_lines_under<false, false>(stamp, accumulator);
   }
 }
 

@@ -79,7 +79,7 @@ std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& pa
           const HiddenBelow* const below = hidden_below(stroke);
           if (below == nullptr) continue;
           before.keep(layers[above], stroke, band, accumulator);
-          draw_stroke_under({layers[above], stroke, *below}, band, accumulator);
+          draw_stroke_under({layers[above], stroke, *below, painting.layers[above].brush}, band, accumulator);
           // A stroke that lies in several bands is marked by whichever sees it.
           if (before.largest_share_taken(accumulator) > least_share)
             std::atomic_ref(visible[above][strokes[nearer]]).store(1, std::memory_order_relaxed);

@@ -66,6 +66,7 @@ class Mover {
   }
 
   void move_whole_marks(StrokePainting& painting) const {
+    painting.brush.bristle_px *= scale_;
     for (Layer& layer : painting.layers) {
       layer.radius_px *= scale_;
       for (Stroke& stroke : layer.strokes) {

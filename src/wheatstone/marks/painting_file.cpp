@@ -20,7 +20,7 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::uint32_t first_version = 1, current_version = 3;
+constexpr std::uint32_t first_version = 1, current_version = 4;
 constexpr std::size_t most_bytes = 0x7fffffff;  // FlatBuffers' own limit
 constexpr std::uint32_t largest_side_px = 65535;
 constexpr float farthest_view = 1000;  ///< more eye separations than any display has
@@ -45,7 +45,8 @@ flatbuffers::Offset<file::Layer> encode_layer(const Layer& layer, flatbuffers::F
   std::vector<file::Stroke> strokes;
   std::vector<std::uint32_t> numbers;
   std::vector<std::uint8_t> parts;
-  bool numbered = false, has_parts = false;
+  std::vector<file::ColourChange> changes;
+  bool numbered = false, has_parts = false, changing = false;
   for (const Stroke& s : layer.strokes) {
     strokes.emplace_back(s.first_point, s.point_count, s.radius_px, s.opacity, s.disparity,
                          s.reference_view.eye_separations(), s.views.first.eye_separations(),
@@ -54,9 +55,12 @@ flatbuffers::Offset<file::Layer> encode_layer(const Layer& layer, flatbuffers::F
     numbered = numbered || s.number != 0;
     parts.push_back(s.is_part ? 1 : 0);
     has_parts = has_parts || s.is_part;
+    changes.emplace_back(s.change.r, s.change.g, s.change.b);
+    changing = changing || s.change != ColourChange{};
   }
   return file::CreateLayerDirect(builder, layer.radius_px, &points.x, &points.y, &points.disparity, &strokes,
-                                 numbered ? &numbers : nullptr, has_parts ? &parts : nullptr);
+                                 numbered ? &numbers : nullptr, has_parts ? &parts : nullptr,
+                                 changing ? &changes : nullptr);
 }
 
 flatbuffers::Offset<file::Regions> encode_regions(const RegionPainting& regions,
@@ -94,6 +98,7 @@ struct MarksInFile {
   std::vector<flatbuffers::Offset<file::Layer>> layers;
   flatbuffers::Offset<file::Regions> regions;
   flatbuffers::Offset<file::Curves> curves;
+  flatbuffers::Offset<file::Brush> brush;
 };
 
 flatbuffers::Offset<file::Surfaces> encode_surfaces(const Surfaces& surfaces, flatbuffers::FlatBufferBuilder& builder) {
@@ -175,6 +180,22 @@ Stroke decode_stroke(const file::Stroke& from, std::size_t point_count, const Ch
           decode_views(from, checker)};
 }
 
+ColourChange decode_change(const file::ColourChange& from, const Checker& checker) {
+  for (const std::int16_t levels : {from.red(), from.green(), from.blue()})
+    checker.expect(std::abs(levels) <= 255, "a change of a stroke's colour is out of range");
+  return {from.red(), from.green(), from.blue()};
+}
+
+Brush decode_brush(const file::Brush& from, const Checker& checker) {
+  const Brush brush{from.bristle_px(), from.streaks(), from.ridge(), from.dry()};
+  checker.expect(brush.bristle_px >= 0 && brush.bristle_px <= static_cast<float>(largest_side_px),
+                 "the brush's bristles are out of range");
+  checker.expect(brush.streaks >= 0 && brush.streaks <= 255 && brush.ridge >= 0 && brush.ridge <= 255 &&
+                     brush.dry >= 0 && brush.dry <= 1,
+                 "the brush is out of range");
+  return brush;
+}
+
 Layer decode_layer(const file::Layer& from, const Checker& checker) {
   Layer layer{from.radius_px(), decode_points(from, checker), {}};
   checker.expect(std::isfinite(layer.radius_px), "a layer's radius is out of range");
@@ -184,11 +205,15 @@ Layer decode_layer(const file::Layer& from, const Checker& checker) {
   const auto* parts = from.parts();
   checker.expect(parts == nullptr || parts->size() == from.strokes()->size(),
                  "a layer's strokes and what tells which are parts of others differ in length");
+  const auto* changes = from.changes();
+  checker.expect(changes == nullptr || changes->size() == from.strokes()->size(),
+                 "a layer's strokes and the changes of their colours differ in length");
   layer.strokes.reserve(from.strokes()->size());
   for (flatbuffers::uoffset_t i = 0; i < from.strokes()->size(); ++i) {
     layer.strokes.push_back(decode_stroke(*from.strokes()->Get(i), layer.points.size(), checker));
     if (numbers != nullptr) layer.strokes.back().number = numbers->Get(i);
     if (parts != nullptr) layer.strokes.back().is_part = parts->Get(i) != 0;
+    if (changes != nullptr) layer.strokes.back().change = decode_change(*changes->Get(i), checker);
   }
   return layer;
 }
@@ -276,6 +301,7 @@ Painting decode_payload(const file::Painting& from, const Checker& checker) {
     StrokePainting strokes{
         width, height, {from.canvas_red(), from.canvas_green(), from.canvas_blue()}, {}, !from.canvas_hidden()};
     for (const file::Layer* layer : *from.layers()) strokes.layers.push_back(decode_layer(*layer, checker));
+    if (from.brush() != nullptr) strokes.brush = decode_brush(*from.brush(), checker);
     painting.marks = std::move(strokes);
   }
   painting.relief = {from.relief_depth_px(), from.relief_bristle_px()};
@@ -288,6 +314,8 @@ Painting decode_payload(const file::Painting& from, const Checker& checker) {
 void add_marks(const StrokePainting& painting, flatbuffers::FlatBufferBuilder& payload, MarksInFile& to) {
   to.canvas = painting.canvas_colour;
   to.canvas_shows = painting.canvas_shows;
+  const auto& [bristle_px, streaks, ridge, dry] = painting.brush;
+  if (painting.brush != Brush{}) to.brush = file::CreateBrush(payload, bristle_px, streaks, ridge, dry);
   for (const Layer& layer : painting.layers) to.layers.push_back(encode_layer(layer, payload));
 }
 void add_marks(const RegionPainting& painting, flatbuffers::FlatBufferBuilder& payload, MarksInFile& to) {
@@ -319,7 +347,7 @@ std::string encode_painting(const Painting& painting) {
   payload.Finish(file::CreatePaintingDirect(
       payload, static_cast<std::uint32_t>(width_of(painting)), static_cast<std::uint32_t>(height_of(painting)),
       marks.canvas.r, marks.canvas.g, marks.canvas.b, &marks.layers, marks.regions, marks.curves,
-      painting.relief.depth_px, painting.relief.bristle_px, surfaces, !marks.canvas_shows));
+      painting.relief.depth_px, painting.relief.bristle_px, surfaces, !marks.canvas_shows, marks.brush));
 
   flatbuffers::FlatBufferBuilder builder;
   const std::vector<std::uint8_t> bytes = deflated({payload.GetBufferPointer(), payload.GetSize()});

@@ -56,6 +56,8 @@ Painting small(int kind) {
   if (kind == 0) {
     std::get<StrokePainting>(any.marks).layers[0].strokes[1].number = 77;
     std::get<StrokePainting>(any.marks).layers[0].strokes[1].is_part = true;
+    std::get<StrokePainting>(any.marks).layers[0].strokes[0].change = {-9, 0, 255};
+    std::get<StrokePainting>(any.marks).brush = {1.5f, 11, 8, 0.5f};
     any.relief = {1.5f, 3};
     return any;
   }
@@ -241,7 +243,7 @@ TEST(PaintingFile, ReadsVersion2) {
 
 TEST(PaintingFile, NamesAFutureVersion) {
   const std::vector<std::uint8_t> payload(12);
-  EXPECT_THAT(message_of(sealed(payload, 4)), testing::HasSubstr("version 4, expected 1 to 3"));
+  EXPECT_THAT(message_of(sealed(payload, 5)), testing::HasSubstr("version 5, expected 1 to 4"));
 }
 
 TEST(PaintingFile, RefusesSurfacesThatCannotBe) {

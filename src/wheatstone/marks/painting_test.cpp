@@ -19,7 +19,7 @@ Style style_of(std::string_view name) {
   Style style = style_by_name(name);
   style.absolute_radii = true;
   style.background = Background::colour;
-  style.texture = style.marks == Marks::strokes;
+  style.texture = is_of_strokes(style);
   return style;
 }
 

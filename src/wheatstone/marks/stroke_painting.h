@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/marks/brush.h"
 #include "wheatstone/marks/view_range.h"
 
 namespace wheatstone {
@@ -17,6 +18,12 @@ struct ControlPoint {
   float y = 0;
   float disparity = 0;
   friend bool operator==(const ControlPoint&, const ControlPoint&) = default;
+};
+
+/// What is added to a stroke's colour along it: nothing where it begins, all where it ends; levels, -255..255.
+struct ColourChange {
+  std::int16_t r = 0, g = 0, b = 0;
+  friend bool operator==(const ColourChange&, const ColourChange&) = default;
 };
 
 /// One stroke of the brush: a disc with a soft rim, drawn along a cubic B-spline. It covers a pixel once, however
@@ -31,6 +38,7 @@ struct Stroke {
   ViewPosition reference_view = left_eye;  ///< the view in which its points stand
   ViewRange views;                         ///< in which it may be drawn, where no surface hides it
   std::uint32_t number = 0;                ///< names the stroke across the frames of a film, from 1; 0: none
+  ColourChange change;
   bool is_part = false;  ///< of a stroke that another one of its layer begins, as the second half of a dual stroke
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
@@ -61,6 +69,7 @@ struct StrokePainting {
   std::vector<Layer> layers;
   bool canvas_shows =
       true;  ///< false: without the photograph, thin paint is drawn opaque, and goes on where there is none
+  Brush brush;  ///< of all layers; the coarsest, which is the ground of the others, does not run dry
   friend bool operator==(const StrokePainting&, const StrokePainting&) = default;
 };
 

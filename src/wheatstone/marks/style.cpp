@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -12,13 +13,15 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::array<std::string_view, 9> preset_names{"impressionist", "expressionist", "colorist-wash",
-                                                       "pointillist",   "psychedelic",   "dual",
-                                                       "posterise",     "mosaic",        "diffusion"};
+constexpr std::array<std::string_view, 10> preset_names{
+    "oil",         "impressionist", "expressionist", "colorist-wash", "pointillist",
+    "psychedelic", "dual",          "posterise",     "mosaic",        "diffusion"};
 
-constexpr std::array kinds_of_marks{
-    std::pair{Marks::strokes, std::string_view("strokes")}, std::pair{Marks::regions, std::string_view("regions")},
-    std::pair{Marks::tiles, std::string_view("tiles")}, std::pair{Marks::curves, std::string_view("curves")}};
+constexpr std::array kinds_of_marks{std::pair{Marks::strokes, std::string_view("strokes")},
+                                    std::pair{Marks::fitted_strokes, std::string_view("fitted-strokes")},
+                                    std::pair{Marks::regions, std::string_view("regions")},
+                                    std::pair{Marks::tiles, std::string_view("tiles")},
+                                    std::pair{Marks::curves, std::string_view("curves")}};
 
 constexpr std::array propagations{std::pair{Propagation::strokes, std::string_view("strokes")},
                                   std::pair{Propagation::raster, std::string_view("raster")},
@@ -60,6 +63,14 @@ std::span<const std::string_view> style_names() { return preset_names; }
 Style style_by_name(std::string_view name) {
   Style style;
   style.name = name;
+  if (name == "oil") {
+    style.marks = Marks::fitted_strokes;
+    style.radii_px = {20, 1.3f};
+    style.blur = 0.25f;
+    style.reference_filter = ReferenceFilter::gaussian;
+    style.brush = {.bristle_px = 1, .streaks = 11, .ridge = 8, .dry = 0.5f};
+    return style;
+  }
   if (name == "impressionist") return style;
   if (name == "expressionist") {
     style.threshold = 50;
@@ -133,13 +144,19 @@ void check_style(const Style& style) {
     refuse("min-length", static_cast<float>(style.min_length), fmt::format("at most max-length, {}", style.max_length));
   const ColourJitter& j = style.jitter;
   for (const float amount : {j.hue, j.saturation, j.value, j.red, j.green, j.blue}) check_range("jitter", amount, 0, 1);
+  check_range("fineness", style.fineness, 0, 1);
+  check_range("strokes", static_cast<float>(style.strokes), 0, 1e7f);
+  check_range("streaks", style.brush.streaks, 0, 255);
+  check_range("ridge", style.brush.ridge, 0, 255);
+  check_range("dry", style.brush.dry, 0, 1);
+  check_range("bristle", style.brush.bristle_px, 0, 500);
   check_range("colours", static_cast<float>(style.colours), 2, 256);
   check_range("tile", style.tile_px, 2, 500);
-  if (style.marks != Marks::strokes && style.propagation == Propagation::raster)
+  if (!is_of_strokes(style) && style.propagation == Propagation::raster)
     throw Error(
         ErrorKind::wrong_usage,
         fmt::format("style: propagation is raster, expected strokes or independent for {}", name_of(style.marks)));
-  if (style.marks != Marks::strokes && style.texture)
+  if (!is_of_strokes(style) && style.texture)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("style: texture can be used with strokes only, not with {}", name_of(style.marks)));
   check_range("depth-threshold", style.depth_threshold_px, 0.01f, 1000);
@@ -149,6 +166,12 @@ void check_style(const Style& style) {
 float style_scale(const Style& style, int width) {
   constexpr float nominal_width = 640;
   return style.absolute_radii ? 1 : static_cast<float>(width) / nominal_width;
+}
+
+Brush brush_for(const Style& style, int width) {
+  Brush brush = style.brush;
+  if (brush.bristle_px > 0) brush.bristle_px = std::max(brush.bristle_px * style_scale(style, width), 1.f);
+  return brush;
 }
 
 std::string_view name_of(Marks marks) { return find_name(kinds_of_marks, marks); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/marks/brush.h"
 
 namespace wheatstone {
 
@@ -39,10 +40,11 @@ struct ColourJitter {
 
 /// What a painting is made of.
 enum class Marks {
-  strokes,  ///< of a brush
-  regions,  ///< of few colours: posterisation
-  tiles,    ///< of a mosaic
-  curves,   ///< along edges, whose colours spread between them: diffusion curves
+  strokes,         ///< of a brush, as in the papers
+  fitted_strokes,  ///< of a brush, each fitted to the photograph; `radii_px` are the broadest and the finest
+  regions,         ///< of few colours: posterisation
+  tiles,           ///< of a mosaic
+  curves,          ///< along edges, whose colours spread between them: diffusion curves
 };
 
 /// Every parameter of a painting. The symbols are Hertzmann's (1998) and Stavrakis & Gelautz's (2004).
@@ -58,8 +60,11 @@ struct Style {
   int min_length = 4;                    ///< control points before a stroke may end by the colour criterion
   int max_length = 16;                   ///< control points at most; 0 paints dots
   ColourJitter jitter;
-  bool texture = false;  ///< the finished strokes' paint stands up from the canvas, lit from one side
-  bool dual = false;     ///< strokes of two colours, side by side
+  bool texture = false;   ///< the finished strokes' paint stands up from the canvas, lit from one side
+  bool dual = false;      ///< strokes of two colours, side by side
+  float fineness = 0.5f;  ///< of fitted strokes, 0..1: how small a difference is worth a stroke
+  int strokes = 0;        ///< at most so many fitted strokes, spent where they gain most; 0: as fineness says
+  Brush brush;            ///< bristle_px is that of a picture 640 pixels wide, at least a pixel
 
   Marks marks = Marks::strokes;
   int colours = 18;    ///< k: of a posterised picture
@@ -90,6 +95,14 @@ void check_style(const Style& style);
 
 /// Pixels of a picture `width` wide for one pixel of a 640-pixel-wide one; 1 with absolute radii.
 float style_scale(const Style& style, int width);
+
+/// The brush for a picture `width` pixels wide.
+Brush brush_for(const Style& style, int width);
+
+/// Whether the style paints with strokes, however they are planned.
+inline bool is_of_strokes(const Style& style) {
+  return style.marks == Marks::strokes || style.marks == Marks::fitted_strokes;
+}
 
 std::string_view name_of(Marks marks);
 std::string_view name_of(Propagation propagation);

@@ -54,7 +54,9 @@ Rgb8 parse_colour(std::string_view name, std::string_view text) {
 }
 
 constexpr std::span<const Marks> every_kind;
-constexpr std::array strokes_only{Marks::strokes};
+constexpr std::array strokes_only{Marks::strokes, Marks::fitted_strokes};
+constexpr std::array traced_only{Marks::strokes};
+constexpr std::array fitted_only{Marks::fitted_strokes};
 constexpr std::array regions_only{Marks::regions};
 constexpr std::array tiles_only{Marks::tiles};
 
@@ -78,6 +80,15 @@ StyleParameter jitter(std::string_view name, std::string_view help, float Colour
           [=](const Style& style) { return fmt::format("{}", style.jitter.*member); },
           [=](Style& style, std::string_view text) { style.jitter.*member = parse_number<float>(name, text); },
           strokes_only};
+}
+
+StyleParameter brush(std::string_view name, std::string_view help, float Brush::*member) {
+  return {name,
+          help,
+          false,
+          [=](const Style& style) { return fmt::format("{}", style.brush.*member); },
+          [=](Style& style, std::string_view text) { style.brush.*member = parse_number<float>(name, text); },
+          fitted_only};
 }
 
 StyleParameter toggle(std::string_view name, std::string_view help, bool Style::*member,
@@ -113,15 +124,17 @@ std::vector<StyleParameter> make_parameters() {
        [](Style& style, std::string_view text) { style.radii_px = parse_list("radii", text); }, strokes_only},
       toggle("absolute-radii", "Give radii and the depth threshold in pixels of this picture instead",
              &Style::absolute_radii, every_kind),
-      number("threshold", "T: RGB distance (0..441) above which a grid cell gets a stroke", &Style::threshold),
+      number("threshold", "T: RGB distance (0..441) above which a grid cell gets a stroke", &Style::threshold,
+             traced_only),
       number("grid", "f_g: size of a grid cell, which gets at most one stroke, as a multiple of the radius",
-             &Style::grid),
+             &Style::grid, traced_only),
       number("blur", "f_s: blur of the photograph for a brush, as a multiple of its radius", &Style::blur),
       number("curvature", "f_c: curvature filter; 1 follows the new direction at once, lower values keep the last one",
-             &Style::curvature),
+             &Style::curvature, traced_only),
       number("opacity", "Opacity of the paint, 0..1", &Style::opacity),
-      number("min-length", "Smallest number of control points before a stroke may end", &Style::min_length),
-      number("max-length", "Largest number of control points; 0 paints dots", &Style::max_length),
+      number("min-length", "Smallest number of control points before a stroke may end", &Style::min_length,
+             traced_only),
+      number("max-length", "Largest number of control points; 0 paints dots", &Style::max_length, traced_only),
       jitter("jitter-hue", "Random change of hue, 0..1, at the same lightness", &ColourJitter::hue),
       jitter("jitter-saturation", "Random change of saturation, 0..1, at the same lightness",
              &ColourJitter::saturation),
@@ -129,23 +142,31 @@ std::vector<StyleParameter> make_parameters() {
       jitter("jitter-red", "Random change of red, 0..1", &ColourJitter::red),
       jitter("jitter-green", "Random change of green, 0..1", &ColourJitter::green),
       jitter("jitter-blue", "Random change of blue, 0..1", &ColourJitter::blue),
-      toggle("dual", "Strokes of two colours, side by side", &Style::dual),
+      number("fineness", "How small a difference is worth a fitted stroke, 0..1", &Style::fineness, fitted_only),
+      number("strokes", "Largest number of fitted strokes, spent where they gain most; 0: as many as fineness asks for",
+             &Style::strokes, fitted_only),
+      brush("bristle", "Width that a bristle leaves, in pixels of a picture 640 pixels wide; 0: none",
+            &Brush::bristle_px),
+      brush("streaks", "Levels by which the paint of a bristle may be lighter or darker, 0..255", &Brush::streaks),
+      brush("ridge", "Levels by which the paint at a stroke's rim is lit, 0..255", &Brush::ridge),
+      brush("dry", "Share of a stroke's length before whose end a bristle may run out of paint, 0..1", &Brush::dry),
+      toggle("dual", "Strokes of two colours, side by side", &Style::dual, traced_only),
       toggle("texture", "Relief of the paint, lit from one side", &Style::texture),
-      choice("marks", "Kind of marks: strokes, regions of few colours, tiles of a mosaic, or curves", &Style::marks,
-             marks_by_name, "strokes, regions, tiles or curves", every_kind),
+      choice("marks", "Kind of marks: strokes, fitted-strokes, regions of few colours, tiles of a mosaic, or curves",
+             &Style::marks, marks_by_name, "strokes, fitted-strokes, regions, tiles or curves", every_kind),
       number("colours", "k: number of colours of a posterised picture", &Style::colours, regions_only),
       number("tile", "Width of a mosaic's tiles, in pixels of a picture 640 pixels wide", &Style::tile_px, tiles_only),
       toggle("depth-test", "End strokes at depth edges", &Style::depth_test),
       number("depth-threshold", "Disparity step that counts as a depth edge, in pixels of a picture 640 pixels wide",
              &Style::depth_threshold_px, every_kind),
       toggle("follow-depth-edges", "Let the finest strokes beside depth edges run along them; otherwise they are dots",
-             &Style::follow_depth_edges),
+             &Style::follow_depth_edges, traced_only),
       number("occlusion-dilation", "Dilation of the occlusion masks, as a multiple of the largest radius",
              &Style::occlusion_dilation),
       choice("propagation", "How the second eye is painted: strokes, raster or independent", &Style::propagation,
              propagation_by_name, "strokes, raster or independent", every_kind),
       choice("orientation", "Direction of strokes in areas without texture: smooth, or gradient (strokes end there)",
-             &Style::orientation, orientation_by_name, "smooth or gradient"),
+             &Style::orientation, orientation_by_name, "smooth or gradient", traced_only),
       choice("reference-filter", "Filter that blurs the photograph: median or gaussian", &Style::reference_filter,
              reference_filter_by_name, "median or gaussian"),
       choice("background", "Background behind the paint: photograph or colour", &Style::background, background_by_name,

@@ -68,7 +68,7 @@ StrokePainting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const 
 Painting plan_eyes_apart(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                          const Progress& progress) {
   Painting painting;
-  if (style.marks == Marks::strokes) {
+  if (is_of_strokes(style)) {
     painting.marks = plan_strokes_of_each(photographs, geometry, style, progress);
     painting.relief = relief_for(style, width_of(painting));
     return painting;

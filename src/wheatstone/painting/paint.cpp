@@ -65,7 +65,7 @@ void draw_right_under_left(const StereoPairView& photographs, const StereoGeomet
 }
 
 void check_is_of_strokes(const Style& style) {
-  if (style.marks != Marks::strokes)
+  if (!is_of_strokes(style))
     throw Error(
         ErrorKind::wrong_usage,
         fmt::format("style: {} cannot be painted for one view alone, expected brush strokes", name_of(style.marks)));
@@ -79,7 +79,7 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
   check_fits(photographs, geometry);
   const bool one_view = photographs.right.empty();
   const bool apart = !one_view && (style.propagation == Propagation::independent ||
-                                   (style.propagation == Propagation::raster && style.marks == Marks::strokes));
+                                   (style.propagation == Propagation::raster && is_of_strokes(style)));
   if (apart) return plan_eyes_apart(photographs, geometry, style, progress);
   const StillScene scene = make_still_scene(photographs, geometry, wanted);
   PaintingMemory nothing_before;
@@ -101,7 +101,7 @@ PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& g
     return result;
   }
   draw_views(photographs, style, drawing, result);
-  if (style.propagation == Propagation::raster && style.marks == Marks::strokes)
+  if (style.propagation == Propagation::raster && is_of_strokes(style))
     draw_right_under_left(photographs, geometry, style, drawing.device, result);
   report(progress, "drawing", 1);
   return result;

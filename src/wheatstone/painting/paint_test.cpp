@@ -80,7 +80,7 @@ TEST(Paint, PaintingOfEveryKindOfMarksIsWrittenAndReadBackEqual) {
   for (const std::string_view name : {"impressionist", "psychedelic", "posterise", "mosaic", "diffusion"}) {
     Style style = style_by_name(name);
     style.absolute_radii = true;
-    style.texture = style.marks == Marks::strokes;
+    style.texture = is_of_strokes(style);
     const PaintedPair result = paint_scene(style);
     EXPECT_GT(disparities_of_marks(result.painting).size(), 0u) << name;
     EXPECT_EQ(result.painting.relief.depth_px > 0, style.texture) << name;
@@ -147,7 +147,7 @@ TEST(PaintFrame, EndsWhereverItsProgressThrows) {
     int reports = 0;
     paint_first_frame(style, [&](std::string_view, double) { ++reports; });
     // Of strokes each layer in each view; in any style before it is planned and before it is drawn.
-    EXPECT_GE(reports, style.marks == Marks::strokes ? static_cast<int>(3 * style.radii_px.size()) + 1 : 2) << name;
+    EXPECT_GE(reports, is_of_strokes(style) ? static_cast<int>(3 * style.radii_px.size()) + 1 : 2) << name;
     for (int last = 1; last <= reports; ++last) {
       int told = 0;
       const Progress stop = [&](std::string_view, double) {

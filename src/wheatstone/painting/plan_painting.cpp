@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/relief.h"
+#include "wheatstone/error.h"
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/painting/repair_internal.h"
 #include "wheatstone/stereo/outer_view.h"
@@ -78,7 +80,8 @@ PlannedFrame plan_from_views(const FilmFrame& frame, const Style& style, const C
   PlannedFrame planned;
   Painting& painting = planned.painting;
   switch (style.marks) {
-    case Marks::strokes: {
+    case Marks::strokes:
+    case Marks::fitted_strokes: {
       CarriedPainting carried = plan_strokes(frame, style, options, memory.strokes, progress);
       painting.marks = std::move(carried.painting);
       planned.counts = carried.counts;
@@ -107,15 +110,48 @@ PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, con
                                  PaintingMemory& memory, const Progress& progress) {
   check_style(style);
   check_fits(frame.views);
-  if (style.marks == Marks::strokes && frame.flow == nullptr)
-    return plan_from_views(frame, style, options, memory, progress);
+  if (is_of_strokes(style) && frame.flow == nullptr) return plan_from_views(frame, style, options, memory, progress);
   // Only new strokes are planned from smaller pictures.
   const WholeScene whole(frame.views);
   return plan_from_views({whole.views(), frame.flow}, style, options, memory, progress);
 }
 
+namespace {
+
+/// The finest painting with at most `style.strokes` strokes, or the coarsest there is. Where the picture is planned is
+/// the same for all finenesses, so that the number of strokes grows with it.
+PlannedFrame plan_within_budget(const FilmFrame& frame, Style style, const CarryOptions& options,
+                                PaintingMemory& memory, const Progress& progress) {
+  constexpr int halvings = 7;
+  const auto most = static_cast<std::size_t>(std::exchange(style.strokes, 0));
+  float coarse = 0, fine = 1;
+  std::optional<PlannedFrame> best;
+  PaintingMemory best_memory;
+  for (int i = 0; i <= halvings; ++i) {
+    style.fineness = i == 0 ? coarse : (coarse + fine) / 2;
+    PaintingMemory own;
+    PlannedFrame planned = plan_painting(frame, style, options, own, progress);
+    const bool fits = count_marks(planned.painting).count <= most;
+    (fits ? coarse : fine) = style.fineness;
+    if (!fits && best) continue;
+    best = std::move(planned);
+    best_memory = std::move(own);
+    if (!fits) break;
+  }
+  memory = std::move(best_memory);
+  return std::move(*best);
+}
+
+}  // namespace
+
 PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                            PaintingMemory& memory, const Progress& progress) {
+  check_style(style);
+  if (style.strokes > 0) {
+    if (options.goes_on)
+      throw Error(ErrorKind::wrong_usage, "style: strokes is the number of a still's strokes, expected 0 for a film");
+    return plan_within_budget(frame, style, options, memory, progress);
+  }
   PlannedFrame planned = plan_without_repair(frame, style, options, memory, progress);
   repair(frame.views, style, planned.painting);
   return planned;

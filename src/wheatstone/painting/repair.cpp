@@ -148,9 +148,9 @@ void repair(std::span<const SceneView> views, const Style& style, Painting& pain
   if (style.propagation == Propagation::independent || style.marks == Marks::tiles) return;
   const bool of_regions = style.marks == Marks::regions;
   if (!of_regions && views.front().picture.width() < least_repaired_width_px) return;
-  const bool changes_colours = style.marks == Marks::strokes && style.jitter != ColourJitter{};
+  const bool changes_colours = is_of_strokes(style) && style.jitter != ColourJitter{};
   if (!of_regions && !changes_colours) repair_displaced(views, style, painting);
-  if (style.marks != Marks::strokes) repair_shown(views, style, painting);
+  if (!is_of_strokes(style)) repair_shown(views, style, painting);
 }
 
 bool is_repaired_when_drawn(const Painting& painting, const Style& style) {

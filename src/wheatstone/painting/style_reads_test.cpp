@@ -31,6 +31,12 @@ const std::map<std::string_view, std::string_view>& other_values() {
       {"jitter-red", "0.9"},
       {"jitter-green", "0.9"},
       {"jitter-blue", "0.9"},
+      {"fineness", "0.9"},
+      {"strokes", "60"},
+      {"bristle", "40"},
+      {"streaks", "60"},
+      {"ridge", "60"},
+      {"dry", "0"},
       {"dual", "true"},
       {"texture", "true"},
       {"colours", "4"},
@@ -54,12 +60,12 @@ TEST_P(StyleReads, ExactlyTheParametersThatItsTableNames) {
   const SyntheticStill still = make_synthetic_still({.width = 96, .height = 64, .samples_a_side = 1});
   Style base = style_by_name(GetParam());
   // The canvas shows, so that its colour counts.
-  if (base.marks == Marks::strokes) base.background = Background::colour;
+  if (is_of_strokes(base)) base.background = Background::colour;
   const StereoPair as_it_is = paint(still.pictures, still.geometry, base).pictures;
   for (const StyleParameter& parameter : style_parameters()) {
     if (parameter.name == "marks") continue;
     // This one is refused where it would have no effect.
-    if (parameter.name == "texture" && base.marks != Marks::strokes) {
+    if (parameter.name == "texture" && !is_of_strokes(base)) {
       EXPECT_FALSE(is_read_by(parameter, base.marks));
       continue;
     }
@@ -73,7 +79,8 @@ TEST_P(StyleReads, ExactlyTheParametersThatItsTableNames) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, StyleReads, testing::Values("impressionist", "posterise", "mosaic", "diffusion"));
+INSTANTIATE_TEST_SUITE_P(EveryKind, StyleReads,
+                         testing::Values("oil", "impressionist", "posterise", "mosaic", "diffusion"));
 
 }  // namespace
 }  // namespace wheatstone

@@ -17,6 +17,22 @@ void put_in_order(const std::vector<Place>& places, Layer& layer) {
   layer.strokes = std::move(sorted);
 }
 
+void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed) {
+  struct Place {
+    float depth;
+    std::uint32_t stroke;
+  };
+  std::vector<Place> places(layer.strokes.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const Stroke& stroke = layer.strokes[i];
+    places[i] = {stroke.disparity + unit_float(hash_keys({seed, stroke.number})), i};
+  }
+  std::ranges::sort(places, [](const Place& a, const Place& b) {
+    return a.depth != b.depth ? a.depth < b.depth : a.stroke < b.stroke;
+  });
+  put_in_order(places, layer);
+}
+
 }  // namespace
 
 void append_strokes(const Layer& part, Layer& whole) {
@@ -44,20 +60,12 @@ void sort_far_to_near(Layer& layer, std::uint64_t seed) {
   put_in_order(places, layer);
 }
 
-void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed) {
-  struct Place {
-    float depth;
-    std::uint32_t stroke;
-  };
-  std::vector<Place> places(layer.strokes.size());
-  for (std::uint32_t i = 0; i < places.size(); ++i) {
-    const Stroke& stroke = layer.strokes[i];
-    places[i] = {stroke.disparity + unit_float(hash_keys({seed, stroke.number})), i};
+void put_in_order(Layer& layer, const Style& style) {
+  if (style.marks == Marks::fitted_strokes) {
+    std::ranges::stable_sort(layer.strokes, {}, &Stroke::number);
+  } else {
+    sort_numbered_far_to_near(layer, style.seed);
   }
-  std::ranges::sort(places, [](const Place& a, const Place& b) {
-    return a.depth != b.depth ? a.depth < b.depth : a.stroke < b.stroke;
-  });
-  put_in_order(places, layer);
 }
 
 }  // namespace wheatstone

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "wheatstone/marks/stroke_painting.h"
+#include "wheatstone/marks/style.h"
 
 namespace wheatstone {
 
@@ -15,7 +16,8 @@ void append_strokes(const Layer& part, Layer& whole);
 void sort_far_to_near(Layer& layer, std::uint64_t seed);
 
 /// The same for strokes with numbers: each lies up to half a pixel of disparity nearer or farther than it is, as its
-/// number decides, so that strokes that move together keep their order from frame to frame.
-void sort_numbered_far_to_near(Layer& layer, std::uint64_t seed);
+/// number decides, so that strokes that move together keep their order from frame to frame. Fitted strokes stay in the
+/// order of their numbers, since each is planned on those before it.
+void put_in_order(Layer& layer, const Style& style);
 
 }  // namespace wheatstone

@@ -16,9 +16,35 @@
 
 namespace wheatstone {
 
+namespace {
+
+/// Radii from the broadest brush down to the finest, each .62 of the one before.
+std::vector<float> radii_between(float broadest_px, float finest_px) {
+  constexpr float ratio = 0.62f;
+  std::vector<float> radii;
+  for (float radius = broadest_px; radius > finest_px; radius *= ratio) radii.push_back(radius);
+  radii.push_back(finest_px);
+  return radii;
+}
+
+/// Larger pictures show more detail than anybody looks at: a stroke has to do more in them.
+float least_gain_of(const Style& style, int width) {
+  constexpr float usual = 190, usual_width = 400, steps_of_fineness = 12;
+  const float size = std::max(static_cast<float>(width) / usual_width, 1.f);
+  return usual * std::exp2(steps_of_fineness * (0.5f - style.fineness)) * size;
+}
+
+}  // namespace
+
 ScaledStyle::ScaledStyle(const Style& style, int width, float reduction)
-    : depth_threshold_px(style.depth_threshold_px * style_scale(style, width) / reduction) {
+    : depth_threshold_px(style.depth_threshold_px * style_scale(style, width) / reduction),
+      least_gain(least_gain_of(style, width) / (reduction * reduction)) {
   constexpr float least_px = 1;
+  if (style.marks == Marks::fitted_strokes) {
+    radii_px = radii_between(style.radii_px.front() * style_scale(style, width), style.radii_px.back());
+    for (float& radius : radii_px) radius /= reduction;
+    return;
+  }
   for (const float radius : style.radii_px)
     radii_px.push_back(std::max(radius * style_scale(style, width), least_px) / reduction);
 }
@@ -62,6 +88,7 @@ Image<std::uint8_t> misplaced_paint(const LayerPlanner& planner, const Style& st
 
 Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Style& style, const ScaledStyle& scaled,
               const StrokePlaces& places) {
+  constexpr float no_threshold_px = 1e9f;
   const LayerPlan plan{.reference = inputs.reference,
                        .canvas = planner.canvas,
                        .disparity = planner.disparity,
@@ -71,21 +98,28 @@ Layer plan_on(const LayerPlanner& planner, const LayerInputs& inputs, const Styl
                        .radius_px = scaled.radii_px[inputs.layer],
                        .layer = inputs.layer,
                        .beside = planner.beside,
-                       .depth_threshold_px = scaled.depth_threshold_px,
+                       .least_gain = scaled.least_gain,
+                       .depth_threshold_px = style.depth_test ? scaled.depth_threshold_px : no_threshold_px,
                        .least_edge_cell_px = planner.least_edge_cell_px,
                        .depth_edges = inputs.depth_edges,
                        .edge_distance = inputs.edge_distance,
                        .mixed_colours = inputs.mixed_colours};
-  return plan_layer(plan, style);
+  return style.marks == Marks::fitted_strokes ? fit_layer(plan, style) : plan_layer(plan, style);
 }
 
 void order_strokes(Layer& strokes, const Style& style, int layer) {
+  if (style.marks == Marks::fitted_strokes) return;  // planned in that order
   sort_far_to_near(strokes, hash_keys({style.seed, static_cast<std::uint64_t>(layer)}));
 }
 
 StrokePainting plan_alone(LayerPlanner& planner, const Style& style, const ScaledStyle& scaled,
                           ImageView<const std::uint8_t> seeds, const Progress& progress) {
-  StrokePainting painting{planner.canvas.width, planner.canvas.height, style.canvas_colour, {}};
+  StrokePainting painting{planner.canvas.width,
+                          planner.canvas.height,
+                          style.canvas_colour,
+                          {},
+                          true,
+                          brush_for(style, planner.canvas.width)};
   const int layers = static_cast<int>(scaled.radii_px.size());
   for (int i = 0; i < layers; ++i) {
     report(progress, "painting", static_cast<double>(i) / layers);

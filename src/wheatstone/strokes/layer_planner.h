@@ -16,6 +16,7 @@ struct ScaledStyle {
   ScaledStyle(const Style& style, int width, float reduction = 1);
   std::vector<float> radii_px;
   float depth_threshold_px;
+  float least_gain;  ///< as LayerPlan
 };
 
 /// A view that is being painted: what it shows, and the canvas that its next layer is planned against.

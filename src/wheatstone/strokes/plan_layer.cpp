@@ -178,8 +178,7 @@ void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer&
   trace_stroke(plan, style, {seed, stroke.radius_px, (random & 1) != 0}, layer.points);
   stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
   const std::span points = std::span(layer.points).subspan(stroke.first_point);
-  smooth_disparities(points);
-  if (!plan.edge_distance.empty()) keep_within_outlines(plan, stroke.radius_px, points);
+  settle_disparities(plan, stroke.radius_px, points);
   stroke.opacity = style.opacity;
   const ReferencePicture& reference = plan.reference;
   stroke.colour =
@@ -235,6 +234,11 @@ void plan_place(const LayerPlan& plan, const Style& style, Place place, Layer& l
 }
 
 }  // namespace
+
+void settle_disparities(const LayerPlan& plan, float radius_px, std::span<ControlPoint> points) {
+  smooth_disparities(points);
+  if (!plan.edge_distance.empty()) keep_within_outlines(plan, radius_px, points);
+}
 
 float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed) {
   if (place == Place::open) return plan.radius_px;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "wheatstone/drawing/canvas.h"
 #include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/marks/style.h"
@@ -22,6 +24,7 @@ struct LayerPlan {
   float radius_px = 4;
   int layer = 0;            ///< numbers the layer's random choices
   ViewsBeside beside = {};  ///< from which its strokes will be seen
+  float least_gain = 0;     ///< by which a fitted stroke must lower the squared differences under it
 
   // The depth test; all are empty where the style wants none.
   float depth_threshold_px = 2;                    ///< T_depth in pixels of this view
@@ -36,5 +39,14 @@ struct LayerPlan {
 /// the brush does not fit, it is used edgeways: on a grid of half the cells, strokes as wide as the distance to the
 /// edge allows. In the order of the cells, not yet in drawing order.
 Layer plan_layer(const LayerPlan& plan, const Style& style);
+
+/// Plans the strokes of one layer by fitting each to the picture, on a canvas that holds those before it. A stroke is
+/// kept if it lowers the squared difference between picture and canvas enough. Cells of 1.3 R are visited in two
+/// passes; in each, the pixel that is most wrong begins a stroke. The picture is divided into blocks, which are planned
+/// in four waves, so that the result does not depend on threads. In drawing order.
+Layer fit_layer(const LayerPlan& plan, const Style& style);
+
+/// Smooths the disparities of a stroke's points, and in the finest layer keeps its paint within its surface's outline.
+void settle_disparities(const LayerPlan& plan, float radius_px, std::span<ControlPoint> points);
 
 }  // namespace wheatstone

@@ -82,29 +82,29 @@ class ViewAtWork {
     if (carried != 0 && !finest) below = planner.canvas;
     if (!tracked.tracks.empty()) {
       end_wrong_colours(inputs, before, options, tracked);
-      draw_on_canvas(with_opacities(tracked, [&](std::size_t i) { return standing(tracked.tracks[i]); }));
+      draw_on_canvas(with_opacities(tracked, [&](std::size_t i) { return standing(tracked.tracks[i]); }), layer);
     }
     Image<std::uint8_t> misplaced = finest ? misplaced_paint(planner, style_) : Image<std::uint8_t>();
     if (!tracked.tracks.empty()) seeds = where_strokes_are_missing(inputs, before, misplaced, tracked);
     Layer begun = plan_on(planner, inputs, style_, at_->scaled, {seeds.empty() ? part : seeds.view(), misplaced});
     numbers_.give(begun);
-    sort_numbered_far_to_near(begun, style_.seed);
+    put_in_order(begun, style_);
     add(begun, inputs, before, options, tracked);
     if (below && !begun.strokes.empty()) {
       // New strokes lie among the carried ones: what those hide of them is for the finer layers to mend.
       planner.canvas = std::move(*below);
       draw_on_canvas(
-          with_opacities(tracked, [&](std::size_t i) { return i < carried ? standing(tracked.tracks[i]) : 1; }));
+          with_opacities(tracked, [&](std::size_t i) { return i < carried ? standing(tracked.tracks[i]) : 1; }), layer);
       return;
     }
     if (!finest) {
-      rasterise(begun, planner.view, hiding(), planner.canvas);
+      rasterise(begun, planner.view, hiding(), planner.canvas, cover_of_brush(layer));
       return;
     }
     // Nothing is planned on what the finest strokes paint: only what they leave bare matters.
     Image<std::uint8_t> bare = bare_pixels(planner.canvas, part);
     const Layer near = strokes_near_bare(begun, bare);
-    bare = left_bare(near, planner.view, hiding(), std::move(bare));
+    bare = left_bare(near, planner.view, hiding(), std::move(bare), cover_of_brush(layer));
     Layer dots = repair({.target = {.picture = planner.photograph,
                                     .places = bare,
                                     .disparity = planner.disparity,
@@ -132,7 +132,7 @@ class ViewAtWork {
  private:
   int factor_for(int layer) const {
     // Where a scene begins, all strokes are new, and it shows where a few of them are less exact.
-    const float least_radius_px = motion_ == nullptr ? 12 : 6;
+    const float least_radius_px = style_.marks == Marks::fitted_strokes ? 5 : motion_ == nullptr ? 12 : 6;
     const auto number = static_cast<std::size_t>(layer);
     const bool is_finest = number + 1 == radii_px_.size();
     return is_finest ? 1 : factor_for_layer(part_, radii_px_[number], least_radius_px);
@@ -193,13 +193,19 @@ class ViewAtWork {
       layer.strokes.push_back(tracked.layer.strokes[i]);
       layer.strokes.back().opacity *= share;
     }
-    sort_numbered_far_to_near(layer, style_.seed);
+    put_in_order(layer, style_);
     return layer;
   }
 
-  void draw_on_canvas(Layer layer) {
+  void draw_on_canvas(Layer layer, int number) {
     if (at_->reduction != 1) resize_strokes(layer, 1.f / static_cast<float>(at_->reduction));
-    rasterise(layer, at_->planner.view, hiding(), at_->planner.canvas);
+    rasterise(layer, at_->planner.view, hiding(), at_->planner.canvas, cover_of_brush(number));
+  }
+
+  /// What the brush leaves bare counts for the strokes over it; its streaks are no error.
+  Brush cover_of_brush(int layer) const {
+    const Brush brush = brush_for(style_, part_.width);
+    return {.bristle_px = brush.bristle_px / static_cast<float>(at_->reduction), .dry = layer > 0 ? brush.dry : 0};
   }
 
   Hiding hiding() const { return {.surface = at_->planner.disparity, .tolerance_px = at_->scaled.depth_threshold_px}; }
@@ -432,8 +438,12 @@ std::int64_t count_new(StrokeMemory& memory) {
 StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const StrokeMemory& memory) {
   const ImageView<const Rgb8> picture = frame.views.front().picture;
   const ScaledStyle scaled(style, picture.width());
-  StrokePainting painting{picture.width(), picture.height(), style.canvas_colour,
-                          std::vector<Layer>(scaled.radii_px.size()), style.background == Background::colour};
+  StrokePainting painting{picture.width(),
+                          picture.height(),
+                          style.canvas_colour,
+                          std::vector<Layer>(scaled.radii_px.size()),
+                          style.background == Background::colour,
+                          brush_for(style, picture.width())};
   tbb::parallel_for(std::size_t{0}, painting.layers.size(), [&](std::size_t i) {
     Layer& shown = painting.layers[i];
     shown.radius_px = scaled.radii_px[i];
@@ -445,7 +455,7 @@ StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const 
         append_everywhere(stroke, layer.points_of(stroke), shown);
       }
     }
-    sort_numbered_far_to_near(shown, style.seed);
+    put_in_order(shown, style);
   });
   return painting;
 }
@@ -455,10 +465,11 @@ StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const 
 CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                              StrokeMemory& memory, const Progress& progress) {
   check_style(style);
-  if (style.marks != Marks::strokes)
+  if (!is_of_strokes(style))
     throw Error(ErrorKind::wrong_usage, "style: its marks are not strokes, expected a style of strokes");
-  const std::size_t layers = style.radii_px.size();
-  const float depth_threshold_px = ScaledStyle(style, frame.views.front().picture.width()).depth_threshold_px;
+  const ScaledStyle scaled(style, frame.views.front().picture.width());
+  const std::size_t layers = scaled.radii_px.size();
+  const float depth_threshold_px = scaled.depth_threshold_px;
   const bool scene_begins = frame.flow == nullptr || memory.views.size() != frame.views.size();
   CarriedPainting result;
   if (scene_begins) {

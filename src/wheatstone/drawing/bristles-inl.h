@@ -1,0 +1,119 @@
+// What bristles leave within a stroke, for vectors of each processor. Included by files that are compiled for several.
+
+#if defined(WHEATSTONE_DRAWING_BRISTLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHEATSTONE_DRAWING_BRISTLES_INL_H_
+#undef WHEATSTONE_DRAWING_BRISTLES_INL_H_
+#else
+#define WHEATSTONE_DRAWING_BRISTLES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "wheatstone/drawing/rasterise_internal.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace wheatstone::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The paint of one stroke from place to place. draw_strokes.comp and the page's strokes.ts hold the same formulas.
+class Bristles {
+ public:
+  using Floats = hn::CappedTag<float, Canvas::widest_vector>;
+  using V = hn::Vec<Floats>;
+
+  Bristles(const FlatStroke& stroke, const Brush& brush)
+      : profile_(stroke.radius_px),
+        has_bristles_(brush.bristle_px > 0),
+        runs_dry_(brush.dry > 0 && stroke.length > 2 * stroke.radius_px),
+        seed_(stroke.seed),
+        radius_(stroke.radius_px),
+        length_(std::max(stroke.length, 1e-3f)),
+        // A bundle of bristles leaves one streak of a wide brush.
+        width_(std::max(brush.bristle_px, stroke.radius_px / 6)),
+        dry_(brush.dry) {
+    // Streaks that are too fine for the pixels of a view are filtered, so that they do not sparkle.
+    const float shown = std::clamp((width_ - 0.6f) / 0.9f, 0.f, 1.f);
+    streaks_ = shown * brush.streaks;
+    ridge_ = shown * brush.ridge;
+    ragged_ = shown * 0.12f;
+  }
+
+  /// Pixels of a stroke: distance to its curve, and as DistanceBand.
+  struct Place {
+    V distance, along, across, facing;
+  };
+  struct Paint {
+    V cover;  ///< the brush's, on from below 0 to above 1
+    V share;  ///< of the colour's change, 0..1
+    V tone;   ///< levels to be added to the colour
+  };
+
+  HWY_INLINE Paint at(const Place& place) const {
+    const Floats f;
+    const auto zero = hn::Zero(f), one = hn::Set(f, 1.f);
+    const auto share = hn::Min(hn::Max(hn::Mul(place.along, hn::Set(f, 1 / length_)), zero), one);
+    const auto rim = hn::Set(f, 1 / profile_.rim_px), half = hn::Set(f, 0.5f);
+    if (!has_bristles_)
+      return {hn::MulAdd(hn::Sub(hn::Set(f, profile_.middle_px), place.distance), rim, half), share, zero};
+
+    const auto lane = hn::Mul(place.across, hn::Set(f, 1 / width_));
+    // The rim is ragged: each side of the stroke has its own.
+    const auto side = hn::IfThenElse(hn::Gt(place.across, zero), hn::Set(f, 40.f), zero);
+    const auto rim_noise = noise(1, hn::MulAdd(place.along, hn::Set(f, 1 / (1.2f * radius_)), side));
+    const auto inside =
+        hn::Sub(hn::NegMulAdd(hn::Set(f, ragged_ * profile_.middle_px), rim_noise, hn::Set(f, profile_.middle_px)),
+                place.distance);
+    auto cover = hn::MulAdd(inside, rim, half);
+    if (runs_dry_) {
+      // Each bristle has paint for its own length.
+      const auto run = hn::NegMulAdd(hn::Set(f, dry_ * length_), noise(2, lane), hn::Set(f, length_));
+      cover = hn::Min(cover, hn::NegMulAdd(hn::Sub(place.along, run), hn::Set(f, 1 / (1.5f * width_)), one));
+    }
+    // Streaks along the stroke: fine ones that go through, and broader ones that come and go.
+    const auto fine = hn::Sub(noise(3, lane), half);
+    const auto broad = hn::Sub(
+        noise(4, hn::MulAdd(lane, hn::Set(f, 1 / 2.3f), hn::Mul(place.along, hn::Set(f, 1 / (3 * radius_))))), half);
+    auto tone = hn::Mul(hn::Set(f, streaks_), hn::MulAdd(fine, hn::Set(f, 0.8f), hn::Mul(broad, hn::Set(f, 0.6f))));
+    // Paint stands up at the rim.
+    const auto to_rim = hn::Max(hn::NegMulAdd(inside, hn::Set(f, 1 / (1.2f * width_)), one), zero);
+    const auto facing = hn::Mul(place.facing, hn::CopySign(one, place.across));
+    tone = hn::MulAdd(hn::Mul(hn::Set(f, ridge_), hn::Min(to_rim, one)), facing, tone);
+    return {cover, share, tone};
+  }
+
+ private:
+  /// Smooth noise 0..1 between lattice points a unit apart; `which` tells several apart.
+  HWY_INLINE V noise(std::uint32_t which, V place) const {
+    const Floats f;
+    const hn::RebindToSigned<Floats> integers;
+    const auto cell = hn::Floor(place), part = hn::Sub(place, cell);
+    const auto weight = hn::Mul(hn::Mul(part, part), hn::NegMulAdd(hn::Set(f, 2.f), part, hn::Set(f, 3.f)));
+    const auto at = hn::ConvertTo(integers, cell);
+    const auto first = lattice(which, at), second = lattice(which, hn::Add(at, hn::Set(integers, 1)));
+    return hn::MulAdd(weight, hn::Sub(second, first), first);
+  }
+
+  /// A hash of a lattice point, 0..1.
+  HWY_INLINE V lattice(std::uint32_t which, hn::Vec<hn::RebindToSigned<Floats>> point) const {
+    const hn::RebindToUnsigned<Floats> words;
+    const hn::RebindToSigned<Floats> integers;
+    auto h = hn::Add(hn::Mul(hn::BitCast(words, point), hn::Set(words, 0x9e3779b9u)),
+                     hn::Set(words, seed_ + which * 0x85ebca6bu));
+    h = hn::Mul(hn::Xor(h, hn::ShiftRight<16>(h)), hn::Set(words, 0x7feb352du));
+    h = hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(words, 0x846ca68bu));
+    h = hn::ShiftRight<8>(hn::Xor(h, hn::ShiftRight<16>(h)));
+    return hn::Mul(hn::ConvertTo(Floats(), hn::BitCast(integers, h)), hn::Set(Floats(), 0x1p-24f));
+  }
+
+  BrushProfile profile_;
+  bool has_bristles_, runs_dry_;
+  std::uint32_t seed_;
+  float radius_, length_, width_, dry_, streaks_ = 0, ridge_ = 0, ragged_ = 0;
+};
+
+}  // namespace wheatstone::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard of each processor

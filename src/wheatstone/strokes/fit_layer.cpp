@@ -1,0 +1,181 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "wheatstone/random.h"
+#include "wheatstone/strokes/fit_stroke_internal.h"
+#include "wheatstone/strokes/jitter_internal.h"
+#include "wheatstone/strokes/layer_order.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int passes = 2;  ///< over the cells, the second shifted by half a cell
+
+float cell_px(const LayerPlan& plan) { return std::max(1.3f * plan.radius_px, 1.5f); }
+
+/// Side of a block: strokes of blocks with one other between them do not meet.
+int block_px(const LayerPlan& plan) {
+  constexpr int least = 128;
+  return std::max(2 * static_cast<int>(std::ceil(fitted_reach_px(plan.radius_px))), least);
+}
+
+/// A cell of a tile, [left, right) × [top, bottom).
+struct Cell {
+  int left, top, right, bottom;
+  std::uint64_t random;
+};
+
+/// Where a stroke is begun: the worst pixel of a cell. Bare pixels are equally bad: chance chooses among them.
+struct Anchor {
+  int x = -1, y = -1;
+  float sum = 0;  ///< of the cell's errors
+};
+
+Anchor find_anchor(const LayerPlan& plan, const FitTile& tile, const Cell& cell) {
+  Anchor anchor;
+  float most = 0;
+  for (int y = cell.top; y < cell.bottom; ++y) {
+    for (int x = cell.left; x < cell.right; ++x) {
+      if (!plan.seeds.empty() && plan.seeds(tile.left + x, tile.top + y) == 0) continue;
+      const std::size_t pixel = tile.at(x, y);
+      const float error = tile.error(pixel);
+      anchor.sum += error;
+      const float chance = tile.is_bare(pixel) ? unit_float(hash_keys({cell.random, pixel})) : 0;
+      if (error + chance <= most) continue;
+      most = error + chance;
+      anchor.x = x;
+      anchor.y = y;
+    }
+  }
+  return anchor;
+}
+
+/// A stroke covers several cells: where the error of one is small, none gains enough.
+bool may_gain(const LayerPlan& plan, const Anchor& anchor) {
+  constexpr float cells_of_stroke = 4;
+  return anchor.x >= 0 && cells_of_stroke * anchor.sum >= plan.least_gain;
+}
+
+/// The cells of one pass that begin in a block and may gain by a stroke, in an order of chance: no row of strokes
+/// shows.
+std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int left, int top, int size, int pass,
+                                 std::uint64_t seed) {
+  const float cell = cell_px(plan), shift = static_cast<float>(pass) * cell / 2;
+  const auto first = [&](int place) { return static_cast<int>(std::ceil((static_cast<float>(place) + shift) / cell)); };
+  const auto place = [&](int number) { return static_cast<int>(static_cast<float>(number) * cell - shift); };
+  std::vector<Cell> cells;
+  const auto number_from = [&](int begin) { return begin == 0 ? 0 : first(begin); };
+  for (int row = number_from(top); row < first(top + size); ++row) {
+    for (int column = number_from(left); column < first(left + size); ++column) {
+      const Cell in_tile{std::max(place(column) - tile.left, 0), std::max(place(row) - tile.top, 0),
+                         std::min(place(column + 1) - tile.left, tile.width),
+                         std::min(place(row + 1) - tile.top, tile.height),
+                         hash_keys({seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(pass),
+                                    static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)})};
+      if (may_gain(plan, find_anchor(plan, tile, in_tile))) cells.push_back(in_tile);
+    }
+  }
+  std::ranges::sort(cells, {}, &Cell::random);
+  return cells;
+}
+
+std::uint8_t level_of(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); }
+
+void add_stroke(const FittedStroke& fitted, const LayerPlan& plan, const FitTile& tile, const Style& style,
+                std::uint64_t random, Layer& layer) {
+  Stroke stroke;
+  stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
+  stroke.point_count = static_cast<std::uint32_t>(fitted.points.size());
+  for (const PlanePoint& point : fitted.points)
+    layer.points.push_back({static_cast<float>(tile.left) + point.x, static_cast<float>(tile.top) + point.y,
+                            tile.disparity[tile.at(static_cast<int>(point.x), static_cast<int>(point.y))]});
+  const std::span points = std::span(layer.points).subspan(stroke.first_point);
+  settle_disparities(plan, fitted.radius_px, points);
+  stroke.radius_px = fitted.radius_px;
+  stroke.opacity = style.opacity;
+  const auto begin = rgb_of(fitted.begin), end = rgb_of(fitted.end);
+  const Rgb8 first{level_of(begin[0]), level_of(begin[1]), level_of(begin[2])};
+  const Rgb8 last{level_of(end[0]), level_of(end[1]), level_of(end[2])};
+  const auto change = [](int from, int to) { return static_cast<std::int16_t>(to - from); };
+  stroke.colour = jittered(first, style.jitter, random);
+  stroke.change = {change(first.r, last.r), change(first.g, last.g), change(first.b, last.b)};
+  stroke.disparity = points[points.size() / 2].disparity;
+  stroke.reference_view = plan.view;
+  stroke.views = all_views;
+  layer.strokes.push_back(stroke);
+}
+
+/// What a block has painted becomes part of the canvas.
+void put_back(const FitTile& tile, Canvas& canvas) {
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const std::size_t pixel = tile.at(x, y);
+      if (tile.coverage[pixel] <= 0) continue;
+      const auto [red, green, blue] = rgb_of(tile.painted[pixel]);
+      const int column = tile.left + x, row = tile.top + y;
+      canvas.red(column, row) = red;
+      canvas.green(column, row) = green;
+      canvas.blue(column, row) = blue;
+      canvas.coverage(column, row) = tile.coverage[pixel];
+    }
+  }
+}
+
+/// Whether a stroke may begin in a block.
+bool has_seeds(const LayerPlan& plan, int left, int top, int size) {
+  if (plan.seeds.empty()) return true;
+  const int right = std::min(left + size, plan.seeds.width()), bottom = std::min(top + size, plan.seeds.height());
+  for (int y = top; y < bottom; ++y) {
+    const auto row = plan.seeds.row(y).subspan(static_cast<std::size_t>(left), static_cast<std::size_t>(right - left));
+    if (std::ranges::any_of(row, [](std::uint8_t seed) { return seed != 0; })) return true;
+  }
+  return false;
+}
+
+Layer plan_block(const LayerPlan& plan, const Style& style, int left, int top, int size, Canvas& canvas) {
+  Layer layer{plan.radius_px, {}, {}};
+  if (!has_seeds(plan, left, top, size)) return layer;
+  const int margin = static_cast<int>(std::ceil(fitted_reach_px(plan.radius_px)));
+  FitTile tile(plan, canvas, left - margin, top - margin, left + size + margin, top + size + margin);
+  for (int pass = 0; pass < passes; ++pass) {
+    for (const Cell& cell : cells_of_block(plan, tile, left, top, size, pass, style.seed)) {
+      const Anchor anchor = find_anchor(plan, tile, cell);
+      if (!may_gain(plan, anchor)) continue;
+      const auto fitted = fit_stroke(tile, plan, anchor.x, anchor.y, cell.random);
+      if (!fitted || fitted->gain < plan.least_gain) continue;
+      paint_stroke(*fitted, plan, tile);
+      add_stroke(*fitted, plan, tile, style, cell.random, layer);
+    }
+  }
+  if (!layer.strokes.empty()) put_back(tile, canvas);
+  return layer;
+}
+
+}  // namespace
+
+Layer fit_layer(const LayerPlan& plan, const Style& style) {
+  Canvas canvas = plan.canvas;
+  const int size = block_px(plan);
+  const int columns = (canvas.width + size - 1) / size, rows = (canvas.height + size - 1) / size;
+  Layer layer{plan.radius_px, {}, {}};
+  // Blocks of one wave do not touch the same pixels. A stroke depends on the picture within four blocks of this layer,
+  // and as much for each coarser one.
+  for (int wave = 0; wave < 4; ++wave) {
+    const int first_column = wave % 2, first_row = wave / 2;
+    const int wave_columns = (columns - first_column + 1) / 2, wave_rows = (rows - first_row + 1) / 2;
+    std::vector<Layer> blocks(static_cast<std::size_t>(std::max(wave_columns, 0)) *
+                              static_cast<std::size_t>(std::max(wave_rows, 0)));
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+      const int column = first_column + 2 * (static_cast<int>(i) % wave_columns);
+      const int row = first_row + 2 * (static_cast<int>(i) / wave_columns);
+      blocks[i] = plan_block(plan, style, column * size, row * size, size, canvas);
+    });
+    for (const Layer& block : blocks) append_strokes(block, layer);
+  }
+  return layer;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,444 @@
+#include "wheatstone/strokes/fit_stroke_internal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "wheatstone/random.h"
+
+namespace wheatstone {
+namespace {
+
+// Steps of the planes for one level of sRGB: a level of grey is 0.39 of L*.
+constexpr float luminance_step = 0.39f, red_step = 0.30f, blue_step = 0.24f;
+constexpr float red_share = 0.299f, green_share = 0.587f, blue_share = 0.114f;  // Rec. 601
+
+FitColour colour_of(float r, float g, float b) {
+  const float y = red_share * r + green_share * g + blue_share * b;
+  return {luminance_step * y, red_step * (r - y), blue_step * (b - y)};
+}
+
+FitColour operator+(const FitColour& a, const FitColour& b) {
+  return {a.luminance + b.luminance, a.red + b.red, a.blue + b.blue};
+}
+FitColour operator-(const FitColour& a, const FitColour& b) {
+  return {a.luminance - b.luminance, a.red - b.red, a.blue - b.blue};
+}
+FitColour operator*(float f, const FitColour& a) { return {f * a.luminance, f * a.red, f * a.blue}; }
+float squared(const FitColour& a) { return a.luminance * a.luminance + a.red * a.red + a.blue * a.blue; }
+
+constexpr float squared_error_of_bare = 900;
+
+/// Local contrast of the wanted luminance against its brightness decides how much a pixel counts, so that dark detail
+/// does as well.
+void weigh(FitTile& tile) {
+  constexpr int reach = 3;
+  constexpr float least_weight = 0.25f;
+  // Sums over a window by running sums, rows then columns.
+  const auto width = static_cast<std::size_t>(tile.width), height = static_cast<std::size_t>(tile.height);
+  std::vector<float> sums(2 * width * height);
+  const auto run = [](std::size_t count, auto value, auto store) {
+    float sum = 0;
+    for (std::size_t i = 0; i < count + reach; ++i) {
+      if (i < count) sum += value(i);
+      if (i > 2 * reach) sum -= value(i - 2 * reach - 1);
+      if (i >= reach) store(i - reach, sum);
+    }
+  };
+  float* const first = sums.data();
+  float* const second = first + width * height;
+  for (std::size_t y = 0; y < height; ++y) {
+    const FitColour* row = tile.wanted.data() + y * width;
+    run(
+        width, [&](std::size_t x) { return row[x].luminance; },
+        [&](std::size_t x, float s) { first[y * width + x] = s; });
+    run(
+        width, [&](std::size_t x) { return row[x].luminance * row[x].luminance; },
+        [&](std::size_t x, float s) { second[y * width + x] = s; });
+  }
+  std::vector<float> mean(height);
+  for (std::size_t x = 0; x < width; ++x) {
+    const auto in_window = [](std::size_t i, std::size_t count) {
+      return static_cast<float>(std::min(i + reach, count - 1) - (i > reach ? i - reach : 0) + 1);
+    };
+    const float columns = in_window(x, width);
+    run(
+        height, [&](std::size_t y) { return first[y * width + x]; },
+        [&](std::size_t y, float s) { mean[y] = s / (columns * in_window(y, height)); });
+    run(
+        height, [&](std::size_t y) { return second[y * width + x]; },
+        [&](std::size_t y, float s) {
+          const float variance = s / (columns * in_window(y, height)) - mean[y] * mean[y];
+          const float contrast = std::sqrt(std::max(variance, 0.f)) / (2.5f + 0.04f * mean[y]);
+          tile.weight[y * width + x] = least_weight + (1 - least_weight) * std::min(contrast, 1.f);
+        });
+  }
+}
+
+/// The path of a stroke, from point to point, and the place of the point where it was begun.
+struct Path {
+  std::vector<PlanePoint> points;
+  std::size_t begun = 0;
+};
+
+float step_px(float radius_px) { return std::max(0.7f * radius_px, 1.f); }
+float longest_px(float radius_px) { return 9 * radius_px + 4; }
+
+/// Follows the picture's lines from a point, one way.
+void follow(const FitTile& tile, const LayerPlan& plan, PlanePoint from, Direction direction,
+            std::vector<PlanePoint>& points) {
+  const float step = step_px(plan.radius_px);
+  const float tolerance = 5 + 0.15f * plan.radius_px;
+  const std::size_t begun = tile.at(static_cast<int>(from.x), static_cast<int>(from.y));
+  const FitColour colour = tile.wanted[begun];
+  float last_disparity = tile.disparity[begun];
+  for (float length = step; length <= longest_px(plan.radius_px) / 2; length += step) {
+    const PlanePoint next{from.x + step * direction.x, from.y + step * direction.y};
+    if (!tile.contains(next.x, next.y)) return;
+    const std::size_t pixel = tile.at(static_cast<int>(next.x), static_cast<int>(next.y));
+    if (std::abs(tile.disparity[pixel] - last_disparity) > plan.depth_threshold_px) return;
+    last_disparity = tile.disparity[pixel];
+    const float unlike = squared(tile.wanted[pixel] - colour);
+    if (unlike > tolerance * tolerance) return;
+    // Hertzmann 1998, sec. 2.2: the canvas is already nearer to the picture than the stroke's colour would be.
+    if (!tile.is_bare(pixel) && squared(tile.wanted[pixel] - tile.painted[pixel]) < 0.6f * unlike) return;
+    points.push_back(next);
+    from = next;
+    Direction turned = plan.reference.orientation.along(static_cast<float>(tile.left) + next.x,
+                                                        static_cast<float>(tile.top) + next.y, 0, 0);
+    const float ahead = turned.x * direction.x + turned.y * direction.y;
+    if (ahead < 0) turned = {-turned.x, -turned.y};
+    constexpr float sharpest_turn = 0.3f, remembered = 0.4f;
+    if (std::abs(ahead) < sharpest_turn) return;
+    direction = {remembered * direction.x + (1 - remembered) * turned.x,
+                 remembered * direction.y + (1 - remembered) * turned.y};
+    const float norm = std::hypot(direction.x, direction.y);
+    direction = {direction.x / norm, direction.y / norm};
+  }
+}
+
+/// Broad strokes of one point would be discs: they go on a little on their surface, whatever colour is there.
+void lengthen(const FitTile& tile, const LayerPlan& plan, Direction direction, Path& path) {
+  const PlanePoint middle = path.points.front();
+  const auto disparity_at = [&](PlanePoint p) {
+    return tile.disparity[tile.at(static_cast<int>(p.x), static_cast<int>(p.y))];
+  };
+  for (const float way : {-step_px(plan.radius_px), step_px(plan.radius_px)}) {
+    const PlanePoint end{middle.x + way * direction.x, middle.y + way * direction.y};
+    if (tile.contains(end.x, end.y) && std::abs(disparity_at(end) - disparity_at(middle)) <= plan.depth_threshold_px)
+      path.points.insert(way < 0 ? path.points.begin() : path.points.end(), end);
+  }
+  path.begun = path.points.size() / 2;
+}
+
+Path trace_both_ways(const FitTile& tile, const LayerPlan& plan, int x, int y) {
+  const PlanePoint begin{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+  const Direction direction = plan.reference.orientation.along(static_cast<float>(tile.left) + begin.x,
+                                                               static_cast<float>(tile.top) + begin.y, 0, 0);
+  Path path;
+  follow(tile, plan, begin, {-direction.x, -direction.y}, path.points);
+  std::ranges::reverse(path.points);
+  path.begun = path.points.size();
+  path.points.push_back(begin);
+  follow(tile, plan, begin, direction, path.points);
+  constexpr float broad_px = 1.8f;
+  if (path.points.size() == 1 && plan.radius_px > broad_px) lengthen(tile, plan, direction, path);
+  return path;
+}
+
+/// At most four control points of a part of a path, the ends among them.
+std::vector<PlanePoint> control_points(std::span<const PlanePoint> path) {
+  constexpr std::size_t most = 4;
+  if (path.size() <= most) return {path.begin(), path.end()};
+  std::vector<PlanePoint> points;
+  for (std::size_t i = 0; i < most; ++i) points.push_back(path[(i * (path.size() - 1) + (most - 1) / 2) / (most - 1)]);
+  return points;
+}
+
+/// The pixels of a stroke: the distance from its curve, and the share of its length, 0..1.
+class Footprint {
+ public:
+  /// Of the spline through these control points. Calls `visit(pixel, distance, share)` for pixels nearer than `reach`.
+  template <class Visit>
+  void visit(const FitTile& tile, std::span<const PlanePoint> controls, float reach_px, Visit visit) {
+    flatten(controls);
+    const auto [left, right] = std::ranges::minmax(chain_, {}, &Vertex::x);
+    const auto [top, bottom] = std::ranges::minmax(chain_, {}, &Vertex::y);
+    const int x0 = std::max(static_cast<int>(left.x - reach_px), 0),
+              y0 = std::max(static_cast<int>(top.y - reach_px), 0);
+    const int x1 = std::min(static_cast<int>(right.x + reach_px) + 1, tile.width);
+    const int y1 = std::min(static_cast<int>(bottom.y + reach_px) + 1, tile.height);
+    const auto columns = static_cast<std::size_t>(std::max(x1 - x0, 0));
+    squared_.resize(columns);
+    along_.resize(columns);
+    const float length = std::max(chain_.back().along, 1e-3f), squared_reach = reach_px * reach_px;
+    for (int y = y0; y < y1; ++y) {
+      const float py = static_cast<float>(y) + 0.5f;
+      std::ranges::fill(squared_, squared_reach);
+      for (std::size_t s = 0; s + 1 < chain_.size(); ++s) lower_row(s, py, x0, x1, reach_px);
+      for (std::size_t i = 0; i < columns; ++i)
+        if (squared_[i] < squared_reach)
+          visit(tile.at(x0 + static_cast<int>(i), y), std::sqrt(squared_[i]), along_[i] / length);
+    }
+  }
+
+ private:
+  struct Vertex {
+    float x, y, along;
+  };
+
+  void flatten(std::span<const PlanePoint> controls) {
+    chain_.clear();
+    if (controls.size() < 3) {
+      for (const PlanePoint& point : controls) add(point);
+      if (controls.size() == 1) add(controls.front());
+      return;
+    }
+    points_.clear();
+    for (const PlanePoint& point : controls) points_.push_back({point.x, point.y, 0});
+    const ClampedSpline spline(points_, central_view);
+    add(controls.front());
+    for (int span = 0; span < spline.span_count(); ++span) {
+      const SpatialPoint end = point_on(spline, span, 1);
+      add({end.x, end.y});
+    }
+  }
+
+  void add(PlanePoint point) {
+    const float along =
+        chain_.empty() ? 0 : chain_.back().along + std::hypot(point.x - chain_.back().x, point.y - chain_.back().y);
+    chain_.push_back({point.x, point.y, along});
+  }
+
+  /// Lowers a row's squared distances to those of one segment.
+  void lower_row(std::size_t segment, float py, int x0, int x1, float reach_px) {
+    const Vertex &a = chain_[segment], &b = chain_[segment + 1];
+    if (py < std::min(a.y, b.y) - reach_px || py > std::max(a.y, b.y) + reach_px) return;
+    const int begin = std::max(static_cast<int>(std::min(a.x, b.x) - reach_px), x0) - x0;
+    const int end = std::min(static_cast<int>(std::max(a.x, b.x) + reach_px) + 1, x1) - x0;
+    const float dx = b.x - a.x, dy = b.y - a.y, squared_length = dx * dx + dy * dy;
+    const float inverse = squared_length > 0 ? 1 / squared_length : 0, length = b.along - a.along;
+    const float first_x = static_cast<float>(x0) + 0.5f - a.x, y = py - a.y;
+    float* const to = squared_.data();
+    float* const along = along_.data();
+    for (int i = begin; i < end; ++i) {
+      const float x = first_x + static_cast<float>(i);
+      const float t = std::min(std::max((x * dx + y * dy) * inverse, 0.f), 1.f);
+      const float ex = x - t * dx, ey = y - t * dy, distance = ex * ex + ey * ey;
+      along[i] = distance < to[i] ? a.along + t * length : along[i];
+      to[i] = std::min(distance, to[i]);
+    }
+  }
+
+  std::vector<ControlPoint> points_;
+  std::vector<Vertex> chain_;
+  std::vector<float> squared_, along_;
+};
+
+/// Sums over the pixels of a stroke, from which a colour that changes evenly along it is fitted by least squares.
+struct Moments {
+  float weight = 0, along = 0, along_squared = 0;  ///< Σw, Σwt, Σwt²
+  FitColour colour, colour_along;                  ///< Σwc, Σwtc
+  float colour_squared = 0;                        ///< Σw|c|²
+  float before = 0;                                ///< error before the stroke is painted
+
+  void add(float w, float t, const FitColour& c) {
+    weight += w;
+    along += w * t;
+    along_squared += w * t * t;
+    colour = colour + w * c;
+    colour_along = colour_along + w * t * c;
+    colour_squared += w * squared(c);
+  }
+  void add(const Moments& other) {
+    weight += other.weight;
+    along += other.along;
+    along_squared += other.along_squared;
+    colour = colour + other.colour;
+    colour_along = colour_along + other.colour_along;
+    colour_squared += other.colour_squared;
+    before += other.before;
+  }
+};
+
+/// A colour that is `begin` at t = 0 and `begin + change` at t = 1.
+struct EvenChange {
+  FitColour begin, change;
+};
+
+EvenChange fit_colour(const Moments& m) {
+  // A brush carries one colour and takes up some of what it meets: less change than fits best.
+  constexpr float taken_up = 0.6f;
+  const float mean_along = m.along / m.weight;
+  const FitColour mean = (1 / m.weight) * m.colour;
+  const float variance = m.along_squared / m.weight - mean_along * mean_along;
+  FitColour change;
+  if (variance > 1e-3f) change = (taken_up / (variance * m.weight)) * (m.colour_along - mean_along * m.colour);
+  return {mean - mean_along * change, change};
+}
+
+/// Error that is left where a stroke has this colour.
+float error_left(const Moments& m, const EvenChange& fitted) {
+  const auto& [a, b] = fitted;
+  const auto dot = [](const FitColour& p, const FitColour& q) {
+    return p.luminance * q.luminance + p.red * q.red + p.blue * q.blue;
+  };
+  return m.colour_squared - 2 * dot(a, m.colour) - 2 * dot(b, m.colour_along) + m.weight * squared(a) +
+         2 * m.along * dot(a, b) + m.along_squared * squared(b);
+}
+
+constexpr std::array width_shares{0.5f, 0.72f, 1.f};  ///< of the layer's radius, narrow to wide
+constexpr std::array length_shares{0.3f, 0.6f, 1.f};  ///< of the traced path
+constexpr float narrowest_px = 0.7f;
+
+/// Points [first, end) of a path that is shortened to a share of it, about the point where it was begun.
+struct PathPart {
+  std::size_t first, end;
+};
+PathPart shortened(const Path& path, float share, std::size_t least) {
+  const std::size_t count = path.points.size();
+  const std::size_t kept = std::clamp(static_cast<std::size_t>(std::lround(share * static_cast<float>(count))),
+                                      std::min(least, count), count);
+  const std::size_t before = std::min(path.begun, kept / 2);
+  const std::size_t first = std::min(path.begun - before, count - kept);
+  return {first, first + kept};
+}
+
+/// Whether a pixel is of another surface than a stroke: nearer, which hides the stroke, or farther, over which it
+/// would spill.
+enum class Side { own, nearer, farther };
+Side side_of(float disparity, float of_stroke, float threshold) {
+  if (disparity > of_stroke + threshold) return Side::nearer;
+  return disparity < of_stroke - threshold ? Side::farther : Side::own;
+}
+
+FitColour varied(std::uint64_t random) {
+  constexpr float steps = 2.4f;  // below what the eye sees as another colour, between neighbours
+  const auto part = [&](std::uint64_t which) { return unit_float(hash_keys({random, which})) - 0.5f; };
+  return {steps * part(1), 0.5f * steps * part(2), 0.5f * steps * part(3)};
+}
+
+}  // namespace
+
+std::array<float, 3> rgb_of(const FitColour& colour) {
+  const float y = colour.luminance / luminance_step, r = y + colour.red / red_step, b = y + colour.blue / blue_step;
+  return {r, (y - red_share * r - blue_share * b) / green_share, b};
+}
+
+FitTile::FitTile(const LayerPlan& plan, const Canvas& canvas, int left_, int top_, int right, int bottom)
+    : left(std::max(left_, 0)),
+      top(std::max(top_, 0)),
+      width(std::min(right, canvas.width) - left),
+      height(std::min(bottom, canvas.height) - top),
+      wanted(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      painted(wanted.size()),
+      weight(wanted.size()),
+      coverage(wanted.size()),
+      disparity(wanted.size()) {
+  for (int y = 0; y < height; ++y) {
+    const auto row = [&](const auto& plane) { return plane.row(top + y).subspan(static_cast<std::size_t>(left)); };
+    const auto red = row(plan.reference.red), green = row(plan.reference.green), blue = row(plan.reference.blue);
+    const auto painted_red = row(canvas.red), painted_green = row(canvas.green), painted_blue = row(canvas.blue);
+    const auto covered = row(canvas.coverage), depth = row(plan.disparity);
+    for (int x = 0; x < width; ++x) {
+      const std::size_t pixel = at(x, y), i = static_cast<std::size_t>(x);
+      wanted[pixel] = colour_of(red[i], green[i], blue[i]);
+      painted[pixel] = colour_of(painted_red[i], painted_green[i], painted_blue[i]);
+      coverage[pixel] = covered[i];
+      disparity[pixel] = depth[i];
+    }
+  }
+  weigh(*this);
+}
+
+float FitTile::error(std::size_t pixel) const {
+  return is_bare(pixel) ? squared_error_of_bare : weight[pixel] * squared(wanted[pixel] - painted[pixel]);
+}
+
+float fitted_reach_px(float radius_px) { return longest_px(radius_px) / 2 + radius_px + 2; }
+
+std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random) {
+  const Path path = trace_both_ways(tile, plan, x, y);
+  const float radius = plan.radius_px;
+  const std::size_t least_points = path.points.size() > 1 && radius > narrowest_px / width_shares[0] ? 2 : 1;
+  const float of_stroke = tile.disparity[tile.at(x, y)];
+
+  // Moments of the pixels by the narrowest stroke and the shortest part of the path that they belong to.
+  std::array<std::array<Moments, width_shares.size()>, length_shares.size()> moments{};
+  std::array<std::array<float, 2>, length_shares.size()> within{};  // shares of the path
+  const auto share_at = [&](std::size_t point) {
+    return path.points.size() > 1 ? static_cast<float>(point) / static_cast<float>(path.points.size() - 1) : 0;
+  };
+  const float cap =
+      0.6f * radius / (step_px(radius) * static_cast<float>(std::max<std::size_t>(path.points.size(), 2) - 1));
+  for (std::size_t l = 0; l < length_shares.size(); ++l) {
+    const auto [first, end] = shortened(path, length_shares[l], least_points);
+    within[l] = {share_at(first) - cap, share_at(end - 1) + cap};
+  }
+  thread_local Footprint footprint;
+  footprint.visit(tile, control_points(path.points), radius, [&](std::size_t pixel, float distance, float share) {
+    const Side side = side_of(tile.disparity[pixel], of_stroke, plan.depth_threshold_px);
+    if (side == Side::nearer) return;
+    std::size_t l = 0, w = 0;
+    while (l + 1 < length_shares.size() && (share < within[l][0] || share > within[l][1])) ++l;
+    while (w + 1 < width_shares.size() && distance > width_shares[w] * radius) ++w;
+    Moments& bin = moments[l][w];
+    constexpr float spill = 400;
+    if (side == Side::farther) {
+      bin.before -= spill;
+      return;
+    }
+    bin.before += tile.error(pixel);
+    bin.add(tile.weight[pixel], share, tile.wanted[pixel]);
+  });
+  for (std::size_t l = 0; l < length_shares.size(); ++l) {
+    for (std::size_t w = 0; w < width_shares.size(); ++w) {
+      if (w > 0) moments[l][w].add(moments[l][w - 1]);
+    }
+    if (l > 0)
+      for (std::size_t w = 0; w < width_shares.size(); ++w) moments[l][w].add(moments[l - 1][w]);
+  }
+
+  const FitColour variation = varied(random);
+  FittedStroke best;
+  EvenChange best_colour;
+  std::size_t best_length = 0;
+  for (std::size_t l = 0; l < length_shares.size(); ++l) {
+    for (std::size_t w = 0; w < width_shares.size(); ++w) {
+      if (width_shares[w] * radius < narrowest_px && w + 1 < width_shares.size()) continue;
+      const Moments& m = moments[l][w];
+      if (m.weight <= 0) continue;
+      EvenChange colour = fit_colour(m);
+      colour.begin = colour.begin + variation;
+      const float gain = m.before - error_left(m, colour);
+      if (gain <= best.gain) continue;
+      best.gain = gain;
+      best.radius_px = width_shares[w] * radius;
+      best_colour = colour;
+      best_length = l;
+    }
+  }
+  if (best.gain <= 0) return {};
+  const auto [first, end] = shortened(path, length_shares[best_length], least_points);
+  best.points = control_points(std::span(path.points).subspan(first, end - first));
+  const auto at = [&](std::size_t point) { return best_colour.begin + share_at(point) * best_colour.change; };
+  best.begin = at(first);
+  best.end = at(end - 1);
+  return best;
+}
+
+void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile) {
+  const PlanePoint& middle = stroke.points[stroke.points.size() / 2];
+  const float of_stroke = tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))];
+  thread_local Footprint footprint;
+  footprint.visit(tile, stroke.points, stroke.radius_px + 0.5f, [&](std::size_t pixel, float distance, float share) {
+    if (side_of(tile.disparity[pixel], of_stroke, plan.depth_threshold_px) == Side::nearer) return;
+    const float cover = std::min(stroke.radius_px - distance + 0.5f, 1.f);
+    const FitColour colour = stroke.begin + share * (stroke.end - stroke.begin);
+    FitColour& painted = tile.painted[pixel];
+    painted = tile.is_bare(pixel) ? colour : painted + cover * (colour - painted);
+    tile.coverage[pixel] = std::max(tile.coverage[pixel], cover);
+  });
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "wheatstone/marks/spline.h"
+#include "wheatstone/strokes/plan_layer_internal.h"
+
+namespace wheatstone {
+
+/// A colour in the planes in which strokes are fitted: luminance and two opponent colours of sRGB, scaled to steps of
+/// about CIE Lab's. They are linear in sRGB, as paint is.
+struct FitColour {
+  float luminance = 0, red = 0, blue = 0;
+};
+
+/// A part of a layer's pictures, around a block of cells whose strokes are planned one after the other: `x`, `y` are
+/// counted from the picture's first pixel, everything else from the tile's.
+struct FitTile {
+  FitTile(const LayerPlan& plan, const Canvas& canvas, int left, int top, int right, int bottom);
+
+  int left, top, width, height;
+  /// By pixel: what is wanted, what is painted, and how much a difference counts there, 0..1.
+  std::vector<FitColour> wanted, painted;
+  std::vector<float> weight;
+  std::vector<float> coverage;   ///< as the canvas's
+  std::vector<float> disparity;  ///< pixels
+
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+  bool contains(float x, float y) const {
+    return x >= 0 && y >= 0 && x < static_cast<float>(width) && y < static_cast<float>(height);
+  }
+  /// By how much a pixel is wrong, in squared steps, weighted; more where nothing is painted.
+  float error(std::size_t pixel) const;
+  bool is_bare(std::size_t pixel) const { return coverage[pixel] < 0.5f; }
+};
+
+/// A stroke that is fitted to a tile, in the tile's pixels.
+struct FittedStroke {
+  std::vector<PlanePoint> points;  ///< of its spline
+  float radius_px = 0;
+  FitColour begin, end;  ///< its colour along it
+  float gain = 0;        ///< by how much it lowers the tile's error
+};
+
+/// How far a stroke of a layer reaches from where it is begun, in pixels.
+float fitted_reach_px(float radius_px);
+
+/// The stroke through a pixel of the tile that lowers the error most: it runs along the picture's lines both ways as
+/// long as its colour fits better than what is painted, and is as long, as wide and as coloured as fits best (after
+/// Shiraishi & Yamaguchi 2000, who take length, width and angle from moments, and Hertzmann 1998, sec. 2.2). None
+/// where there is no such stroke. `random` varies its colour.
+std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random);
+
+/// Paints it.
+void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile);
+
+/// The colour in sRGB, 0..255, not rounded.
+std::array<float, 3> rgb_of(const FitColour& colour);
+
+}  // namespace wheatstone
