@@ -46,6 +46,8 @@ export interface StrokesFacts extends Common {
   stepsAPixel: number;
   /** Of the strokes' colours, in levels of 256. */
   colourStep: number;
+  /** Where strokes are not even discs along their curves: src/wheatstone/marks/brush.h. */
+  brush?: { bristle: number; streaks: number; ridge: number; dry: number };
   /** Coarse to fine; the bytes of each are the part "layer-0" and so on. */
   layers: { radius: number }[];
 }

@@ -1,161 +1,19 @@
 // Strokes of a brush, drawn for any view: each is a chain of segments, laid over what is behind it as far as no surface
 // hides it. The same picture as src/wheatstone/drawing/draw_strokes.cpp, from back to front.
 
+import { bristlesRule } from "./bristles";
+import { Chains, readLayer, texelsAStroke } from "./chains";
 import { deleteTarget, drawTo, drawWholePicture, fillWithFloats, Gl, makeProgram, makeTarget, makeTexture, Program, Target, TargetKeeper, useTexture, wholePicture } from "./gl";
 import { gapRule, hidingRule, PlannedIn } from "./hiding";
 import { PicturesOnSurfaces } from "./layered";
 import { StrokesFacts } from "./manifest";
-import { NumberStream, Source, streamsOf } from "./parts";
+import { Source, streamsOf } from "./parts";
 import { Picture } from "./picture";
 import { Surfaces } from "./surfaces";
 
-const texelsAStroke = 2;
-const strokesARow = 1024;
+const strokesARow = 512;
 const verticesARow = 2048;
 const mostPlans = 16;
-
-/** Vertices are x in the central view, y, disparity, and the number of the stroke. */
-const valuesAVertex = 4;
-
-/** Strokes as the device draws them. */
-interface Chains {
-  vertices: Float32Array;
-  vertexCount: number;
-  /** Two texels each: red, green, blue, opacity; radius, number of its plan. */
-  strokes: Float32Array;
-  strokeCount: number;
-}
-
-/** A spline's control points, in the central view; it is clamped to the outer ones, which stand three times. */
-interface Controls {
-  x: Float64Array;
-  y: Float64Array;
-  disparity: Float64Array;
-  count: number;
-}
-
-/** Adds the vertices of a chain that leaves the spline by less than an eighth of the rim: drawing/flatten.cpp. */
-function addVertices(controls: Controls, radius: number, add: (x: number, y: number, d: number) => void): void {
-  const { x, y, disparity: d, count } = controls;
-  const control = (i: number) => Math.min(Math.max(i - 2, 0), count - 1);
-  const bendAt = (i: number): number => {
-    const [a, b, c] = [control(i - 1), control(i), control(i + 1)];
-    const depth = Math.abs(d[a]! - 2 * d[b]! + d[c]!) / 2;
-    const bendX = Math.abs(x[a]! - 2 * x[b]! + x[c]!) + depth;
-    const bendY = y[a]! - 2 * y[b]! + y[c]!;
-    return bendX * bendX + bendY * bendY;
-  };
-  const addOn = (span: number, t: number): void => {
-    const s = 1 - t;
-    const wa = (s * s * s) / 6;
-    const wb = (3 * t * t * t - 6 * t * t + 4) / 6;
-    const wd = (t * t * t) / 6;
-    const wc = 1 - wa - wb - wd;
-    const [i, j, k, l] = [control(span), control(span + 1), control(span + 2), control(span + 3)];
-    const along = (of: Float64Array) => wa * of[i]! + wb * of[j]! + wc * of[k]! + wd * of[l]!;
-    add(along(x), along(y), along(d));
-  };
-  const rim = radius > 10 ? 0.1 * radius : 1;
-  const most = rim * rim;
-  const spans = count < 2 ? 0 : count + 1;
-  add(x[0]!, y[0]!, d[0]!);
-  for (let first = 0, end = 0; first < spans; first = end) {
-    const bend = Math.max(bendAt(first + 1), bendAt(first + 2));
-    let segments = 1;
-    end = first + 1;
-    if (bend > most) {
-      segments = Math.min(Math.ceil(Math.sqrt(Math.sqrt(bend / most))), 16);
-    } else {
-      for (let largest = bend; end < spans; ++end) {
-        largest = Math.max(largest, bendAt(end + 2));
-        if (largest * (end + 1 - first) ** 4 > most) break;
-      }
-    }
-    for (let i = 1; i <= segments; ++i) addOn(end - 1, i / segments);
-  }
-}
-
-/** What of a stroke its points do not tell: red, green, blue, opacity, radius, and the number of its plan. */
-type Look = [number, number, number, number, number, number];
-
-/** Gathers strokes. */
-class ChainWriter {
-  private readonly vertices: number[] = [0, 0, 0, -1]; // a segment has one vertex before it
-  private readonly strokes: number[] = [];
-
-  add(controls: Controls, look: Look): void {
-    const number = this.strokes.length / (4 * texelsAStroke);
-    const before = this.vertices.length;
-    addVertices(controls, look[4], (x, y, d) => this.vertices.push(x, y, d, number));
-    // A dot is a segment of no length.
-    if (this.vertices.length === before + valuesAVertex) this.vertices.push(...this.vertices.slice(before));
-    this.strokes.push(...look, 0, 0);
-  }
-
-  finish(): Chains {
-    const vertexCount = this.vertices.length / valuesAVertex;
-    this.vertices.push(0, 0, 0, -1, 0, 0, 0, -1);
-    return {
-      vertices: Float32Array.from(this.vertices),
-      vertexCount,
-      strokes: Float32Array.from(this.strokes),
-      strokeCount: this.strokes.length / (4 * texelsAStroke),
-    };
-  }
-}
-
-/** Reads the points of strokes, as `Places` of src/wheatstone/share/strokes_part.cpp wrote one of their coordinates. */
-class Places {
-  private first = 0;
-  constructor(
-    private readonly stream: NumberStream,
-    private readonly stepsAPixel: number,
-    private readonly goesOn: boolean,
-  ) {}
-
-  read(count: number): Float64Array {
-    const places = new Float64Array(count);
-    let place = (this.first += this.stream.signed());
-    places[0] = place / this.stepsAPixel;
-    for (let i = 1, step = 0; i < count; ++i) {
-      const change = this.stream.signed();
-      step = this.goesOn ? step + change : change;
-      place += step;
-      places[i] = place / this.stepsAPixel;
-    }
-    return places;
-  }
-}
-
-/** A layer's strokes, and those of them that were planned in other views than the reference. */
-interface LayerChains {
-  all: Chains;
-  beside: Chains;
-}
-
-function readLayer(streams: NumberStream[], facts: StrokesFacts, isBeside: (view: number) => boolean): LayerChains {
-  const [counts, xs, ys, disparities, greens, reds, blues, radii, opacities, plans] = streams;
-  const column = new Places(xs!, facts.stepsAPixel, true);
-  const row = new Places(ys!, facts.stepsAPixel, true);
-  const depth = new Places(disparities!, 2 * facts.stepsAPixel, false);
-  const all = new ChainWriter();
-  const beside = new ChainWriter();
-  const level = facts.colourStep / 255;
-  while (!counts!.ended) {
-    const count = counts!.whole();
-    const plan = plans!.whole();
-    const view = facts.planned[plan]!.reference;
-    const controls: Controls = { x: column.read(count), y: row.read(count), disparity: depth.read(count), count };
-    for (let i = 0; i < count; ++i) controls.x[i]! += view * controls.disparity[i]!;
-    const green = greens!.signed();
-    const [red, blue] = [green + reds!.signed(), green + blues!.signed()];
-    const opacity = opacities!.whole() / 65535;
-    const look: Look = [red * level, green * level, blue * level, opacity, radii!.whole() / 256, plan];
-    all.add(controls, look);
-    if (isBeside(view)) beside.add(controls, look);
-  }
-  return { all: all.finish(), beside: beside.finish() };
-}
 
 const vertexShader = `
 uniform sampler2D vertices;  // x in the central view, y, disparity, stroke
@@ -166,12 +24,24 @@ uniform float view;
 uniform float firstOrder, orderStep;
 uniform bool fillsGaps;
 uniform vec4 plans[${mostPlans}];  // kind, first view, last view
+#ifdef VARIES
+uniform sampler2D along;  // of four vertices: length of the stroke's chain up to them, in the central view
+flat out vec4 chainAlong; // of the four vertices; drawn pixels
+flat out vec4 change;     // what is added to the colour along the stroke; length of its chain
+flat out uint seed;
+#endif
 flat out vec3 seenBefore, seenFrom, seenTo, seenAfter;  // drawn pixels and disparity
 flat out vec4 paint;
 flat out vec2 brush;     // middle and width of the rim
 flat out int kind;
 
 vec4 vertexAt(int i) { return texelFetch(vertices, ivec2(i % ${verticesARow}, i / ${verticesARow}), 0); }
+#ifdef VARIES
+float alongAt(int i) {
+  int texel = i >> 2;
+  return scale * texelFetch(along, ivec2(texel % ${verticesARow / 4}, texel / ${verticesARow / 4}), 0)[i & 3];
+}
+#endif
 vec3 seenAt(vec4 vertex) { return vec3((vertex.x - view * vertex.z) * scale, vertex.y * scale, vertex.z); }
 
 void main() {
@@ -196,6 +66,12 @@ void main() {
   seenTo = seenAt(to);
   seenBefore = isFirst ? seenFrom : seenAt(before);
   seenAfter = isLast ? seenTo : seenAt(after);
+#ifdef VARIES
+  chainAlong = vec4(alongAt(segment), alongAt(segment + 1), alongAt(segment + 2), alongAt(segment + 3));
+  change = texelFetch(strokes, place + ivec2(2, 0), 0);
+  change.a *= scale;
+  seed = uint(shape.z) << 16 | uint(shape.w);
+#endif
 
   // A segment paints the rectangle beside it, and at its end what lies outside the bend.
   const float rounding = 1.0 / 32.0;
@@ -222,24 +98,53 @@ flat in vec4 paint;
 flat in vec2 brush;
 flat in int kind;
 out vec4 drawn;
+const float far = 1e30;
 ${hidingRule}
 float squaredDistance(vec3 a, vec3 b, vec2 pixel, float leastDisparity) {
   vec2 along = b.xy - a.xy, to = pixel - a.xy;
   float t = clamp(dot(to, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
-  if (mix(a.z, b.z, t) < leastDisparity) return 1e30;
+  if (mix(a.z, b.z, t) < leastDisparity) return far;
   vec2 off = to - t * along;
   return dot(off, off);
 }
+#ifdef VARIES
+flat in vec4 chainAlong;
+flat in vec4 change;
+${bristlesRule}
+// On a segment, or beyond its ends by as many times its length.
+Place placeOn(vec2 a, vec2 b, vec2 alongs, vec2 beyond, vec2 pixel) {
+  const vec2 light = vec2(0.6, 0.8);
+  vec2 step = b - a, to = pixel - a;
+  float size = length(step);
+  vec2 course = size > 0.0 ? step / size : vec2(1.0, 0.0);
+  float t = size > 0.0 ? clamp(dot(to, course) / size, -beyond.x, 1.0 + beyond.y) : 0.0;
+  return Place(0.0, mix(alongs.x, alongs.y, t), course.x * to.y - course.y * to.x, light.x * course.y - light.y * course.x);
+}
+#endif
 void main() {
   vec2 pixel = gl_FragCoord.xy;
-  float least = leastSeenOf(kind, surfacesAt(pixel));
-  float squared = squaredDistance(seenFrom, seenTo, pixel, least);
-  if (seenBefore != seenFrom) squared = min(squared, squaredDistance(seenBefore, seenFrom, pixel, least));
-  if (seenAfter != seenTo) squared = min(squared, squaredDistance(seenTo, seenAfter, pixel, least));
-  float cover = clamp((brush.x - sqrt(squared)) / brush.y + 0.5, 0.0, 1.0);
+  float leastDisparity = leastSeenOf(kind, surfacesAt(pixel));
+  bool isFirst = seenBefore == seenFrom, isLast = seenAfter == seenTo;
+  float squared = squaredDistance(seenFrom, seenTo, pixel, leastDisparity);
+  float before = isFirst ? far : squaredDistance(seenBefore, seenFrom, pixel, leastDisparity);
+  float after = isLast ? far : squaredDistance(seenTo, seenAfter, pixel, leastDisparity);
+  float distance = sqrt(min(squared, min(before, after)));
+  float cover = clamp((brush.x - distance) / brush.y + 0.5, 0.0, 1.0);
   if (cover == 0.0) discard;
+  vec3 colour = paint.rgb;
+#ifdef VARIES
+  Place place;
+  if (before <= min(squared, after)) place = placeOn(seenBefore.xy, seenFrom.xy, chainAlong.xy, vec2(0.0), pixel);
+  else if (squared <= after) place = placeOn(seenFrom.xy, seenTo.xy, chainAlong.yz, vec2(isFirst ? 1e6 : 0.0, isLast ? 1e6 : 0.0), pixel);
+  else place = placeOn(seenTo.xy, seenAfter.xy, chainAlong.zw, vec2(0.0), pixel);
+  place.distance = distance;
+  Paint here = paintAt(place, brush.x, brush.y, change.a);
+  // Where a bristle has no paint, the stroke's other segments leave none either.
+  cover = here.cover;
+  colour = clamp(colour + here.share * change.rgb + here.tone / 255.0, 0.0, 1.0);
+#endif
   float share = cover * paint.a;
-  drawn = vec4(paint.rgb * share, share);
+  drawn = vec4(colour * share, share);
 }`;
 
 const finishShader = `
@@ -292,6 +197,7 @@ class DeviceChains {
   readonly strokeCount: number;
   private readonly segments: number;
   private readonly vertices: WebGLTexture;
+  private readonly along: WebGLTexture;
   private readonly strokes: WebGLTexture;
 
   constructor(
@@ -302,6 +208,7 @@ class DeviceChains {
     this.strokeCount = chains.strokeCount;
     this.segments = chains.strokeCount > 0 ? chains.vertexCount - 2 : 0;
     this.vertices = textureOf(gl, chains.vertices, verticesARow);
+    this.along = textureOf(gl, chains.along, verticesARow / 4);
     this.strokes = textureOf(gl, chains.strokes, strokesARow * texelsAStroke);
   }
 
@@ -310,6 +217,7 @@ class DeviceChains {
     const { gl } = this;
     useTexture(gl, program, "strokes", 1, this.strokes);
     useTexture(gl, program, "vertices", 2, this.vertices);
+    useTexture(gl, program, "along", 3, this.along);
     gl.uniform1f(program.at("firstOrder"), firstOrder);
     this.indices.bind(this.segments);
     gl.drawElements(gl.TRIANGLES, 6 * this.segments, gl.UNSIGNED_INT, 0);
@@ -335,7 +243,8 @@ export class StrokesPicture implements Picture {
     private readonly source: Source,
   ) {
     this.detail = { layers: facts.layers.length, shown: facts.layers.length };
-    this.program = makeProgram(gl, vertexShader, fragmentShader);
+    const kind = facts.brush ? "#define VARIES\n" : "";
+    this.program = makeProgram(gl, kind + vertexShader, kind + fragmentShader);
     this.finish = makeProgram(gl, wholePicture, finishShader);
     this.seen = makeTexture(gl);
     this.indices = new SegmentIndices(gl);
@@ -442,15 +351,21 @@ export class StrokesPicture implements Picture {
     gl.uniform1f(program.at("view"), view);
     gl.uniform1f(program.at("orderStep"), 2 / (this.strokeCount + 2));
     gl.uniform4fv(program.at("plans[0]"), this.plans());
+    const brush = facts.brush ?? { bristle: 0, streaks: 0, ridge: 0, dry: 0 };
+    gl.uniform1f(program.at("bristle"), brush.bristle * scale);
+    gl.uniform1f(program.at("streaks"), brush.streaks);
+    gl.uniform1f(program.at("ridge"), brush.ridge);
     // Behind everything, what other views planned fills the gaps that the reference view's strokes leave.
     let order = 0;
     for (const gaps of [true, false]) {
       gl.uniform1i(program.at("fillsGaps"), gaps ? 1 : 0);
-      for (const layer of shown) {
+      shown.forEach((layer, i) => {
         const chains = gaps ? layer.beside : layer.all;
+        // The coarsest layer is the ground of the others: it does not run dry.
+        gl.uniform1f(program.at("dry"), i === 0 ? 0 : brush.dry);
         chains.draw(program, order);
         order += chains.strokeCount;
-      }
+      });
     }
   }
 

@@ -19,7 +19,7 @@ make() {
 
 make still synth still --size 640x480 -o still
 photographs=(still/left.png still/right.png --disparity still/left_disparity.pfm)
-styles=(impressionist expressionist colorist-wash pointillist psychedelic dual posterise mosaic diffusion)
+styles=(oil impressionist expressionist colorist-wash pointillist psychedelic dual posterise mosaic diffusion)
 for style in "${styles[@]}"; do
   make "$style/painting.wst" paint "${photographs[@]}" --style "$style" -o "$style"
   run share "$style/painting.wst" -o "$style.html"

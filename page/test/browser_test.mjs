@@ -103,6 +103,21 @@ await test("strokes and modes are those of the command line, and no address is a
   return told;
 });
 
+// With strong streaks and ridges, a mistake in any of the formulas of bristles costs many decibels.
+for (const [name, scale, ...options] of [["oil", "2"], ["strong-oil", "0.5", "--streaks", "80", "--ridge", "80"]]) {
+  await test(`bristles and changes of colour of ${name} are those of the command line`, async () => {
+    paint(name, "--style", "oil", ...options);
+    run("paint", `${name}/painting.wst`, "--scale", scale, "-o", `${name}-${scale}`);
+    const { page, troubles } = await openPage(browser, at(`${name}.html`));
+    const told = await comparePictures(page, `${name}-drawn`, leftAndRight);
+    // The right eye's view also shows the edges of surfaces, which the page keeps at the painting's own size.
+    const scaled = await comparePictures(page, `${name}-${scale}`, [leftAndRight[0]]);
+    assert.deepEqual(troubles, []);
+    await page.close();
+    return `${told}; ${scale} times as large ${scaled}`;
+  });
+}
+
 await test("pointer, keys and clicks change what is seen; less detail is another picture", async () => {
   const { page } = await openPage(browser, at("impressionist.html"));
   const get = (name) => page.evaluate((name) => document.querySelector("wheatstone-picture")[name], name);

@@ -44,5 +44,32 @@ TEST(HiddenStrokes, AreThoseThatNoViewShowsOfTheirLayer) {
     EXPECT_EQ(draw(Painting{kept}, view).picture, draw(Painting{painting}, view).picture);
 }
 
+/// A stroke from the left to the right.
+void add_line(float radius_px, Rgb8 colour, Layer& layer) {
+  add_dot(4, 0, radius_px, colour, layer);
+  for (const float x : {12.f, 20.f, 28.f, 36.f}) layer.points.push_back({x, height / 2.f, 0});
+  layer.strokes.back().point_count = 5;
+}
+
+TEST(HiddenStrokes, LeaveTheBristlesOfTheOthersAsTheyAre) {
+  StrokePainting painting{.width = width, .height = height, .layers = {{}}, .brush = {.bristle_px = 1, .streaks = 60}};
+  Layer& layer = painting.layers[0];
+  add_dot(20, 0, 2, red, layer);  // wholly behind the next
+  add_line(6, blue, layer);
+  const StrokePainting kept = without_hidden_strokes(painting, {}, std::array{left_eye}, 1.f / 128);
+  ASSERT_EQ(kept.layers[0].strokes.size(), 1u);
+  EXPECT_EQ(draw(Painting{kept}, left_eye).picture, draw(Painting{painting}, left_eye).picture);
+}
+
+TEST(HiddenStrokes, AreNotThoseThatShowWhereABrushRunsDry) {
+  StrokePainting painting{.width = width, .height = height, .layers = {{}}, .brush = {.bristle_px = 1, .dry = 1}};
+  add_dot(34, 0, 2, red, painting.layers[0]);
+  add_line(5, blue, painting.layers[0]);
+  EXPECT_EQ(without_hidden_strokes(painting, {}, std::array{left_eye}, 1.f / 128).layers[0].strokes.size(), 1u)
+      << "the coarsest layer does not run dry";
+  painting.layers.insert(painting.layers.begin(), Layer{});
+  EXPECT_EQ(without_hidden_strokes(painting, {}, std::array{left_eye}, 1.f / 128).layers[1].strokes.size(), 2u);
+}
+
 }  // namespace
 }  // namespace wheatstone

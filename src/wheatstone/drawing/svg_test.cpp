@@ -56,6 +56,34 @@ TEST(Svg, AStraightStrokeIsOneLineInTenthsOfAPixel) {
   EXPECT_EQ(count_of(svg, "<svg"), 1u);
 }
 
+TEST(Svg, AStrokeWhoseColourChangesHasAGradientFromItsFirstToItsLastPoint) {
+  StrokePainting painting{.width = 40, .height = 30};
+  add_stroke(painting, 15, 2, {250, 0, 10});
+  EXPECT_THAT(svg_of(Painting{painting}, left_eye), testing::Not(HasSubstr("linearGradient")));
+  painting.layers.back().strokes[0].change = {-50, 40, 0};
+  const std::string svg = svg_of(Painting{painting}, left_eye);
+  EXPECT_THAT(svg, HasSubstr(R"(gradientUnits="userSpaceOnUse" x1="50" y1="150" x2="350" y2="150">)"
+                             R"(<stop stop-color="#fa000a"/><stop offset="1" stop-color="#c8280a"/>)"));
+  EXPECT_THAT(svg, HasSubstr("<path stroke=\"url(#s0)\""));
+  // In another view its points lie elsewhere.
+  for (ControlPoint& point : painting.layers.back().points) point.disparity = 3;
+  EXPECT_THAT(svg_of(Painting{painting}, right_eye), HasSubstr("x1=\"20\" y1=\"150\" x2=\"320\""));
+}
+
+TEST(Svg, EachStrokeHasItsOwnGradientAndADotHasNone) {
+  StrokePainting painting{.width = 40, .height = 30};
+  for (const float y : {5.f, 15.f, 25.f}) {
+    add_stroke(painting, y, 2, {100, 100, 100});
+    painting.layers.back().strokes[0].change = {20, 20, 20};
+  }
+  painting.layers.back().strokes[0].point_count = 1;
+  const std::string svg = svg_of(Painting{painting}, left_eye);
+  EXPECT_EQ(count_of(svg, "<linearGradient"), 2u);
+  EXPECT_EQ(count_of(svg, "id=\"s0\""), 1u);
+  EXPECT_EQ(count_of(svg, "id=\"s1\""), 1u);
+  EXPECT_THAT(svg, HasSubstr("<path stroke=\"#646464\""));
+}
+
 TEST(FitCurves, StayWithinTheToleranceWithFewCurves) {
   std::vector<PlanePoint> chain;
   for (int i = 0; i <= 120; ++i) {

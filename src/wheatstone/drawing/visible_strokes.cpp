@@ -97,21 +97,30 @@ std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& pa
 StrokePainting without_hidden_strokes(const StrokePainting& painting, const Surfaces& surfaces,
                                       std::span<const ViewPosition> views, float least_share) {
   const PreparedSurfaces prepared_surfaces(surfaces);
-  StrokePainting kept = painting;
   std::vector<std::vector<std::uint8_t>> shown;
   for (const Layer& layer : painting.layers) shown.emplace_back(layer.strokes.size(), std::uint8_t{0});
+  PreparedStrokes of_one_layer = prepare_marks(painting);
+  std::vector<BandedLayer> layers(1);
+  std::swap(layers, of_one_layer.layers);
   for (const ViewPosition view : views) {
     const SeenSurfaces seen = seen_surfaces(prepared_surfaces, view, {painting.width, 0, painting.height});
     for (std::size_t i = 0; i < painting.layers.size(); ++i) {
-      kept.layers = {painting.layers[i]};
-      const auto visible = visible_strokes(prepare_marks(kept), view, seen.hiding, least_share);
+      std::swap(layers[i], of_one_layer.layers.front());
+      const auto visible = visible_strokes(of_one_layer, view, seen.hiding, least_share);
+      std::swap(layers[i], of_one_layer.layers.front());
       std::ranges::transform(shown[i], visible.front(), shown[i].begin(), std::bit_or<>());
     }
   }
-  kept.layers = painting.layers;
+  StrokePainting kept = painting;
   for (std::size_t i = 0; i < kept.layers.size(); ++i) {
-    std::size_t number = 0;
-    std::erase_if(kept.layers[i].strokes, [&](const Stroke&) { return shown[i][number++] == 0; });
+    std::vector<Stroke>& strokes = kept.layers[i].strokes;
+    // The bristles of a stroke without a number are told by its place, which changes: it becomes the number.
+    for (std::uint32_t place = 0; Stroke & stroke : strokes) {
+      if (stroke.number == 0) stroke.number = place;
+      ++place;
+    }
+    std::size_t place = 0;
+    std::erase_if(strokes, [&](const Stroke&) { return shown[i][place++] == 0; });
   }
   return kept;
 }

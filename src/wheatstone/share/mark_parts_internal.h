@@ -32,8 +32,12 @@ struct Rounding {
   int colour_step = 1;  ///< in levels of 256
 };
 
-/// A layer's strokes, in few bytes. page/strokes.ts reads them.
-PagePart strokes_part(std::string name, const Layer& layer, const Rounding& rounding, Plans& plans);
+/// Whether the paint of some strokes is not the same everywhere: they have bristles, or their colours change.
+bool strokes_vary(const StrokePainting& painting);
+
+/// A layer's strokes, in few bytes; `vary`: with their numbers, and the changes of their colours. page/chains.ts reads
+/// them.
+PagePart strokes_part(std::string name, const Layer& layer, bool vary, const Rounding& rounding, Plans& plans);
 
 /// Regions in their order; colours are not rounded, as there are few. page/regions.ts reads them.
 PagePart regions_part(std::string name, const RegionPainting& painting, const Rounding& rounding, Plans& plans);

@@ -38,10 +38,13 @@ void add_marks(const StrokePainting& painting, const Rounding& rounding, Json& f
   facts["opaque"] = !painting.canvas_shows;
   facts["stepsAPixel"] = rounding.steps_a_px;
   facts["colourStep"] = rounding.colour_step;
+  const bool vary = strokes_vary(painting);
+  const auto& [bristle_px, streaks, ridge, dry] = painting.brush;
+  if (vary) facts["brush"] = {{"bristle", bristle_px}, {"streaks", streaks}, {"ridge", ridge}, {"dry", dry}};
   Json layers = Json::array();
   Plans plans;
   for (const Layer& layer : painting.layers) {
-    parts.push_back(strokes_part(fmt::format("layer-{}", layers.size()), layer, rounding, plans));
+    parts.push_back(strokes_part(fmt::format("layer-{}", layers.size()), layer, vary, rounding, plans));
     layers.push_back({{"radius", layer.radius_px}});
   }
   facts["layers"] = layers;

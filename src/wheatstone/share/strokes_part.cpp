@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "wheatstone/share/mark_parts_internal.h"
@@ -46,14 +47,24 @@ std::size_t Plans::number_of(const Planned& planned) {
   return plans_.size() - 1;
 }
 
-PagePart strokes_part(std::string name, const Layer& layer, const Rounding& rounding, Plans& plans) {
-  std::array<NumberStream, 10> streams;
-  auto& [counts, x, y, disparities, green, red, blue, radii, opacities, numbers] = streams;
+bool strokes_vary(const StrokePainting& painting) {
+  const auto changes = [](const Stroke& stroke) { return stroke.change != ColourChange{}; };
+  return painting.brush.bristle_px > 0 || std::ranges::any_of(painting.layers, [&](const Layer& layer) {
+           return std::ranges::any_of(layer.strokes, changes);
+         });
+}
+
+PagePart strokes_part(std::string name, const Layer& layer, bool vary, const Rounding& rounding, Plans& plans) {
+  constexpr std::size_t streams_of_even_strokes = 10;
+  std::array<NumberStream, streams_of_even_strokes + 4> streams;
+  auto& [counts, x, y, disparities, green, red, blue, radii, opacities, planned, numbers, green_change, red_change,
+         blue_change] = streams;
   Places column(x, rounding.steps_a_px, true), row(y, rounding.steps_a_px, true),
       depth(disparities, 2 * rounding.steps_a_px, false);
+  std::int64_t last_number = 0;
   for (const Stroke& stroke : layer.strokes) {
     counts.add_whole(stroke.point_count);
-    numbers.add_whole(plans.number_of({stroke.reference_view, stroke.views}));
+    planned.add_whole(plans.number_of({stroke.reference_view, stroke.views}));
     const auto points = layer.points_of(stroke);
     column.begin(points.front().x);
     row.begin(points.front().y);
@@ -70,8 +81,15 @@ PagePart strokes_part(std::string name, const Layer& layer, const Rounding& roun
     blue.add_signed(level(stroke.colour.b) - level(stroke.colour.g));
     radii.add_whole(static_cast<std::uint64_t>(in_steps(stroke.radius_px, radius_steps)));
     opacities.add_whole(static_cast<std::uint64_t>(std::lround(std::clamp(stroke.opacity, 0.f, 1.f) * 65535)));
+
+    numbers.add_signed(stroke.number - last_number);
+    last_number = stroke.number;
+    const auto change_of = [&](int levels) { return std::lround(static_cast<double>(levels) / rounding.colour_step); };
+    green_change.add_signed(change_of(stroke.change.g));
+    red_change.add_signed(change_of(stroke.change.r) - change_of(stroke.change.g));
+    blue_change.add_signed(change_of(stroke.change.b) - change_of(stroke.change.g));
   }
-  return part_of_streams(std::move(name), streams);
+  return part_of_streams(std::move(name), std::span(streams).first(vary ? streams.size() : streams_of_even_strokes));
 }
 
 }  // namespace wheatstone
