@@ -41,7 +41,7 @@ void run(int view_count) {
   fmt::print("{} views of {}x{}, on {}\n", view_count, width, height, gpu_facts().name);
   const SyntheticStill still = make_synthetic_still({.width = width, .height = height, .samples_a_side = 1});
   const std::vector<ViewPosition> views = evenly_spaced(width, height, view_count).positions;
-  for (const char* const style : {"impressionist", "pointillist"}) compare(style, still, views);
+  for (const char* const style : {"oil", "impressionist", "pointillist"}) compare(style, still, views);
 }
 
 }  // namespace

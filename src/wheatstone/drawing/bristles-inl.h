@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace wheatstone::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The paint of one stroke from place to place. draw_strokes.comp and page/bristles.ts hold the same formulas.
+/// The paint of one stroke from place to place. bristles.glsl and page/bristles.ts hold the same formulas.
 class Bristles {
  public:
   using Floats = hn::CappedTag<float, Canvas::widest_vector>;

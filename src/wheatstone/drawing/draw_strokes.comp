@@ -1,7 +1,13 @@
 #version 450
 
 // A tile of one view: the segments of strokes in its band of rows, from the nearest stroke to the farthest, until no
-// light comes through. The twin of rasterise_simd.cpp and finish_row_simd.cpp.
+// light comes through. The twin of rasterise_simd.cpp and finish_row_simd.cpp. PAINT says what varies within a stroke.
+// Variant: PAINT=0
+// Variant: PAINT=1
+// Variant: PAINT=2
+#define EVEN 0
+#define CHANGES 1  // its colour alone
+#define BRISTLES 2
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -22,6 +28,7 @@ layout(std430, binding = 0) readonly buffer Work {
   float still_depth;  // and how cells are numbered
   int first_cell;
   uint cells_a_band;
+  float streaks, ridge;  // of the brush
   float view[most_views];
 };
 struct Stroke {
@@ -48,15 +55,20 @@ layout(std430, binding = 7) buffer Pixels { uint pixels[]; };
 
 #include "wheatstone/drawing/stroke_tiles.glsl"
 
+#if PAINT != EVEN
+#include "wheatstone/drawing/bristles.glsl"
+#endif
+
 // A segment as the view sees it. A rigid stroke's place and pixels are those of the central view, sheared.
 struct Seen {
   float x, y, dx, dy;
   float by_length2;
   float shear;
   float depth, depth_along, depth_down;  // at its beginning, to its end, and for each row of the picture
-  uint stroke;
-  int kind;
+  uint stroke;  // the highest bits: which of hidden_below hides it
+  uint segment;
 };
+const int kind_bit = 30;
 
 // Of the segments at hand, those that reach the tile.
 shared Seen near[at_a_time];
@@ -92,11 +104,30 @@ struct Drawn {
   float light;
 };
 
-void slide_under(inout Drawn drawn, uint number, float squared) {
+// Of a stroke's segments, the one that is nearest to the pixel.
+struct Nearest {
+  float squared;      // distance
+  vec2 from, to_end;  // the pixel, counted from its beginning, and its way to its end
+  uint segment;
+  bool is_seen;  // where it is nearest
+};
+const Nearest none = Nearest(far_away, vec2(0), vec2(0), 0, false);
+
+void slide_under(inout Drawn drawn, uint of, Nearest nearest) {
+  uint number = of & ~(3u << kind_bit);
   Stroke stroke = strokes[number];
-  float cover = clamp((stroke.middle_px - sqrt(squared)) / stroke.rim_px + 0.5, 0.0, 1.0);
-  float share = cover * stroke.opacity * drawn.light;
-  drawn.paint += share * vec3(stroke.red, stroke.green, stroke.blue);
+  vec3 colour = vec3(stroke.red, stroke.green, stroke.blue);
+#if PAINT == EVEN
+  float cover = (stroke.middle_px - sqrt(nearest.squared)) / stroke.rim_px + 0.5;
+#else
+  Bristles bristles = bristles_of(number);
+  Place place = place_on(nearest.segment, nearest.squared, nearest.from, nearest.to_end);
+  Paint paint = paint_at(bristles, stroke.middle_px, stroke.rim_px, place);
+  float cover = paint.cover;
+  colour = clamp(colour + paint.share * bristles.change + paint.tone, 0.0, 255.0);
+#endif
+  float share = clamp(cover, 0.0, 1.0) * stroke.opacity * drawn.light;
+  drawn.paint += share * colour;
   drawn.light -= share;
 }
 
@@ -169,9 +200,8 @@ void main() {
   vec4 below = inside ? hidden_below(x, y, v) : vec4(nothing_shown);
   Drawn drawn = Drawn(vec3(0), inside ? 1.0 : 0.0);
 
-  uint number = ~0u;  // of the stroke at hand, and the squared distance to what is seen of it
-  int kind = 0;
-  float squared = far_away;
+  uint at_hand = ~0u;  // the stroke, as Seen has it
+  Nearest nearest = none;
   uint cell = cell_of_tile(uint(tile.x), gl_WorkGroupID.y, shift);
   uint end = cell_first[cell + 1];
   for (uint first = cell_first[cell]; first < end; first += at_a_time) {
@@ -185,10 +215,11 @@ void main() {
       uint entry = in_cells[first + me];
       Segment segment = segments[entry & ~highest_bit];
       mine = seen(segment, shift);
+      mine.segment = entry & ~highest_bit;
       if (reaches_tile(mine, segment.reach, vec2(tile), vec2(tile + tile_size))) {
         Stroke stroke = strokes[mine.stroke];
         is_near = shift >= stroke.first_view && shift <= stroke.last_view;
-        mine.kind = (entry & highest_bit) != 0 ? 3 : stroke.planned_in;
+        mine.stroke |= ((entry & highest_bit) != 0 ? 3u : uint(stroke.planned_in)) << kind_bit;
       }
     }
     if (is_near) atomicOr(near_bits[me / 32], 1u << (me % 32));
@@ -198,26 +229,30 @@ void main() {
     if (is_near) near[place_among_near(me)] = mine;
     barrier();
     if (drawn.light <= dark) continue;
-    for (uint i = 0; i < count; ++i) {
-      Seen here = near[i];
-      if (here.stroke != number || here.kind != kind) {
-        if (squared < far_away) slide_under(drawn, number, squared);
-        squared = far_away;
+    for (uint i = 0; i < count;) {
+      uint next = near[i].stroke;
+      if (next != at_hand) {
+        if (nearest.is_seen) slide_under(drawn, at_hand, nearest);
+        nearest = none;
         if (drawn.light <= dark) break;
-        number = here.stroke;
-        kind = here.kind;
+        at_hand = next;
       }
-      vec2 from = middle - vec2(here.x - here.shear * middle.y, here.y);
-      vec2 along = vec2(here.dx, here.dy);
-      float t = clamp(dot(from, along) * here.by_length2, 0.0, 1.0);
-      vec2 away = from - t * along;
-      float distance2 = dot(away, away);
-      float depth = here.depth + t * here.depth_along + middle.y * here.depth_down;
-      if (distance2 < squared && depth >= below[kind]) squared = distance2;
+      float hidden = below[at_hand >> kind_bit];
+      do {
+        Seen here = near[i];
+        vec2 from = middle - vec2(here.x - here.shear * middle.y, here.y);
+        vec2 to_end = vec2(here.dx, here.dy);
+        float t = clamp(dot(from, to_end) * here.by_length2, 0.0, 1.0);
+        vec2 away = from - t * to_end;
+        float squared = dot(away, away);
+        float depth = here.depth + t * here.depth_along + middle.y * here.depth_down;
+        if (squared < nearest.squared) nearest = Nearest(squared, from, to_end, here.segment, depth >= hidden);
+        ++i;
+      } while (i < count && near[i].stroke == at_hand);
     }
   }
   if (!inside) return;
-  if (squared < far_away) slide_under(drawn, number, squared);
+  if (nearest.is_seen) slide_under(drawn, at_hand, nearest);
   int at = (v * height + y) * width + x;
   pixels[at] = finished(drawn, at);
 }

@@ -28,6 +28,7 @@ struct StrokeWork {
   float still_depth = 0;
   std::int32_t first_cell = 0;
   std::uint32_t cells_a_band = 0;
+  float streaks = 0, ridge = 0;
   std::array<float, most_gpu_views> view{};
 };
 
@@ -44,6 +45,44 @@ StrokesForGpu::Stroke stroke_for_gpu(const FlatStroke& stroke, PlannedIn planned
           stroke.views.first - central_view,
           stroke.views.last - central_view,
           static_cast<std::int32_t>(planned_in)};
+}
+
+/// What draw_strokes.comp is told of the paint: what varies within strokes.
+enum class PaintInStrokes { even, changes, bristles };
+
+PaintInStrokes paint_of(const PreparedStrokes& painting) {
+  PaintInStrokes paint = PaintInStrokes::even;
+  for (const BandedLayer& layer : painting.layers) {
+    if (layer.brush.bristle_px > 0) return PaintInStrokes::bristles;
+    if (std::ranges::any_of(layer.flat.strokes, &FlatStroke::changes_colour)) paint = PaintInStrokes::changes;
+  }
+  return paint;
+}
+
+/// The brush of all layers, as the nearest has it.
+Brush brush_of(const PreparedStrokes& painting) {
+  return painting.layers.empty() ? Brush{} : painting.layers.back().brush;
+}
+
+/// As class Bristles in bristles-inl.h has it.
+StrokesForGpu::Bristles bristles_for_gpu(const FlatStroke& stroke, const Brush& brush) {
+  const bool runs_dry = stroke.length > 2 * stroke.radius_px;
+  return {stroke.red_change,
+          stroke.green_change,
+          stroke.blue_change,
+          std::max(stroke.length, 1e-3f),
+          stroke.radius_px,
+          std::max(brush.bristle_px, stroke.radius_px / 6),
+          runs_dry ? brush.dry * stroke.length : 0,
+          stroke.seed};
+}
+
+/// The places of a segment from one vertex to another, as PlacesOfSegment in distances_simd.cpp.
+StrokesForGpu::PlacesOfSegment places_of(const FlatLayer& layer, const FlatStroke& stroke, std::uint32_t from,
+                                         std::uint32_t to) {
+  constexpr float ends = 1e6f;  // the first and the last segment go on
+  return {layer.along[from], layer.along[to] - layer.along[from], from == stroke.first_vertex ? -ends : 0,
+          to == stroke.first_vertex + stroke.vertex_count - 1 ? ends : 1};
 }
 
 /// The segment from one vertex to another. `number`: the stroke's.
@@ -93,12 +132,15 @@ float still_depth_of(std::span<const Segment> segments) {
 }  // namespace
 
 StrokesForGpu::StrokesForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces) {
+  const bool varies = paint_of(painting) != PaintInStrokes::even;
   for_strokes_from_nearest(painting, [&](const BandedLayer& layer, std::size_t place, std::size_t /*of_layer*/) {
     const FlatStroke& stroke = layer.flat.strokes[place];
     const auto number = static_cast<std::uint32_t>(strokes.size());
     strokes.push_back(stroke_for_gpu(stroke, kind_of(stroke.reference_view, surfaces)));
+    if (varies) bristles.push_back(bristles_for_gpu(stroke, layer.brush));
     for_segments(stroke, [&](std::uint32_t from, std::uint32_t to) {
       segments.push_back(segment_of(layer.flat, stroke, from, to, number));
+      if (varies) places.push_back(places_of(layer.flat, stroke, from, to));
     });
   });
   still_depth = still_depth_of(segments);
@@ -150,11 +192,13 @@ CellsForGpu::CellsForGpu(const StrokesForGpu& of, int width, int height, float f
 GpuStrokes::GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, const Relief& relief)
     : painting_(painting),
       flat_(painting, surfaces),
-      draw_strokes_(draw_strokes_source),
+      draw_strokes_(draw_strokes_source, {{"PAINT", static_cast<int>(paint_of(painting))}}),
       continue_paint_(continue_paint_source),
       want_rows_(want_rows_source),
       strokes_(std::span<const StrokesForGpu::Stroke>(flat_.strokes)),
-      segments_(std::span<const Segment>(flat_.segments)) {
+      segments_(std::span<const Segment>(flat_.segments)),
+      bristles_(std::span<const StrokesForGpu::Bristles>(flat_.bristles)),
+      places_(std::span<const StrokesForGpu::PlacesOfSegment>(flat_.places)) {
   if (relief.depth_px > 0) relief_.emplace(painting, surfaces, relief);
 }
 
@@ -186,6 +230,8 @@ GpuBuffer GpuStrokes::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes,
       .still_depth = flat_.still_depth,
       .first_cell = cells_->first_cell,
       .cells_a_band = cells_->cells_a_band,
+      .streaks = brush_of(painting_).streaks,
+      .ridge = brush_of(painting_).ridge,
       .view = gpu_views(views.positions),
   };
   const GpuBuffer of_work(std::span<const StrokeWork>(&work, 1));
@@ -198,7 +244,8 @@ GpuBuffer GpuStrokes::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes,
   const auto draw_pixels = [&](const GpuBuffer& behind_or_wanted) {
     draw_strokes_.run(
         {groups_a_band, groups_of(painting_.height, tile_px), count},
-        {&of_work, &strokes_, &segments_, &cells_->cell_first, &cells_->in_cells, &planes, &behind_or_wanted, &pixels});
+        {&of_work, &strokes_, &segments_, &cells_->cell_first, &cells_->in_cells, &planes, &behind_or_wanted, &pixels},
+        {&bristles_, &places_});
   };
   draw_pixels(only_wanted ? *views.wanted : behind);
   if (work.shows_behind == 0) {

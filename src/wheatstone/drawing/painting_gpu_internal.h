@@ -46,11 +46,26 @@ struct StrokesForGpu {
     float reach;
     std::uint32_t stroke;  ///< the highest bit: rigid
   };
+  /// What varies within a stroke, as bristles.glsl reads it: two texels.
+  struct Bristles {
+    float red_change, green_change, blue_change, length;
+    float radius_px, width_px;
+    float dry_px;  ///< before a stroke's end a bristle may run out of paint; 0: none does
+    std::uint32_t seed;
+  };
+  /// A segment's places along its stroke, in pixels: a texel.
+  struct PlacesOfSegment {
+    float begin, length;
+    float least, most;  ///< shares of its length between which it has places
+  };
 
   StrokesForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces);
 
   std::vector<Stroke> strokes;
   std::vector<Segment> segments;
+  // Of a painting whose paint varies within strokes; else empty.
+  std::vector<Bristles> bristles;
+  std::vector<PlacesOfSegment> places;
   float still_depth = 0;  ///< the middle of all disparities
 };
 
@@ -120,7 +135,7 @@ class GpuStrokes {
   const PreparedStrokes& painting_;
   StrokesForGpu flat_;
   GpuProgram draw_strokes_, continue_paint_, want_rows_;
-  GpuBuffer strokes_, segments_;
+  GpuBuffer strokes_, segments_, bristles_, places_;
   std::optional<CellsOnGpu> cells_;
   std::optional<GpuRelief> relief_;
 };

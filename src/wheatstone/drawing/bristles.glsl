@@ -1,0 +1,83 @@
+// The paint of one stroke from place to place: the twin of bristles-inl.h. Before it stand PAINT, and the members of the
+// work `streaks` and `ridge`.
+
+layout(binding = 0) uniform usamplerBuffer strokes_bristles;    // two texels a stroke
+layout(binding = 1) uniform usamplerBuffer places_of_segments;  // a texel each
+
+// As struct Bristles in painting_gpu_internal.h has them.
+struct Bristles {
+  vec3 change;
+  float length_px, radius_px, width_px, dry_px;
+  uint seed;
+};
+
+Bristles bristles_of(uint stroke) {
+  vec4 colour = uintBitsToFloat(texelFetch(strokes_bristles, int(2 * stroke)));
+  uvec4 brush = texelFetch(strokes_bristles, int(2 * stroke + 1));
+  vec3 sizes = uintBitsToFloat(brush.xyz);
+  return Bristles(colour.rgb, colour.w, sizes.x, sizes.y, sizes.z, brush.w);
+}
+
+// A pixel of a stroke: distance to its curve, and as DistanceBand.
+struct Place {
+  float distance, along, across, facing;
+};
+
+// Of a segment, with the pixel counted from its beginning, and its way to its end.
+Place place_on(uint segment, float squared, vec2 from, vec2 to_end) {
+  const vec2 light = vec2(0.6, 0.8);
+  vec4 of_segment = uintBitsToFloat(texelFetch(places_of_segments, int(segment)));  // begin, length, least, most
+  float length2 = dot(to_end, to_end);
+  float t = length2 > 0 ? dot(from, to_end) / length2 : 0;
+  vec2 course = length2 > 0 ? to_end * inversesqrt(length2) : vec2(1, 0);
+  return Place(sqrt(squared), of_segment.x + clamp(t, of_segment.z, of_segment.w) * of_segment.y,
+               course.x * from.y - course.y * from.x, light.x * course.y - light.y * course.x);
+}
+
+struct Paint {
+  float cover;  // the brush's, on from below 0 to above 1
+  float share;  // of the colour's change, 0..1
+  float tone;   // levels to be added to the colour
+};
+
+// A hash of a lattice point, 0..1.
+float lattice(uint seed, uint which, int point) {
+  uint h = uint(point) * 0x9e3779b9u + seed + which * 0x85ebca6bu;
+  h = (h ^ h >> 16) * 0x7feb352du;
+  h = (h ^ h >> 15) * 0x846ca68bu;
+  return float((h ^ h >> 16) >> 8) / 16777216.0;
+}
+
+// Smooth noise 0..1 between lattice points a unit apart; `which` tells several apart.
+float noise(uint seed, uint which, float place) {
+  float cell = floor(place);
+  float part = place - cell;
+  return mix(lattice(seed, which, int(cell)), lattice(seed, which, int(cell) + 1), part * part * (3 - 2 * part));
+}
+
+Paint paint_at(Bristles of, float middle_px, float rim_px, Place place) {
+  float share = clamp(place.along / of.length_px, 0.0, 1.0);
+#if PAINT != BRISTLES
+  return Paint((middle_px - place.distance) / rim_px + 0.5, share, 0);
+#else
+  // Streaks that are too fine for the pixels of a view are filtered, so that they do not sparkle.
+  float shown = clamp((of.width_px - 0.6) / 0.9, 0.0, 1.0);
+  float ragged = shown * 0.12;
+  float lane = place.across / of.width_px;
+  // The rim is ragged: each side of the stroke has its own.
+  float side = place.across > 0 ? 40 : 0;
+  float rim_noise = noise(of.seed, 1, place.along / (1.2 * of.radius_px) + side);
+  float inside = middle_px - ragged * middle_px * rim_noise - place.distance;
+  float cover = inside / rim_px + 0.5;
+  // Each bristle has paint for its own length.
+  float run = of.length_px - of.dry_px * noise(of.seed, 2, lane);
+  if (of.dry_px > 0) cover = min(cover, 1 - (place.along - run) / (1.5 * of.width_px));
+  // Streaks along the stroke: fine ones that go through, and broader ones that come and go.
+  float fine = noise(of.seed, 3, lane) - 0.5;
+  float broad = noise(of.seed, 4, lane / 2.3 + place.along / (3 * of.radius_px)) - 0.5;
+  // Paint stands up at the rim.
+  float to_rim = clamp(1 - inside / (1.2 * of.width_px), 0.0, 1.0);
+  float facing = place.across < 0 ? -place.facing : place.facing;
+  return Paint(cover, share, shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * to_rim * facing));
+#endif
+}
