@@ -10,7 +10,7 @@ namespace wheatstone::cli {
 
 /// A style as it is typed: a preset or file, and parameters that change it.
 struct StyleArguments {
-  std::string style = "impressionist";
+  std::string style = "oil";
   std::map<std::string, std::string> changes;  ///< by parameter name
 };
 

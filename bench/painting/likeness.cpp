@@ -23,8 +23,8 @@
 #include "stopwatch.h"
 #include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/matching/match.h"
+#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/measures/painting_likeness.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/plan_painting.h"
@@ -161,13 +161,6 @@ std::vector<Photographed> subjects(const Options& options) {
   return all;
 }
 
-/// The parameter of styles that plan a given number of strokes; null while there is none.
-const StyleParameter* stroke_budget() {
-  for (const StyleParameter& parameter : style_parameters())
-    if (parameter.name == "strokes") return &parameter;
-  return nullptr;
-}
-
 Painting plan(const Photographed& photograph, const Style& style, const std::optional<StereoGeometry>& geometry) {
   if (geometry) return plan_painting(photograph.pictures, *geometry, style);
   const Image<Rgb8>& picture = photograph.pictures.left;
@@ -177,9 +170,12 @@ Painting plan(const Photographed& photograph, const Style& style, const std::opt
   return plan_painting(FilmFrame{.views = views}, style, CarryOptions{.goes_on = false}, nothing_before).painting;
 }
 
-/// Of each stroke: radius, opacity, colour and disparity; of each of its points: place and disparity.
+/// Of each stroke: radius, opacity, colour and disparity, and where its paint varies its number and the change of its
+/// colour; of each of its points: place and disparity.
 double numbers_a_stroke(const Painting& painting) {
-  constexpr double of_stroke = 6, of_point = 3;
+  const auto* const of_strokes = std::get_if<StrokePainting>(&painting.marks);
+  const double of_stroke = of_strokes != nullptr && of_strokes->brush != Brush{} ? 10 : 6;
+  constexpr double of_point = 3;
   double numbers = 0, strokes = 0;
   for (const Layer& layer : layers_of(painting)) {
     numbers += of_stroke * static_cast<double>(layer.strokes.size());
@@ -242,14 +238,12 @@ void measure(const Photographed& photograph, const Style& style, const Options& 
   } else if (!photograph.pictures.right.empty()) {
     geometry = match(photograph.pictures).geometry;
   }
-  const StyleParameter* budget = stroke_budget();
-  const bool is_budgeted = budget != nullptr && is_read_by(*budget, style.marks);
   const std::size_t painted = paint_and_print(photograph, style, geometry, faces, options);
-  if (!is_budgeted) return;
+  if (style.marks != Marks::fitted_strokes) return;
   const int whole = peer != nullptr ? peer->strokes : static_cast<int>(painted);
   for (const int strokes : {whole / 2, whole, 2 * whole}) {
     Style budgeted = style;
-    budget->set(budgeted, fmt::format("{}", strokes));
+    budgeted.strokes = strokes;
     paint_and_print(photograph, budgeted, geometry, faces, options);
   }
 }

@@ -86,7 +86,7 @@ TEST(Redraw, MakesTheSamePicturesOfAPaintingFileInEveryStyle) {
   for (const std::string_view name : style_names()) {
     options.style = style_by_name(name);
     options.style.background = Background::colour;
-    options.style.texture = options.is_of_strokes(style);
+    options.style.texture = is_of_strokes(options.style);
     const PaintedPhotograph result = paint_photograph(small.pictures, options);
     OutputFolder output(folder / "out");
     write_results(output, small.pictures, {result, options.style}, {.svg = true});
