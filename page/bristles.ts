@@ -1,4 +1,4 @@
-// What bristles leave within a stroke: src/wheatstone/drawing/bristles-inl.h.
+// What bristles leave within a stroke: src/wheatstone/drawing/bristles_simd_internal.h.
 
 /** The seed of a stroke's bristles, of 32 bits, from the stroke's number: hash_keys of src/wheatstone/random.h. */
 export function seedOf(number: number): number {

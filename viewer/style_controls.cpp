@@ -6,7 +6,7 @@
 namespace wheatstone::viewer {
 namespace {
 
-constexpr std::array<std::string_view, 4> marks{"strokes", "regions", "tiles", "curves"};
+constexpr std::array<std::string_view, 5> marks{"strokes", "fitted-strokes", "regions", "tiles", "curves"};
 constexpr std::array<std::string_view, 3> propagations{"strokes", "raster", "independent"};
 constexpr std::array<std::string_view, 2> orientations{"smooth", "gradient"};
 constexpr std::array<std::string_view, 2> filters{"median", "gaussian"};
@@ -27,7 +27,11 @@ struct NamedRange {
   std::string_view parameter;
   NumberControl range;
 };
-constexpr std::array<NamedRange, 10> ranges{{{"threshold", {0, 441, 5}},
+constexpr std::array<NamedRange, 14> ranges{{{"threshold", {0, 441, 5}},
+                                             {"strokes", {0, 100000, 500}},
+                                             {"bristle", {0, 8, 0.25}},
+                                             {"streaks", {0, 64, 1}},
+                                             {"ridge", {0, 64, 1}},
                                              {"grid", {0.25, 4, 0.25}},
                                              {"blur", {0, 4, 0.25}},
                                              {"min-length", {0, 32, 1}},

@@ -49,7 +49,7 @@ class Film(Shown):
     def __iter__(self):
         return self.frames()
 
-    def rotoscope(self, style="impressionist", **options):
+    def rotoscope(self, style="oil", **options):
         """As rotoscope() does."""
         return rotoscope(self.path, style, layout=self._layout, **options)
 
@@ -111,7 +111,7 @@ class Job:
             raise
 
 
-def rotoscope(film, style="impressionist", *, output=None, layout="", start=None, end=None, every=1, depth_budget=0.03,
+def rotoscope(film, style="oil", *, output=None, layout="", start=None, end=None, every=1, depth_budget=0.03,
               codec="h264", crf=None, resume=False):
     """Paints a film. Without `output` it gives the painted frames one by one; with it, a Job that writes a film.
 

@@ -46,7 +46,7 @@ class Photograph(Shown):
     def match(self, quality="good"):
         return match(self.left, self.right, quality)
 
-    def paint(self, style="impressionist", *, quality="good"):
+    def paint(self, style="oil", *, quality="good"):
         return paint(self.left, self.right, style, quality=quality, disparity=self.disparity)
 
     def _page(self, words):
@@ -128,7 +128,7 @@ def rectify(left, right, *, calibration=None, match_colour=True, keep_size=False
         _arguments.flag("match_colour", match_colour), _arguments.flag("keep_size", keep_size)))
 
 
-def paint(left, right, style="impressionist", *, quality="good", disparity=None):
+def paint(left, right, style="oil", *, quality="good", disparity=None):
     """Paints a rectified pair so that the marks of both eyes fuse.
 
     `style` is a Style, the name of a preset or a style file. `disparity` is that of the left picture, where it is known.

@@ -16,7 +16,7 @@ class Style:
     The parameters are the options of `wheatstone paint`, whose help explains them.
     """
 
-    preset: str | os.PathLike = "impressionist"
+    preset: str | os.PathLike = "oil"
     radii: list | None = None
     absolute_radii: bool | None = None
     threshold: float | None = None
@@ -32,6 +32,12 @@ class Style:
     jitter_red: float | None = None
     jitter_green: float | None = None
     jitter_blue: float | None = None
+    fineness: float | None = None
+    strokes: int | None = None
+    bristle: float | None = None
+    streaks: float | None = None
+    ridge: float | None = None
+    dry: float | None = None
     dual: bool | None = None
     texture: bool | None = None
     marks: str | None = None

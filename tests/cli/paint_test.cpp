@@ -291,7 +291,7 @@ TEST(PaintCommand, RefusesParametersThatMakeNoSense) {
   const TemporaryFolder folder;
   write_pair(folder);
   expect_refused(folder, paint_line({"--radii", "-3"}), 2, "radius is -3");
-  expect_refused(folder, paint_line({"--threshold", "0"}), 2, "threshold is 0");
+  expect_refused(folder, paint_line({"--style", "impressionist", "--threshold", "0"}), 2, "threshold is 0");
   expect_refused(folder, paint_line({"--style", "cubist"}), 2, "impressionist");
   expect_refused(folder, paint_line({"--disparity", "disparity.pfm", "--range", "0:10"}), 2,
                  "--range: has no effect with --disparity");

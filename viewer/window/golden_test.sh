@@ -15,7 +15,7 @@ source "$(dirname "$0")/scratch_folder.sh"
 
 "$wheatstone" synth still --size 64x48 --samples 1 -o still --quiet >made.txt
 "$wheatstone" pack still/left.png still/right.png --to quilt --quilt 2x1 -o pair --quiet >made.txt
-"$wheatstone" paint still/left.png still/right.png -o painted --quiet >made.txt
+"$wheatstone" paint still/left.png still/right.png --style impressionist -o painted --quiet >made.txt
 
 # The modes, of two photographs that nothing draws anew: only how both come onto the screen is seen.
 "$view" --mode none --script /dev/null 2>names.txt || true

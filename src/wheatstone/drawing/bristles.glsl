@@ -1,4 +1,4 @@
-// The paint of one stroke from place to place: the twin of bristles-inl.h. Before it stand PAINT, and the members of the
+// The paint of one stroke from place to place: the twin of bristles_simd_internal.h. Before it stand PAINT, and the members of the
 // work `streaks` and `ridge`.
 
 layout(binding = 0) uniform usamplerBuffer strokes_bristles;    // two texels a stroke

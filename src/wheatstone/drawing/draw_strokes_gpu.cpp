@@ -64,7 +64,7 @@ Brush brush_of(const PreparedStrokes& painting) {
   return painting.layers.empty() ? Brush{} : painting.layers.back().brush;
 }
 
-/// As class Bristles in bristles-inl.h has it.
+/// As class Bristles in bristles_simd_internal.h has it.
 StrokesForGpu::Bristles bristles_for_gpu(const FlatStroke& stroke, const Brush& brush) {
   const bool runs_dry = stroke.length > 2 * stroke.radius_px;
   return {stroke.red_change,

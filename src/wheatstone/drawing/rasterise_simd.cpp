@@ -12,7 +12,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "wheatstone/drawing/bristles-inl.h"
+#include "wheatstone/drawing/bristles_simd_internal.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace wheatstone::HWY_NAMESPACE {

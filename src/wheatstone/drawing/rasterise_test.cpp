@@ -43,7 +43,7 @@ struct OnStroke {
   float distance = INFINITY, along = 0, across = 0, facing = 0;
 };
 
-/// Number by number what bristles-inl.h does with vectors.
+/// Number by number what bristles_simd_internal.h does with vectors.
 class PlainBristles {
  public:
   PlainBristles(const FlatStroke& stroke, const Brush& brush)

@@ -170,6 +170,7 @@ float style_scale(const Style& style, int width) {
 }
 
 Brush brush_for(const Style& style, int width) {
+  if (style.marks != Marks::fitted_strokes) return {};
   Brush brush = style.brush;
   if (brush.bristle_px > 0) brush.bristle_px = std::max(brush.bristle_px * style_scale(style, width), 1.f);
   return brush;

@@ -96,7 +96,7 @@ void check_style(const Style& style);
 /// Pixels of a picture `width` wide for one pixel of a 640-pixel-wide one; 1 with absolute radii.
 float style_scale(const Style& style, int width);
 
-/// The brush for a picture `width` pixels wide.
+/// The brush for a picture `width` pixels wide; without bristles for other marks than fitted strokes.
 Brush brush_for(const Style& style, int width);
 
 /// Whether the style paints with strokes, however they are planned.

@@ -17,6 +17,7 @@ namespace {
 Style oil() {
   Style style = style_by_name("oil");
   style.background = Background::colour;
+  style.fineness = 0.5f;
   return style;
 }
 

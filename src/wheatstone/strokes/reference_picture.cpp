@@ -50,7 +50,7 @@ ReferencePicture make_reference(ImageView<const Rgb8> photograph, float radius_p
   cv::split(picture, planes);
   cv::Mat luminance = as_mat(reference.luminance);
   cv::cvtColor(picture, luminance, cv::COLOR_RGB2GRAY);
-  if (style.orientation == Orientation::smooth) {
+  if (style.orientation == Orientation::smooth || style.marks == Marks::fitted_strokes) {
     constexpr float finest_detail_px = 3;
     reference.orientation = OrientationField(reference.luminance, std::max(radius_px / 2, finest_detail_px));
   }
