@@ -68,7 +68,7 @@ struct StrokePainting {
   Rgb8 canvas_colour{255, 255, 255};
   std::vector<Layer> layers;
   bool canvas_shows =
-      true;  ///< false: without the photograph, thin paint is drawn opaque, and goes on where there is none
+      true;     ///< false: without the photograph, thin paint is drawn opaque, and goes on where there is none
   Brush brush;  ///< of all layers; the coarsest, which is the ground of the others, does not run dry
   friend bool operator==(const StrokePainting&, const StrokePainting&) = default;
 };
