@@ -43,7 +43,7 @@ format:
 	@scripts/install-deps lint
 	@scripts/format
 
-lint: build
+lint: configured
 	@scripts/install-deps lint
 	@scripts/lint
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct CalibrateArguments {
   std::string folder;
   std::vector<std::string> left, right;
   std::string board = "11x7";
@@ -30,7 +30,7 @@ struct Arguments {
   std::string output = "calibration.yml";
 };
 
-Checkerboard board_from(const Arguments& arguments) {
+Checkerboard board_from(const CalibrateArguments& arguments) {
   const Size corners = parse_size("--board", arguments.board, {3, 200}, "inner corners COLUMNSxROWS");
   return {corners.width, corners.height, arguments.square_mm};
 }
@@ -64,7 +64,7 @@ std::vector<PictureFiles> pairs_in(const fs::path& folder) {
   return pairs;
 }
 
-std::vector<PictureFiles> files_from(const Arguments& arguments) {
+std::vector<PictureFiles> files_from(const CalibrateArguments& arguments) {
   const bool lists = !arguments.left.empty() || !arguments.right.empty();
   if (lists == !arguments.folder.empty())
     throw Error(ErrorKind::wrong_usage, "calibrate needs a folder, or --left and --right with a list of pictures each");
@@ -77,7 +77,7 @@ std::vector<PictureFiles> files_from(const Arguments& arguments) {
   return pairs;
 }
 
-void print_json(const CalibrationResult& result, const Arguments& arguments, const Session& session) {
+void print_json(const CalibrationResult& result, const CalibrateArguments& arguments, const Session& session) {
   nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
   for (const CalibrationPair& pair : result.pairs)
     pairs.push_back({{"left", pair.left_name},
@@ -97,7 +97,7 @@ void print_json(const CalibrationResult& result, const Arguments& arguments, con
   print_facts(facts, session);
 }
 
-void print_summary(const CalibrationResult& result, const Arguments& arguments, const Session& session) {
+void print_summary(const CalibrationResult& result, const CalibrateArguments& arguments, const Session& session) {
   for (const CalibrationPair& pair : result.pairs) {
     const std::string names = fmt::format("{}, {}", pair.left_name, pair.right_name);
     if (pair.used) {
@@ -120,7 +120,7 @@ void print_summary(const CalibrationResult& result, const Arguments& arguments, 
   fmt::print(session.output, "written to            {}\n", arguments.output);
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run_calibrate(const CalibrateArguments& arguments, const Session& session) {
   const Checkerboard board = board_from(arguments);
   const std::vector<PictureFiles> files = files_from(arguments);
   for (const PictureFiles& pair : files)
@@ -138,7 +138,7 @@ void run(const Arguments& arguments, const Session& session) {
 }  // namespace
 
 void add_calibrate_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App& command =
       *program.add_subcommand("calibrate", "Calibrate the cameras of a stereo rig from photographs of a checkerboard");
   command.add_option("DIR", arguments->folder, "Folder with left_*.png and right_*.png, or another picture format");
@@ -154,7 +154,7 @@ void add_calibrate_command(CLI::App& program, const Session& session) {
       "without it and outliers are left out and named.\n\n"
       "Example:\n  wheatstone calibrate rig --board 11x7 --square 30mm -o calibration.yml\n"
       "  wheatstone rectify left.png right.png --calibration calibration.yml -o rectified");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_calibrate(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

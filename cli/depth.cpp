@@ -19,7 +19,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct DepthCommandArguments {
   std::string display = "376x301,mm";
   std::string resolution = "1280x1024";
   ViewingGeometry viewing{.viewing_distance_mm = 750};
@@ -39,7 +39,7 @@ float screen_width(const std::string& text) {
 }
 
 /// The screen by its sizes, or by its name.
-ViewingGeometry viewing_from(const Arguments& arguments, const CLI::App& command) {
+ViewingGeometry viewing_from(const DepthCommandArguments& arguments, const CLI::App& command) {
   ViewingGeometry viewing = arguments.viewing;
   if (std::isalpha(static_cast<unsigned char>(arguments.display.c_str()[0]))) {
     refuse_options(command, {"--resolution"}, "with a display's name", "the display has its own");
@@ -54,7 +54,7 @@ ViewingGeometry viewing_from(const Arguments& arguments, const CLI::App& command
   return viewing;
 }
 
-void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
+void run_depth(const DepthCommandArguments& arguments, const CLI::App& command, const Session& session) {
   const ViewingGeometry viewing = viewing_from(arguments, command);
   if (arguments.near_mm >= viewing.viewing_distance_mm)
     throw Error(ErrorKind::wrong_usage, fmt::format("--near: {} mm is behind the viewer, who is {} mm away",
@@ -94,7 +94,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 }  // namespace
 
 void add_depth_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DepthCommandArguments>();
   CLI::App* command = program.add_subcommand("depth", "Compute how much depth a display shows, and in how many planes");
   command
       ->add_option("--display", arguments->display,
@@ -112,7 +112,7 @@ void add_depth_command(CLI::App& program, const Session& session) {
       "Examples; the first display has 60 planes, the second 36:\n"
       "  wheatstone depth --display 376x301,mm --resolution 1280x1024 --distance 750\n"
       "  wheatstone depth --display 376x212,mm --resolution 640x360 --distance 630");
-  command->callback([arguments, command, &session] { run(*arguments, *command, session); });
+  command->callback([arguments, command, &session] { run_depth(*arguments, *command, session); });
 }
 
 }  // namespace wheatstone::cli

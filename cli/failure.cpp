@@ -26,23 +26,25 @@ bool is_for_lack_of_memory(const std::exception& error) {
   return std::string_view(error.what()).starts_with("pthread_create has failed");
 }
 
-Ranks::Failure failure_of(ErrorKind kind, std::string message) { return {static_cast<int>(kind), std::move(message)}; }
+Ranks::Failure failure_with(ErrorKind kind, std::string message) {
+  return {static_cast<int>(kind), std::move(message)};
+}
 
 }  // namespace
 
 Ranks::Failure failure_of(const std::exception_ptr& thrown) {
-  const Ranks::Failure lack_of_memory = failure_of(ErrorKind::cannot_read_write, "not enough memory");
+  const Ranks::Failure lack_of_memory = failure_with(ErrorKind::cannot_read_write, "not enough memory");
   if (!thrown) return lack_of_memory;
   try {
     std::rethrow_exception(thrown);
   } catch (const Error& error) {
-    return failure_of(error.kind(), error.what());
+    return failure_with(error.kind(), error.what());
   } catch (const std::exception& error) {
     if (is_for_lack_of_memory(error)) return lack_of_memory;
     if (const auto* const opencv = dynamic_cast<const cv::Exception*>(&error))
       return {internal_error, fmt::format("internal error in OpenCV: {} ({})", opencv->err, opencv->func)};
     if (dynamic_cast<const std::system_error*>(&error) != nullptr)
-      return failure_of(ErrorKind::cannot_read_write, error.what());
+      return failure_with(ErrorKind::cannot_read_write, error.what());
     return {internal_error, fmt::format("internal error: {}", error.what())};
   } catch (...) {
     return {internal_error, "internal error"};

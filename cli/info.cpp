@@ -210,7 +210,7 @@ ordered_json facts_of_devices() {
   return facts;
 }
 
-struct Arguments {
+struct InfoArguments {
   std::string file;
   bool devices = false;
   std::optional<float> scale;
@@ -219,7 +219,7 @@ struct Arguments {
   std::string display;
 };
 
-ordered_json facts_of(const Arguments& arguments, const CLI::App& command) {
+ordered_json facts_of(const InfoArguments& arguments, const CLI::App& command) {
   if (arguments.devices) {
     refuse_options(command, {"FILE", "--scale", "--type", "--layout", "--display"}, "with --devices", {});
     return facts_of_devices();
@@ -299,7 +299,7 @@ void print_as_text(const ordered_json& facts, const Session& session) {
 }  // namespace
 
 void add_info_command(CLI::App& program, const Session& session) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<InfoArguments>();
   CLI::App* command =
       program.add_subcommand("info", "Describe a picture, disparity file, film, painting, particle file or slices");
   command->add_option("FILE", arguments->file,

@@ -18,7 +18,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct MatchCommandArguments {
   StereoArguments photographs;
   std::string folder = "matched";
   MatchArguments matching;
@@ -46,7 +46,7 @@ void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry&
   output.commit();
 }
 
-void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
+void run_match(const MatchCommandArguments& arguments, const CLI::App& command, const Session& session) {
   refuse_match_options_without_effect(command, arguments.matching, {});
   // What cannot be written is said before the work.
   const StereoArguments& photographs = arguments.photographs;
@@ -87,7 +87,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 }  // namespace
 
 void add_match_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MatchCommandArguments>();
   CLI::App& command = *program.add_subcommand("match", "Estimate disparity and occlusion of a stereo pair");
   command
       .add_option("LEFT", arguments->photographs.left,
@@ -105,7 +105,7 @@ void add_match_command(CLI::App& program, const Session& session) {
       "right.png,\nthe rectified pictures that they belong to.\n\n"
       "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched\n"
       "  wheatstone match photograph.mpo -o matched");
-  command.callback([arguments, &command, &session] { run(*arguments, command, session); });
+  command.callback([arguments, &command, &session] { run_match(*arguments, command, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -37,7 +37,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct MeasureFilmArguments {
   std::vector<std::string> films;
   std::string source;
   std::string layout;
@@ -102,7 +102,7 @@ std::vector<std::string> names_of_shorter(const std::vector<MeasuredFilm>& films
   return names;
 }
 
-fs::path truth_file(const Arguments& arguments, const char* name, int frame, const char* ending) {
+fs::path truth_file(const MeasureFilmArguments& arguments, const char* name, int frame, const char* ending) {
   return fs::path(arguments.truth) / fmt::format("{}_{:04}{}", name, frame, ending);
 }
 
@@ -116,7 +116,7 @@ void expect_size(const Picture& truth, const fs::path& file, const MeasuredFilm&
 }
 
 /// How the frame before and this one belong together, in the source.
-FramePair pair_of(const Arguments& arguments, const MeasuredFilm& source, int frame) {
+FramePair pair_of(const MeasureFilmArguments& arguments, const MeasuredFilm& source, int frame) {
   if (arguments.truth.empty()) return relate_frames(source.before.left, source.now.left);
   const fs::path forward_file = truth_file(arguments, "flow_forward", frame - 1, ".flo");
   const fs::path backward_file = truth_file(arguments, "flow_backward", frame, ".flo");
@@ -126,7 +126,7 @@ FramePair pair_of(const Arguments& arguments, const MeasuredFilm& source, int fr
   return relate_frames(std::move(truth));
 }
 
-void measure_stereo(const Arguments& arguments, std::vector<MeasuredFilm>& films, int frame) {
+void measure_stereo(const MeasureFilmArguments& arguments, std::vector<MeasuredFilm>& films, int frame) {
   const MeasuredFilm& source = films.front();
   if (std::ranges::none_of(films, [](const MeasuredFilm& film) { return !film.now.right.empty(); })) return;
   Image<float> disparity;
@@ -221,7 +221,7 @@ std::vector<std::string> notes_of_moved_eyes(const std::vector<MeasuredFilm>& fi
   return notes;
 }
 
-Json to_json(const Arguments& arguments, const std::vector<MeasuredFilm>& films, int frames,
+Json to_json(const MeasureFilmArguments& arguments, const std::vector<MeasuredFilm>& films, int frames,
              const std::vector<int>& cuts) {
   Json facts{{"frames", frames},
              {"cuts", cuts},
@@ -266,8 +266,8 @@ double bare_share_of(const Painting& marks, bool two_eyes) {
   return present(marks, two_eyes ? for_two_eyes() : Presentation{.views = {central_view}}).worst_bare_share;
 }
 
-MarksOfFilm measure_marks(const Arguments& arguments, bool two_eyes, int frames, const std::vector<int>& cuts,
-                          const Session& session) {
+MarksOfFilm measure_marks(const MeasureFilmArguments& arguments, bool two_eyes, int frames,
+                          const std::vector<int>& cuts, const Session& session) {
   const std::optional<FramePattern> pattern = frame_pattern(arguments.marks);
   if (!pattern)
     throw Error(ErrorKind::wrong_usage,
@@ -304,7 +304,7 @@ Json to_json(const MarksOfFilm& marks) {
           {"frame", marks.frames}};
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run_measure_film(const MeasureFilmArguments& arguments, const Session& session) {
   const std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
   std::vector<MeasuredFilm> films;
   films.push_back({arguments.source, open_film(find_film(arguments.source, layout))});
@@ -353,7 +353,7 @@ void run(const Arguments& arguments, const Session& session) {
 }  // namespace
 
 void add_measure_film(CLI::App& measure, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MeasureFilmArguments>();
   CLI::App& command = *measure.add_subcommand("film", "Measure flicker and stereo consistency of films");
   command.fallthrough();
   command
@@ -387,7 +387,7 @@ void add_measure_film(CLI::App& measure, const Session& session) {
       "Example:\n  wheatstone synth film -o film\n"
       "  wheatstone rotoscope film --truth film --depth-budget full -o painted.mkv\n"
       "  wheatstone measure film painted.mkv --against film --truth film");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_measure_film(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

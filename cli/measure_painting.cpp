@@ -21,11 +21,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct MeasurePaintingArguments {
   std::string photograph, painting;
 };
 
-struct Measured {
+struct MeasuredPainting {
   PaintingLikeness likeness;
   std::optional<std::vector<double>> faces;  ///< none: they cannot be looked for
 };
@@ -34,7 +34,7 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-Json to_json(const Measured& measured) {
+Json to_json(const MeasuredPainting& measured) {
   const PaintingLikeness& likeness = measured.likeness;
   Json facts{{"gms", likeness.gms},     {"gms_detail", likeness.gms_detail}, {"lab", likeness.lab},
              {"grain", likeness.grain}, {"streaks", likeness.streaks},       {"faces", nullptr}};
@@ -51,7 +51,7 @@ std::string text_of_faces(const std::optional<std::vector<double>>& faces) {
   return fmt::format("{:.3f}, mean of {}", mean_of(*faces), faces->size());
 }
 
-void print_table(const Measured& measured, const Session& session) {
+void print_table(const MeasuredPainting& measured, const Session& session) {
   const auto line = [&session](const char* name, const std::string& value) {
     fmt::print(session.output, "{:<38}{}\n", name, value);
   };
@@ -64,9 +64,9 @@ void print_table(const Measured& measured, const Session& session) {
   line("streaks (0..1)", fmt::format("{:.2f}", likeness.streaks));
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run_measure_painting(const MeasurePaintingArguments& arguments, const Session& session) {
   const Image<Rgb8> photograph = read_image(arguments.photograph), painting = read_image(arguments.painting);
-  Measured measured;
+  MeasuredPainting measured;
   try {
     measured.likeness = measure_likeness(photograph, painting);
   } catch (const Error& error) {
@@ -83,7 +83,7 @@ void run(const Arguments& arguments, const Session& session) {
 }  // namespace
 
 void add_measure_painting(CLI::App& measure, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MeasurePaintingArguments>();
   CLI::App& command = *measure.add_subcommand("painting", "Measure how much of a photograph its painting keeps");
   command.fallthrough();
   command.add_option("PHOTO", arguments->photograph, "The photograph")->required();
@@ -98,7 +98,7 @@ void add_measure_painting(CLI::App& measure, const Session& session) {
       "  wheatstone paint still/left.png still/right.png -o painted\n"
       "  wheatstone paint painted/painting.wst --scale 3 -o large\n"
       "  wheatstone measure painting still/left.png large/left.png");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_measure_painting(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct MeasureStereoArguments {
   std::string left, right;
   std::vector<std::string> photographs;
   std::string disparity, right_disparity;
@@ -46,7 +46,7 @@ struct PaintingGuards {
   double right_bare_share = 0;
 };
 
-struct Measured {
+struct MeasuredPair {
   PairMeasures stylised;
   std::optional<PairMeasures> photographs;
   std::optional<WrongSpots> wrong_spots;  ///< against the photographs
@@ -61,8 +61,8 @@ Image<float> read_disparity_of(const std::string& argument, const StereoPair& pa
                           pair.left.width(), pair.left.height(), picture));
 }
 
-Truth find_truth(const Arguments& arguments, const StereoPair& stylised, const std::optional<StereoPair>& photographs,
-                 const Session& session) {
+Truth find_truth(const MeasureStereoArguments& arguments, const StereoPair& stylised,
+                 const std::optional<StereoPair>& photographs, const Session& session) {
   Truth truth;
   if (arguments.disparity.empty()) {
     truth.geometry = match(*photographs, match_options_from(arguments.matching), session.progress).geometry;
@@ -79,7 +79,8 @@ Truth find_truth(const Arguments& arguments, const StereoPair& stylised, const s
   return truth;
 }
 
-PaintingGuards measure_guards(const Arguments& arguments, const StereoPair& stylised, const StereoGeometry& geometry) {
+PaintingGuards measure_guards(const MeasureStereoArguments& arguments, const StereoPair& stylised,
+                              const StereoGeometry& geometry) {
   const Painting painting = read_painting(arguments.painting);
   const int width = width_of(painting), height = height_of(painting);
   if (!same_size(geometry.left_disparity, stylised.left) || width != stylised.left.width() ||
@@ -93,7 +94,7 @@ PaintingGuards measure_guards(const Arguments& arguments, const StereoPair& styl
 
 double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
-Json to_json(const Measured& measured) {
+Json to_json(const MeasuredPair& measured) {
   Json facts{{"stylised", Json::parse(pair_measures_json(measured.stylised))}};
   const PairMeasures& stylised = measured.stylised;
   if (measured.photographs) {
@@ -135,7 +136,7 @@ constexpr Row rows[] = {
      [](const PairMeasures& m) { return 100 * ratio(m.right_gradient_energy, m.left_gradient_energy); }},
 };
 
-void print_table(const Measured& measured, const Session& session) {
+void print_table(const MeasuredPair& measured, const Session& session) {
   fmt::print(session.output, "{:<30}{:>12}{:>14}\n", "", "stylised", measured.photographs ? "photographs" : "");
   for (const Row& row : rows) {
     const auto text = [&](const PairMeasures& m) { return fmt::format(fmt::runtime(row.format), row.value(m)); };
@@ -167,7 +168,7 @@ void print_table(const Measured& measured, const Session& session) {
   line("unpainted, right eye", fmt::format("{:.2f} %", 100 * guards.right_bare_share));
 }
 
-void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
+void run_measure_stereo(const MeasureStereoArguments& arguments, const CLI::App& command, const Session& session) {
   if (arguments.disparity.empty() && !arguments.right_disparity.empty())
     throw Error(ErrorKind::wrong_usage, "--right-disparity needs --disparity, the left eye's");
   if (arguments.disparity.empty() && arguments.photographs.empty())
@@ -186,7 +187,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
   }
   const Truth truth = find_truth(arguments, stylised, photographs, session);
 
-  Measured measured;
+  MeasuredPair measured;
   measured.stylised = measure_pair(stylised, truth.left_disparity);
   if (photographs) {
     measured.photographs = measure_pair(*photographs, truth.left_disparity);
@@ -203,7 +204,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 }  // namespace
 
 void add_measure_stereo(CLI::App& measure, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MeasureStereoArguments>();
   CLI::App& command = *measure.add_subcommand("stereo", "Measure the consistency of a stereo pair");
   command.fallthrough();
   command.add_option("LEFT", arguments->left, "Left picture, stylised")->required();
@@ -225,7 +226,7 @@ void add_measure_stereo(CLI::App& measure, const Session& session) {
       "eyes. Blurring wins on differences and loses gradient energy.\n\n"
       "Example:\n  wheatstone measure stereo painted/left.png painted/right.png --photographs still/left.png "
       "still/right.png \\\n    --disparity still/left_disparity.pfm");
-  command.callback([arguments, &command, &session] { run(*arguments, command, session); });
+  command.callback([arguments, &command, &session] { run_measure_stereo(*arguments, command, session); });
 }
 
 }  // namespace wheatstone::cli

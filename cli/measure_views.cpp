@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct MeasureViewsArguments {
   std::vector<std::string> views, against;
   ViewMeasuresOptions options;
 };
@@ -104,7 +104,7 @@ void print_table(const std::vector<MeasuredView>& measured, int noticeable, cons
   if (measured.size() > 1) print_line("worst", width, worst_of(measured), session);
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run_measure_views(const MeasureViewsArguments& arguments, const Session& session) {
   const std::vector<fs::path> views = files_of(arguments.views);
   const std::vector<fs::path> against = files_of(arguments.against);
   if (views.size() != against.size())
@@ -131,7 +131,7 @@ void run(const Arguments& arguments, const Session& session) {
 }  // namespace
 
 void add_measure_views(CLI::App& measure, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MeasureViewsArguments>();
   CLI::App& command = *measure.add_subcommand("views", "Compare views with reference views");
   command.fallthrough();
   command
@@ -147,7 +147,7 @@ void add_measure_views(CLI::App& measure, const Session& session) {
       "  wheatstone render universe.hdf5 --views 9 --method exact -o exact\n"
       "  wheatstone render universe.hdf5 --views 9 --method layered -o layered\n"
       "  wheatstone measure views layered --against exact");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_measure_views(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -17,7 +17,7 @@ bool is_one_of(const CLI::Option& option, const std::vector<std::string>& names)
   return std::ranges::any_of(names, [&](const std::string& name) { return option.check_name(name); });
 }
 
-[[noreturn]] void refuse(const std::string& option, std::string_view situation, std::string_view where) {
+[[noreturn]] void refuse_option(const std::string& option, std::string_view situation, std::string_view where) {
   throw Error(ErrorKind::wrong_usage, where.empty()
                                           ? fmt::format("{}: has no effect {}", option, situation)
                                           : fmt::format("{}: has no effect {}; {}", option, situation, where));
@@ -33,21 +33,21 @@ bool was_given(const CLI::App& command, const std::string& option) {
 void refuse_options(const CLI::App& command, const std::vector<std::string>& options, std::string_view situation,
                     std::string_view where) {
   for (const std::string& option : options)
-    if (was_given(command, option)) refuse(option, situation, where);
+    if (was_given(command, option)) refuse_option(option, situation, where);
 }
 
 void refuse_group(const CLI::App& command, const std::string& group, const std::vector<std::string>& kept,
                   std::string_view situation, std::string_view where) {
   for (const CLI::Option* option : command.get_options())
     if (option->get_group() == group && option->count() > 0 && !is_one_of(*option, kept))
-      refuse(name_of(*option), situation, where);
+      refuse_option(name_of(*option), situation, where);
 }
 
 void refuse_all_but(const CLI::App& command, const std::vector<std::string>& kept, std::string_view situation,
                     std::string_view where) {
   for (const CLI::Option* option : command.get_options())
     if (option->nonpositional() && option->count() > 0 && !is_one_of(*option, kept))
-      refuse(name_of(*option), situation, where);
+      refuse_option(name_of(*option), situation, where);
 }
 
 }  // namespace wheatstone::cli

@@ -23,7 +23,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct PackArguments {
   ViewsArguments input;
   PackingArguments packing;
   std::string output;
@@ -33,7 +33,7 @@ struct Arguments {
 };
 
 /// The views of which the packing needs all: shifted, and with the window where it is wanted.
-std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const Arguments& arguments) {
+std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const PackArguments& arguments) {
   if (arguments.shift_px != 0) views = shifted_views(std::move(views), arguments.shift_px);
   if (!arguments.floating_window.empty()) {
     if (views.size() != 2)
@@ -55,7 +55,7 @@ std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const Argument
 
 /// What to read, and how. A graphics processor that draws the views of a painting puts them into one picture, too,
 /// where nothing is done to them before.
-ViewsArguments input_of(const Arguments& arguments, const Packing& packing, const Session& session) {
+ViewsArguments input_of(const PackArguments& arguments, const Packing& packing, const Session& session) {
   ViewsArguments input = arguments.input;
   settle_device(input.device, session);
   const int views = packing.format->views;
@@ -74,7 +74,7 @@ void reduce(std::vector<Image<Rgb8>>& views, int longest_px) {
   for (Image<Rgb8>& view : views) view = reduced(view, size);
 }
 
-void run(const Arguments& arguments, const CLI::App& command, const Session& session) {
+void run_pack(const PackArguments& arguments, const CLI::App& command, const Session& session) {
   // What cannot be packed is said before anything is read.
   const Packing packing = find_packing(arguments.packing, arguments.output);
   check_packing(command, packing, arguments.output);
@@ -102,7 +102,7 @@ void run(const Arguments& arguments, const CLI::App& command, const Session& ses
 }  // namespace
 
 void add_pack_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<PackArguments>();
   CLI::App* command = program.add_subcommand("pack", "Convert views to the format of a display");
   add_views_arguments(*command, arguments->input);
   add_device_option(*command, arguments->input.device, "What draws the views of a painting");
@@ -125,7 +125,7 @@ void add_pack_command(CLI::App& program, const Session& session) {
       "  wheatstone pack left.png right.png -o photograph.mpo\n"
       "  wheatstone pack views --to lenticular --screen step-9 -o screen.png\n"
       "  wheatstone pack views --to quilt --quilt 8x6 -o universe");
-  command->callback([arguments, command, &session] { run(*arguments, *command, session); });
+  command->callback([arguments, command, &session] { run_pack(*arguments, *command, session); });
 }
 
 }  // namespace wheatstone::cli

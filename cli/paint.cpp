@@ -347,7 +347,7 @@ void draw_painting_again(const Arguments& arguments, const CLI::App& command, co
   }
 }
 
-void run(Arguments& arguments, const CLI::App& command, const Session& session) {
+void run_paint(Arguments& arguments, const CLI::App& command, const Session& session) {
   if (!arguments.print_style.empty()) {
     refuse_for_printing(command);
     StyleArguments style = arguments.style;
@@ -383,7 +383,7 @@ void add_paint_command(CLI::App& program, const Session& session) {
       "  wheatstone paint one.mpo two.mpo three.mpo -o painted\n"
       "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph\n"
       "  wheatstone paint photo.jpg --depth depth.png -o painted");
-  command.callback([arguments, &command, &session] { run(*arguments, command, session); });
+  command.callback([arguments, &command, &session] { run_paint(*arguments, command, session); });
 }
 
 }  // namespace wheatstone::cli

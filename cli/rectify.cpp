@@ -18,7 +18,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct RectifyArguments {
   StereoArguments photographs;
   std::string folder = "rectified";
   std::string format = "png";
@@ -27,7 +27,7 @@ struct Arguments {
 };
 
 /// The library knows pictures, not files; what it says of them gets their names.
-RectifiedPair rectified(const Arguments& arguments, const Session& session) {
+RectifiedPair rectified(const RectifyArguments& arguments, const Session& session) {
   const NamedPair read = read_named_pair(arguments.photographs);
   const RectifyOptions options{.match_colour = arguments.match_colour};
   std::optional<StereoCalibration> calibration;
@@ -43,7 +43,7 @@ RectifiedPair rectified(const Arguments& arguments, const Session& session) {
   }
 }
 
-void print_json(const RectifiedPair& pair, const Arguments& arguments, const Session& session) {
+void print_json(const RectifiedPair& pair, const RectifyArguments& arguments, const Session& session) {
   const auto vertical = [&](const VerticalDisparity& of) -> nlohmann::ordered_json {
     if (pair.measured_matches == 0) return nullptr;
     return {{"median_px", of.median_px}, {"percentile_95_px", of.percentile_95_px}};
@@ -64,7 +64,7 @@ void print_json(const RectifiedPair& pair, const Arguments& arguments, const Ses
   print_facts(facts, session);
 }
 
-void print_summary(const RectifiedPair& pair, const Arguments& arguments, const Session& session) {
+void print_summary(const RectifiedPair& pair, const RectifyArguments& arguments, const Session& session) {
   if (pair.measured_matches == 0) {
     fmt::print(session.output, "rows                  not measured: the pictures have too few features in common\n");
   } else {
@@ -98,7 +98,7 @@ void print_summary(const RectifiedPair& pair, const Arguments& arguments, const 
   fmt::print(session.output, "written to            {}\n", arguments.folder);
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run_rectify(const RectifyArguments& arguments, const Session& session) {
   // Before the work, so that what cannot be written is known at once.
   OutputFolder folder(arguments.folder,
                       {arguments.photographs.left, arguments.photographs.right, arguments.calibration});
@@ -118,7 +118,7 @@ void run(const Arguments& arguments, const Session& session) {
 }  // namespace
 
 void add_rectify_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RectifyArguments>();
   CLI::App& command =
       *program.add_subcommand("rectify", "Rectify two photographs: matching points come to lie on the same rows");
   command
@@ -143,7 +143,7 @@ void add_rectify_command(CLI::App& program, const Session& session) {
       "Examples:\n  wheatstone rectify left.jpg right.jpg -o rectified\n"
       "  wheatstone rectify photograph.mpo -o rectified\n"
       "  wheatstone paint rectified/left.png rectified/right.png -o painted");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_rectify(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -190,7 +190,7 @@ void check_output(const RenderArguments& arguments, const RenderParticlesOptions
   check_format_fits(command, output_of(arguments));
 }
 
-void run(const RenderArguments& given, const CLI::App& command, const Session& session) {
+void run_render(const RenderArguments& given, const CLI::App& command, const Session& session) {
   const bool slices = std::filesystem::path(given.file).extension() == ".exr";
   refuse_options_without_effect(command, given, slices);
   const RenderArguments arguments = for_display(given, command);
@@ -225,7 +225,7 @@ void add_render_command(CLI::App& program, const Session& session) {
       "  wheatstone render universe.hdf5 --save-slices slices.exr && wheatstone render slices.exr --views 45\n"
       "  wheatstone synth universe --particles 100000 --times 0.4,0.6,0.8 -o snap_%03d.hdf5\n"
       "  wheatstone render snap_%03d.hdf5 --frames 24 --orbit 90 -o film.mp4");
-  command->callback([arguments, command, &session] { run(*arguments, *command, session); });
+  command->callback([arguments, command, &session] { run_render(*arguments, *command, session); });
 }
 
 }  // namespace wheatstone::cli

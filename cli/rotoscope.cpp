@@ -42,7 +42,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct RotoscopeArguments {
   std::string film, right;
   std::string output = "painted.mp4";
   std::string layout, output_layout;
@@ -75,7 +75,7 @@ KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
 }
 
 /// How the eyes lie in a painted frame: as in the source, where a frame can hold them so.
-StereoLayout layout_of_output(const Arguments& arguments, const StereoFilmReader& source, bool two_films) {
+StereoLayout layout_of_output(const RotoscopeArguments& arguments, const StereoFilmReader& source, bool two_films) {
   if (arguments.options.frames.display) return StereoLayout::mono;
   two_films = two_films || has_depth(arguments.depth);
   if (const auto asked = film_layout_option("--output-layout", arguments.output_layout)) {
@@ -87,8 +87,8 @@ StereoLayout layout_of_output(const Arguments& arguments, const StereoFilmReader
   return layout_of_painted_film(source, two_films);
 }
 
-FilmWriterOptions writing_options(const Arguments& arguments, const FilmFiles& film, const StereoFilmReader& source,
-                                  const FilmReaderOptions& reading) {
+FilmWriterOptions writing_options(const RotoscopeArguments& arguments, const FilmFiles& film,
+                                  const StereoFilmReader& source, const FilmReaderOptions& reading) {
   FilmWriterOptions writing = arguments.options.writing;
   const FilmFacts& facts = source.facts();
   writing.layout = layout_of_output(arguments, source, !film.right.empty());
@@ -99,7 +99,8 @@ FilmWriterOptions writing_options(const Arguments& arguments, const FilmFiles& f
   return writing;
 }
 
-nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm& film, const Session& session) {
+nlohmann::ordered_json to_json(const RotoscopeArguments& arguments, const RotoscopedFilm& film,
+                               const Session& session) {
   const RotoscopeTotals& totals = film.totals;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
   nlohmann::ordered_json facts{{"output", arguments.output},
@@ -132,7 +133,7 @@ nlohmann::ordered_json to_json(const Arguments& arguments, const RotoscopedFilm&
   return facts;
 }
 
-void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const Session& session) {
+void print_summary(const RotoscopeArguments& arguments, const RotoscopedFilm& film, const Session& session) {
   const RotoscopeTotals& totals = film.totals;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
   fmt::print(session.output, "painted          {} frames in {} scene{}", film.frames, totals.scenes,
@@ -158,7 +159,7 @@ void print_summary(const Arguments& arguments, const RotoscopedFilm& film, const
 }
 
 /// Refuses options that change nothing in this run, as far as that is known before the film is opened.
-void refuse_options_without_effect(const CLI::App& command, const Arguments& arguments) {
+void refuse_options_without_effect(const CLI::App& command, const RotoscopeArguments& arguments) {
   const bool known = !arguments.truth.empty(), deep = has_depth(arguments.depth);
   const std::string with_depth = arguments.depth.model.empty() ? "with --depth" : "with --depth-model";
   refuse_match_options_without_effect(command, arguments.matching, known ? "with --truth" : deep ? with_depth : "");
@@ -184,7 +185,7 @@ void refuse_options_without_effect(const CLI::App& command, const Arguments& arg
 }
 
 /// Depth makes a pair of a film of one eye.
-void take_depth(const Arguments& arguments, const FilmFiles& film, const StereoFilmReader& source,
+void take_depth(const RotoscopeArguments& arguments, const FilmFiles& film, const StereoFilmReader& source,
                 RotoscopeFilmOptions& options) {
   const std::string option = arguments.depth.model.empty() ? "--depth" : "--depth-model";
   const FilmFacts& facts = source.facts();
@@ -203,7 +204,7 @@ void take_depth(const Arguments& arguments, const FilmFiles& film, const StereoF
 }
 
 /// The depth of what two eyes look at. Of marks, and of a display with more views, it is that of the film.
-void take_depth_budget(const CLI::App& command, Arguments& arguments) {
+void take_depth_budget(const CLI::App& command, RotoscopeArguments& arguments) {
   const std::vector<std::string> option{"--depth-budget"};
   if (arguments.options.frames.display)
     return refuse_options(command, option, "with --display", "--span sets how deep it looks");
@@ -214,7 +215,7 @@ void take_depth_budget(const CLI::App& command, Arguments& arguments) {
 }
 
 /// A network for the optical flow, and nothing of it without one.
-void take_flow(Arguments& arguments) {
+void take_flow(RotoscopeArguments& arguments) {
   RotoscopeOptions& frames = arguments.options.frames;
   const bool by_network = frames.flow == FlowMethod::onnx;
   if (by_network && frames.flow_model.empty())
@@ -225,7 +226,7 @@ void take_flow(Arguments& arguments) {
 }
 
 /// What a display asks for, where the user does not say otherwise.
-void take_display(const CLI::App& command, Arguments& arguments) {
+void take_display(const CLI::App& command, RotoscopeArguments& arguments) {
   arguments.options.frames.display = film_display_from(arguments.display);
   if (!arguments.options.frames.display) return;
   refuse_options(command, {"--output-layout"}, "with --display", "it works where two eyes are painted");
@@ -237,7 +238,7 @@ void take_display(const CLI::App& command, Arguments& arguments) {
 }
 
 /// The exact geometry and flow of a film of 'synth film'.
-void take_truth(const Arguments& arguments, const Session& session, RotoscopeFilmOptions& options) {
+void take_truth(const RotoscopeArguments& arguments, const Session& session, RotoscopeFilmOptions& options) {
   if (arguments.truth.empty()) return;
   if (!session.ranks.alone()) throw Error(ErrorKind::wrong_usage, "--truth works in one process, not under mpirun");
   if (!arguments.from.empty() || arguments.frame_step != 1)
@@ -260,7 +261,7 @@ void take_device(const CLI::App& command, const Session& session, const std::str
   options.made_by += fmt::format(", drawn by {}", settle_device(options.frames.device, session));
 }
 
-FilmFiles films_from(const Arguments& arguments) {
+FilmFiles films_from(const RotoscopeArguments& arguments) {
   check_distinct_outputs(
       std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--save-marks", arguments.options.marks}}});
   std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
@@ -273,7 +274,7 @@ FilmFiles films_from(const Arguments& arguments) {
   return film;
 }
 
-FilmReaderOptions reading_options(const Arguments& arguments, const FilmFiles& film, const Session& session) {
+FilmReaderOptions reading_options(const RotoscopeArguments& arguments, const FilmFiles& film, const Session& session) {
   FilmReaderOptions reading{.from_s = parse_time_s("--from", arguments.from),
                             .to_s = parse_time_s("--to", arguments.to),
                             .every = arguments.frame_step,
@@ -296,7 +297,7 @@ void refuse_for_one_eye(const CLI::App& command, const FilmFiles& film, const Ro
   refuse_options(command, {"--central", "--rectify", "--depth-budget"}, "on a film of one eye", {});
 }
 
-void run(Arguments arguments, const CLI::App& command, const Session& session) {
+void run_rotoscope(RotoscopeArguments arguments, const CLI::App& command, const Session& session) {
   arguments.options.frames.style = style_from(arguments.style, session.seed);
   arguments.options.frames.matching = match_options_from(arguments.matching);
   // Whoever chooses a method of matching has each frame matched by it.
@@ -348,7 +349,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
   }
 }
 
-void add_film_options(CLI::App& command, Arguments& arguments) {
+void add_film_options(CLI::App& command, RotoscopeArguments& arguments) {
   constexpr auto group = "Film";
   command
       .add_option("--layout", arguments.layout,
@@ -378,7 +379,7 @@ void add_film_options(CLI::App& command, Arguments& arguments) {
       ->group(group);
 }
 
-void add_time_options(CLI::App& command, Arguments& arguments) {
+void add_time_options(CLI::App& command, RotoscopeArguments& arguments) {
   constexpr auto group = "Time and depth";
   RotoscopeOptions& frames = arguments.options.frames;
   add_rectify_option(command, frames.rectify)->group(group);
@@ -432,7 +433,7 @@ void add_time_options(CLI::App& command, Arguments& arguments) {
 }  // namespace
 
 void add_rotoscope_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RotoscopeArguments>();
   CLI::App& command =
       *program.add_subcommand("rotoscope", "Paint a stereo or ordinary film; strokes follow the motion of the film");
   command
@@ -461,7 +462,7 @@ void add_rotoscope_command(CLI::App& program, const Session& session) {
       "  wheatstone rotoscope film.mp4 --display looking-glass-portrait -o painted\n"
       "  wheatstone rotoscope walk.mp4 --depth depth.mp4 -o painted.mp4\n"
       "  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4");
-  command.callback([arguments, &command, &session] { run(*arguments, command, session); });
+  command.callback([arguments, &command, &session] { run_rotoscope(*arguments, command, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -42,7 +42,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ShareArguments {
   ViewsArguments views;  ///< the files, as all kinds have them
   DepthArguments depth;
   std::string disparity;
@@ -53,7 +53,7 @@ struct Arguments {
   std::string subtitles;  ///< of a film, in a WebVTT file; empty: none
 };
 
-std::vector<fs::path> files_that_are_read(const Arguments& arguments) {
+std::vector<fs::path> files_that_are_read(const ShareArguments& arguments) {
   std::vector<fs::path> files = files_read(arguments.views);
   for (const std::string& file :
        {arguments.depth.file, arguments.depth.model, arguments.disparity, arguments.subtitles})
@@ -62,7 +62,7 @@ std::vector<fs::path> files_that_are_read(const Arguments& arguments) {
 }
 
 /// Most bytes of the page but for its words, as `page_bytes` counts them.
-std::optional<std::size_t> most_bytes(const Arguments& arguments) {
+std::optional<std::size_t> most_bytes(const ShareArguments& arguments) {
   if (arguments.max_size.empty()) return std::nullopt;
   const std::size_t of_words = html_page({}, arguments.words).size() - html_page({}, {}).size();
   const std::size_t most = parse_bytes("--max-size", arguments.max_size);
@@ -70,7 +70,7 @@ std::optional<std::size_t> most_bytes(const Arguments& arguments) {
 }
 
 /// Numbers are rounded and pictures made smaller to a certain degree only.
-void refuse_too_large(const Arguments& arguments, const SharedPicture& picture) {
+void refuse_too_large(const ShareArguments& arguments, const SharedPicture& picture) {
   const std::optional<std::size_t> most = most_bytes(arguments);
   if (!most || picture.has_file_beside || page_bytes(picture) <= *most) return;
   throw Error(ErrorKind::wrong_usage,
@@ -90,7 +90,7 @@ SharedPicture share_ready_views(const ViewsArguments& views, const std::string& 
   return share_views(read_views_argument(views, 0, command, session).views, title);
 }
 
-SharedPicture share_picture_with_depth(const Arguments& arguments, const Session& session) {
+SharedPicture share_picture_with_depth(const ShareArguments& arguments, const Session& session) {
   StereoArguments files{.left = arguments.views.files.front(), .layout = arguments.views.layout};
   DepthArguments depth = arguments.depth;
   depth.carried = !has_depth(depth);
@@ -98,7 +98,7 @@ SharedPicture share_picture_with_depth(const Arguments& arguments, const Session
   return share_photograph(single.pair.pictures, single.pair.geometry, arguments.words.title);
 }
 
-SharedPicture share_stereo_photograph(const Arguments& arguments, const Session& session) {
+SharedPicture share_stereo_photograph(const ShareArguments& arguments, const Session& session) {
   const std::vector<std::string>& files = arguments.views.files;
   const ReadPhotograph read = read_photographs({.left = files.front(),
                                                 .right = files.size() > 1 ? files[1] : "",
@@ -118,7 +118,7 @@ void refuse_others(const CLI::App& command, std::vector<std::string> kept, std::
   refuse_all_but(command, kept, situation, "it is for other pictures");
 }
 
-SharedPicture share_film_file(const Arguments& arguments, const CLI::App& command) {
+SharedPicture share_film_file(const ShareArguments& arguments, const CLI::App& command) {
   const ViewsArguments& views = arguments.views;
   const fs::path film = views.files.front();
   ShareFilmOptions options{.title = arguments.words.title, .page = arguments.output};
@@ -134,14 +134,14 @@ SharedPicture share_film_file(const Arguments& arguments, const CLI::App& comman
   return share_film(film, options);
 }
 
-SharedPicture share_slice_file(const Arguments& arguments, const CLI::App& command) {
+SharedPicture share_slice_file(const ShareArguments& arguments, const CLI::App& command) {
   refuse_others(command, {"--max-size"}, "on slices");
   ShareSlicesOptions options{.title = arguments.words.title};
   if (const auto most = most_bytes(arguments)) options.most_bytes = *most;
   return share_slices(read_slices(arguments.views.files.front()), options);
 }
 
-SharedPicture share(const Arguments& arguments, const CLI::App& command, const Session& session) {
+SharedPicture share(const ShareArguments& arguments, const CLI::App& command, const Session& session) {
   const ViewsArguments& views = arguments.views;
   const std::string& first = views.files.front();
   const bool is_one = views.files.size() == 1;
@@ -164,7 +164,7 @@ SharedPicture share(const Arguments& arguments, const CLI::App& command, const S
   return share_stereo_photograph(arguments, session);
 }
 
-void run(Arguments arguments, const CLI::App& command, const Session& session) {
+void run_share(ShareArguments arguments, const CLI::App& command, const Session& session) {
   most_bytes(arguments);  // refused before anything is read
   const std::vector<fs::path> inputs = files_that_are_read(arguments);
   for (const std::string& output : {arguments.output, arguments.element}) check_not_an_input(output, inputs);
@@ -190,7 +190,7 @@ void run(Arguments arguments, const CLI::App& command, const Session& session) {
 }  // namespace
 
 void add_share_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ShareArguments>();
   CLI::App* command =
       program.add_subcommand("share", "Write a page that shows a picture with its depth in any browser");
   command
@@ -228,7 +228,7 @@ void add_share_command(CLI::App& program, const Session& session) {
       "  wheatstone share slices.exr -o page.html --max-size 4MB\n"
       "  wheatstone share left.png right.png -o page.html\n"
       "  wheatstone share photo.jpg --depth depth.png -o page.html");
-  command->callback([arguments, command, &session] { run(*arguments, *command, session); });
+  command->callback([arguments, command, &session] { run_share(*arguments, *command, session); });
 }
 
 }  // namespace wheatstone::cli

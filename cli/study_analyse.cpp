@@ -20,7 +20,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct StudyAnalyseArguments {
   std::string study;
   std::string folder = "analysis";
   AnalysisOptions options;
@@ -77,7 +77,7 @@ void print_json(const StudyData& data, const StudyAnalysis& analysis, const Sess
               session);
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run_study_analyse(const StudyAnalyseArguments& arguments, const Session& session) {
   const StudyData data = read_study(arguments.study);
   const StudyAnalysis analysis = analyse_study(data, arguments.options);
   OutputFolder folder(arguments.folder, {arguments.study});
@@ -96,7 +96,7 @@ void run(const Arguments& arguments, const Session& session) {
 }  // namespace
 
 void add_study_analyse(CLI::App& study, const Session& session) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<StudyAnalyseArguments>();
   CLI::App& command =
       *study.add_subcommand("analyse", "Analyse the data of an experiment: a page with figures, and tables");
   command.fallthrough();
@@ -106,7 +106,7 @@ void add_study_analyse(CLI::App& study, const Session& session) {
              "Response times farther from the subject's mean than so many standard deviations are left out; 0: none");
   command.footer(
       "Example:\n  wheatstone study simulate path-searching-1 -o data && wheatstone study analyse data -o analysis");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_study_analyse(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

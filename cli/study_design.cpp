@@ -17,7 +17,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct StudyDesignArguments {
   std::string design;
   std::string file;  ///< of the copy; empty: none is written
 };
@@ -66,7 +66,7 @@ void print_text(const StudyDesign& design, const Session& session) {
                effect.error_items > 0 ? fmt::format(", F2({}, {})", effect.effect, effect.error_items) : "");
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run_study_design(const StudyDesignArguments& arguments, const Session& session) {
   const StudyDesign design = load_study_design(arguments.design);
   if (!arguments.file.empty()) {
     check_not_an_input(arguments.file, {{arguments.design}});
@@ -81,7 +81,7 @@ void run(const Arguments& arguments, const Session& session) {
 }  // namespace
 
 void add_study_design(CLI::App& study, const Session& session) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<StudyDesignArguments>();
   CLI::App& command =
       *study.add_subcommand("design", "Check the design of an experiment, and show its order and balance");
   command.fallthrough();
@@ -97,7 +97,7 @@ void add_study_design(CLI::App& study, const Session& session) {
       "Examples:\n"
       "  wheatstone study design path-searching-1\n"
       "  wheatstone study design path-searching-2 -o mine.toml && wheatstone study design mine.toml");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_study_design(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

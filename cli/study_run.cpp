@@ -12,7 +12,7 @@
 namespace wheatstone::cli {
 namespace {
 
-void run(const StudyRunArguments& arguments, const Session& session) {
+void run_study_run(const StudyRunArguments& arguments, const Session& session) {
   // What is wrong with the design or the folder is said before there is a window; the window's program makes the
   // folder.
   const StudyDesign design = load_study_design(arguments.design);
@@ -32,7 +32,7 @@ void add_study_run(CLI::App& study, const Session& session) {
   CLI::App& command = *study.add_subcommand("run", "Run a subject's session in the window, on the full screen");
   command.fallthrough();
   add_study_run_options(command, *arguments);
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_study_run(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -22,7 +22,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct StudySimulateArguments {
   std::string design;
   std::optional<int> subjects;
   int studies = 0;
@@ -46,7 +46,8 @@ SimulatedEffect parse_effect(const std::string& text) {
 }
 
 /// How often that many studies find each effect; nothing is written.
-void print_power(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
+void print_power(const StudyDesign& design, const StudySimulateArguments& arguments, int subjects,
+                 const Session& session) {
   const std::vector<SimulatedPower> power = simulated_power(
       design, arguments.observers, {.subjects = subjects, .studies = arguments.studies, .seed = session.seed});
   if (session.json) {
@@ -64,7 +65,7 @@ void print_power(const StudyDesign& design, const Arguments& arguments, int subj
 }
 
 /// How observers answer, in words: what is the same of data that may lie in one folder.
-std::string simulation_text(const Arguments& arguments, int subjects, std::uint64_t seed) {
+std::string simulation_text(const StudySimulateArguments& arguments, int subjects, std::uint64_t seed) {
   const SimulatedObservers& observers = arguments.observers;
   std::string text = fmt::format("{} subjects, seed {}, time {}, noise {}, between {}, correct {}, lapses {}", subjects,
                                  seed, observers.response_time_s, observers.noise_s, observers.between_subjects_s,
@@ -73,7 +74,8 @@ std::string simulation_text(const Arguments& arguments, int subjects, std::uint6
   return text;
 }
 
-void write_data(const StudyDesign& design, const Arguments& arguments, int subjects, const Session& session) {
+void write_data(const StudyDesign& design, const StudySimulateArguments& arguments, int subjects,
+                const Session& session) {
   const std::string simulation = simulation_text(arguments, subjects, session.seed);
   check_study_folder(arguments.folder, design, true, simulation);
   OutputFolder output(arguments.folder);
@@ -90,7 +92,7 @@ void write_data(const StudyDesign& design, const Arguments& arguments, int subje
     fmt::print(session.output, "{} simulated subjects written to {}\n", subjects, arguments.folder);
 }
 
-void run(Arguments arguments, const Session& session) {
+void run_study_simulate(StudySimulateArguments arguments, const Session& session) {
   const StudyDesign design = load_study_design(arguments.design);
   for (const std::string& effect : arguments.effects) arguments.observers.effects.push_back(parse_effect(effect));
   check_effects(design, arguments.observers);
@@ -104,7 +106,7 @@ void run(Arguments arguments, const Session& session) {
 }  // namespace
 
 void add_study_simulate(CLI::App& study, const Session& session) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<StudySimulateArguments>();
   CLI::App& command = *study.add_subcommand(
       "simulate", "Let simulated observers answer: to try an analysis, or how many subjects are needed");
   command.fallthrough();
@@ -133,7 +135,7 @@ void add_study_simulate(CLI::App& study, const Session& session) {
       "Examples:\n"
       "  wheatstone study simulate path-searching-1 --effect depth_cm=10:-1.24:0.04 -o data\n"
       "  wheatstone study simulate path-searching-2 --subjects 15 --effect views_per_10cm=8:-3 --studies 200");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_study_simulate(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -28,7 +28,7 @@ enum class Kind { planes, volume, dots };
 constexpr std::array<std::pair<std::string_view, Kind>, 3> kinds{
     {{"planes", Kind::planes}, {"volume", Kind::volume}, {"dots", Kind::dots}}};
 
-struct Arguments {
+struct StudyStimuliArguments {
   Kind kind = Kind::planes;
   int count = 2;
   int nodes = 90;
@@ -42,12 +42,13 @@ struct Arguments {
 };
 
 /// The names of a stimulus' views: "left" and "right" of two, else "view_00" and so on.
-std::string view_name(const Arguments& arguments, int view) {
+std::string view_name(const StudyStimuliArguments& arguments, int view) {
   if (arguments.views == 2 || arguments.kind == Kind::dots) return view == 0 ? "left" : "right";
   return fmt::format("view_{:03}", view);
 }
 
-void write_graph(const Arguments& arguments, int number, const OutputFolder& folder, const Session& session) {
+void write_graph(const StudyStimuliArguments& arguments, int number, const OutputFolder& folder,
+                 const Session& session) {
   const PathGraphOptions options{
       .nodes = arguments.nodes,
       .placement = arguments.kind == Kind::volume ? GraphPlacement::volume : GraphPlacement::planes,
@@ -68,7 +69,8 @@ void write_graph(const Arguments& arguments, int number, const OutputFolder& fol
 }
 
 /// The side of the gap is drawn by lot; it stands in the file beside the pictures.
-void write_dots(const Arguments& arguments, int number, const OutputFolder& folder, const Session& session) {
+void write_dots(const StudyStimuliArguments& arguments, int number, const OutputFolder& folder,
+                const Session& session) {
   constexpr std::array<std::string_view, 4> sides{"right", "below", "left", "above"};
   const std::uint64_t seed = hash_keys({session.seed, static_cast<std::uint64_t>(number)});
   const auto side = static_cast<std::size_t>(seed % sides.size());
@@ -83,7 +85,7 @@ void write_dots(const Arguments& arguments, int number, const OutputFolder& fold
   write_whole_file(folder.file(fmt::format("dots_{:03}.json", number)), facts.dump() + "\n");
 }
 
-void run(Arguments arguments, const Session& session) {
+void run_study_stimuli(StudyStimuliArguments arguments, const Session& session) {
   const Size size = parse_size("--size", arguments.size, {64, 8192});
   arguments.screen.width_px = size.width;
   arguments.screen.height_px = size.height;
@@ -105,7 +107,7 @@ void run(Arguments arguments, const Session& session) {
 }  // namespace
 
 void add_study_stimuli(CLI::App& study, const Session& session) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<StudyStimuliArguments>();
   CLI::App& command = *study.add_subcommand("stimuli", "Draw graphs for path searching, or random-dot stereograms");
   command.fallthrough();
   add_output_option(command, arguments->folder, "Output folder");
@@ -127,7 +129,7 @@ void add_study_stimuli(CLI::App& study, const Session& session) {
       "Examples:\n"
       "  wheatstone study stimuli --count 4 --nodes 90 --depth 10cm -o stimuli\n"
       "  wheatstone study stimuli --kind dots --disparity 40 -o screening");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_study_stimuli(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

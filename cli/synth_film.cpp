@@ -26,7 +26,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct SynthFilmArguments {
   std::string folder = "film";
   std::string size = "640x360";
   SyntheticFilmOptions film;
@@ -57,7 +57,7 @@ void write(const OutputFolder& output, int number, const SyntheticFilmFrame& fra
   write_image(file("flow_backward_occlusion", ".png"), frame.previous_occlusion);
 }
 
-void run(const CLI::App& command, const Arguments& arguments, const Session& session) {
+void run_synth_film(const CLI::App& command, const SynthFilmArguments& arguments, const Session& session) {
   SyntheticFilmOptions options = arguments.film;
   options.still.seed = session.seed;
   const Size size = parse_size("--size", arguments.size, {16, 32768});
@@ -87,7 +87,7 @@ void run(const CLI::App& command, const Arguments& arguments, const Session& ses
 }  // namespace
 
 void add_synth_film(CLI::App& synth, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SynthFilmArguments>();
   SyntheticFilmOptions& film = arguments->film;
   CLI::App& command = *synth.add_subcommand("film", "Ray-cast stereo film with exact flow and disparity");
   command.fallthrough();
@@ -121,7 +121,7 @@ void add_synth_film(CLI::App& synth, const Session& session) {
       "Example:\n  wheatstone synth film -o film --cut 25\n"
       "  wheatstone synth film -o pan --motion pan --cut 0 --noise 4\n"
       "  wheatstone synth film -o beams --scene beams --frames 24 --size 320x180");
-  command.callback([&command, arguments, &session] { run(command, *arguments, session); });
+  command.callback([&command, arguments, &session] { run_synth_film(command, *arguments, session); });
 }
 
 }  // namespace wheatstone::cli

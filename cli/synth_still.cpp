@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, bool>, 2> cameras{{{"ideal", false}, {"phone", true}}};
 
-struct Arguments {
+struct SynthStillArguments {
   std::string folder = "still";
   std::string size = "960x720";
   SyntheticStillOptions still;
@@ -59,7 +59,7 @@ void write(const OutputFolder& output, const std::string& name, const SyntheticV
   write_disparity(output.file(name + "_disparity.pfm"), view.disparity);
 }
 
-void run(const Arguments& arguments, const Session& session) {
+void run_synth_still(const SynthStillArguments& arguments, const Session& session) {
   SyntheticStillOptions options = arguments.still;
   options.seed = session.seed;
   const Size size = parse_size("--size", arguments.size, {16, 32768});
@@ -93,7 +93,7 @@ void run(const Arguments& arguments, const Session& session) {
 }  // namespace
 
 void add_synth_still(CLI::App& synth, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SynthStillArguments>();
   CLI::App& command = *synth.add_subcommand("still", "Ray-cast still life on a table by a window");
   command.fallthrough();
   add_output_option(command, arguments->folder, "Folder for the results");
@@ -122,7 +122,7 @@ void add_synth_still(CLI::App& synth, const Session& session) {
       "left_to_right.flo, the exact way from each left pixel to its partner.\n"
       "--seed changes the positions and colours of the objects on the table.\n\n"
       "Example:\n  wheatstone synth still -o still --size 1280x960 --seed 2");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_synth_still(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -23,7 +23,7 @@
 namespace wheatstone::cli {
 namespace {
 
-struct Arguments {
+struct SynthUniverseArguments {
   std::string file = "universe.hdf5";
   std::string times;
   SyntheticUniverseOptions universe;
@@ -39,7 +39,7 @@ std::vector<double> parse_times(const std::string& text) {
 }
 
 /// One snapshot for each of the times, whose particles can be followed from one to the next.
-void write_series(const Arguments& arguments, const std::vector<double>& times, const Session& session) {
+void write_series(const SynthUniverseArguments& arguments, const std::vector<double>& times, const Session& session) {
   const std::optional<FramePattern> pattern = frame_pattern(arguments.file);
   if (!pattern)
     throw Error(ErrorKind::wrong_usage,
@@ -54,7 +54,7 @@ void write_series(const Arguments& arguments, const std::vector<double>& times, 
   }
 }
 
-void run(Arguments arguments, const Session& session) {
+void run_synth_universe(SynthUniverseArguments arguments, const Session& session) {
   SyntheticUniverseOptions& options = arguments.universe;
   options.seed = session.seed;
   const std::vector<double> times = parse_times(arguments.times);
@@ -80,7 +80,7 @@ void run(Arguments arguments, const Session& session) {
 }  // namespace
 
 void add_synth_universe(CLI::App& synth, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SynthUniverseArguments>();
   CLI::App& command = *synth.add_subcommand("universe", "Gas of the cosmic web, as a GADGET-4 HDF5 snapshot");
   command.fallthrough();
   add_output_option(command, arguments->file, "Snapshot file");
@@ -97,7 +97,7 @@ void add_synth_universe(CLI::App& synth, const Session& session) {
       "Examples:\n"
       "  wheatstone synth universe --particles 1000000 --redshift 0 --seed 7 -o universe.hdf5\n"
       "  wheatstone synth universe --particles 100000 --times 0.4,0.5,0.6 -o universe_%03d.hdf5");
-  command.callback([arguments, &session] { run(*arguments, session); });
+  command.callback([arguments, &session] { run_synth_universe(*arguments, session); });
 }
 
 }  // namespace wheatstone::cli

@@ -11,7 +11,11 @@ add_library(wheatstone_warnings INTERFACE)
 target_compile_options(wheatstone_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
   # Options are structs with defaults: naming only those that differ is how they are meant to be filled.
-  -Wno-missing-field-initializers)
+  -Wno-missing-field-initializers
+  # Wrong where several source files are compiled as one.
+  -Wno-subobject-linkage
+  # With sanitizers, GCC cannot tell what is initialised.
+  $<$<CONFIG:RelWithDebInfo>:-Wno-maybe-uninitialized>)
 
 # A test program is one entry of ctest: what its tests share, such as rendered scenes, is made once. The programs that
 # take longest are two entries, each of which runs every second test, and begin first, so that no processor is without
@@ -24,9 +28,8 @@ function(wheatstone_add_gtest name target)
     set(shards 2)
   endif()
   # What tests compute, they compute in the libraries. Themselves they take nearly twice as long to compile when they are
-  # optimised more. With sanitizers and -Og, GCC cannot tell what is initialised.
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-Og>
-    $<$<CONFIG:RelWithDebInfo>:-Wno-maybe-uninitialized>)
+  # optimised more.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-Og>)
   foreach(shard RANGE 1 ${shards})
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND ${target})
@@ -38,9 +41,19 @@ function(wheatstone_add_gtest name target)
     LABELS long TIMEOUT 1800 ENVIRONMENT "GTEST_FILTER=*Long.*;GTEST_BRIEF=1")
 endfunction()
 
+# Files that are compiled once for each kind of processor stay by themselves.
+function(wheatstone_alone_in_unity)
+  foreach(source IN LISTS ARGN)
+    if(source MATCHES "_simd")
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
+
 function(wheatstone_room room)
   cmake_parse_arguments(ARG "" "" "SOURCES;ABOVE;LIBRARIES;TESTS;TESTS_USE;TEST_LIBRARIES" ${ARGN})
   set(target wheatstone_${room})
+  wheatstone_alone_in_unity(${ARG_SOURCES})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(Wheatstone::${room} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)

@@ -17,8 +17,7 @@
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone::packaging {
-namespace {
+namespace wheatstone::packaging::packaging_test {
 
 using testing::HasSubstr;
 
@@ -129,5 +128,4 @@ TEST_F(Described, FilesForTheDesktopAreValid) {
   EXPECT_THAT(bytes_of(desktop + "/wheatstone.desktop"), HasSubstr("Exec=wheatstone-view %F"));
 }
 
-}  // namespace
-}  // namespace wheatstone::packaging
+}  // namespace wheatstone::packaging::packaging_test

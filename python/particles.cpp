@@ -113,7 +113,7 @@ py::object column_in(const py::object& particles, std::vector<float> Cloud::*col
   return array;
 }
 
-RenderParticlesOptions options_for(int views, std::pair<int, int> size, float span) {
+RenderParticlesOptions render_options(int views, std::pair<int, int> size, float span) {
   RenderParticlesOptions options;
   options.views = views;
   options.width = size.first;
@@ -175,7 +175,7 @@ void add_slices(py::module_& module) {
 
 void add_options(py::module_& module) {
   py::class_<RenderParticlesOptions>(module, "RenderOptions")
-      .def(py::init(&options_for))
+      .def(py::init(&render_options))
       .def_property(
           "azimuth", [](const RenderParticlesOptions& o) { return o.framing.azimuth_deg; },
           [](RenderParticlesOptions& o, float value) { o.framing.azimuth_deg = value; })

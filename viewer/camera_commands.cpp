@@ -41,7 +41,7 @@ void save_camera(Viewer& viewer, const Words& words) {
   viewer.tell("saved " + words[0]);
 }
 
-constexpr Command table[] = {
+constexpr Command camera_table[] = {
     // name, arguments, menu, text, keys
     {"camera", "FILE", "Particles", "Open a camera path…", "", load_camera},
     {"add-key", "", "Particles", "Add a keyframe to the camera path", "K", add_key},
@@ -53,6 +53,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> camera_commands() { return table; }
+std::span<const Command> camera_commands() { return camera_table; }
 
 }  // namespace wheatstone::viewer

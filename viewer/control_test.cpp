@@ -18,8 +18,7 @@
 #include "throws_error.h"
 #include "wheatstone/files/whole_file.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::control_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -163,5 +162,4 @@ TEST_F(ControlSocket, TakesThePlaceOfOneThatWasLeftButOfNothingElse) {
                [&] { const Control second(folder / std::string(120, 'a'), {}); });
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::control_test

@@ -40,7 +40,7 @@ void move_head(Viewer& viewer, int steps) {
     state_of(viewer).head += static_cast<float>(steps) * head_step;
 }
 
-constexpr Command table[] = {
+constexpr Command depth_table[] = {
     // name, arguments, menu, text, keys
     {"zero-parallax", "DISPARITY", "Depth", "Disparity on the screen plane, in pixels", "",
      [](Viewer& v, const Words& w) { ease_zero_parallax(v, static_cast<float>(number_of(w[0], -65535, 65535))); }},
@@ -78,6 +78,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> depth_commands() { return table; }
+std::span<const Command> depth_commands() { return depth_table; }
 
 }  // namespace wheatstone::viewer

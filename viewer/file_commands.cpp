@@ -45,7 +45,7 @@ void save_style(Viewer& viewer, const Words& words) {
   viewer.tell("saved " + words[0]);
 }
 
-constexpr Command table[] = {
+constexpr Command file_table[] = {
     // name, arguments, menu, text, keys
     {"open", "FILE [RIGHT]", "File", "Open…", "Ctrl+O", open_files},
     {"open-series", "", "File", "Open the series of this snapshot", "Ctrl+Shift+O", open_series},
@@ -65,6 +65,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> file_commands() { return table; }
+std::span<const Command> file_commands() { return file_table; }
 
 }  // namespace wheatstone::viewer

@@ -25,7 +25,7 @@ void set_film_painting(Viewer& viewer, const Words& words) {
 
 constexpr double longest_film_s = 1e7;
 
-constexpr Command table[] = {
+constexpr Command film_table[] = {
     // name, arguments, menu, text, keys
     {"play-or-pause", "", "Film", "Play, or pause what plays", "Space", play_or_pause},
     {"play", "", "Film", "Play", "", [](Viewer& v, const Words&) { v.play_film(); }},
@@ -49,6 +49,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> film_commands() { return table; }
+std::span<const Command> film_commands() { return film_table; }
 
 }  // namespace wheatstone::viewer

@@ -26,8 +26,7 @@
 #include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/film_writer.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::film_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -278,5 +277,4 @@ TEST(Film, LeavesNothingWhereItsPaintingIsCancelled) {
   EXPECT_TRUE(viewer.session().message_is_error);
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::film_test

@@ -6,8 +6,7 @@
 #include "output_mode.h"
 #include "throws_error.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::frame_test {
 
 constexpr Rgb8 white{255, 255, 255}, black{};
 
@@ -81,5 +80,4 @@ TEST(FrameGeometry, OfAnAnaglyphIsTheMiddleViews) {
   EXPECT_DOUBLE_EQ(place_at(places, 30, 40)->x, 30);
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::frame_test

@@ -35,7 +35,7 @@ void deepen_gaze(Viewer& viewer, const Words& words) {
 
 constexpr double longest_smoothing_s = 2, longest_prediction_s = 0.5;
 
-constexpr Command table[] = {
+constexpr Command input_table[] = {
     // name, arguments, menu, text, keys
     {"head-tracker", "PORT|off", "Depth", "Follow the head position that OpenTrack sends to a UDP port (4242)", "",
      track_head},
@@ -58,6 +58,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> input_commands() { return table; }
+std::span<const Command> input_commands() { return input_table; }
 
 }  // namespace wheatstone::viewer

@@ -28,8 +28,7 @@
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::inputs_test {
 
 using testing::HasSubstr;
 
@@ -282,5 +281,4 @@ TEST_F(Gaze, IsNotUndoneAndNotFollowedBesideThePicture) {
   expect_error(ErrorKind::wrong_usage, "cannot be followed", [&] { run_line(viewer, "gaze-follows moon"); });
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::inputs_test

@@ -101,7 +101,7 @@ void fill_screen(Viewer& viewer, const Words& words) {
 
 constexpr double zoom_step = 1.25;
 
-constexpr Command table[] = {
+constexpr Command looking_table[] = {
     // name, arguments, menu, text, keys
     {"mode", "NAME", "View", "Output mode", "", set_mode},
     {"next-mode", "", "View", "Next output mode", "T", [](Viewer& v, const Words&) { step_mode(v, 1); }},
@@ -135,6 +135,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> looking_commands() { return table; }
+std::span<const Command> looking_commands() { return looking_table; }
 
 }  // namespace wheatstone::viewer

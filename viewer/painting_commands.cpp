@@ -49,7 +49,7 @@ void compare(Viewer& viewer, const Words& words) {
   state_of(viewer).comparison = static_cast<Comparison>(found - comparison_names.begin());
 }
 
-constexpr Command table[] = {
+constexpr Command painting_table[] = {
     // name, arguments, menu, text, keys
     {"finest-layer", "NUMBER", "Painting", "Finest layer of strokes that is shown, from 0, the coarsest", "",
      [](Viewer& v, const Words& w) { state_of(v).finest_layer = static_cast<int>(number_of(w[0], 0, 1000)); }},
@@ -64,6 +64,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> painting_commands() { return table; }
+std::span<const Command> painting_commands() { return painting_table; }
 
 }  // namespace wheatstone::viewer

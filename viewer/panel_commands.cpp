@@ -60,7 +60,7 @@ void set_layers_apart(Viewer& viewer, const Words& words) {
 
 constexpr float usual_angle_deg = 40;
 
-constexpr Command table[] = {
+constexpr Command panel_table[] = {
     // name, arguments, menu, text, keys
     {"panel", "style|depth|off", "View", "Panel beside the picture", "", set_panel},
     {"style-panel", "", "Painting", "Style panel", "S", [](Viewer& v, const Words&) { toggle(v, Panel::style); }},
@@ -82,6 +82,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> panel_commands() { return table; }
+std::span<const Command> panel_commands() { return panel_table; }
 
 }  // namespace wheatstone::viewer

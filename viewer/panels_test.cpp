@@ -27,8 +27,7 @@
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::panels_test {
 
 using testing::HasSubstr;
 
@@ -253,5 +252,4 @@ TEST(ComfortableDepth, IsWhereDiscomfortBegins) {
   EXPECT_NEAR(desk.far_mm, 100, 1);
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::panels_test

@@ -92,7 +92,7 @@ void set_opaque(Viewer& viewer, const Words& words) {
   forget_brightness(look);
 }
 
-constexpr Command table[] = {
+constexpr Command particle_table[] = {
     // name, arguments, menu, text, keys
     {"orbit", "AZIMUTH ELEVATION", "Particles", "Turn around the particles, in degrees", "", orbit},
     {"magnify", "FACTOR", "Particles", "Magnification of particles", "",
@@ -118,6 +118,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> particle_commands() { return table; }
+std::span<const Command> particle_commands() { return particle_table; }
 
 }  // namespace wheatstone::viewer

@@ -22,8 +22,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::particle_film_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -170,5 +169,4 @@ TEST_F(ParticlesInTime, GoRoundOneSnapshotOnAPathFromAFile) {
   EXPECT_FALSE(viewer.session().film);
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::particle_film_test

@@ -22,8 +22,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::particles_view_test {
 
 using testing::HasSubstr;
 
@@ -292,5 +291,4 @@ TEST(OpenSlices, StandAsDeepAsAsked) {
     for (int x = 20; x < 100; ++x) ASSERT_EQ(viewer.frame()->picture(x, y), left(x, y)) << line;
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::particles_view_test

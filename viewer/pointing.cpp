@@ -11,12 +11,12 @@
 namespace wheatstone::viewer {
 namespace {
 
-constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float unknown_disparity = std::numeric_limits<float>::quiet_NaN();
 
 /// The nearest surfaces of one row, as a view sees them: those of photographs first.
 std::vector<float> seen_row(const Surfaces& surfaces, ViewPosition view, int y, int width) {
-  std::vector<float> nearest(width, unknown);
-  std::vector<float> continued(width, unknown);
+  std::vector<float> nearest(width, unknown_disparity);
+  std::vector<float> continued(width, unknown_disparity);
   for (const Surface& surface : surfaces.seen)
     if (y < surface.disparity.height())
       warp_disparity_row_over(surface.disparity.row(y), view - surface.view, surface.left_px,
@@ -28,7 +28,7 @@ std::vector<float> seen_row(const Surfaces& surfaces, ViewPosition view, int y, 
 }
 
 std::vector<float> seen_row(const StereoGeometry& geometry, ViewPosition view, int y) {
-  std::vector<float> nearest(geometry.left_disparity.width(), unknown);
+  std::vector<float> nearest(geometry.left_disparity.width(), unknown_disparity);
   warp_disparity_row_over(geometry.left_disparity.row(y), view - left_eye, 0, nearest);
   warp_disparity_row_over(geometry.right_disparity.row(y), view - right_eye, 0, nearest);
   return nearest;
@@ -41,7 +41,7 @@ std::optional<float> disparity_at(const Content& content, const PlaceInView& pla
   const int x = static_cast<int>(std::floor(place.x)), y = static_cast<int>(std::floor(place.y));
   const auto* const painted = std::get_if<PaintedContent>(&content);
   if (painted == nullptr || x < 0 || y < 0 || x >= size.width || y >= size.height) return {};
-  float disparity = unknown;
+  float disparity = unknown_disparity;
   if (painted->painting && !painted->painting->surfaces.seen.empty())
     disparity = seen_row(painted->painting->surfaces, place.view, y, size.width)[x];
   else if (painted->photograph && painted->photograph->geometry)

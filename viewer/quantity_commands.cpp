@@ -120,7 +120,7 @@ void set_focus_number(Viewer& viewer, float ScreenFocus::*number, double value) 
   change_focus(viewer, focus);
 }
 
-constexpr Command table[] = {
+constexpr Command quantity_table[] = {
     // name, arguments, menu, text, keys
     {"look", "mass|thesis", "Particles", "What is shown: mass, or the light of the thesis", "", set_look},
     {"quantity", "NAME|column-density|mean:temperature|picture", "Particles",
@@ -146,6 +146,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> quantity_commands() { return table; }
+std::span<const Command> quantity_commands() { return quantity_table; }
 
 }  // namespace wheatstone::viewer

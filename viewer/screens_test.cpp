@@ -9,8 +9,7 @@
 #include "recent_files.h"
 #include "stage.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::screens_test {
 
 const std::array screens{Screen{"DELL U2720Q", 3840, 2160}, Screen{"LKG Looking Glass Portrait", 1536, 2048},
                          Screen{"HDMI-2", 1920, 1200}};
@@ -68,5 +67,4 @@ TEST(RecentFiles, AreTheNewestFirstNothingTwiceAndNotTooMany) {
   EXPECT_EQ(recent_items(opened, before).size(), 10u);
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::screens_test

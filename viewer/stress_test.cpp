@@ -29,8 +29,7 @@
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::stress_test {
 
 using Random = std::mt19937_64;
 
@@ -264,5 +263,4 @@ TEST(Files, MayVanishOrChangeWhileTheyAreOpen) {
   EXPECT_EQ(viewer.session().opened.kind, "slices") << "a file that is whole again is opened again";
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::stress_test

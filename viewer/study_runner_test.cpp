@@ -9,8 +9,7 @@
 #include "throws_error.h"
 #include "wheatstone/marks/painting_file.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::study_runner_test {
 
 using testing::HasSubstr;
 
@@ -228,5 +227,4 @@ TEST_F(StudySession, ASubjectThatTheDesignDoesNotHaveIsRefused) {
                [&] { StudyRunner(study(), 4, small); });
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::study_runner_test

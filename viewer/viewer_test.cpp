@@ -31,8 +31,7 @@
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone::viewer {
-namespace {
+namespace wheatstone::viewer::viewer_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -271,7 +270,12 @@ TEST(Viewer, LeavesTheWorkOnALargePaintingToItsThreads) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     } while (viewer.is_busy());
   }
-  EXPECT_LE(worst_ms, 10) << worst_line << ": a fifth of what the window may not respond for";
+#ifdef __SANITIZE_ADDRESS__
+  constexpr double most_ms = 40;  // checks of memory slow the work
+#else
+  constexpr double most_ms = 10;
+#endif
+  EXPECT_LE(worst_ms, most_ms) << worst_line << ": a fifth of what the window may not respond for";
 }
 
 TEST(Viewer, PaintsAPhotographAsPaintDoes) {
@@ -377,5 +381,4 @@ TEST(Viewer, ShowsNothingWhereNothingIsOpen) {
   viewer.wait();
 }
 
-}  // namespace
-}  // namespace wheatstone::viewer
+}  // namespace wheatstone::viewer::viewer_test

@@ -10,8 +10,7 @@
 #include "cli/run_program.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::bad_input_test {
 
 /// The lines that make a command read this file; "good.png" is a picture without fault.
 std::vector<std::vector<std::string>> readers(const std::string& file) {
@@ -121,5 +120,4 @@ TEST(BadInput, DamagedPaintingIsRefused) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::bad_input_test

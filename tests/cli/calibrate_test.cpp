@@ -9,8 +9,7 @@
 #include "scenes/checkerboard_picture.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::calibrate_test {
 
 using testing::HasSubstr;
 
@@ -76,5 +75,4 @@ TEST(CalibrateCommand, RefusesWhatItCannotUse) {
   expect_refused(folder, {"calibrate", "blank", "--quiet"}, 3, "left_1.png: has no partner");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::calibrate_test

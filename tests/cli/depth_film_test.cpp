@@ -11,8 +11,7 @@
 #include "scenes/moving_picture.h"
 #include "scenes/tiny_network.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::depth_film_test {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
@@ -104,5 +103,4 @@ TEST(DepthFilm, DepthThatDoesNotFitTheFilmIsRefused) {
   refused({"--strength", "5%"}, 2, "--strength: has no effect without --depth");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::depth_film_test

@@ -10,8 +10,7 @@
 #include "cli/run_program.h"
 #include "scenes/moving_picture.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::display_film_test {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
@@ -161,5 +160,4 @@ TEST(DisplayFilm, WhatCannotBeShownIsRefusedInOneLine) {
   refused({"--span", "2"}, 2, "--span requires --display");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::display_film_test

@@ -22,8 +22,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::ending_test {
 
 // Long enough that no machine is done before the signal comes.
 const std::vector<std::string> long_run = {"synth", "still",  "-o",      "results", "--views",
@@ -188,5 +187,4 @@ TEST(Ending, OnAFullDiskIsExitCodeFour) {
   EXPECT_TRUE(folder.is_empty());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::ending_test

@@ -13,8 +13,7 @@
 #include "cli/example_inputs.h"
 #include "cli/run_program.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::examples_test {
 
 namespace fs = std::filesystem;
 using testing::IsEmpty;
@@ -228,5 +227,4 @@ TEST(Documentation, NamesOnlyOptionsThatExist) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::examples_test

@@ -6,8 +6,7 @@
 #include "cli/run_program.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::frame_test {
 
 using testing::Contains;
 using testing::HasSubstr;
@@ -115,5 +114,4 @@ TEST(CommandLine, SaysThatItsOutputCannotBeWritten) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::frame_test

@@ -11,8 +11,7 @@
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/video/film_writer.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::info_test {
 
 nlohmann::json facts_of(const std::filesystem::path& path) {
   const ProgramResult result = run_program({"info", path, "--json"});
@@ -132,5 +131,4 @@ TEST(Info, SpeaksInLinesWithoutJson) {
   EXPECT_THAT(run_program({"info", folder / "a.png"}).output, testing::HasSubstr("width: 7\nheight: 5\n"));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::info_test

@@ -13,8 +13,7 @@
 #include "cli/run_program.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::lost_gpu_test {
 
 /// What the program says where the graphics processor is lost, or where there is none to lose.
 constexpr const char* finished = "the cpu finished the work; .*lost its state|takes the cpu; graphics processor";
@@ -70,5 +69,4 @@ TEST(LostGpuDeathTest, FilmsArePaintedToTheirEnd) {
   EXPECT_EXIT(end_with(paint_and_lose()), testing::ExitedWithCode(0), finished);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::lost_gpu_test

@@ -7,8 +7,7 @@
 #include "scenes/moving_picture.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::measure_film_test {
 
 using testing::HasSubstr;
 
@@ -135,5 +134,4 @@ TEST(MeasureFilmCommand, RefusesWhatDoesNotBelongTogether) {
   expect_refused(folder, {"measure", "film", "a", "--against", "a", "--layout", "sideways"}, 2, "sideways");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::measure_film_test

@@ -7,8 +7,7 @@
 #include "scenes/test_photographs.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::measure_painting_test {
 
 using testing::HasSubstr;
 
@@ -55,5 +54,4 @@ TEST(MeasurePaintingCommand, RefusesAPaintingOfAnotherShape) {
   expect_refused(folder, {"measure", "painting", "photograph.png"}, 2, "PAINTING is required");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::measure_painting_test

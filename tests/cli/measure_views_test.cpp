@@ -6,8 +6,7 @@
 #include "cli/run_program.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::measure_views_test {
 
 using testing::HasSubstr;
 
@@ -93,5 +92,4 @@ TEST(MeasureViewsCommand, RefusesWhatDoesNotBelongTogether) {
   expect_refused(folder, {"measure", "views", "made", "--against", "truth", "--noticeable", "256"}, 2, "256");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::measure_views_test

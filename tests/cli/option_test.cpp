@@ -16,8 +16,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::option_test {
 
 using Line = std::vector<std::string>;
 
@@ -421,5 +420,4 @@ TEST(LargestSize, IsThatOfTheReducedCopy) {
   EXPECT_EQ(read_image(folder / "d.png").width(), 96);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::option_test

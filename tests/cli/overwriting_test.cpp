@@ -10,8 +10,7 @@
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::overwriting_test {
 
 namespace fs = std::filesystem;
 
@@ -107,5 +106,4 @@ TEST_F(Overwriting, AFolderOfViewsIsReplacedAsAWholeButNothingForeign) {
   EXPECT_EQ(files_in(folder_ / "vv"), (std::set<std::string>{"mine.txt", "view_000.png", "view_001.png"}));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::overwriting_test

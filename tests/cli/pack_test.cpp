@@ -19,8 +19,7 @@
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::pack_test {
 
 using testing::HasSubstr;
 
@@ -249,5 +248,4 @@ TEST(InfoCommand, TellsHowDeepAPhotographIsOnADisplay) {
   EXPECT_TRUE(facts.contains("comfort"));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::pack_test

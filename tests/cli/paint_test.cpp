@@ -16,8 +16,7 @@
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::paint_test {
 
 constexpr int width = 96, height = 64, shift = 6;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
@@ -324,5 +323,4 @@ TEST(PaintCommand, LeavesNothingOnAFullDisk) {
   EXPECT_EQ(files_in(folder / ""), before);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::paint_test

@@ -5,8 +5,7 @@
 #include <sstream>
 #include <string>
 
-namespace wheatstone::cli {
-namespace {
+namespace wheatstone::cli::progress_display_test {
 
 using std::chrono::seconds;
 
@@ -50,5 +49,4 @@ TEST(ProgressDisplay, WhatAnEarlierRunDidCountsForNothing) {
   EXPECT_EQ(errors.str(), "painting frame 50 of 100\npainting frame 60 of 100: 60 %, 0:10 gone, 0:40 left\n");
 }
 
-}  // namespace
-}  // namespace wheatstone::cli
+}  // namespace wheatstone::cli::progress_display_test

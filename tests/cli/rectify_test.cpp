@@ -12,8 +12,7 @@
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::rectify_test {
 
 /// The picture turned by a few degrees around its corner and moved down, as a hand-held second shot is.
 Image<Rgb8> spoiled(const Image<Rgb8>& picture) {
@@ -107,5 +106,4 @@ TEST(RectifyCommand, RefusesWhatIsNoPair) {
     expect_refused(folder, {"rectify", "left.png", "right.png", "--calibration", name, "--quiet"}, 3, name + ": ");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::rectify_test

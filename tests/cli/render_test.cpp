@@ -9,8 +9,7 @@
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::render_test {
 
 ProgramResult run_in(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
   const ProgramResult result = run_program(arguments, {.folder = folder / "."});
@@ -273,5 +272,4 @@ TEST(DepthCommand, ReproducesTheThesis) {
   EXPECT_THAT(deep.output, testing::HasSubstr("comfort:"));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::render_test

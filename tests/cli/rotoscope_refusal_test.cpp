@@ -7,8 +7,7 @@
 #include "scenes/moving_picture.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::rotoscope_refusal_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -158,5 +157,4 @@ TEST(RotoscopeRefusal, OfPlacesWithoutRoomIsExitCodeFour) {
   refused(folder, {"a.mp4", "--layout", "mono", "--save-marks", "a.mp4/m_%d.wst"}, 4, "a.mp4/m_%d.wst");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::rotoscope_refusal_test

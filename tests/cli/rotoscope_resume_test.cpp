@@ -14,8 +14,7 @@
 #include "scenes/moving_picture.h"
 #include "wheatstone/stereo/packed_pair.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::rotoscope_resume_test {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
@@ -209,5 +208,4 @@ TEST(RotoscopeResume, WithoutRoomForACheckpointThereIsNothingToGoOnWith) {
   EXPECT_EQ(files_in(work / ""), std::set<std::string>{"source.mp4"});
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::rotoscope_resume_test

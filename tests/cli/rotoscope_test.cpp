@@ -15,8 +15,7 @@
 #include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/stereo_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::rotoscope_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -335,5 +334,4 @@ TEST(Rotoscope, SoundThatCannotBeCopiedIsNamedBeforeAndLeftOut) {
   EXPECT_THAT(run_program(silent, {.folder = folder / ""}).errors, testing::Not(testing::HasSubstr("audio")));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::rotoscope_test

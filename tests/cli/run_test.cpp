@@ -11,8 +11,7 @@
 
 #include "cli/run_program.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::run_test {
 
 struct Said {
   int exit_code;
@@ -62,5 +61,4 @@ TEST(RunCommandLine, OutputThatFailsIsExitCodeFour) {
   EXPECT_EQ(errors.str(), "wheatstone: standard output: cannot write\n");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::run_test

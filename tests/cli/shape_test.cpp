@@ -9,8 +9,7 @@
 #include "cli/run_program.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::shape_test {
 
 /// Two views of a wall of noise, which lies at a disparity of three pixels.
 void write_wall(const TemporaryFolder& folder, int width, int height) {
@@ -57,5 +56,4 @@ INSTANTIATE_TEST_SUITE_P(Extreme, Shape,
                          testing::Values(std::pair(16, 16), std::pair(4000, 16), std::pair(33000, 16),
                                          std::pair(16, 4000), std::pair(16, 33000)));
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::shape_test

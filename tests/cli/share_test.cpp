@@ -6,8 +6,7 @@
 #include "cli/run_program.h"
 #include "wheatstone/video/film_writer.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::share_test {
 
 TEST(ShareCommand, RefusesASizeThatNoPageOfThePictureHas) {
   const TemporaryFolder folder;
@@ -60,5 +59,4 @@ TEST(ShareCommand, SaysWhatIsMissingOfAFilm) {
   EXPECT_NE(result.output.find("note: film.mkv: breaks off after"), std::string::npos) << result.output;
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::share_test

@@ -15,8 +15,7 @@
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::single_picture_test {
 
 constexpr int width = 96, height = 64;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
@@ -258,5 +257,4 @@ TEST(PaintSinglePicture, RefusesOptionsThatHaveNoEffect) {
   expect_refused(folder, paint_line({"--depth", "depth.png", "--depth-is", "near"}), 2, "inverse|metric");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::single_picture_test

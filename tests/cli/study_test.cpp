@@ -7,8 +7,7 @@
 #include "temporary_folder.h"
 #include "wheatstone/study/path_graph.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::study_test {
 
 using testing::HasSubstr;
 
@@ -89,5 +88,4 @@ TEST(StudyCommand, ASimulatedStudyIsAnalysed) {
                  "--effect: is 'depth', expected FACTOR=LEVEL:SECONDS");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::study_test

@@ -8,8 +8,7 @@
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::synth_film_test {
 
 TEST(SynthFilmCommand, WritesFramesWithTheirTruth) {
   const TemporaryFolder folder;
@@ -50,5 +49,4 @@ TEST(SynthFilmCommand, RefusesNonsenseAndLeavesNothing) {
                  "--motion: has no effect on the scene 'crowd'; it is the motion of the still life");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::synth_film_test

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace wheatstone::cli {
-namespace {
+namespace wheatstone::cli::view_words_test {
 
 using testing::ElementsAre;
 
@@ -31,5 +30,4 @@ TEST(ViewWords, AreThoseThatWereGiven) {
   EXPECT_THAT(passed_on({"--full-screen=false", "a.wst"}), ElementsAre("--", "a.wst"));
 }
 
-}  // namespace
-}  // namespace wheatstone::cli
+}  // namespace wheatstone::cli::view_words_test

@@ -17,8 +17,7 @@
 #include "cli/run_program.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::writing_test {
 
 namespace fs = std::filesystem;
 
@@ -148,5 +147,4 @@ TEST(Writing, ToAFullDiskLeavesNothing) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::writing_test

@@ -30,8 +30,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::golden_test {
 
 namespace fs = std::filesystem;
 
@@ -131,5 +130,4 @@ TEST(Golden, PicturesLookTheSame) {
     expect_same_picture(draw(planned(name), right_eye).picture, std::string(name));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::golden_test

@@ -32,8 +32,7 @@ DepthPanel::DepthPanel(DoCommand do_command)
       graph_(new DepthGraph(widget_)),
       told_(make_text("", widget_)) {
   auto* const column = new QVBoxLayout(widget_);
-  for (const DisplayPreset& display : display_presets())
-    display_->addItem(QString::fromUtf8(display.name.data(), static_cast<qsizetype>(display.name.size())));
+  for (const DisplayPreset& display : display_presets()) display_->addItem(QString::fromUtf8(display.name));
   display_->setAccessibleName("Display");
   QObject::connect(display_, &QComboBox::activated, widget_,
                    [this] { do_command_("display", {display_->currentText().toStdString()}); });

@@ -235,8 +235,10 @@ for line in 'open photograph/left.png photograph/right.png' full-screen 'mode le
 done
 sed --regexp-extended 's/^(.*) \{.*"worst_gap_ms":([0-9.]+),"worst_busy_ms":([0-9.]+).*/\2 \3 \1/' blocked.txt |
   sort --general-numeric-sort >sorted.txt
-awk '{ gap[NR] = $1; if ($2 > 50) { print $0; failed = 1 } }
-  END { gap_ms = gap[int(0.75 * NR)]; print gap_ms; exit failed || gap_ms > 50 }' sorted.txt >worst.txt ||
+most_ms=50
+if ldd "$view" | grep --quiet libasan; then most_ms=200; fi  # checks of memory slow the work
+awk -v most_ms="$most_ms" '{ gap[NR] = $1; if ($2 > most_ms) { print $0; failed = 1 } }
+  END { gap_ms = gap[int(0.75 * NR)]; print gap_ms; exit failed || gap_ms > most_ms }' sorted.txt >worst.txt ||
   fail "the window was blocked (by the clock, by its own work, by what): $(cat worst.txt sorted.txt)"
 kill -TERM "$window"
 wait "$window" || true

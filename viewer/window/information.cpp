@@ -35,9 +35,7 @@ std::string information_of(const Session& session) {
   return text;
 }
 
-QString html(std::string_view text) {
-  return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())).toHtmlEscaped();
-}
+QString html(std::string_view text) { return QString::fromUtf8(text).toHtmlEscaped(); }
 
 }  // namespace
 

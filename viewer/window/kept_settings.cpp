@@ -20,7 +20,7 @@ namespace {
 constexpr auto recent_key = "recent", mode_key = "mode", display_key = "display", size_key = "size";
 constexpr QChar between_eyes = '\n';
 
-constexpr auto organisation = "Wheatstone", program = "wheatstone-view";
+constexpr auto organisation = "Wheatstone", program_name = "wheatstone-view";
 
 /// A mode that a screen shows whatever it is.
 bool is_for_any_screen(const OutputMode& mode) {
@@ -40,7 +40,7 @@ KeptSettings::KeptSettings(Window& window) : window_(window) {
 
 QStringList KeptSettings::recent_files() const {
   std::vector<Item> before;
-  for (const QString& line : QSettings(organisation, program).value(recent_key).toStringList()) {
+  for (const QString& line : QSettings(organisation, program_name).value(recent_key).toStringList()) {
     Item item;
     for (const QString& name : line.split(between_eyes)) item.emplace_back(name.toStdString());
     before.push_back(std::move(item));
@@ -74,7 +74,7 @@ void KeptSettings::fill_menu(QMenu& menu) {
 }
 
 void KeptSettings::restore(bool with_size) {
-  const QSettings kept(organisation, program);
+  const QSettings kept(organisation, program_name);
   for (const char* key : {display_key, mode_key}) {
     const std::string name = kept.value(key).toString().toStdString();
     if (name.empty()) continue;
@@ -88,7 +88,7 @@ void KeptSettings::restore(bool with_size) {
 }
 
 void KeptSettings::keep() {
-  QSettings kept(organisation, program);
+  QSettings kept(organisation, program_name);
   const Session& session = window_.viewer().session();
   if (is_for_any_screen(find_output_mode(session.state.mode)))
     kept.setValue(mode_key, QString::fromStdString(session.state.mode));

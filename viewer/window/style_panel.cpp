@@ -23,8 +23,6 @@ namespace {
 
 constexpr int settles_after_ms = 120;
 
-QString text_of(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
-
 }  // namespace
 
 StylePanel::StylePanel(DoCommand do_command)
@@ -42,7 +40,7 @@ StylePanel::StylePanel(DoCommand do_command)
   QObject::connect(layers_, &QSlider::valueChanged, widget_,
                    [this](int layer) { do_command_("finest-layer", {fmt::format("{}", layer)}); });
   form_->addRow("Detail", layers_);
-  for (const std::string_view name : style_names()) style_->addItem(text_of(name));
+  for (const std::string_view name : style_names()) style_->addItem(QString::fromUtf8(name));
   style_->setAccessibleName("Style");
   QObject::connect(style_, &QComboBox::activated, widget_,
                    [this] { do_command_("style", {style_->currentText().toStdString()}); });
@@ -60,10 +58,10 @@ StylePanel::StylePanel(DoCommand do_command)
   form_->addRow(read, save);
   for (const StyleControl& control : style_controls()) {
     rows_.push_back(make_row(control));
-    rows_.back().control->setToolTip(text_of(control.parameter->help));
-    rows_.back().control->setAccessibleName(text_of(control.parameter->name));
-    auto* const label = new QLabel(text_of(control.parameter->name), widget_);
-    label->setToolTip(text_of(control.parameter->help));
+    rows_.back().control->setToolTip(QString::fromUtf8(control.parameter->help));
+    rows_.back().control->setAccessibleName(QString::fromUtf8(control.parameter->name));
+    auto* const label = new QLabel(QString::fromUtf8(control.parameter->name), widget_);
+    label->setToolTip(QString::fromUtf8(control.parameter->help));
     form_->addRow(label, rows_.back().control);
   }
   timer_.setSingleShot(true);
@@ -129,7 +127,7 @@ StylePanel::Row StylePanel::make_switch(const StyleParameter& parameter) {
 
 StylePanel::Row StylePanel::make_choice(const StyleParameter& parameter, const ChoiceControl& choice) {
   auto* const box = new QComboBox(widget_);
-  for (const std::string_view name : choice.names) box->addItem(text_of(name));
+  for (const std::string_view name : choice.names) box->addItem(QString::fromUtf8(name));
   QObject::connect(box, &QComboBox::activated, widget_,
                    [this, &parameter, box] { set_soon(parameter, box->currentText().toStdString()); });
   return {&parameter,

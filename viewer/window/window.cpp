@@ -34,8 +34,6 @@ constexpr int drag_begins_px = 4;
 constexpr int click_delay_ms = 200;  ///< in which a second click makes it a double click
 constexpr double degrees_a_pixel = 0.4;
 
-QString text_of(std::string_view text) { return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())); }
-
 Image<Rgb8> image_of(const QImage& grabbed) {
   const QImage plain = grabbed.convertToFormat(QImage::Format_RGB888);
   Image<Rgb8> image(plain.width(), plain.height());
@@ -108,11 +106,11 @@ void Window::make_menus() {
   std::map<std::string_view, QMenu*> menus;
   for (const Command& command : command_table()) {
     QMenu*& menu = menus[command.menu];
-    if (menu == nullptr) menu = menuBar()->addMenu(text_of(command.menu));
-    auto* const action = new QAction(text_of(command.text), this);
-    action->setObjectName(text_of(command.name));
+    if (menu == nullptr) menu = menuBar()->addMenu(QString::fromUtf8(command.menu));
+    auto* const action = new QAction(QString::fromUtf8(command.text), this);
+    action->setObjectName(QString::fromUtf8(command.name));
     QList<QKeySequence> keys;
-    for (const QString& key : text_of(command.keys).split(", ", Qt::SkipEmptyParts))
+    for (const QString& key : QString::fromUtf8(command.keys).split(", ", Qt::SkipEmptyParts))
       keys.append(QKeySequence(key, QKeySequence::PortableText));
     action->setShortcuts(keys);
     connect(action, &QAction::triggered, this, [this, &command] {
@@ -144,7 +142,7 @@ void Window::make_status_bar() {
 
 std::optional<Words> Window::ask_for_arguments(const Command& command) {
   if (command.arguments.empty()) return Words();
-  const QString title = text_of(command.text);
+  const QString title = QString::fromUtf8(command.text);
   const auto one = [](const QString& word) -> std::optional<Words> {
     if (word.isEmpty()) return {};
     return Words{word.toStdString()};
@@ -159,16 +157,17 @@ std::optional<Words> Window::ask_for_arguments(const Command& command) {
   if (command.arguments == "FILE") return one(QFileDialog::getSaveFileName(this, title));
   QStringList choices;
   if (command.name == "mode")
-    for (const OutputMode& mode : output_modes()) choices << text_of(mode.name);
+    for (const OutputMode& mode : output_modes()) choices << QString::fromUtf8(mode.name);
   if (command.name == "style")
-    for (const std::string_view name : style_names()) choices << text_of(name);
+    for (const std::string_view name : style_names()) choices << QString::fromUtf8(name);
   if (command.name == "display")
-    for (const DisplayPreset& display : display_presets()) choices << text_of(display.name);
-  if (text_of(command.arguments).contains('|')) choices = text_of(command.arguments).split('|');
+    for (const DisplayPreset& display : display_presets()) choices << QString::fromUtf8(display.name);
+  if (QString::fromUtf8(command.arguments).contains('|')) choices = QString::fromUtf8(command.arguments).split('|');
   bool accepted = false;
   const QString answer =
-      choices.empty() ? QInputDialog::getText(this, title, text_of(command.arguments), QLineEdit::Normal, {}, &accepted)
-                      : QInputDialog::getItem(this, title, text_of(command.arguments), choices, 0, true, &accepted);
+      choices.empty()
+          ? QInputDialog::getText(this, title, QString::fromUtf8(command.arguments), QLineEdit::Normal, {}, &accepted)
+          : QInputDialog::getItem(this, title, QString::fromUtf8(command.arguments), choices, 0, true, &accepted);
   if (!accepted) return {};
   try {
     return words_of(answer.toStdString());

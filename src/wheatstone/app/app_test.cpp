@@ -15,8 +15,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::app_test {
 
 namespace fs = std::filesystem;
 
@@ -108,5 +107,4 @@ TEST(Redraw, WritesBothEyes) {
   EXPECT_FALSE(fs::exists(folder / "again/left.svg")) << "only where it is asked for";
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::app_test

@@ -22,12 +22,12 @@ struct Channel {
   NumberRange range;
   bool by_factors = false;
 };
-constexpr double any = 1e300;
+constexpr double any_number = 1e300;
 constexpr std::array channels{Channel{"azimuth", &CameraKey::azimuth_deg, {-36000, 36000}},
                               Channel{"elevation", &CameraKey::elevation_deg, elevation_range},
                               Channel{"fov", &CameraKey::field_of_view_deg, field_of_view_range},
                               Channel{"zoom", &CameraKey::zoom, zoom_range, true},
-                              Channel{"time", &CameraKey::time, {-any, any}}};
+                              Channel{"time", &CameraKey::time, {-any_number, any_number}}};
 
 /// A curve that begins and ends at rest; nothing where no key has the value.
 template <class Value>
@@ -41,21 +41,21 @@ std::optional<double> eased(const CameraPath& path, double at, Value value) {
   return value_at(points, at);
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+[[noreturn]] void refuse_key(const std::string& name, const std::string& what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", name, what));
 }
 
 double number_of(const toml::node& node, const std::string& name, std::string_view key, NumberRange range) {
   const std::optional<double> number = node.value<double>();
   if (!number || !range.has(*number))
-    refuse(name, range.most < any ? fmt::format("'{}' is not a number{}", key, words_of(range))
-                                  : fmt::format("'{}' is not a finite number", key));
+    refuse_key(name, range.most < any_number ? fmt::format("'{}' is not a number{}", key, words_of(range))
+                                             : fmt::format("'{}' is not a finite number", key));
   return *number;
 }
 
 std::array<double, 3> point_of(const toml::node& node, const std::string& name) {
   const toml::array* list = node.as_array();
-  if (list == nullptr || list->size() != 3) refuse(name, "'centre' is not a point [X, Y, Z]");
+  if (list == nullptr || list->size() != 3) refuse_key(name, "'centre' is not a point [X, Y, Z]");
   std::array<double, 3> point{};
   for (std::size_t axis = 0; axis < 3; ++axis)
     point[axis] = number_of(*list->get(axis), name, "centre", position_range);
@@ -65,7 +65,7 @@ std::array<double, 3> point_of(const toml::node& node, const std::string& name) 
 CameraKey key_of(const toml::table& table, const std::string& name) {
   CameraKey key;
   const toml::node* at = table.get("at");
-  if (at == nullptr) refuse(name, "a [[key]] has no 'at', expected 0 for the first frame to 1 for the last");
+  if (at == nullptr) refuse_key(name, "a [[key]] has no 'at', expected 0 for the first frame to 1 for the last");
   key.at = number_of(*at, name, "at", {0, 1});
   for (const auto& [toml_key, node] : table) {
     const std::string_view text = toml_key.str();
@@ -78,7 +78,7 @@ CameraKey key_of(const toml::table& table, const std::string& name) {
     if (channel == channels.end()) {
       std::vector<std::string_view> names{"at", "centre"};
       for (const Channel& known : channels) names.emplace_back(known.name);
-      refuse(name, fmt::format("unknown key '{}', expected one of {}", text, fmt::join(names, ", ")));
+      refuse_key(name, fmt::format("unknown key '{}', expected one of {}", text, fmt::join(names, ", ")));
     }
     key.*(channel->value) = number_of(node, name, text, channel->range);
   }
@@ -125,20 +125,20 @@ CameraPath parse_camera_path(std::string_view toml, const std::string& name) {
   try {
     const toml::table table = toml::parse(toml);
     for (const auto& [key, node] : table)
-      if (key.str() != "key") refuse(name, fmt::format("unknown table '{}', expected [[key]]", key.str()));
+      if (key.str() != "key") refuse_key(name, fmt::format("unknown table '{}', expected [[key]]", key.str()));
     const toml::array* keys = table["key"].as_array();
-    if (keys == nullptr || keys->empty()) refuse(name, "has no keyframes, expected [[key]] tables");
+    if (keys == nullptr || keys->empty()) refuse_key(name, "has no keyframes, expected [[key]] tables");
     for (const toml::node& node : *keys) {
-      if (!node.is_table()) refuse(name, "has a 'key' that is no table, expected [[key]]");
+      if (!node.is_table()) refuse_key(name, "has a 'key' that is no table, expected [[key]]");
       path.keys.push_back(key_of(*node.as_table(), name));
     }
   } catch (const toml::parse_error& error) {
-    refuse(name, fmt::format("line {}: {}", error.source().begin.line, error.description()));
+    refuse_key(name, fmt::format("line {}: {}", error.source().begin.line, error.description()));
   }
   for (std::size_t i = 1; i < path.keys.size(); ++i)
     if (!(path.keys[i].at > path.keys[i - 1].at))
-      refuse(name, fmt::format("a keyframe at {} follows one at {}, expected ascending moments", path.keys[i].at,
-                               path.keys[i - 1].at));
+      refuse_key(name, fmt::format("a keyframe at {} follows one at {}, expected ascending moments", path.keys[i].at,
+                                   path.keys[i - 1].at));
   return path;
 }
 

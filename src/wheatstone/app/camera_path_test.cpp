@@ -6,8 +6,7 @@
 #include "throws_error.h"
 #include "wheatstone/app/camera_path.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::camera_path_test {
 
 constexpr auto path_text = R"(
 [[key]]
@@ -69,5 +68,4 @@ TEST(CameraPath, RefusesWhatItDoesNotKnowInOneLine) {
   refused("[[key]\nat = 0", "path.toml: line 1:");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::camera_path_test

@@ -12,8 +12,7 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::dark_film_test {
 
 SyntheticFilmFrame frame_of_film(int frame) {
   SyntheticFilmOptions options{.still = {.width = 240, .height = 136, .samples_a_side = 1}, .frames = 8};
@@ -80,5 +79,4 @@ TEST(DarkFilm, HasItsWholeDepthAfterAFadeIn) {
   EXPECT_LT(faded.off_share, bright.off_share + 0.02);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::dark_film_test

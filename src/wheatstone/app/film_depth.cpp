@@ -34,7 +34,7 @@ bool is_grey(const Image<Rgb8>& picture) {
   return sum <= most_levels * static_cast<double>(picture.pixels().size());
 }
 
-[[noreturn]] void refuse(const fs::path& depth, const std::string& why) {
+[[noreturn]] void refuse_film_depth(const fs::path& depth, const std::string& why) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", depth.string(), why));
 }
 
@@ -42,22 +42,22 @@ void check_shape(const fs::path& depth, const FilmFacts& found, const FilmOfDept
   const auto shape = [](const FilmFacts& facts) { return static_cast<double>(facts.width) / facts.height; };
   const double rounding = 1.0 / std::min(found.width, found.height);
   if (std::abs(shape(found) / shape(of.facts) - 1) > std::max(0.01, rounding))
-    refuse(depth, fmt::format("is {}x{} pixels, expected the shape of {}, {}x{}", found.width, found.height,
-                              of.film.string(), of.facts.width, of.facts.height));
+    refuse_film_depth(depth, fmt::format("is {}x{} pixels, expected the shape of {}, {}x{}", found.width, found.height,
+                                         of.film.string(), of.facts.width, of.facts.height));
 }
 
 void check_length(const fs::path& depth, const FilmFacts& found, const FilmOfDepth& of) {
   const FilmFacts& film = of.facts;
   if (found.frame_count && film.frame_count) {
     if (*found.frame_count != *film.frame_count)
-      refuse(depth,
-             fmt::format("has {} frames, expected {} as {}", *found.frame_count, *film.frame_count, of.film.string()));
+      refuse_film_depth(depth, fmt::format("has {} frames, expected {} as {}", *found.frame_count, *film.frame_count,
+                                           of.film.string()));
     return;
   }
   const double frame_s = film.frame_rate.value() > 0 ? 1 / film.frame_rate.value() : 0.04;
   if (found.duration_s > 0 && film.duration_s > 0 && std::abs(found.duration_s - film.duration_s) > 1.5 * frame_s)
-    refuse(depth, fmt::format("is {:.2f} s long, expected {:.2f} s as {}", found.duration_s, film.duration_s,
-                              of.film.string()));
+    refuse_film_depth(depth, fmt::format("is {:.2f} s long, expected {:.2f} s as {}", found.duration_s, film.duration_s,
+                                         of.film.string()));
 }
 
 /// Looks for a frame with near and far points: most often the first.
@@ -66,11 +66,11 @@ void check_any_depth(const fs::path& depth, const FilmReaderOptions& reading, De
   bool any = false;
   for (Frame frame; film.read(frame);) {
     any = true;
-    if (!is_grey(frame.picture)) refuse(depth, "is in colour, expected grey for depth");
+    if (!is_grey(frame.picture)) refuse_film_depth(depth, "is in colour, expected grey for depth");
     if (inverse_depth_range(depth_of_picture(frame.picture), kind)) return;
   }
   // Where there is no frame to paint, that is said.
-  if (any) refuse(depth, "its depth is the same everywhere, expected near and far points");
+  if (any) refuse_film_depth(depth, "its depth is the same everywhere, expected near and far points");
 }
 
 /// A film of depth that is being read beside its film.
@@ -107,7 +107,8 @@ FilmDepth depth_of_film(const fs::path& depth, const FilmOfDepth& of, DepthKind 
   return [film](std::int64_t frame, const Image<Rgb8>& /*picture*/) {
     if (frame > film->next) film->next += film->reader.skip(frame - film->next);
     if (frame != film->next || !film->reader.read(film->frame))
-      refuse(film->path, fmt::format("has {} frames, expected as many as {}", film->next, film->film.string()));
+      refuse_film_depth(film->path,
+                        fmt::format("has {} frames, expected as many as {}", film->next, film->film.string()));
     ++film->next;
     return depth_of_picture(film->frame.picture);
   };
@@ -118,7 +119,7 @@ FilmDepth depth_of_network(const fs::path& model) {
   return [network, model](std::int64_t frame, const Image<Rgb8>& picture) {
     Image<float> depth = network->depth_of(picture);
     if (frame == 0 && !inverse_depth_range(depth, DepthKind::inverse))
-      refuse(model, "finds the same depth everywhere in the first frame, expected near and far points");
+      refuse_film_depth(model, "finds the same depth everywhere in the first frame, expected near and far points");
     return depth;
   };
 }

@@ -15,8 +15,7 @@
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::film_depth_test {
 
 namespace fs = std::filesystem;
 
@@ -156,5 +155,4 @@ TEST(FilmDepth, ItsScaleIsKeptForGoingOn) {
   EXPECT_EQ(read.depth_range->nearest, state.depth_range->nearest);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::film_depth_test

@@ -11,8 +11,7 @@
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::film_device_test {
 
 class FilmOnGpu : public NeedsGpu {};
 
@@ -90,5 +89,4 @@ TEST_F(FilmOnGpu, GoesOnWithTheSameBytesOnTheSameDeviceOnly) {
   EXPECT_TRUE(bytes_of(folder / "o.mp4") == bytes_of(folder / "whole.mp4"));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::film_device_test

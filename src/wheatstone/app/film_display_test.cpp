@@ -17,8 +17,7 @@
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::film_display_test {
 
 namespace fs = std::filesystem;
 
@@ -201,5 +200,4 @@ TEST(FilmDisplay, ItsDepthIsKeptForGoingOn) {
   EXPECT_EQ(read.depth.ends.nearest_px, state.depth.ends.nearest_px);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::film_display_test

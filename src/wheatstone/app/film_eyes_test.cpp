@@ -15,8 +15,7 @@
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::film_eyes_test {
 
 constexpr PictureSize frame_size{200, 100};
 
@@ -135,5 +134,4 @@ TEST(FilmEyes, AFilmTellsThatItsEyesWereMovedAndAFullOneSaysNothing) {
   EXPECT_EQ(open_film(folder / "full.mp4").facts().comment, "");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::film_eyes_test

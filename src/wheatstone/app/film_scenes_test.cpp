@@ -17,8 +17,7 @@
 #include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/work_folder.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::film_scenes_test {
 
 namespace fs = std::filesystem;
 
@@ -228,5 +227,4 @@ TEST_F(SharedFilm, OfWhichARankFailsLeavesNothing) {
     EXPECT_FALSE(entry.path().filename().string().starts_with("failed")) << entry.path();
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::film_scenes_test

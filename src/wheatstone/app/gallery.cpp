@@ -9,12 +9,12 @@
 namespace wheatstone {
 namespace {
 
-struct Shown {
+struct GalleryPicture {
   std::string_view file;  ///< without an ending: in the format of the pictures
   std::string_view caption;
 };
 
-constexpr std::array<Shown, 10> pictures{{
+constexpr std::array<GalleryPicture, 10> pictures{{
     {"left_photograph", "Photograph, left eye"},
     {"right_photograph", "Photograph, right eye"},
     {"left", "Painting, left eye"},
@@ -42,7 +42,7 @@ constexpr std::string_view head = R"(<!doctype html>
 
 std::string gallery_html(std::string_view format, std::string_view report_json) {
   std::string page(head);
-  for (const Shown& picture : pictures) {
+  for (const GalleryPicture& picture : pictures) {
     const bool has_ending = picture.file.find('.') != std::string_view::npos;
     const std::string file = has_ending ? std::string(picture.file) : fmt::format("{}.{}", picture.file, format);
     page +=

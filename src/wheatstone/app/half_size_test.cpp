@@ -10,8 +10,7 @@
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::half_size_test {
 
 constexpr int frames = 4;
 
@@ -105,5 +104,4 @@ TEST(HalfSize, DepthOfTheScreenIsInTheFilmsPixels) {
   EXPECT_NEAR(painted.eyes.zero_parallax_px, expected.eyes.zero_parallax_px, 1.5);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::half_size_test

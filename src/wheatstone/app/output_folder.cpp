@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& folder, std::string_view reason) {
+[[noreturn]] void refuse_folder(const fs::path& folder, std::string_view reason) {
   throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot be written: {}", folder.string(), reason));
 }
 
@@ -106,13 +106,13 @@ OutputFolder::OutputFolder(const fs::path& folder, std::vector<fs::path> inputs)
   if (fs::is_symlink(fs::symlink_status(final_, error)) || fs::exists(final_, error)) final_ = followed(final_);
   if (fs::exists(final_, error) && !fs::is_directory(final_, error)) {
     check_not_an_input(folder, inputs_);
-    refuse(folder, "is a file, expected a folder");
+    refuse_folder(folder, "is a file, expected a folder");
   }
   temporary_ = growing_folder(final_);
   unfinished_.begin(temporary_, [&] {
     const bool made = fs::create_directory(temporary_, error);
-    if (error) refuse(folder, error.message());
-    if (!made) refuse(folder, fmt::format("{} is in the way", temporary_.string()));
+    if (error) refuse_folder(folder, error.message());
+    if (!made) refuse_folder(folder, fmt::format("{} is in the way", temporary_.string()));
   });
 }
 
@@ -126,7 +126,7 @@ void OutputFolder::commit() {
     std::error_code error;
     if (fs::exists(final_, error)) return move_into_existing();
     fs::rename(temporary_, final_, error);
-    if (error) refuse(final_, error.message());
+    if (error) refuse_folder(final_, error.message());
   });
 }
 
@@ -136,15 +136,15 @@ void OutputFolder::move_into_existing() const {
   const std::vector<std::string> old = left_of_series(files_in(final_), written);
   for (const std::string& name : old) check_not_an_input(final_ / name, inputs_);
   for (const std::string& name : written)
-    if (fs::is_directory(final_ / name, error)) refuse(final_ / name, "is a folder, expected a file");
+    if (fs::is_directory(final_ / name, error)) refuse_folder(final_ / name, "is a folder, expected a file");
   for (const std::string& name : written) {
     fs::create_directories((final_ / name).parent_path(), error);
     fs::rename(temporary_ / name, final_ / name, error);
-    if (error) refuse(final_ / name, error.message());
+    if (error) refuse_folder(final_ / name, error.message());
   }
   for (const std::string& name : old) {
     fs::remove(final_ / name, error);
-    if (error) refuse(final_ / name, error.message());
+    if (error) refuse_folder(final_ / name, error.message());
   }
   fs::remove_all(temporary_, error);
 }

@@ -11,8 +11,7 @@
 #include "throws_error.h"
 #include "wheatstone/files/whole_file.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::output_folder_test {
 
 namespace fs = std::filesystem;
 using testing::UnorderedElementsAre;
@@ -180,5 +179,4 @@ TEST(OutputFolder, RefusesWhatCannotBeAFolder) {
   expect_error(ErrorKind::wrong_usage, "empty", [] { OutputFolder(""); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::output_folder_test

@@ -17,8 +17,7 @@
 #include "wheatstone/stereo/single_view.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::quality_test {
 
 struct Subject {
   StereoPair photographs;
@@ -149,5 +148,4 @@ TEST(PaintingQuality, MotorcycleKeepsItsDepthWithOurOwnMatching) {
   EXPECT_NEAR(measures.left_gradient_energy / measures.right_gradient_energy, 1, 0.05);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::quality_test

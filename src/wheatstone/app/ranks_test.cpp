@@ -17,8 +17,7 @@
 #include "wheatstone/random.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::ranks_test {
 
 namespace fs = std::filesystem;
 
@@ -201,5 +200,4 @@ TEST_F(RanksRender, GivesTheSameFramesOfAFilmSharedEitherWay) {
   EXPECT_EQ(film_by(2, true), alone);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::ranks_test

@@ -9,8 +9,7 @@
 #include "wheatstone/motion/flow.h"
 #include "wheatstone/video/film_reader.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::real_film_test {
 
 TEST(FindCutLong, AWalkThroughTheStreetsHasNone) {
   const std::filesystem::path path = shared_data() / "video/tokyo_walk_mono.mp4";
@@ -35,5 +34,4 @@ TEST(FindCutLong, AWalkThroughTheStreetsHasNone) {
   EXPECT_TRUE(find_cut(before, other).cut);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::real_film_test

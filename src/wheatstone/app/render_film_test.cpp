@@ -17,8 +17,7 @@
 #include "wheatstone/video/segmented_film.h"
 #include "wheatstone/video/stereo_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::render_film_test {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -173,5 +172,4 @@ TEST(SnapshotSeries, NamesWhatIsWrongWithIt) {
   refused("s_2.hdf5: its box has a side of 50000, expected 100000");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::render_film_test

@@ -15,8 +15,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::render_particles_test {
 
 /// Coordinates of 1500 points, most of them in three clumps, around the offset, as double precision has them there.
 std::vector<double> cluster(double size, double offset) {
@@ -208,5 +207,4 @@ TEST(Annotate, LengthsAreRound) {
   EXPECT_DOUBLE_EQ(round_length(1.9e6), 1e6);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::render_particles_test

@@ -15,8 +15,7 @@
 #include "wheatstone/files/struct_fields.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::rotoscope_test {
 
 namespace fs = std::filesystem;
 
@@ -424,5 +423,4 @@ TEST(RotoscopeFilm, ADamagedRestIsNamedAndNotRemoved) {
   EXPECT_EQ(paint_film(folder, options).resumed_frames, 4);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::rotoscope_test

@@ -14,8 +14,7 @@
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::scene_rectification_test {
 
 constexpr int film_width = 320, film_height = 180;
 
@@ -112,5 +111,4 @@ TEST(SceneRectification, IsKeptForGoingOn) {
   EXPECT_EQ(rectified(next, read.rectification).right, rectified(next, state.rectification).right);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::scene_rectification_test

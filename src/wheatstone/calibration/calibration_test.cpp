@@ -12,8 +12,7 @@
 #include "throws_error.h"
 #include "wheatstone/image/opencv_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::calibration_test {
 
 constexpr Checkerboard board{9, 6, 25};
 
@@ -233,5 +232,4 @@ TEST(CalibrationFile, SaysWhatItLacks) {
     expect_error(ErrorKind::bad_input, name, [&] { read_stereo_calibration(folder / name); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::calibration_test

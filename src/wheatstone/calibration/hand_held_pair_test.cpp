@@ -17,8 +17,7 @@
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/phone_camera.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::hand_held_pair_test {
 
 Image<Rgb8> through_jpeg(const Image<Rgb8>& picture, const std::filesystem::path& path) {
   write_whole_file(path, encode_jpeg(picture, 85));
@@ -86,5 +85,4 @@ TEST(HandHeldPairLong, OfOrdinaryStereoCamerasIsFoundWithoutStreaks) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::hand_held_pair_test

@@ -9,8 +9,7 @@
 #include "throws_error.h"
 #include "wheatstone/image/opencv_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::prepare_pair_test {
 
 const StereoPair& still() {
   static const StereoPair pair = still_for_test();
@@ -185,5 +184,4 @@ TEST(PreparePair, DoesNotJudgeWhereThereIsTooLittleToGoBy) {
   EXPECT_EQ(row_warning(prepared), "");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::prepare_pair_test

@@ -20,8 +20,7 @@
 #include "wheatstone/random.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::rectify_test {
 
 /// How a picture was spoiled: turned and scaled around its middle, then moved, in our pixels.
 struct Misalignment {
@@ -256,5 +255,4 @@ TEST(CommonWindow, IsTheLargestRectangle) {
   EXPECT_EQ(largest_rectangle_within(mask), cv::Rect(0, 0, 80, 60));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::rectify_test

@@ -7,8 +7,7 @@
 #include "wheatstone/calibration/vertical_disparity_internal.h"
 #include "wheatstone/synthetic/phone_camera.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::rectifying_turn_test {
 
 constexpr int width = 640, height = 480;
 
@@ -75,5 +74,4 @@ TEST(RectifyingMap, GoesThereAndBack) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::rectifying_turn_test

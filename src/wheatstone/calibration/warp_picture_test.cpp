@@ -7,8 +7,7 @@
 #include "wheatstone/calibration/warp_picture_internal.h"
 #include "wheatstone/image/opencv_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::warp_picture_test {
 
 TEST(WarpedPicture, IsTheOneWhosePlacesAreWorkedOutPixelByPixel) {
   Image<Rgb8> photograph(1000, 750);
@@ -31,5 +30,4 @@ TEST(WarpedPicture, IsTheOneWhosePlacesAreWorkedOutPixelByPixel) {
   EXPECT_LT(cv::norm(as_mat(found), expected, cv::NORM_L1) / pixels, 0.012);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::warp_picture_test

@@ -16,8 +16,7 @@
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::diffusion_in_time_test {
 
 constexpr int width = 320, height = 180, frames = 6;
 
@@ -203,5 +202,4 @@ TEST(DiffusionInTime, RefusesWhatDoesNotFit) {
   expect_error(ErrorKind::bad_input, "disparity", [&] { plan_diffusion(FilmFrame{torn, nullptr}, style(), memory); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::diffusion_in_time_test

@@ -11,8 +11,7 @@
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::diffusion_test {
 
 PaintedPair paint_scene(Propagation propagation = Propagation::strokes) {
   Style style = style_by_name("diffusion");
@@ -96,5 +95,4 @@ TEST(Diffusion, IsBareWithoutLinesAndPaintsPicturesOfAnySize) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::diffusion_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::convergence_test {
 
 TEST(Depth, IsInverselyProportionalToDisparity) {
   EXPECT_FLOAT_EQ(depth_from_disparity(8, 400), 50);
@@ -33,5 +32,4 @@ TEST(DisparityPercentile, PassesOverUnknownsAndOutliers) {
   EXPECT_TRUE(std::isnan(disparity_percentile(Image<float>(3, 3, std::numeric_limits<float>::infinity()), 0.5)));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::convergence_test

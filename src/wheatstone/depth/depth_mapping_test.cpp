@@ -10,8 +10,7 @@
 
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::depth_mapping_test {
 
 constexpr ViewingGeometry desk{
     .eye_separation_mm = 65, .viewing_distance_mm = 700, .screen_width_mm = 376, .width_px = 1280};
@@ -98,5 +97,4 @@ TEST(DepthMapping, RefusesWhatDescendsOrIsNoDepth) {
   EXPECT_NO_THROW(single_region(1, 2, desk, 699, 10));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::depth_mapping_test

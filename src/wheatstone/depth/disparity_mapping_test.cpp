@@ -7,8 +7,7 @@
 
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::disparity_mapping_test {
 
 TEST(DisparityMapping, IsALineBetweenItsPointsAndLevelBeyondThem) {
   const DisparityMapping mapping{{{0, -4}, {10, -4}, {20, 6}}};
@@ -43,5 +42,4 @@ TEST(DepthRegions, AreReadAsTheyAreWritten) {
     expect_error(ErrorKind::wrong_usage, "--it: is '", [text] { parse_depth_regions(text, "--it"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::disparity_mapping_test

@@ -9,8 +9,7 @@
 
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::display_presets_test {
 
 TEST(DisplayPresets, AreFoundByNameAndSayTheNamesOtherwise) {
   EXPECT_EQ(find_display("looking-glass-go").views, 66);
@@ -50,5 +49,4 @@ TEST(DisplayPresets, TwoViewsAreTheEyesAndConesAreAsWideAsTheyAreWhereTheViewerI
   EXPECT_NEAR(span_of(find_display("nine-view")) / 8, 0.5, 0.1);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::display_presets_test

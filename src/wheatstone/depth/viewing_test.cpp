@@ -13,8 +13,7 @@
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/depth/viewing_geometry.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::viewing_test {
 
 /// Where the lines from the two eyes through their pixels meet, by plain geometry.
 double crossing_behind(double separation, double distance, double parallax) {
@@ -152,5 +151,4 @@ TEST(Camera, SeesAllOfTheSphereAndNotMuchElse) {
   EXPECT_LT(highest, 10);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::viewing_test

@@ -10,8 +10,7 @@
 
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::warp_row_test {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -98,5 +97,4 @@ TEST(WarpRow, TellsWhereWhatLandsComesFrom) {
   hwy::SetSupportedTargetsForTest(0);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::warp_row_test

@@ -94,7 +94,7 @@ Composed composed_of(StereoLayout layout, const ViewsToCompose& views) {
 }
 
 /// As many bytes of views as are sent at once.
-constexpr std::size_t most_bytes = std::size_t{1} << 28;
+constexpr std::size_t most_bytes_at_once = std::size_t{1} << 28;
 
 std::size_t pixels_of(const ViewsToCompose& views) {
   return static_cast<std::size_t>(views.width) * static_cast<std::size_t>(views.height);
@@ -131,7 +131,7 @@ GpuComposer::GpuComposer(const DisplayComposition& composition, const ViewsToCom
   const std::size_t bytes = words_of_picture(work) * sizeof(std::uint32_t),
                     bytes_a_view = pixels_of(views) * sizeof(std::uint32_t);
   const std::size_t least = takes_two_eyes(composition) ? 2 : 1,
-                    at_once = std::max(std::min(most_bytes, facts.largest_buffer) / bytes_a_view, least);
+                    at_once = std::max(std::min(most_bytes_at_once, facts.largest_buffer) / bytes_a_view, least);
   if (std::max(bytes, bytes_a_view * least) > facts.largest_buffer)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("graphics processor: has no room for a picture of {}x{} pixels; --device cpu composes it",

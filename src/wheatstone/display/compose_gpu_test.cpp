@@ -10,8 +10,7 @@
 #include "wheatstone/display/compose.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::compose_gpu_test {
 
 class ComposeGpu : public NeedsGpu {};
 
@@ -88,5 +87,4 @@ TEST_F(ComposeGpu, RefusesWhatDoesNotFit) {
   });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::compose_gpu_test

@@ -8,8 +8,7 @@
 #include "wheatstone/display/disparity_picture.h"
 #include "wheatstone/error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::display_test {
 
 StereoPair plain_pair(Rgb8 left, Rgb8 right) { return {Image<Rgb8>(4, 2, left), Image<Rgb8>(4, 2, right)}; }
 
@@ -69,5 +68,4 @@ TEST(DisparityPicture, ShowsNearRedFarBlueAndUnknownBlack) {
   EXPECT_EQ(picture(250, 0), Rgb8{});
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::display_test

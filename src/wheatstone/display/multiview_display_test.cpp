@@ -14,8 +14,7 @@
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/files/whole_file.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::multiview_display_test {
 
 /// Views of one colour each: their number, in every channel.
 std::vector<Image<Rgb8>> numbered(int count, int width, int height) {
@@ -252,5 +251,4 @@ TEST(Lenticular, RefusesBadCalibrationsAndUnknownNames) {
   expect_error(ErrorKind::wrong_usage, "step-9", [] { find_lenticular("moon"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::multiview_display_test

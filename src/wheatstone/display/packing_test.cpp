@@ -23,8 +23,7 @@
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/packed_pair.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::packing_test {
 
 /// Colours of every kind, most of which no matrix leaves within range.
 Image<Rgb8> noise(int width, int height, unsigned seed) {
@@ -202,5 +201,4 @@ TEST(DepthBeside, IsWhiteWhereItIsNear) {
   EXPECT_NEAR(both(150, 0).g, 128, 3);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::packing_test

@@ -21,7 +21,7 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 34;
+constexpr std::size_t most_wiggle_bytes = std::size_t{1} << 34;
 constexpr char end_of_gif = ';';
 
 [[noreturn]] void refuse_writing(const std::filesystem::path& path, const std::string& why) {
@@ -68,7 +68,7 @@ void write_gif(const std::filesystem::path& path, std::span<const Image<Rgb8>* c
     if (!begun || !writer->write(rows_of(*frames[i]))) refuse_writing(path, writer->complaint());
   }
   if (!writer->end()) refuse_writing(path, writer->complaint());
-  const std::string bytes = read_whole_file(name, most_bytes);
+  const std::string bytes = read_whole_file(name, most_wiggle_bytes);
   if (!bytes.ends_with(end_of_gif)) refuse_writing(path, "not enough memory");
   write_whole_file(path, bytes);
 }

@@ -23,7 +23,7 @@ struct LineWork {
 };
 
 /// A piece of a line, from one point to the next, as add_lines.comp reads it.
-struct Piece {
+struct CurvePiece {
   struct Place {
     float x, y, disparity;
   };
@@ -44,12 +44,14 @@ struct LevelWork {
   std::int32_t margin = 0;  ///< columns on both sides that the view does not show
 };
 
-std::vector<Piece> pieces_of(const PreparedLines& lines, const PreparedSurfaces& surfaces) {
-  const auto place = [](const ColourPoint& point) { return Piece::Place{point.at.x, point.at.y, point.at.disparity}; };
-  const auto colour = [](Rgb8 c) {
-    return Piece::Colour{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+std::vector<CurvePiece> pieces_of(const PreparedLines& lines, const PreparedSurfaces& surfaces) {
+  const auto place = [](const ColourPoint& point) {
+    return CurvePiece::Place{point.at.x, point.at.y, point.at.disparity};
   };
-  std::vector<Piece> pieces;
+  const auto colour = [](Rgb8 c) {
+    return CurvePiece::Colour{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+  };
+  std::vector<CurvePiece> pieces;
   for (const ColourLine& line : lines.painting.lines) {
     const auto points = lines.painting.points_of(line);
     const std::int32_t is_continued = kind_of(line.reference_view, surfaces) == PlannedIn::other_view ? 1 : 0;
@@ -89,9 +91,9 @@ GpuDiffusion::GpuDiffusion(const PreparedLines& lines, const PreparedSurfaces& s
       fill_known_(fill_known_source),
       settle_colours_(settle_colours_source),
       finish_diffusion_(finish_diffusion_source) {
-  const std::vector<Piece> pieces = pieces_of(lines, surfaces);
+  const std::vector<CurvePiece> pieces = pieces_of(lines, surfaces);
   piece_count_ = pieces.size();
-  pieces_.emplace(std::span<const Piece>(pieces));
+  pieces_.emplace(std::span<const CurvePiece>(pieces));
 }
 
 GpuBuffer GpuDiffusion::lines(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) const {

@@ -12,8 +12,7 @@
 #include "wheatstone/drawing/draw_gpu.h"
 #include "wheatstone/painting/paint.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::draw_gpu_test {
 
 /// One beyond the eyes, one between them, and an eye.
 const std::vector<ViewPosition> wide{ViewPosition(-2.5), ViewPosition(-0.13), right_eye};
@@ -186,5 +185,4 @@ TEST_F(DrawGpu, LightsReliefAsTheProcessorDoes) {
   EXPECT_GT(worst_psnr(pictures_of(painting, Device::graphics), expected), 45);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::draw_gpu_test

@@ -12,12 +12,12 @@
 namespace wheatstone {
 namespace {
 
-constexpr int samples = 4, rows_a_band = 8;
+constexpr int samples_a_side = 4, rows_a_group = 8;
 
 /// What sample_regions.comp reads of its work: numbers of four bytes, without gaps.
 struct RegionWork {
   std::int32_t width = 0, height = 0, first_row = 0, rows = 0;
-  std::int32_t has_surfaces = 0, bands_rows = rows_a_band;
+  std::int32_t has_surfaces = 0, bands_rows = rows_a_group;
   float tolerance_px = 0;
   std::array<float, most_gpu_views> view{};
 };
@@ -46,7 +46,7 @@ struct RegionsForGpu {
                        kind_of(mark.reference_view, surfaces) == PlannedIn::reference_view ? 1 : 0});
       of_marks.push_back(edges_of(painting, mark));
     }
-    const int bands = (painting.height + rows_a_band - 1) / rows_a_band;
+    const int bands = (painting.height + rows_a_group - 1) / rows_a_group;
     for (int band = 0; band < bands; ++band) {
       band_first.push_back(static_cast<std::uint32_t>(in_bands.size()));
       for (const int own : {1, 0})
@@ -78,7 +78,7 @@ struct RegionsForGpu {
   }
 
   void add_to_band(int band, std::uint32_t mark, const std::vector<Edge>& of_mark) {
-    const auto top = static_cast<float>(band * rows_a_band), bottom = top + rows_a_band;
+    const auto top = static_cast<float>(band * rows_a_group), bottom = top + rows_a_group;
     const auto first = static_cast<std::uint32_t>(edges.size());
     std::ranges::copy_if(of_mark, std::back_inserter(edges),
                          [&](const Edge& edge) { return edge.y < bottom && edge.bottom() > top; });
@@ -104,7 +104,8 @@ GpuBuffer GpuRegions::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes,
   GpuBuffer pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * count * sizeof(std::uint32_t));
   // The samples of so many rows are held at once.
   constexpr std::size_t most_bytes = std::size_t{1} << 26;
-  const std::size_t bytes_a_row = samples * samples * static_cast<std::size_t>(width) * count * sizeof(float);
+  const std::size_t bytes_a_row =
+      samples_a_side * samples_a_side * static_cast<std::size_t>(width) * count * sizeof(float);
   const int rows_at_once = static_cast<int>(std::clamp<std::size_t>(most_bytes / bytes_a_row, 1, height));
   const GpuBuffer disparities(rows_at_once * bytes_a_row), shown(rows_at_once * bytes_a_row);
   for (int first_row = 0; first_row < height; first_row += rows_at_once) {
@@ -117,7 +118,7 @@ GpuBuffer GpuRegions::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes,
                           .view = gpu_views(views.positions)};
     const GpuBuffer of_work(std::span<const RegionWork>(&work, 1));
     const auto of_views = static_cast<std::uint32_t>(count);
-    sample_regions_.run({groups_of(static_cast<std::size_t>(work.rows) * samples, 64), of_views},
+    sample_regions_.run({groups_of(static_cast<std::size_t>(work.rows) * samples_a_side, 64), of_views},
                         {&of_work, &buffers_->marks, &buffers_->band_first, &buffers_->in_bands, &buffers_->edges,
                          &planes, &disparities, &shown});
     finish_regions_.run({groups_of(work.rows, 64), of_views},

@@ -7,8 +7,7 @@
 
 #include "wheatstone/drawing/draw.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::hidden_strokes_test {
 
 constexpr int width = 40, height = 20;
 constexpr Rgb8 red{200, 0, 0}, blue{0, 0, 200};
@@ -71,5 +70,4 @@ TEST(HiddenStrokes, AreNotThoseThatShowWhereABrushRunsDry) {
   EXPECT_EQ(without_hidden_strokes(painting, {}, std::array{left_eye}, 1.f / 128).layers[1].strokes.size(), 2u);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::hidden_strokes_test

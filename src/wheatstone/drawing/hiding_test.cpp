@@ -12,8 +12,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/svg.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::hiding_test {
 
 constexpr int width = 60, height = 24;
 constexpr float wall = 2, post = 12;
@@ -200,5 +199,4 @@ TEST(Hiding, CutsAStrokeOfAnSvgDocument) {
   EXPECT_EQ(moves, 2u) << svg;
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::hiding_test

@@ -11,8 +11,7 @@
 #include "wheatstone/drawing/rasterise_internal.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::rasterise_test {
 
 /// Strokes of all sizes and opacities, also over the picture's edges.
 Layer random_layer(int width, int height, int count, float opacity) {
@@ -361,5 +360,4 @@ TEST(BrushProfile, IsADiscWithASoftRimOfATenthOfItsRadius) {
   EXPECT_FLOAT_EQ(brush.cover(20.1f), 0);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::rasterise_test

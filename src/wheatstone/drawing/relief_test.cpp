@@ -15,8 +15,7 @@
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/painting/paint.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::relief_test {
 
 StrokePainting one_stroke(float disparity) {
   Layer layer;
@@ -95,5 +94,4 @@ TEST(Relief, GivesTheSameBytesOnAnyNumberOfThreads) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::relief_test

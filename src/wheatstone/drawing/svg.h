@@ -16,8 +16,8 @@ bool svg_has_ground(const Painting& painting);
 ///
 /// Strokes lie over the canvas colour. Every stroke is a path with round ends of as few Bézier curves as stay within
 /// `svg_tolerance_px` of its B-spline; the brush's soft rim becomes a hard edge at half cover. A surface cuts it where
-/// it hides the middle of the brush. Strokes that nothing is seen of are left out. A colour that changes along a stroke is
-/// a linear gradient from its first to its last point; what bristles leave is left out.
+/// it hides the middle of the brush. Strokes that nothing is seen of are left out. A colour that changes along a stroke
+/// is a linear gradient from its first to its last point; what bristles leave is left out.
 ///
 /// Regions lie far to near: every mark is a path, its holes left out. Seams between neighbours are closed by a thin
 /// line of the mark's colour.

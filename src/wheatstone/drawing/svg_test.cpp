@@ -15,8 +15,7 @@
 #include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/painting/paint.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::svg_test {
 
 using testing::HasSubstr;
 
@@ -164,5 +163,4 @@ TEST(Svg, DiffusionCurvesLieOverTheDrawnView) {
   EXPECT_THAT(svg, HasSubstr("M20 30l180 0 100 0"));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::svg_test

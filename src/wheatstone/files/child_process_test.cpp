@@ -11,8 +11,7 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::child_process_test {
 
 TEST(ChildProcess, HandsItsStatusOn) {
   EXPECT_EQ(WEXITSTATUS(ChildProcess({"sh", "-c", "exit 7"}).wait()), 7);
@@ -53,5 +52,4 @@ TEST(ChildProcess, EndsWithAParentThatIsKilled) {
   ::kill(child, SIGKILL);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::child_process_test

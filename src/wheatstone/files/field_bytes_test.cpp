@@ -8,8 +8,7 @@
 #include "throws_error.h"
 #include "wheatstone/image/image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::field_bytes_test {
 
 struct Part {
   float x = 0;
@@ -102,5 +101,4 @@ TEST(FieldBytes, LayoutsDifferInTheKindNumberAndOrderOfMembers) {
   EXPECT_NE(layout_of<std::vector<One>>(), layout_of<std::optional<One>>());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::field_bytes_test

@@ -6,8 +6,7 @@
 
 #include "temporary_folder.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::file_lock_test {
 
 TEST(FileLock, IsHeldByOneAtATime) {
   const TemporaryFolder folder;
@@ -32,5 +31,4 @@ TEST(FileLock, OfAFileThatWasReplacedMeanwhileHoldsTheNewOne) {
   EXPECT_EQ(first.hold(folder / "table"), std::errc::resource_unavailable_try_again);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::file_lock_test

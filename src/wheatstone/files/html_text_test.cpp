@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::html_text_test {
 
 TEST(HtmlText, LeavesNothingThatBeginsATagOrEndsAnAttribute) {
   EXPECT_EQ(html_text(R"(<b title="a" id='c'> & x)"), "&lt;b title=&quot;a&quot; id=&#39;c&#39;&gt; &amp; x");
@@ -17,5 +16,4 @@ TEST(HtmlText, IsAlwaysUtf8) {
   EXPECT_EQ(html_text("\xed\xa0\x80").find('\xed'), std::string::npos);  // half of a pair
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::html_text_test

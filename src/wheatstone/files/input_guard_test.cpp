@@ -7,8 +7,7 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::input_guard_test {
 
 namespace fs = std::filesystem;
 
@@ -48,5 +47,4 @@ TEST(InputGuard, RefusesOneFileForTwoOutputs) {
   EXPECT_NO_THROW(check_distinct_outputs(outputs("element.js")));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::input_guard_test

@@ -6,8 +6,7 @@
 
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::module_test {
 
 TEST(Module, ThatIsMissingIsNamed) {
   expect_error(ErrorKind::cannot_read_write, "a part of Wheatstone is not installed: libwheatstone_nothing.so",
@@ -19,5 +18,4 @@ TEST(Module, ThatNeedsMoreThanThereIsIsNotLoaded) {
   EXPECT_THROW(function_of_module("wheatstone_nothing", "anything", more_than_there_is), std::bad_alloc);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::module_test

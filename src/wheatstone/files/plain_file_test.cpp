@@ -11,8 +11,7 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::plain_file_test {
 
 namespace fs = std::filesystem;
 
@@ -51,5 +50,4 @@ TEST(PlainFile, IsNothingElse) {
                [&] { check_plain_file(folder / "loop", "a film"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::plain_file_test

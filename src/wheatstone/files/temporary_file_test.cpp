@@ -6,8 +6,7 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::temporary_file_test {
 
 namespace fs = std::filesystem;
 
@@ -105,5 +104,4 @@ TEST(TemporaryFile, FollowsALinkThatLeadsNowhereYet) {
   EXPECT_EQ(bytes_of(folder / "below/target.png"), "x");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::temporary_file_test

@@ -13,8 +13,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/temporary_file.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::unfinished_outputs_test {
 
 namespace fs = std::filesystem;
 
@@ -159,5 +158,4 @@ TEST(UnfinishedOutputs, RemainSoWhereTheyCannotBeRenamed) {
   EXPECT_TRUE(folder.is_empty());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::unfinished_outputs_test

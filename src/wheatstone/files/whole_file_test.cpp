@@ -12,8 +12,7 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::whole_file_test {
 
 namespace fs = std::filesystem;
 
@@ -72,5 +71,4 @@ TEST(WholeFile, SaysThatThePipeIsClosed) {
   ::close(ends[1]);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::whole_file_test

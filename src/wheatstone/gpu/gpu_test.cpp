@@ -15,8 +15,7 @@
 #include "throws_error.h"
 #include "wheatstone/gpu/program.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::gpu_test {
 
 constexpr GpuSource doubling{"doubling.comp", R"(#version 450
 layout(local_size_x = 64) in;
@@ -140,5 +139,4 @@ TEST_F(Gpu, IsOfUseAgainAfterAFault) {
   EXPECT_EQ(number, 0u);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::gpu_test

@@ -7,8 +7,7 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/image/reduced_view.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::image_test {
 
 Image<int> counted(int width, int height) {
   Image<int> image(width, height);
@@ -112,5 +111,4 @@ TEST(ReducedView, LeavesOutWhatMakesNoWholePixel) {
   EXPECT_EQ(places, expected);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::image_test

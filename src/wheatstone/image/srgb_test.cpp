@@ -7,8 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::srgb_test {
 
 /// IEC 61966-2-1, not rounded.
 double code_by_formula(double linear) {
@@ -75,5 +74,4 @@ TEST(Srgb, LightOutOfRangeIsLimited) {
   EXPECT_EQ(srgb_from_linear(infinity), 255);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::srgb_test

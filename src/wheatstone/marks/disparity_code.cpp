@@ -10,7 +10,7 @@ namespace wheatstone {
 namespace {
 
 constexpr int bytes_a_code = 4;
-constexpr std::uint32_t unknown = 0xffffffff;
+constexpr std::uint32_t unknown_code = 0xffffffff;
 
 /// What is known of the pixels before the one at hand, in steps: it is expected to go on as they do (the median edge
 /// detector of Weinberger et al. 2000, LOCO-I).
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> encode_disparities(const Image<float>& disparity) {
     for (const float d : disparity.row(y)) {
       const std::int32_t expected = expectation.expected();
       const std::int32_t steps = std::isnan(d) ? expected : static_cast<std::int32_t>(std::lround(d * disparity_steps));
-      const std::uint32_t code = std::isnan(d) ? unknown : code_of(steps - expected);
+      const std::uint32_t code = std::isnan(d) ? unknown_code : code_of(steps - expected);
       for (int byte = 0; byte < bytes_a_code; ++byte)
         planes[static_cast<std::size_t>(byte) * count + i] = static_cast<std::uint8_t>(code >> (8 * byte));
       expectation.next(steps);
@@ -81,9 +81,10 @@ std::optional<Image<float>> decode_disparities(std::span<const std::uint8_t> byt
       std::uint32_t code = 0;
       for (int byte = 0; byte < bytes_a_code; ++byte)
         code |= static_cast<std::uint32_t>(planes[static_cast<std::size_t>(byte) * count + i]) << (8 * byte);
-      const std::int64_t steps = std::int64_t{expectation.expected()} + (code == unknown ? 0 : difference_of(code));
+      const std::int64_t steps =
+          std::int64_t{expectation.expected()} + (code == unknown_code ? 0 : difference_of(code));
       if (steps != static_cast<std::int32_t>(steps)) return {};
-      d = code == unknown ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(steps) / disparity_steps;
+      d = code == unknown_code ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(steps) / disparity_steps;
       expectation.next(static_cast<std::int32_t>(steps));
       ++i;
     }

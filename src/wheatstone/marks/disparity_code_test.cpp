@@ -7,8 +7,7 @@
 #include "wheatstone/marks/disparity_code.h"
 #include "wheatstone/marks/surfaces.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::disparity_code_test {
 
 constexpr int width = 61, height = 17;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
@@ -77,5 +76,4 @@ TEST(DisparityCode, NeverBelievesAFlippedByte) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::disparity_code_test

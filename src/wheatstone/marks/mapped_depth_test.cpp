@@ -14,8 +14,7 @@
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::mapped_depth_test {
 
 const Painting& painting_of_still(Marks marks) {
   static const SyntheticStill still = make_synthetic_still({.width = 200, .height = 140, .samples_a_side = 1});
@@ -174,5 +173,4 @@ TEST(DepthAround, NeitherFoldsNorTearsWhatIsEquallyNear) {
     }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::mapped_depth_test

@@ -17,8 +17,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/marks/deflated.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::painting_file_test {
 
 /// What a test must hold for each kind of painting.
 constexpr int kinds = 3;
@@ -320,5 +319,4 @@ TEST(Svg, HasOnePathForEveryStrokeOfTheView) {
   EXPECT_THAT(svg_of(Painting{small_painting()}, right_eye), testing::HasSubstr("M-20 20"));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::painting_file_test

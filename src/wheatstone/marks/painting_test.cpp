@@ -12,8 +12,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/painting/paint.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::painting_test {
 
 Style style_of(std::string_view name) {
   Style style = style_by_name(name);
@@ -142,5 +141,4 @@ TEST(Painting, TellsTheDisparitiesOfItsMarks) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::painting_test

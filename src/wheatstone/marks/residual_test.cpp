@@ -6,8 +6,7 @@
 
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::residual_test {
 
 /// The definition, pixel by pixel.
 bool is_residual(Rgb8 colour, const Image<Rgb8>& target, int x, int y) {
@@ -40,5 +39,4 @@ TEST(Residual, IsThatOfTheDefinitionUpToTheBorders) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::residual_test

@@ -6,8 +6,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/marks/style_parameters.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::style_test {
 
 template <class Call>
 Error error_of(Call call) {
@@ -84,5 +83,4 @@ TEST(Style, ListsThePresetsWhereThereIsNoSuchOne) {
   EXPECT_THAT(error.what(), testing::HasSubstr("impressionist"));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::style_test

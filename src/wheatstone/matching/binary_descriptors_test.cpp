@@ -5,8 +5,7 @@
 
 #include "wheatstone/matching/binary_descriptors_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::binary_descriptors_test {
 
 cv::Mat descriptors(int count, std::uint64_t seed) {
   cv::Mat result(count, 32, CV_8U);
@@ -49,5 +48,4 @@ TEST(BinaryDescriptors, OfAnEmptySetAreNotMatched) {
   EXPECT_TRUE(match_binary_descriptors(descriptors(3, 1), {}).empty());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::binary_descriptors_test

@@ -18,23 +18,22 @@
 #include "wheatstone/matching/enlarge_internal.h"
 #include "wheatstone/matching/fill_in_picture_internal.h"
 #include "wheatstone/matching/levels_internal.h"
+#include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/semi_global_internal.h"
 #include "wheatstone/matching/trusted_places_internal.h"
 
 namespace wheatstone {
 namespace {
 
-constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-
 /// What one size leaves to the next.
-struct Guess {
+struct CoarserGuess {
   Image<float> left, found;
   cv::Mat confirmed;
 };
 
 /// Checks and completes what was found at one size. `guess`, none at the coarsest, is what the coarser copy had: it
 /// stays where this size finds nothing.
-CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<Guess> guess,
+CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<CoarserGuess> guess,
                      const MatchOptions& options) {
   CheckedMatch result;
   result.found = options.left_right_check ? confirmed_disparity(match.left, match.right, -1, options.check_tolerance_px)
@@ -80,7 +79,7 @@ CheckedMatch match_coarse_to_fine(const cv::Mat& left, const cv::Mat& right, con
     const Level& level = levels[i];
     report(progress, "matching", static_cast<double>(matched) / static_cast<double>(pixels));
     matched += level.left.total();
-    std::optional<Guess> guess;
+    std::optional<CoarserGuess> guess;
     SearchBand band;
     if (i + 1 == levels.size()) {
       band = whole_range(level, static_cast<double>(level.left.cols) / left.cols, range);

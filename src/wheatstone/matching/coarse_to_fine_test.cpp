@@ -16,8 +16,7 @@
 #include "wheatstone/random.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::coarse_to_fine_test {
 
 const SyntheticStill& still() {
   static const SyntheticStill made = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1});
@@ -128,5 +127,4 @@ TEST(FillInPicture, ThePlainGoesOnAndTheHiddenIsFar) {
     for (int x = box.x - 10; x < box.x; ++x) ASSERT_NEAR(disparity(x, y), ground(y), 1) << x << " " << y;
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::coarse_to_fine_test

@@ -13,9 +13,7 @@
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {
-namespace {
-constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-}
+namespace {}
 
 Image<float> confirmed_disparity(const Image<float>& own, const Image<float>& other, float sign, float tolerance_px) {
   Image<float> result(own.width(), own.height(), unknown);

@@ -8,8 +8,7 @@
 
 #include "wheatstone/image/opencv_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::confirm_test {
 
 constexpr int width = 400, height = 160;
 constexpr float wall = 10, fence = 25;
@@ -71,5 +70,4 @@ TEST(UnknownPlaces, AreAllThatAreNaN) {
   EXPECT_EQ(cv::countNonZero(unknown_places(as_mat(disparity))), 3);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::confirm_test

@@ -14,6 +14,7 @@
 #include "wheatstone/matching/binary_descriptors_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match.h"
+#include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/seen_disparities_internal.h"
 #include "wheatstone/matching/trusted_places_internal.h"
 
@@ -28,15 +29,14 @@ constexpr std::size_t least_matches = 12;
 /// there are no corners. What is plain tells nothing, what is small may be chance. In pixels of the full picture; none
 /// where too little is sure.
 std::vector<float> coarse_disparities(const StereoPair& pair) {
-  constexpr int small_width_px = 320, least_surface_px = 60;
+  constexpr int reduced_width_px = 320, least_surface_px = 60;
   constexpr double least_share = 0.01;
-  const double scale = std::min(1.0, static_cast<double>(small_width_px) / pair.left.width());
+  const double scale = std::min(1.0, static_cast<double>(reduced_width_px) / pair.left.width());
   const cv::Mat left = shrunk(as_mat(pair.left), scale), right = shrunk(as_mat(pair.right), scale);
   const SearchBand band{Image<std::int16_t>(left.cols, left.rows, static_cast<std::int16_t>(-left.cols / 6)),
                         left.cols / 6 + left.cols / 3 + 1};
   const BandMatch match = match_semi_global(left, right, band);
   Image<float> sure = confirmed_disparity(match.left, match.right, -1, 1);
-  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
   const TrustedPlaces places = trusted_places(left, match);
   as_mat(sure).setTo(unknown, places.plain | places.blank | ~places.distinct);
   remove_speckles(sure, least_surface_px);
@@ -54,7 +54,7 @@ cv::Mat reduced_luminance(const Image<Rgb8>& picture, double scale) {
 /// Disparities of corners that are each other's best match and lie on one scan line.
 std::vector<float> sparse_disparities(const cv::Mat& left, const cv::Mat& right) {
   constexpr int corners = 3000;
-  constexpr float largest_vertical_px = 1.5f;
+  constexpr float largest_offset_px = 1.5f;
   const auto orb = cv::ORB::create(corners);
   orb->setFastThreshold(8);
   // Nearer to an edge there are no corners, and of a strip the pyramid has levels without rows.
@@ -68,7 +68,7 @@ std::vector<float> sparse_disparities(const cv::Mat& left, const cv::Mat& right)
   constexpr int largest_distance_bits = 48;
   for (const BinaryMatch& match : match_binary_descriptors(left_descriptors, right_descriptors)) {
     const cv::Point2f offset = left_corners[match.left].pt - right_corners[match.right].pt;
-    if (match.distance_bits <= largest_distance_bits && std::abs(offset.y) <= largest_vertical_px)
+    if (match.distance_bits <= largest_distance_bits && std::abs(offset.y) <= largest_offset_px)
       disparities.push_back(offset.x);
   }
   return disparities;

@@ -95,7 +95,7 @@ struct Votes {
 /// One unconfirmed run [begin, end) of a row. Going by the disparities alone, what only this eye sees has the width of
 /// the step; where the disparity falls to the right it is the other eye that sees more.
 void vote(const CheckedView& view, int y, int begin, int end, Votes& votes) {
-  constexpr float least_step_px = 3, least_contrast = 12;
+  constexpr float least_step_px = 3, least_difference = 12;
   constexpr int most_asked_px = 5;
   const int width = end - begin;
   const float step = view.disparity(end, y) - view.disparity(begin - 1, y);
@@ -112,7 +112,7 @@ void vote(const CheckedView& view, int y, int begin, int end, Votes& votes) {
   const cv::Vec3f right = mean_colour(view.colours, y, end + 1, end + 1 + asked);
   const cv::Vec3f band = mean_colour(view.colours, y, begin + width / 4, end - width / 4);
   const double to_left = cv::norm(band - left), to_right = cv::norm(band - right);
-  if (cv::norm(left - right) < least_contrast || std::abs(to_left - to_right) < least_contrast / 2) return;
+  if (cv::norm(left - right) < least_difference || std::abs(to_left - to_right) < least_difference / 2) return;
   // The lower disparity, the farther surface, is on the left.
   ++(to_left < to_right ? votes.farther : votes.nearer);
 }

@@ -34,7 +34,6 @@ constexpr std::array<std::string_view, 3> quality_names{"fast", "good", "best"};
 constexpr int least_side_px = 16;
 constexpr double most_pixels = 12e6;
 constexpr int most_disparities = 512;
-constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 template <class Value>
 std::optional<Value> by_name(std::span<const std::string_view> all, std::string_view name) {

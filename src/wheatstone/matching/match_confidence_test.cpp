@@ -14,8 +14,7 @@
 #include "scenes/test_photographs.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::match_confidence_test {
 
 using testing::HasSubstr;
 
@@ -147,5 +146,4 @@ TEST(MatchConfidence, CountsTheStreaksThatThereAre) {
   EXPECT_NEAR(streak_share(slope), 0.5 / 12, 0.003);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::match_confidence_test

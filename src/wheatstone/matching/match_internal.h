@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <opencv2/core.hpp>
 
 #include "wheatstone/matching/match.h"
@@ -8,6 +9,9 @@ namespace wheatstone {
 
 /// OpenCV's matchers count disparities in sixteenths of a pixel.
 inline constexpr int sixteenths_a_px = 16;
+
+/// Disparity of a pixel of which nothing is known.
+inline constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 /// Disparity of the first of two 8-bit RGB pictures, in pixels, NaN where nothing was found. One way, unchecked.
 Image<float> match_with_opencv(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,

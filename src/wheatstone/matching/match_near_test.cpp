@@ -10,8 +10,7 @@
 
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::match_near_test {
 
 /// Mean error in pixels over all pixels; none counts for more than 20.
 double mean_error(const Image<float>& found, const Image<float>& truth) {
@@ -60,5 +59,4 @@ TEST_F(MatchNear, FindsNothingInBlackAndInTinyPictures) {
               std::ranges::all_of(black->geometry.left_disparity.pixels(), [](float d) { return std::isfinite(d); }));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::match_near_test

@@ -11,8 +11,7 @@
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/network_inputs_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::match_network_test {
 
 using namespace tiny_network;
 
@@ -114,5 +113,4 @@ TEST(NetworkInputs, SurviveEveryCutAndChange) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::match_network_test

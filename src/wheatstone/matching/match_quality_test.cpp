@@ -19,8 +19,7 @@
 #include "wheatstone/random.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::match_quality_test {
 
 struct Subject {
   StereoPair pictures;
@@ -158,5 +157,4 @@ TEST(MatchQuality, KnowsItsNames) {
   EXPECT_EQ(match_quality_names().size(), 3U);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::match_quality_test

@@ -35,7 +35,7 @@ int dissimilarity(const std::uint8_t* own, int x, const std::uint8_t* other, int
 }
 
 /// How the best sequence that ends with a match came to it.
-enum class Step : std::uint8_t { begins, goes_on, skips_other, skips_own };
+enum class PathStep : std::uint8_t { begins, goes_on, skips_other, skips_own };
 
 /// The table of one scan line: for each pixel and disparity the cost of the best sequence of matches that ends there.
 class ScanLine {
@@ -65,17 +65,17 @@ class ScanLine {
       diagonal_[at(x, i)] =
           x >= 2 && i >= 1 ? std::min(cost_[at(x - 2, i - 1)], diagonal_[at(x - 1, i - 1)]) : infinite;
       int cost = x == 0 ? 0 : occlusion_penalty;
-      Step step = Step::begins;
-      const auto consider = [&](int candidate, Step candidate_step) {
+      PathStep step = PathStep::begins;
+      const auto consider = [&](int candidate, PathStep candidate_step) {
         if (candidate < cost) {
           cost = candidate;
           step = candidate_step;
         }
       };
       if (x > 0) {
-        consider(best_larger + occlusion_penalty, Step::skips_other);
-        consider(diagonal_[at(x, i)] + occlusion_penalty, Step::skips_own);
-        consider(cost_[at(x - 1, i)], Step::goes_on);
+        consider(best_larger + occlusion_penalty, PathStep::skips_other);
+        consider(diagonal_[at(x, i)] + occlusion_penalty, PathStep::skips_own);
+        consider(cost_[at(x - 1, i)], PathStep::goes_on);
         best_larger = std::min(best_larger, cost_[at(x - 1, i)]);
       }
       const int x_other = x - (least_ + i);
@@ -96,10 +96,10 @@ class ScanLine {
         }
     while (cost_[at(x, i)] < infinite) {
       disparity[x] = static_cast<float>(least_ + i);
-      const Step step = step_[at(x, i)];
-      if (step == Step::begins || x == 0) return;
-      if (step == Step::skips_other) i = cheapest_above(x - 1, i);
-      if (step == Step::skips_own) {
+      const PathStep step = step_[at(x, i)];
+      if (step == PathStep::begins || x == 0) return;
+      if (step == PathStep::skips_other) i = cheapest_above(x - 1, i);
+      if (step == PathStep::skips_own) {
         // Follow the diagonal down to the match that its cost came from.
         const int wanted = diagonal_[at(x, i)];
         int k = 1;
@@ -120,7 +120,7 @@ class ScanLine {
 
   int width_, least_, count_;
   std::vector<int> cost_, diagonal_;
-  std::vector<Step> step_;
+  std::vector<PathStep> step_;
 };
 
 }  // namespace

@@ -17,8 +17,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::match_test {
 
 const SyntheticStill& still() {
   static const SyntheticStill made = make_synthetic_still({.width = 480, .height = 360, .samples_a_side = 1});
@@ -154,5 +153,4 @@ TEST(Match, FindsTeddysTrueDisparities) {
   EXPECT_LT(bad_2(match(teddy).geometry.left_disparity, truth), 0.08);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::match_test

@@ -19,9 +19,6 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{2} << 30;
-constexpr std::int64_t most_side_px = 1 << 14;
-
 [[noreturn]] void refuse(const std::filesystem::path& model, const std::string& why) {
   throw Error(ErrorKind::bad_input,
               fmt::format("{}: {}, expected an ONNX network that takes one picture, 1x3xHEIGHTxWIDTH, and gives its "
@@ -32,7 +29,8 @@ constexpr std::int64_t most_side_px = 1 << 14;
 /// A side that the network leaves open keeps the picture's shape, at a size that such networks were trained for.
 int side_for(const std::filesystem::path& model, std::int64_t wanted, int picture_px, int shorter_px) {
   constexpr int step = 224, shorter_side = 2 * step, longest_side = 8 * step;
-  if (wanted < 0 || wanted > most_side_px) refuse(model, fmt::format("takes pictures {} pixels wide or high", wanted));
+  if (wanted < 0 || wanted > most_network_side_px)
+    refuse(model, fmt::format("takes pictures {} pixels wide or high", wanted));
   if (wanted > 0) return static_cast<int>(wanted);
   const double scaled = static_cast<double>(shorter_side) * picture_px / shorter_px;
   return std::min(static_cast<int>(std::lround(scaled / step)) * step, longest_side);
@@ -80,7 +78,7 @@ struct MonocularNetwork::Implementation {
 };
 
 MonocularNetwork::MonocularNetwork(const std::filesystem::path& model) {
-  const std::string bytes = read_whole_file(model, most_bytes);
+  const std::string bytes = read_whole_file(model, most_network_bytes);
   NetworkInput input = input_of(model, bytes);
   cv::dnn::Net network = with_opencv(model, [&] { return cv::dnn::readNetFromONNX(bytes.data(), bytes.size()); });
   implementation_ = std::make_unique<Implementation>(Implementation{model, std::move(input), network});

@@ -6,8 +6,7 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::monocular_network_test {
 
 using namespace tiny_network;
 
@@ -56,5 +55,4 @@ TEST(MonocularNetwork, OfOtherShapesIsRefused) {
           "has 2 inputs");
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::monocular_network_test

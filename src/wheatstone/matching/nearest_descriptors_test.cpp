@@ -9,8 +9,7 @@
 
 #include "wheatstone/matching/nearest_descriptors_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::nearest_descriptors_test {
 
 constexpr int columns = 128;
 
@@ -71,5 +70,4 @@ TEST(NearestDescriptors, AreFewerWhereThereAreNoMore) {
   EXPECT_TRUE(nearest_descriptors(cv::Mat(0, columns, CV_32F), from).empty());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::nearest_descriptors_test

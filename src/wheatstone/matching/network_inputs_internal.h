@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,6 +13,10 @@ struct NetworkInput {
   std::string name;
   std::vector<std::int64_t> sides;
 };
+
+/// Larger files and sides are refused.
+inline constexpr std::size_t most_network_bytes = std::size_t{2} << 30;
+inline constexpr std::int64_t most_network_side_px = 1 << 14;
 
 /// The inputs of an ONNX file's graph that are not weights, in their order. Empty where the bytes are no ONNX file with
 /// a graph: damaged, cut off, or something else.

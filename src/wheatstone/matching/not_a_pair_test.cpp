@@ -8,8 +8,7 @@
 #include "wheatstone/matching/eye_order.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::not_a_pair_test {
 
 struct NamedPair {
   std::string name;
@@ -132,5 +131,4 @@ TEST(EyeOrder, IsLeftOpenWhereNothingTells) {
   EXPECT_EQ(eye_order({Image<Rgb8>(1, 1), Image<Rgb8>(1, 1)}), EyeOrder::undecided);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::not_a_pair_test

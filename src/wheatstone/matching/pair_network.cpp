@@ -9,13 +9,11 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/matching/network_inputs_internal.h"
 #include "wheatstone/matching/network_picture_internal.h"
 
 namespace wheatstone {
 namespace {
-
-constexpr std::size_t most_bytes = std::size_t{2} << 30;
-constexpr std::int64_t most_side_px = 1 << 14;
 
 cv::Mat as_input(const cv::Mat& picture, cv::Size size, NetworkValues values) {
   cv::Mat sized;
@@ -54,7 +52,7 @@ auto with_opencv(const PairNetwork& network, Work work) {
 
 PairNetwork::PairNetwork(std::filesystem::path model, std::string gives)
     : model_(std::move(model)), gives_(std::move(gives)) {
-  const std::string bytes = read_whole_file(model_, most_bytes);
+  const std::string bytes = read_whole_file(model_, most_network_bytes);
   inputs_ = network_inputs(bytes);
   if (inputs_.empty()) refuse("is not an ONNX network");
   if (inputs_.size() > 2) refuse(fmt::format("has {} inputs", inputs_.size()));
@@ -73,7 +71,7 @@ void PairNetwork::refuse(const std::string& why) const {
 int PairNetwork::side_for(std::int64_t wanted, int picture_px) const {
   constexpr int step = 32;
   if (wanted == 0) return (picture_px + step - 1) / step * step;
-  if (wanted < 0 || wanted > most_side_px) refuse(fmt::format("takes pictures {} pixels wide or high", wanted));
+  if (wanted < 0 || wanted > most_network_side_px) refuse(fmt::format("takes pictures {} pixels wide or high", wanted));
   return static_cast<int>(wanted);
 }
 

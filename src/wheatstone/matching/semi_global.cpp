@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/semi_global_strip_internal.h"
 
 namespace wheatstone {
@@ -35,7 +36,6 @@ ComparedPictures compared(const cv::Mat& left, const cv::Mat& right, const Searc
 
 BandMatch match_semi_global(const cv::Mat& left, const cv::Mat& right, const SearchBand& band) {
   const ComparedPictures pictures = compared(left, right, band);
-  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
   BandMatch result{Image<float>(left.cols, left.rows, unknown), Image<float>(left.cols, left.rows, unknown),
                    Image<std::uint8_t>(left.cols, left.rows), Image<std::uint8_t>(left.cols, left.rows)};
   const int strips = (left.rows + strip_rows - 1) / strip_rows;

@@ -16,8 +16,7 @@
 #include "wheatstone/random.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::semi_global_test {
 
 constexpr int past_band = 1 << 20;
 
@@ -181,5 +180,4 @@ TEST(SemiGlobal, GivesTheSameBytesWithEveryInstructionSet) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::semi_global_test

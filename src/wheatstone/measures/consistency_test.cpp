@@ -14,8 +14,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::consistency_test {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -116,5 +115,4 @@ TEST(LeftRightDifference, RefusesWhatDoesNotFit) {
   expect_error(ErrorKind::bad_input, "of 7x4", [&] { measure_left_right_difference(pair, Image<float>(7, 4)); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::consistency_test

@@ -12,8 +12,7 @@
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::depth_survival_test {
 
 TEST(DepthSurvival, FindsTheDepthOfUnspoiledPictures) {
   for (const bool converged : {false, true}) {
@@ -74,5 +73,4 @@ TEST(DepthSurvival, RefusesWhatDoesNotFit) {
   expect_error(ErrorKind::bad_input, "31x32", [&] { measure_depth_survival(pair, Image<float>(32, 32)); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::depth_survival_test

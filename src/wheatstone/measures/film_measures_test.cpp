@@ -9,8 +9,7 @@
 #include "throws_error.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::film_measures_test {
 
 SyntheticFilmOptions small(float noise = 0) {
   SyntheticFilmOptions options;
@@ -150,5 +149,4 @@ TEST(FilmMeasures, TheFlowIsFoundWhereItIsNotGiven) {
   EXPECT_LT(estimated.mean(), 1.5 * error_of(source, source).mean());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::film_measures_test

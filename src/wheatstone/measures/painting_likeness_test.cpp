@@ -12,8 +12,7 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::painting_likeness_test {
 
 const Image<Rgb8>& photograph() {
   static const Image<Rgb8> picture = make_synthetic_still({.width = 320, .height = 240}).pictures.left;
@@ -125,5 +124,4 @@ TEST(LikenessOfFaces, IsMeasuredInEachBox) {
   EXPECT_LT(faces[1], 0.97);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::painting_likeness_test

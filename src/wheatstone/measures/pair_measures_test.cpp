@@ -12,8 +12,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::pair_measures_test {
 
 const SyntheticStill& still() {
   static const SyntheticStill made = make_synthetic_still({.width = 480, .height = 360, .samples_a_side = 1});
@@ -106,5 +105,4 @@ TEST(Measures, AgreeWithWhatIsKnownOfTheMotorcyclePhotographs) {
   EXPECT_NEAR(measure_left_right_difference(pair, truth).rmse, 0.042, 0.002);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::pair_measures_test

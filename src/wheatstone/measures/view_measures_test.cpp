@@ -9,8 +9,7 @@
 
 #include "wheatstone/image/srgb.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::view_measures_test {
 
 /// What is dark enough to stand alone on.
 constexpr std::uint8_t backgrounds[] = {0, 3, 9};
@@ -149,5 +148,4 @@ TEST(ViewMeasures, SmallPicturesAreMeasuredToo) {
   EXPECT_EQ(measures.isolated_splats, 0u);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::view_measures_test

@@ -8,8 +8,7 @@
 #include "throws_error.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::wrong_spots_test {
 
 constexpr Rgb8 grey{100, 100, 100}, white{255, 255, 255};
 
@@ -103,5 +102,4 @@ TEST(WrongSpots, NeedOneSize) {
                [] { measure_wrong_spots(Image<Rgb8>(10, 9), Image<Rgb8>(10, 10)); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::wrong_spots_test

@@ -7,8 +7,7 @@
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::central_flow_test {
 
 TEST(CentralFlow, LeadsFromOneCentralViewToTheNext) {
   SyntheticFilmOptions options;
@@ -36,5 +35,4 @@ TEST(CentralFlow, LeadsFromOneCentralViewToTheNext) {
   EXPECT_LT(error(central).error, 2 * still);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::central_flow_test

@@ -11,8 +11,7 @@
 #include "wheatstone/matching/match_near.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::expected_disparity_test {
 
 TEST(ExpectedDisparity, MovesWithTheFlow) {
   Image<float> before(8, 4, 1);
@@ -63,5 +62,4 @@ TEST(ExpectedDisparity, LeadsToOneAsGoodAsFoundInEachFrameAlone) {
   expect_as_good_as_alone(film_of(FilmScene::crowd));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::expected_disparity_test

@@ -18,7 +18,7 @@ constexpr int small_px = 240;  ///< the longer side of the pictures that are com
 constexpr double least_histogram_distance = 0.2;
 constexpr double most_confirmed_share = 0.7;
 
-Image<Rgb8> shrunk(ImageView<const Rgb8> picture) {
+Image<Rgb8> shrunk_to_compare(ImageView<const Rgb8> picture) {
   const double scale = std::min(1.0, static_cast<double>(small_px) / std::max(picture.width(), picture.height()));
   const auto side = [&](int px) { return std::max(static_cast<int>(std::lround(px * scale)), 16); };
   Image<Rgb8> small(side(picture.width()), side(picture.height()));
@@ -48,7 +48,7 @@ FrameChange find_cut(ImageView<const Rgb8> first, ImageView<const Rgb8> second) 
   if (!same_size(first, second) || first.empty())
     throw Error(ErrorKind::bad_input,
                 "the frames are empty or differ in size, expected two frames of one size for cut detection");
-  const Image<Rgb8> a = shrunk(first), b = shrunk(second);
+  const Image<Rgb8> a = shrunk_to_compare(first), b = shrunk_to_compare(second);
   FrameChange change;
   change.histogram_distance = histogram_distance(a, b);
   change.flow = estimate_flow(a, b);

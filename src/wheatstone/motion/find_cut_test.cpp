@@ -4,8 +4,7 @@
 #include "wheatstone/motion/flow.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::find_cut_test {
 
 Image<Rgb8> left_frame(int number, std::uint64_t seed, float noise = 0) {
   SyntheticFilmOptions options;
@@ -42,5 +41,4 @@ TEST(FindCut, NoiseAndAChangeOfLightAreNone) {
   expect_error(ErrorKind::bad_input, "differ in size", [&] { find_cut(darker, Image<Rgb8>(20, 20)); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::find_cut_test

@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little, "flow files are little
 constexpr std::string_view mark = "PIEH";  // 202021.25 as a float
 constexpr int largest_side_px = 65535;
 constexpr float largest_known = 1e9f;
-constexpr float unknown = 1.666666752e9f;  // as Middlebury's own code writes it
+constexpr float unknown_in_file = 1.666666752e9f;  // as Middlebury's own code writes it
 
 template <class Number>
 Number number_at(std::string_view bytes, std::size_t at) {
@@ -77,8 +77,8 @@ void write_flow(const std::filesystem::path& path, const Flow& flow) {
   const auto xs = flow.x.pixels(), ys = flow.y.pixels();
   bytes.reserve(bytes.size() + 2 * sizeof(float) * xs.size());
   for (std::size_t i = 0; i < xs.size(); ++i) {
-    append(bytes, std::isfinite(xs[i]) ? xs[i] : unknown);
-    append(bytes, std::isfinite(ys[i]) ? ys[i] : unknown);
+    append(bytes, std::isfinite(xs[i]) ? xs[i] : unknown_in_file);
+    append(bytes, std::isfinite(ys[i]) ? ys[i] : unknown_in_file);
   }
   write_whole_file(path, bytes);
 }

@@ -8,8 +8,7 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::flow_file_test {
 
 Flow some_flow() {
   Flow flow{Image<float>(5, 3), Image<float>(5, 3)};
@@ -56,5 +55,4 @@ TEST(FlowFile, RefusesWhatIsNoFlow) {
   expect_error(ErrorKind::bad_input, "nowhere.flo", [&] { read_flow(folder / "nowhere.flo"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::flow_file_test

@@ -34,7 +34,7 @@ Image<float> at_size(const cv::Mat& map, cv::Size frame, double scale) {
   return result;
 }
 
-cv::Mat reduced(ImageView<const Rgb8> picture, double size) {
+cv::Mat reduced_for_network(ImageView<const Rgb8> picture, double size) {
   const cv::Mat whole = as_mat(picture);
   if (size >= 1) return whole;
   return shrunk(whole, size);
@@ -44,7 +44,7 @@ cv::Mat reduced(ImageView<const Rgb8> picture, double size) {
 
 FlowPair flow_by_network(ImageView<const Rgb8> first, ImageView<const Rgb8> second, const FlowOptions& options) {
   PairNetwork network(options.model, "an optical flow");
-  const cv::Mat a = reduced(first, options.size), b = reduced(second, options.size);
+  const cv::Mat a = reduced_for_network(first, options.size), b = reduced_for_network(second, options.size);
   const cv::Size frame(first.width(), first.height()), inside = network.size_for(a.size());
   const auto one_way = [&](const cv::Mat& from, const cv::Mat& to) {
     const cv::Mat answer = network.answer(from, to, options.model_values);

@@ -9,8 +9,7 @@
 #include "throws_error.h"
 #include "wheatstone/motion/flow.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::flow_network_test {
 
 using namespace tiny_network;
 
@@ -83,5 +82,4 @@ TEST(FlowByNetwork, WhatIsNoSuchNetworkIsRefused) {
   expect_error(ErrorKind::bad_input, "missing.onnx", [&] { flow_of(folder / "missing.onnx"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::flow_network_test

@@ -10,8 +10,7 @@
 #include "throws_error.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::flow_test {
 
 struct TwoFrames {
   SyntheticFilmFrame first, second;
@@ -161,5 +160,4 @@ TEST(EstimateFlow, OfStripsIsFoundOrRefused) {
                [&] { estimate_flow(long_strip, long_strip, {}); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::flow_test

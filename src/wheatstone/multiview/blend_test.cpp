@@ -15,8 +15,7 @@
 #include "wheatstone/multiview/renderers_internal.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::blend_test {
 
 /// A camera at 0 that looks along z; colours go from green at a temperature of 0 to red at 1.
 Scene scene_of(const Cloud& cloud, float opacity, float size_px) {
@@ -180,5 +179,4 @@ TEST(HidingSlices, SubPixelsShowTheirViews) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::blend_test

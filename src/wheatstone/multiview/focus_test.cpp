@@ -14,8 +14,7 @@
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::focus_test {
 
 constexpr int width = 256, height = 96;
 
@@ -121,5 +120,4 @@ TEST(Focus, ThatWouldFoldAViewIsRefused) {
   });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::focus_test

@@ -18,8 +18,7 @@
 #include "wheatstone/multiview/tone_map_internal.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::mass_test {
 
 std::vector<ViewValues> values_of(const Cloud& cloud, const Stage& stage) {
   return view_values(chunks_of(cloud), stage.statistics, stage.scene, stage.rig);
@@ -335,5 +334,4 @@ TEST(Mass, NothingIsClippedAndFaintGasIsSeen) {
   EXPECT_EQ(view(2, 2), Rgb8());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::mass_test

@@ -8,8 +8,7 @@
 #include "throws_error.h"
 #include "wheatstone/multiview/render.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::render_gpu_test {
 
 /// With particles from a pixel wide to wider than the view's picture holds.
 struct Case {
@@ -214,5 +213,4 @@ TEST_F(RenderGpu, RefusesWhatItDoesNotDo) {
   expect_error(ErrorKind::wrong_usage, "--opaque", [&] { mass.views(Device::graphics); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::render_gpu_test

@@ -12,8 +12,7 @@
 #include "wheatstone/multiview/shine_internal.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::shine_test {
 
 /// A ball of radius 1 around 0, densest in the middle.
 Cloud ball(std::uint64_t count) {
@@ -156,5 +155,4 @@ TEST_F(ShineGpu, ShinesAsTheProcessorDoes) {
   EXPECT_LT(worst_psnr(found, views()), 45);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::shine_test

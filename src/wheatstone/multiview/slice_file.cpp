@@ -69,8 +69,8 @@ const char* name_of(const std::array<std::pair<const char*, Value>, count>& name
   return std::ranges::find(names, value, &std::pair<const char*, Value>::second)->first;
 }
 
-int packed(Rgb8 colour) { return colour.r << 16 | colour.g << 8 | colour.b; }
-Rgb8 unpacked(int colour) {
+int colour_number(Rgb8 colour) { return colour.r << 16 | colour.g << 8 | colour.b; }
+Rgb8 colour_of_number(int colour) {
   return {static_cast<std::uint8_t>(colour >> 16), static_cast<std::uint8_t>(colour >> 8),
           static_cast<std::uint8_t>(colour)};
 }
@@ -87,8 +87,8 @@ void put_tone(const ToneSettings& tone, StoredPicture& part) {
   part.put("wheatstone:stretch", name_of(stretch_names, tone.stretch));
   part.put("wheatstone:least", tone.least);
   part.put("wheatstone:most", tone.most);
-  part.put("wheatstone:cold", packed(tone.cold));
-  part.put("wheatstone:hot", packed(tone.hot));
+  part.put("wheatstone:cold", colour_number(tone.cold));
+  part.put("wheatstone:hot", colour_number(tone.hot));
   if (!tone.colour_map.empty()) part.put("wheatstone:colours", tone.colour_map);
 }
 
@@ -208,8 +208,8 @@ ToneSettings tone_of(const fs::path& path, const StoredPicture& part) {
   tone.most = number_in(path, part, "wheatstone:most", -largest_exposure, largest_exposure);
   if (!(tone.most > tone.least) || (tone.stretch == Stretch::log && !(tone.least > 0)))
     refuse(path, fmt::format("shows what lies between {} and {}, expected ascending limits", tone.least, tone.most));
-  tone.cold = unpacked(part.value_of("wheatstone:cold", packed(tone.cold)));
-  tone.hot = unpacked(part.value_of("wheatstone:hot", packed(tone.hot)));
+  tone.cold = colour_of_number(part.value_of("wheatstone:cold", colour_number(tone.cold)));
+  tone.hot = colour_of_number(part.value_of("wheatstone:hot", colour_number(tone.hot)));
   tone.colour_map = part.value_of<std::string>("wheatstone:colours", {});
   if (tone.colour_map.empty()) return tone;
   try {

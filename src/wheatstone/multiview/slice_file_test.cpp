@@ -18,8 +18,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/disparity_file.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::slice_file_test {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -257,5 +256,4 @@ TEST(SliceFileDeathTest, LightThatIsNoNumberIsABrokenPromise) {
 }
 #endif
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::slice_file_test

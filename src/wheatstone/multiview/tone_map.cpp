@@ -48,7 +48,7 @@ float settled_hue(float share) {
   return stretched * stretched * (3 - 2 * stretched);
 }
 
-std::int32_t packed(Rgb8 colour) { return colour.r + 256 * colour.g + 65536 * colour.b; }
+std::int32_t key_of(Rgb8 colour) { return colour.r + 256 * colour.g + 65536 * colour.b; }
 
 constexpr float softening = 30;  // what lies a thirtieth of the way is where asinh's logarithm begins
 
@@ -77,12 +77,12 @@ void fill_colours(const ToneSettings& settings, ToneMap& map) {
         const Oklab colour =
             named ? oklab_of(palette[static_cast<std::size_t>(std::lround(share * 255))]) : mixed(cold, hot, share);
         const Oklab visible{std::max(colour.lightness, 0.1f), colour.a, colour.b};
-        map.colours.push_back(packed(shaded(visible, static_cast<float>(brightness) / (ToneMap::brightnesses - 1))));
+        map.colours.push_back(key_of(shaded(visible, static_cast<float>(brightness) / (ToneMap::brightnesses - 1))));
       }
     return;
   }
   for (const Rgb8 colour : colour_map(settings.colour_map.empty() ? "inferno" : settings.colour_map))
-    map.colours.push_back(packed(colour));
+    map.colours.push_back(key_of(colour));
 }
 
 /// The stretch by the bits of numbers from 2^−25 to 2.

@@ -18,8 +18,7 @@
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::views_test {
 
 float random(std::uint64_t i, std::uint64_t which) { return unit_float(hash_keys({i, which})); }
 
@@ -367,5 +366,4 @@ TEST(CostModel, TakesTheLayersForManyParticlesAndNotForFew) {
   EXPECT_EQ(choose_gpu_method({.particles = 1'000'000, .views = 1}).method, Method::incremental);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::views_test

@@ -20,8 +20,7 @@
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::any_view_test {
 
 const SyntheticStillOptions still_options{.width = 320, .height = 240, .samples_a_side = 1};
 
@@ -295,5 +294,4 @@ TEST(EyesApart, HaveTwoViewsAndNoSurfaces) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::any_view_test

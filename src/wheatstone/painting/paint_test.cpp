@@ -20,8 +20,7 @@
 #include "wheatstone/strokes/stroke_measures.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::paint_test {
 
 Style small_style(Propagation propagation = Propagation::strokes) {
   Style style;
@@ -293,5 +292,4 @@ TEST(Paint, RefusesWhatDoesNotFitTogether) {
   EXPECT_THROW(paint(photographs, test_scene::geometry(), style), Error);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::paint_test

@@ -14,8 +14,7 @@
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/two_eyes.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::present_test {
 
 class PresentGpu : public NeedsGpu {
  protected:
@@ -105,5 +104,4 @@ TEST(Present, ShowsNearerEyesWithTheOwnOnesInOneCall) {
   EXPECT_EQ(all[3], nearer[1]);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::present_test

@@ -18,8 +18,7 @@
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::repair_test {
 
 constexpr int width = 160, height = 96;
 constexpr Rgb8 dark{40, 40, 40}, light{220, 220, 220}, red{230, 20, 30};
@@ -163,5 +162,4 @@ TEST(Posterise, KeepsColoursForSmallThingsOfTheirOwn) {
   EXPECT_LT(std::hypot(dot.r - 20, dot.g - 250, dot.b - 20), unlike_colours);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::repair_test

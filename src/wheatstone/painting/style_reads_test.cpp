@@ -10,8 +10,7 @@
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::style_reads_test {
 
 /// A value for every parameter that no preset has.
 const std::map<std::string_view, std::string_view>& other_values() {
@@ -83,5 +82,4 @@ TEST_P(StyleReads, ExactlyTheParametersThatItsTableNames) {
 INSTANTIATE_TEST_SUITE_P(EveryKind, StyleReads,
                          testing::Values("oil", "impressionist", "posterise", "mosaic", "diffusion"));
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::style_reads_test

@@ -6,8 +6,7 @@
 
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::appearance_test {
 
 CloudStatistics statistics_of(const Cloud& cloud) {
   CloudStatistics statistics;
@@ -85,5 +84,4 @@ TEST(SplatStyle, RefusesWhatMakesNoSense) {
   expect_error(ErrorKind::wrong_usage, "hottest", [&] { make_splat_style({.coldest = 10, .hottest = 1}, statistics); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::appearance_test

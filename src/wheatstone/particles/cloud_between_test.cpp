@@ -12,8 +12,7 @@
 #include "wheatstone/particles/write_gadget.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::cloud_between_test {
 
 using testing::ElementsAre;
 using testing::FloatNear;
@@ -120,5 +119,4 @@ TEST(ReadTimedCloud, RefusesWhatCannotBeFollowed) {
   expect_error(ErrorKind::bad_input, "points.txt: has no IDs", [&] { read_timed_cloud(folder / "points.txt", {}); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::cloud_between_test

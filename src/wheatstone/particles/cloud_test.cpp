@@ -18,8 +18,7 @@
 #include "wheatstone/random.h"
 #include "wheatstone/synthetic/synthetic_universe.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::cloud_test {
 
 using testing::ElementsAre;
 
@@ -235,5 +234,4 @@ TEST(GadgetWriter, LeavesNothingUnlessCommitted) {
                [&] { GadgetWriter("/dev/null/u.hdf5", {.particles = 5}); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::cloud_test

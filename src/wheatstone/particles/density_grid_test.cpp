@@ -9,8 +9,7 @@
 #include "wheatstone/particles/sph_density.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::density_grid_test {
 
 float random(std::uint64_t i, std::uint64_t which) { return unit_float(hash_keys({i, which})); }
 
@@ -115,5 +114,4 @@ TEST(DensityGrid, IsFiniteOfOneParticleAndOfManyInOnePlace) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::density_grid_test

@@ -39,7 +39,7 @@ struct Column {
 };
 
 /// A table, or an image of three dimensions, that is open at it.
-struct Reading {
+struct FitsRows {
   std::string path;
   File file;
   std::uint64_t count = 0;
@@ -174,8 +174,8 @@ bool has_position(const std::vector<Column>& columns, const std::string& wanted)
 }
 
 /// Opens the table that the file stands at. Throws Error{bad_input}.
-CloudSource open_table(const std::shared_ptr<Reading>& reading, const CloudChoice& choice) {
-  Reading& table = *reading;
+CloudSource open_table(const std::shared_ptr<FitsRows>& reading, const CloudChoice& choice) {
+  FitsRows& table = *reading;
   const int vector = vector_column(table.columns, choice.position);
   CloudChoice scalars = choice;
   if (vector >= 0) scalars.position = fmt::format("{0},{0},{0}", table.columns[vector].name);
@@ -212,7 +212,7 @@ CloudSource open_table(const std::shared_ptr<Reading>& reading, const CloudChoic
   return source;
 }
 
-CloudSource open_image(const std::shared_ptr<Reading>& reading, const CloudChoice& choice) {
+CloudSource open_image(const std::shared_ptr<FitsRows>& reading, const CloudChoice& choice) {
   for (const std::string& wanted :
        {choice.position, choice.density, choice.temperature, choice.smoothing_length, choice.mass, choice.quantity})
     if (!wanted.empty())
@@ -234,7 +234,7 @@ CloudSource open_image(const std::shared_ptr<Reading>& reading, const CloudChoic
 }
 
 /// Whether the file stands at an image of three dimensions, whose size is noted.
-bool is_volume(Reading& reading) {
+bool is_volume(FitsRows& reading) {
   int status = 0;
   int type = 0;
   int dimensions = 0;
@@ -249,7 +249,7 @@ bool is_volume(Reading& reading) {
 }  // namespace
 
 CloudSource open_fits(const std::filesystem::path& path, const CloudChoice& choice) {
-  auto reading = std::make_shared<Reading>();
+  auto reading = std::make_shared<FitsRows>();
   reading->path = path.string();
   int status = 0;
   fitsfile* opened = nullptr;

@@ -11,8 +11,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/cloud_source.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::fits_test {
 
 using testing::ElementsAre;
 using testing::Pair;
@@ -132,5 +131,4 @@ TEST(Fits, CutShortIsRefused) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::fits_test

@@ -15,8 +15,7 @@
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/particles/gas_temperature.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::formats_test {
 
 using testing::ElementsAre;
 using testing::FloatNear;
@@ -402,5 +401,4 @@ TEST(CloudSource, ReadsARealSnapshot) {
   EXPECT_TRUE(dark.density.empty());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::formats_test

@@ -6,8 +6,7 @@
 #include "wheatstone/particles/cloud_statistics.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::framed_region_test {
 
 using testing::ElementsAre;
 using testing::FloatNear;
@@ -91,5 +90,4 @@ TEST(FramedRegion, OfABoxOrSphereIsRelativeToTheOrigin) {
   EXPECT_NEAR(static_cast<double>(count_outside(cloud, sphere)), 1000 * (1 - 0.5236), 60);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::framed_region_test

@@ -23,7 +23,7 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::size_t types = 6;
+constexpr std::size_t particle_types = 6;
 constexpr std::uint32_t header_bytes = 256;
 constexpr std::uint32_t label_bytes = 8;
 
@@ -47,8 +47,8 @@ struct BinaryPart {
   std::uint64_t length = 0;
   bool swapped = false;
   bool labelled = false;
-  std::array<std::uint64_t, types> count{}, total{};
-  std::array<double, types> mass{};
+  std::array<std::uint64_t, particle_types> count{}, total{};
+  std::array<double, particle_types> mass{};
   double redshift = 0, box_size = 0;
   int files = 1;
   std::vector<Block> blocks;
@@ -94,7 +94,7 @@ void read_header(BinaryPart& part, std::ifstream& file) {
   file.read(bytes.data(), bytes.size());
   file.seekg(after);
   const bool swapped = part.swapped;
-  for (std::size_t type = 0; type < types; ++type) {
+  for (std::size_t type = 0; type < particle_types; ++type) {
     part.count[type] = decode<std::uint32_t>(bytes.data() + 4 * type, swapped);
     part.mass[type] = decode<double>(bytes.data() + 24 + 8 * type, swapped);
     part.total[type] = decode<std::uint32_t>(bytes.data() + 96 + 4 * type, swapped) +
@@ -110,7 +110,7 @@ void read_header(BinaryPart& part, std::ifstream& file) {
 /// Without labels, records are known by their order: masses only where some type has none in the header.
 std::vector<std::string> usual_order(const BinaryPart& part) {
   std::vector<std::string> names{"POS", "VEL", "ID"};
-  for (std::size_t type = 0; type < types; ++type)
+  for (std::size_t type = 0; type < particle_types; ++type)
     if (part.count[type] > 0 && part.mass[type] == 0) {
       names.emplace_back("MASS");
       break;
@@ -161,15 +161,15 @@ BinaryPart open_part(const std::filesystem::path& path) {
 }
 
 /// A block as what it holds: `width` numbers for each of so many particles.
-struct Column {
+struct BinaryColumn {
   const Block& block;
   std::uint64_t particles;
   std::size_t width;
 };
 
 /// The numbers of `count` particles from number `first` on.
-std::vector<double> read_numbers(const BinaryPart& part, std::ifstream& file, const Column& column, std::uint64_t first,
-                                 std::size_t count) {
+std::vector<double> read_numbers(const BinaryPart& part, std::ifstream& file, const BinaryColumn& column,
+                                 std::uint64_t first, std::size_t count) {
   const auto& [block, particles, width] = column;
   const std::uint64_t numbers = particles * width;
   const std::uint64_t bytes = numbers == 0 ? 0 : block.bytes / numbers;
@@ -250,7 +250,7 @@ struct BinaryReading {
     }
     std::uint64_t particles = 0;
     std::uint64_t before = at;
-    for (std::size_t other = 0; other < types; ++other) {
+    for (std::size_t other = 0; other < particle_types; ++other) {
       if (here.mass[other] > 0) continue;
       if (other < type) before += here.count[other];
       particles += here.count[other];
@@ -272,7 +272,7 @@ struct BinaryReading {
     const bool of_all = velocity || quantity.base == "ID" || quantity.base == "POT" || quantity.base == "POS";
     const std::size_t width = velocity || quantity.base == "POS" ? 3 : 1;
     if (!of_all && type != 0) refuse(here, fmt::format("its record {} is of the gas only", quantity.base));
-    const Column column{*block, of_all ? here.all() : here.count[0], width};
+    const BinaryColumn column{*block, of_all ? here.all() : here.count[0], width};
     cloud.quantity = in_single_precision(read_numbers(here, file, column, of_all ? before : at, count));
     take_component(width, quantity.component, cloud.quantity);
   }
@@ -316,7 +316,7 @@ CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudCho
   for (const Block& block : first.blocks) source.fields.push_back(block.name);
   if (count == 0) {
     std::string present;
-    for (std::size_t type = 0; type < types; ++type)
+    for (std::size_t type = 0; type < particle_types; ++type)
       if (first.count[type] > 0)
         present += fmt::format("{}{}: {}", present.empty() ? "" : ", ", type, first.count[type]);
     refuse(first, fmt::format("has no particles of type '{}'; by type it has {}", choice.type,

@@ -15,8 +15,7 @@
 #include "wheatstone/particles/gas_temperature.h"
 #include "wheatstone/particles/hdf5_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::hdf5_formats_test {
 
 using testing::ElementsAre;
 using testing::FloatNear;
@@ -411,5 +410,4 @@ TEST(CloudSource, ChunksAreTheWholeInOrder) {
   EXPECT_EQ(source.next(2).size(), 0u);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::hdf5_formats_test

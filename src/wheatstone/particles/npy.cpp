@@ -18,8 +18,6 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::uint64_t most_columns = 1024;
-
 /// The number of a column, from 0, that the user gave; none where he gave none.
 std::optional<std::uint64_t> column_given(const std::string& text, std::uint64_t columns, const std::string& path) {
   if (text.empty()) return std::nullopt;

@@ -10,6 +10,9 @@
 
 namespace wheatstone {
 
+/// Arrays with more numbers a row are refused.
+inline constexpr std::uint64_t most_columns = 1024;
+
 /// An array's numbers: of one type, or records of named ones.
 struct NpyElement {
   bool swapped = false;  ///< the other byte order than this machine's

@@ -18,8 +18,6 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::uint64_t most_columns = 1024;
-
 struct CloseArchive {
   void operator()(zip_t* archive) const { zip_discard(archive); }
 };
@@ -143,7 +141,7 @@ class Numbers {
 };
 
 /// What is read of the archive, which has to stay open.
-struct Reading {
+struct NpzRows {
   Arrays arrays;
   std::uint64_t count = 0;
   std::uint64_t at = 0;
@@ -199,7 +197,7 @@ std::vector<const Array*> position_arrays(const Arrays& arrays, const std::strin
       candidates.empty() ? "has no rows of three numbers" : "has more than one array of rows", arrays.words()));
 }
 
-void open_position(Reading& reading, const std::string& wanted) {
+void open_position(NpzRows& reading, const std::string& wanted) {
   const std::vector<const Array*> chosen = position_arrays(reading.arrays, wanted);
   const Array& first = *chosen[0];
   reading.count = first.rows();
@@ -221,7 +219,7 @@ void open_position(Reading& reading, const std::string& wanted) {
   }
 }
 
-void open_scalars(Reading& reading, const std::string& wanted, std::initializer_list<const char*> usual,
+void open_scalars(NpzRows& reading, const std::string& wanted, std::initializer_list<const char*> usual,
                   std::vector<Numbers>& to) {
   const Array* chosen = wanted.empty() ? nullptr : &required(reading.arrays, wanted);
   for (const char* name : usual)
@@ -237,7 +235,7 @@ void open_scalars(Reading& reading, const std::string& wanted, std::initializer_
 }  // namespace
 
 CloudSource open_npz(const std::filesystem::path& path, const CloudChoice& choice) {
-  auto reading = std::make_shared<Reading>();
+  auto reading = std::make_shared<NpzRows>();
   reading->arrays = open_arrays(path);
   if (reading->arrays.all.empty())
     reading->arrays.refuse(fmt::format("has no arrays of numbers, but {}", reading->arrays.words()));

@@ -11,8 +11,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/cloud_source.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::npz_test {
 
 using testing::ElementsAre;
 
@@ -103,5 +102,4 @@ TEST(Npz, CutShortAnywhereIsRefused) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::npz_test

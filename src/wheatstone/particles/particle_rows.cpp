@@ -133,7 +133,7 @@ ParticleRows taken(ParticleRows& from, std::size_t count) {
 }
 
 /// Reads as the origin needs it, and gives as little as is asked for.
-struct Reading {
+struct RowsInTurn {
   RowReader next;
   std::optional<std::array<double, 3>> origin;
   ParticleRows rows = {};  ///< those that were read but not given yet; empty ones have memory
@@ -175,7 +175,7 @@ void put_positions(std::vector<double> numbers, std::size_t width, ParticleRows&
 }
 
 void give_rows(RowReader next, std::optional<std::array<double, 3>> origin, CloudSource& source) {
-  auto reading = std::make_shared<Reading>(Reading{.next = std::move(next), .origin = origin});
+  auto reading = std::make_shared<RowsInTurn>(RowsInTurn{.next = std::move(next), .origin = origin});
   source.next = [reading](std::size_t most) { return reading->read(most); };
   source.reuse = [reading](Cloud used) { reading->reuse(std::move(used)); };
 }

@@ -16,8 +16,7 @@
 #include "wheatstone/particles/select.h"
 #include "wheatstone/random.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::positions_test {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
@@ -214,5 +213,4 @@ TEST(Positions, BeyondSinglePrecisionAreKeptAndToldInDouble) {
   EXPECT_GT(cloud.density[0], 1e38f);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::positions_test

@@ -108,7 +108,7 @@ ParticleRows rows_of(const Chunk& chunk) {
   return rows;
 }
 
-struct Reading {
+struct RecordRows {
   RecordLayout layout;
   std::ifstream file;
   std::uint64_t at = 0;
@@ -131,7 +131,7 @@ std::size_t columns_of(const RecordLayout& layout) {
   return most;
 }
 
-ParticleRows read_some(Reading& reading, std::size_t most) {
+ParticleRows read_some(RecordRows& reading, std::size_t most) {
   const RecordLayout& layout = reading.layout;
   const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, layout.count - reading.at));
   if (count == 0) return {};
@@ -183,7 +183,7 @@ CloudSource open_records(const RecordLayout& layout, const std::string& format, 
         ErrorKind::bad_input,
         fmt::format("{}: is cut short or damaged: its header says {} particles of {} bytes, but there are {} bytes",
                     name, layout.count, a_particle, room));
-  auto reading = std::make_shared<Reading>();
+  auto reading = std::make_shared<RecordRows>();
   reading->layout = layout;
   reading->file.open(layout.path, std::ios::binary);
   CloudSource source{.format = format, .count = layout.count, .fields = std::move(fields)};

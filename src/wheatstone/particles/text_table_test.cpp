@@ -9,8 +9,7 @@
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/particles/select.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::text_table_test {
 
 using testing::ElementsAre;
 using testing::Pair;
@@ -139,5 +138,4 @@ TEST(Text, ReadsMassesAndWhatIsToBeShown) {
                [&] { read_cloud(folder / "a.csv", {.quantity = "age"}); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::text_table_test

@@ -12,8 +12,7 @@
 #include "scenes/test_photographs.h"
 #include "wheatstone/matching/eye_order.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::card_windows_test {
 
 void expect_near(const CardWindow& found, const CardWindow& truth, int card_width) {
   const double most = 0.01 * card_width;
@@ -103,5 +102,4 @@ TEST(CardWindows, AreNotSeenWhereThereAreNone) {
   EXPECT_FALSE(find_card_windows(make_card(pair, {.photographs = 1}).picture));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::card_windows_test

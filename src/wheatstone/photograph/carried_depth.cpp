@@ -13,6 +13,7 @@
 #include "wheatstone/pictures/depth_file.h"
 #include "wheatstone/pictures/heif_pictures.h"
 #include "wheatstone/pictures/heif_pictures_internal.h"
+#include "wheatstone/pictures/jpeg_end_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/upright_internal.h"
@@ -22,11 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& path, std::string_view what) {
+[[noreturn]] void refuse_depth(const fs::path& path, std::string_view what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: its depth map {}", path.string(), what));
 }
-
-bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8"); }
 
 double number_of(const fs::path& path, std::string_view name, std::optional<std::string_view> text) {
   double number = 0;
@@ -34,7 +33,7 @@ double number_of(const fs::path& path, std::string_view name, std::optional<std:
     const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), number);
     if (error == std::errc() && std::isfinite(number)) return number;
   }
-  refuse(path, fmt::format("has no number for {}", name));
+  refuse_depth(path, fmt::format("has no number for {}", name));
 }
 
 /// Brings levels of 0..1 to what they stand for. https://developers.google.com/depthmap-metadata/encoding: level 0 is
@@ -47,10 +46,10 @@ DepthKind interpret(const fs::path& path, const Xmp& xmp, std::string_view prefi
     return DepthKind::inverse;
   }
   if (format != "RangeLinear")
-    refuse(path, fmt::format("has the format '{}', expected RangeInverse or RangeLinear", format.substr(0, 40)));
+    refuse_depth(path, fmt::format("has the format '{}', expected RangeInverse or RangeLinear", format.substr(0, 40)));
   const double near = number_of(path, "Near", property("Near")), far = number_of(path, "Far", property("Far"));
   if (!(near > 0 && far > near))
-    refuse(path, fmt::format("lies between {} and {}, expected two distances above 0", near, far));
+    refuse_depth(path, fmt::format("lies between {} and {}, expected two distances above 0", near, far));
   for (float& level : levels.pixels()) level = static_cast<float>(near + level * (far - near));
   return DepthKind::metric;
 }
@@ -72,7 +71,7 @@ std::vector<ContainerItem> container_items(const fs::path& path, const Xmp& xmp)
     if (!semantic) continue;
     const auto length = xmp_property(item, "Item:Length");
     const double bytes = length ? number_of(path, "Item:Length", length) : 0;
-    if (bytes < 0 || bytes > static_cast<double>(most_picture_bytes)) refuse(path, "has an impossible length");
+    if (bytes < 0 || bytes > static_cast<double>(most_picture_bytes)) refuse_depth(path, "has an impossible length");
     items.push_back({*semantic, static_cast<std::size_t>(bytes)});
   }
   return items;
@@ -87,11 +86,11 @@ std::string_view depth_behind_picture(const fs::path& path, std::string_view byt
                                       const std::vector<ContainerItem>& items) {
   std::size_t at = bytes.size();
   for (std::size_t i = items.size(); i-- > 1;) {
-    if (items[i].length > at) refuse(path, "is listed with more bytes than the file has");
+    if (items[i].length > at) refuse_depth(path, "is listed with more bytes than the file has");
     at -= items[i].length;
     if (items[i].semantic == "Depth") return bytes.substr(at, items[i].length);
   }
-  refuse(path, "is not listed behind the picture");
+  refuse_depth(path, "is not listed behind the picture");
 }
 
 /// The levels and what they stand for, as the JPEG stores them; none where it has none.
@@ -99,7 +98,7 @@ std::optional<std::pair<Image<float>, DepthKind>> jpeg_depth(const fs::path& pat
   const Xmp xmp = read_xmp(bytes, path);
   if (const auto data = xmp_property(xmp, "GDepth:Data")) {
     const std::optional<std::string> map = decode_base64(*data);
-    if (!map) refuse(path, "is not base64");
+    if (!map) refuse_depth(path, "is not base64");
     Image<float> levels = decode_depth(*map, path);
     const DepthKind kind = interpret(path, xmp, "GDepth", levels);
     return {{std::move(levels), kind}};

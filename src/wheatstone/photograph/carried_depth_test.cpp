@@ -12,8 +12,7 @@
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::carried_depth_test {
 
 constexpr int width = 64, height = 48;
 constexpr Rgb8 red{200, 30, 30}, blue{30, 30, 200};
@@ -181,5 +180,4 @@ TEST(ReadViews, OfAVrPhotographAreThePictureAndThatInItsXmp) {
   expect_error(ErrorKind::bad_input, "c.jpg: the right eye's picture", [&] { read_views(folder / "c.jpg"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::carried_depth_test

@@ -8,8 +8,7 @@
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/block_agreement.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::find_layout_test {
 
 using enum StereoLayout;
 
@@ -119,5 +118,4 @@ TEST(LayoutFromHalves, IsNotSeenInAPattern) {
   EXPECT_EQ(layout_from_halves(pattern), std::nullopt);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::find_layout_test

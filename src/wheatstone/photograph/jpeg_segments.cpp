@@ -18,6 +18,10 @@ bool is_frame_header(std::uint8_t marker) {
 
 }  // namespace
 
+std::size_t big_endian(std::string_view bytes, std::size_t at) {
+  return short_at(bytes, at) << 16 | short_at(bytes, at + 2);
+}
+
 std::vector<JpegSegment> jpeg_segments(std::string_view bytes) {
   std::vector<JpegSegment> segments;
   if (bytes.size() < 2 || byte(bytes, 0) != 0xFF || byte(bytes, 1) != start_of_image) return segments;

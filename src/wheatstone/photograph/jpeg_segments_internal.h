@@ -8,6 +8,11 @@
 
 namespace wheatstone {
 
+inline constexpr std::uint8_t app0 = 0xE0, app1 = 0xE1, app2 = 0xE2, app3 = 0xE3;  ///< markers of segments
+
+/// The four bytes at `at`, the highest first.
+std::size_t big_endian(std::string_view bytes, std::size_t at);
+
 /// One marker segment of a JPEG: what stands behind its marker and length.
 struct JpegSegment {
   std::uint8_t marker = 0;  ///< 0xE2 is APP2

@@ -11,13 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint8_t app2 = 0xE2;
 constexpr std::string_view signature{"MPF\0", 4};
 constexpr std::uint16_t number_of_pictures_tag = 0xB001, entries_tag = 0xB002, individual_number_tag = 0xB101;
 constexpr std::uint32_t most_pictures = 1024;
 constexpr std::size_t entry_size = 16, field_size = 12;
 
-[[noreturn]] void refuse(const fs::path& path, std::string_view what) {
+[[noreturn]] void refuse_index(const fs::path& path, std::string_view what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: its MP index is damaged: {}", path.string(), what));
 }
 
@@ -25,13 +24,13 @@ constexpr std::size_t entry_size = 16, field_size = 12;
 class TiffBytes {
  public:
   TiffBytes(std::string_view bytes, const fs::path& path) : bytes_(bytes), path_(path) {
-    if (bytes.size() < 8) refuse(path, "it is too short");
+    if (bytes.size() < 8) refuse_index(path, "it is too short");
     little_ = bytes.starts_with(std::string_view("II\x2A\0", 4));
-    if (!little_ && !bytes.starts_with(std::string_view("MM\0\x2A", 4))) refuse(path, "it has no byte order");
+    if (!little_ && !bytes.starts_with(std::string_view("MM\0\x2A", 4))) refuse_index(path, "it has no byte order");
   }
 
   std::uint32_t number(std::size_t at, std::size_t length) const {
-    if (at > bytes_.size() || length > bytes_.size() - at) refuse(path_, "it refers to data beyond its end");
+    if (at > bytes_.size() || length > bytes_.size() - at) refuse_index(path_, "it refers to data beyond its end");
     std::uint32_t number = 0;
     for (std::size_t i = 0; i < length; ++i)
       number = number << 8 | static_cast<std::uint8_t>(bytes_[at + (little_ ? length - 1 - i : i)]);
@@ -88,15 +87,15 @@ MultiPictureEntry read_entry(const TiffBytes& tiff, std::size_t at, const FoundI
   constexpr std::uint32_t format_bits = 0x07000000, type_bits = 0x00FFFFFF;
   const std::uint32_t attribute = tiff.long_at(at);
   const std::size_t offset = tiff.long_at(at + 8);
-  if ((attribute & format_bits) != 0) refuse(path, "one of its pictures is not a JPEG");
+  if ((attribute & format_bits) != 0) refuse_index(path, "one of its pictures is not a JPEG");
   entry.type = attribute & type_bits;
   entry.length = tiff.long_at(at + 4);
   // The first picture is the file's start; the others are counted from the index's byte order on.
   entry.begin = offset == 0 ? 0 : index.begin_in + offset;
   if (entry.begin > file.size() || entry.length > file.size() - entry.begin || entry.length < 4)
-    refuse(path, "one of its pictures lies beyond the end of the file");
+    refuse_index(path, "one of its pictures lies beyond the end of the file");
   if (!file.substr(entry.begin, 2).starts_with("\xFF\xD8"))
-    refuse(path, "one of its pictures does not begin at the listed position");
+    refuse_index(path, "one of its pictures does not begin at the listed position");
   return entry;
 }
 
@@ -109,17 +108,17 @@ std::vector<MultiPictureEntry> read_multi_picture_index(std::string_view bytes, 
   const std::size_t directory = tiff.long_at(4);
   const std::optional<std::size_t> count_field = tiff.field(directory, number_of_pictures_tag);
   const std::optional<std::size_t> entries_field = tiff.field(directory, entries_tag);
-  if (!count_field || !entries_field) refuse(path, "it lists no pictures");
+  if (!count_field || !entries_field) refuse_index(path, "it lists no pictures");
   const std::uint32_t count = tiff.long_at(*count_field + 8);
-  if (count == 0 || count > most_pictures) refuse(path, fmt::format("it lists {} pictures", count));
-  if (tiff.long_at(*entries_field + 4) != count * entry_size) refuse(path, "length mismatch");
+  if (count == 0 || count > most_pictures) refuse_index(path, fmt::format("it lists {} pictures", count));
+  if (tiff.long_at(*entries_field + 4) != count * entry_size) refuse_index(path, "length mismatch");
 
   const std::size_t list = tiff.long_at(*entries_field + 8);
   std::vector<MultiPictureEntry> entries(count);
   for (std::size_t i = 0; i < count; ++i) {
     entries[i] = read_entry(tiff, list + i * entry_size, *index, bytes, path);
     for (std::size_t before = 0; before < i; ++before)
-      if (entries[before].begin == entries[i].begin) refuse(path, "it lists one picture twice");
+      if (entries[before].begin == entries[i].begin) refuse_index(path, "it lists one picture twice");
     if (entries[i].begin == 0) {
       const std::size_t attributes = tiff.next_directory(directory);
       if (attributes != 0) entries[i].number = individual_number(tiff, attributes);
@@ -177,7 +176,7 @@ std::string big_endian_header() {
 std::size_t place_of_index(const std::string& jpeg) {
   std::size_t place = 2;
   for (const JpegSegment& segment : jpeg_segments(jpeg)) {
-    if (segment.marker != 0xE0 && segment.marker != 0xE1) break;
+    if (segment.marker != app0 && segment.marker != app1) break;
     place = segment.begin + 4 + segment.data.size();
   }
   return place;

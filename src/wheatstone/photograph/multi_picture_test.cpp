@@ -5,8 +5,7 @@
 #include "wheatstone/photograph/multi_picture_internal.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::multi_picture_test {
 
 std::string jpeg_of(Rgb8 colour) { return encode_jpeg(Image<Rgb8>(24, 16, colour), 90); }
 
@@ -122,5 +121,4 @@ TEST(MultiPicture, WithAnyByteOfItsIndexChangedStaysInTheFile) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::multi_picture_test

@@ -17,6 +17,7 @@
 #include "wheatstone/photograph/xmp_internal.h"
 #include "wheatstone/pictures/heif_pictures.h"
 #include "wheatstone/pictures/heif_pictures_internal.h"
+#include "wheatstone/pictures/jpeg_end_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/packed_pair.h"
@@ -36,8 +37,6 @@ std::string ending_of(const fs::path& path) {
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   return ending;
 }
-
-bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8"); }
 
 std::string kind_of(std::string_view bytes, const fs::path& path) {
   if (is_jpeg(bytes)) return "JPEG";

@@ -20,8 +20,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::read_views_test {
 
 constexpr Rgb8 red{200, 30, 30}, blue{30, 30, 200};
 
@@ -371,5 +370,4 @@ TEST(ReadViews, OfAHeicAreItsTwoPictures) {
   EXPECT_EQ(read_views(folder / "c.heic", {.layout = StereoLayout::top_bottom}).views[0].height(), 32);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::read_views_test

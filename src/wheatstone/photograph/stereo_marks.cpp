@@ -12,18 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint8_t app0 = 0xE0, app1 = 0xE1, app3 = 0xE3;
 constexpr std::string_view jps_signature = "_JPSJPS_";
 constexpr std::uint8_t half_height_flag = 1, half_width_flag = 2, left_first_flag = 4;
 
-[[noreturn]] void refuse(const fs::path& path, std::string_view what) {
+[[noreturn]] void refuse_descriptor(const fs::path& path, std::string_view what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: its stereo descriptor (JPS) {}", path.string(), what));
-}
-
-std::size_t big_endian(std::string_view bytes, std::size_t at) {
-  std::size_t number = 0;
-  for (std::size_t i = 0; i < 4; ++i) number = number << 8 | static_cast<std::uint8_t>(bytes[at + i]);
-  return number;
 }
 
 }  // namespace
@@ -33,14 +26,15 @@ std::optional<JpsDescriptor> read_jps_descriptor(std::string_view bytes, const f
     if (segment.marker != app3 || !segment.data.starts_with(jps_signature)) continue;
     // A length, then from the highest byte down: separation, flags, layout, type.
     const std::string_view block = segment.data.substr(jps_signature.size());
-    if (block.size() < 6) refuse(path, "is cut short");
+    if (block.size() < 6) refuse_descriptor(path, "is cut short");
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(block[i]); };
     const std::uint8_t flags = byte(3), arrangement = byte(4), type = byte(5);
     JpsDescriptor descriptor;
     descriptor.stereo = type != 0;
     if (!descriptor.stereo) return descriptor;
     if (type != 1 || arrangement < 1 || arrangement > 4)
-      refuse(path, fmt::format("has type {} and layout {}, expected type 1 and layout 1 to 4", type, arrangement));
+      refuse_descriptor(path,
+                        fmt::format("has type {} and layout {}, expected type 1 and layout 1 to 4", type, arrangement));
     descriptor.arrangement = static_cast<JpsDescriptor::Arrangement>(arrangement);
     descriptor.half_height = (flags & half_height_flag) != 0;
     descriptor.half_width = (flags & half_width_flag) != 0;

@@ -5,8 +5,7 @@
 #include "wheatstone/photograph/stereo_marks_internal.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::stereo_marks_test {
 
 std::string plain_jpeg() { return encode_jpeg(Image<Rgb8>(24, 16, {1, 2, 3}), 90); }
 
@@ -57,5 +56,4 @@ TEST(StereoChunk, TellsWhichEyeComesFirst) {
   EXPECT_FALSE(read_stereo_chunk(signature + std::string("\xFF\xFF\xFF\xFFsTER", 8) + check));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::stereo_marks_test

@@ -12,8 +12,7 @@
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::write_views_test {
 
 bool has_exiftool() { return std::system("exiftool -ver >/dev/null 2>&1") == 0; }
 
@@ -95,5 +94,4 @@ TEST(WriteViews, RefusesWhatIsNoPair) {
   EXPECT_TRUE(folder.is_empty());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::write_views_test

@@ -13,19 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint8_t app1 = 0xE1;
 constexpr std::string_view packet_signature{"http://ns.adobe.com/xap/1.0/\0", 29};
 constexpr std::string_view extension_signature{"http://ns.adobe.com/xmp/extension/\0", 35};
 constexpr std::size_t guid_size = 32, number_size = 4;
 
-[[noreturn]] void refuse(const fs::path& path, std::string_view what) {
+[[noreturn]] void refuse_extension(const fs::path& path, std::string_view what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: its extended XMP is damaged: {}", path.string(), what));
-}
-
-std::size_t big_endian(std::string_view bytes, std::size_t at) {
-  std::size_t number = 0;
-  for (std::size_t i = 0; i < number_size; ++i) number = number << 8 | static_cast<std::uint8_t>(bytes[at + i]);
-  return number;
 }
 
 /// Puts the chunks of this name together. Each tells the length of the whole and its own place in it.
@@ -36,27 +29,27 @@ std::string read_extended(const std::vector<JpegSegment>& segments, std::string_
   for (const JpegSegment& segment : segments) {
     if (segment.marker != app1 || !segment.data.starts_with(extension_signature)) continue;
     std::string_view chunk = segment.data.substr(extension_signature.size());
-    if (chunk.size() < guid_size + 2 * number_size) refuse(path, "a chunk is cut short");
+    if (chunk.size() < guid_size + 2 * number_size) refuse_extension(path, "a chunk is cut short");
     if (chunk.substr(0, guid_size) != guid) continue;
     const std::size_t length = big_endian(chunk, guid_size), at = big_endian(chunk, guid_size + number_size);
     chunk.remove_prefix(guid_size + 2 * number_size);
     // No chunk is longer than a segment: who announces more than all segments hold is not believed.
     constexpr std::size_t longest_segment = 65533;
-    if (length > segments.size() * longest_segment) refuse(path, "it is longer than the file");
+    if (length > segments.size() * longest_segment) refuse_extension(path, "it is longer than the file");
     if (whole.empty()) {
       whole.resize(length);
       known.resize(length);
     }
-    if (length != whole.size()) refuse(path, "its chunks differ about its length");
-    if (at > length || chunk.size() > length - at) refuse(path, "a chunk lies beyond its end");
+    if (length != whole.size()) refuse_extension(path, "its chunks differ about its length");
+    if (at > length || chunk.size() > length - at) refuse_extension(path, "a chunk lies beyond its end");
     for (std::size_t i = 0; i < chunk.size(); ++i) {
-      if (known[at + i]) refuse(path, "two chunks overlap");
+      if (known[at + i]) refuse_extension(path, "two chunks overlap");
       known[at + i] = true;
     }
     whole.replace(at, chunk.size(), chunk);
     filled += chunk.size();
   }
-  if (filled != whole.size() || whole.empty()) refuse(path, "a chunk is missing");
+  if (filled != whole.size() || whole.empty()) refuse_extension(path, "a chunk is missing");
   return whole;
 }
 

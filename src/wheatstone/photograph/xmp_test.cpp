@@ -4,8 +4,7 @@
 #include "throws_error.h"
 #include "wheatstone/photograph/xmp_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::xmp_test {
 
 const std::string bare_jpeg("\xFF\xD8\xFF\xD9", 4);
 
@@ -63,5 +62,4 @@ TEST(Xmp, DecodesBase64) {
   EXPECT_EQ(decode_base64("YW&j"), std::nullopt);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::xmp_test

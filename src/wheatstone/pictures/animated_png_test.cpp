@@ -9,8 +9,7 @@
 #include "throws_error.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::animated_png_test {
 
 std::string number(std::uint64_t value) {
   std::string bytes;
@@ -82,5 +81,4 @@ TEST(AnimatedPng, OfPartsOrCutShortIsRefused) {
     EXPECT_FALSE(frames_of_png(parts.substr(0, length), 3)) << length;
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::animated_png_test

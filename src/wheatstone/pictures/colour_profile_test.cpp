@@ -12,8 +12,7 @@
 #include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::colour_profile_test {
 
 std::string saved(cmsHPROFILE profile) {
   cmsUInt32Number size = 0;
@@ -128,5 +127,4 @@ TEST(ColourProfile, ThatIsDamagedOrOfOtherChannelsIsLeftAside) {
   EXPECT_NE(picture, before);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::colour_profile_test

@@ -11,8 +11,7 @@
 #include "throws_error.h"
 #include "wheatstone/pictures/disparity_file.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::depth_file_test {
 
 constexpr int width = 6, height = 4;
 
@@ -56,5 +55,4 @@ TEST(DepthFile, InColourOrWithNothingInItIsRefused) {
   expect_error(ErrorKind::bad_input, "text.png: is not a depth map", [&] { read_depth(folder / "text.png"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::depth_file_test

@@ -8,8 +8,7 @@
 #include "temporary_folder.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::describe_image_test {
 
 TEST(DescribeImage, TellsWhatIsStored) {
   const TemporaryFolder folder;
@@ -35,5 +34,4 @@ TEST(DescribeImage, RefusesWhatIsNoPicture) {
   expect_error(ErrorKind::bad_input, "a.png: not a picture", [&] { describe_image(folder / "a.png"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::describe_image_test

@@ -23,7 +23,7 @@ constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 /// Disparities beyond this are somebody's way of saying unknown.
 constexpr float largest_disparity_px = 65535;
 
-[[noreturn]] void refuse(const std::filesystem::path& path, std::string_view complaint) {
+[[noreturn]] void refuse_disparity(const std::filesystem::path& path, std::string_view complaint) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), complaint));
 }
 
@@ -46,7 +46,8 @@ void write_png(const std::filesystem::path& path, ImageView<const float> dispari
   for (int y = 0; y < disparity.height(); ++y) {
     for (const float d : disparity.row(y)) {
       if (std::isfinite(d) && (d < 0 || d * kitti_scale > 65535))
-        refuse(path, fmt::format("a disparity of {} does not fit a 16-bit PNG, expected 0 to 255; write .pfm", d));
+        refuse_disparity(path,
+                         fmt::format("a disparity of {} does not fit a 16-bit PNG, expected 0 to 255; write .pfm", d));
       // A known 0 is written as the smallest step: 0 itself means unknown.
       values.push_back(std::isfinite(d) ? static_cast<std::uint16_t>(std::max(std::lround(d * kitti_scale), 1L)) : 0);
     }

@@ -14,8 +14,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/portable_float_map.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::disparity_file_test {
 
 namespace fs = std::filesystem;
 
@@ -130,5 +129,4 @@ TEST(PortableFloatMap, SurvivesEveryFlippedByte) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::disparity_file_test

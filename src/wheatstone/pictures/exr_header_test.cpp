@@ -11,8 +11,7 @@
 #include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::exr_header_test {
 
 using namespace std::string_literals;
 
@@ -56,5 +55,4 @@ TEST(ExrHeader, IsCheckedBeforeAFileIsOpened) {
   expect_error(ErrorKind::bad_input, "not a picture, or a damaged one", [&] { read_image(folder / "a.exr"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::exr_header_test

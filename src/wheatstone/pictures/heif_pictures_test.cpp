@@ -7,8 +7,7 @@
 #include "throws_error.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::heif_pictures_test {
 
 TEST(HeifPictures, AreReadInTheOrderOfTheFile) {
   const TemporaryFolder folder;
@@ -30,5 +29,4 @@ TEST(HeifPictures, CutShortAreRefused) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::heif_pictures_test

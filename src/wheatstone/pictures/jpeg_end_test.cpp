@@ -4,8 +4,7 @@
 
 #include <string>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::jpeg_end_test {
 
 // A thumbnail's end marker inside a segment, then a scan, then the real end marker.
 const std::string whole(
@@ -28,5 +27,4 @@ TEST(JpegEnd, IsMissingFromEveryPartOfAFile) {
 
 TEST(JpegEnd, IsNotAskedOfOtherFiles) { EXPECT_TRUE(jpeg_is_whole("\x89PNG\r\n")); }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::jpeg_end_test

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& path, std::string_view what) {
+[[noreturn]] void refuse_picture(const fs::path& path, std::string_view what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), what));
 }
 
@@ -40,11 +40,12 @@ bool is_picture_format(std::string_view name) {
 void check_size(const fs::path& path, const StoredPicture& picture) {
   const auto [width, height] = std::pair(picture.width, picture.height);
   if (width <= 0 || height <= 0 || picture.channels <= 0 || picture.depth > 1)
-    refuse(path, fmt::format("{}x{} pixels, expected a two-dimensional picture", width, height));
+    refuse_picture(path, fmt::format("{}x{} pixels, expected a two-dimensional picture", width, height));
   const auto pixel_bytes = static_cast<std::uint64_t>(picture.channels * picture.kind.bits / 8);
   const std::uint64_t bytes = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
                               std::max<std::uint64_t>(sizeof(Rgb8), pixel_bytes);
-  if (bytes > most_picture_bytes) refuse(path, fmt::format("{}x{} pixels, expected at most 2 GiB", width, height));
+  if (bytes > most_picture_bytes)
+    refuse_picture(path, fmt::format("{}x{} pixels, expected at most 2 GiB", width, height));
 }
 
 /// A BMP is at best run-length encoded: two bytes stand for up to 255 pixels. Its decoder believes any header.
@@ -55,12 +56,13 @@ void check_bmp_length(const fs::path& path, const PictureReader& reader) {
   std::error_code error;
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (!error && pixels / 128 > bytes)
-    refuse(path, fmt::format("damaged or truncated picture: its header says {}x{} pixels, but the file has {} bytes",
-                             width, height, bytes));
+    refuse_picture(path,
+                   fmt::format("damaged or truncated picture: its header says {}x{} pixels, but the file has {} bytes",
+                               width, height, bytes));
 }
 
 // We composite over white ourselves, in sRGB, as viewers do.
-constexpr StoredAlpha alpha = StoredAlpha::kept_apart;
+constexpr StoredAlpha kept_alpha = StoredAlpha::kept_apart;
 
 void take(const fs::path& path, OpenedPicture opened, OpenPicture& open) {
   if (!opened.reader) refuse_damaged(path, std::move(opened.complaint));
@@ -69,7 +71,7 @@ void take(const fs::path& path, OpenedPicture opened, OpenPicture& open) {
 
 void check_opened(const fs::path& path, OpenPicture& open) {
   if (!open.reader || !is_picture_format(open.reader->format()))
-    refuse(path, "not a picture, or a damaged one; expected PNG, JPEG, TIFF, WebP, HEIC, EXR, PPM or BMP");
+    refuse_picture(path, "not a picture, or a damaged one; expected PNG, JPEG, TIFF, WebP, HEIC, EXR, PPM or BMP");
   const StoredPicture& picture = open.reader->picture();
   check_size(path, picture);
   check_bmp_length(path, *open.reader);
@@ -81,7 +83,7 @@ void check_opened(const fs::path& path, OpenPicture& open) {
 /// A file that its decoder reads itself; it may believe a damaged header.
 std::unique_ptr<PictureReader> opened_file(const fs::path& path) {
   try {
-    return open_picture_file(path, alpha).reader;
+    return open_picture_file(path, kept_alpha).reader;
   } catch (const std::bad_alloc&) {
     // Where there is not even what every picture takes, the header is not at fault.
     require_address_space(picture_module_bytes);
@@ -96,7 +98,7 @@ std::unique_ptr<PictureReader> opened_file(const fs::path& path) {
 void refuse_damaged(const fs::path& path, std::string reason) {
   while (!reason.empty() && (reason.back() == '\n' || reason.back() == '.')) reason.pop_back();
   std::replace(reason.begin(), reason.end(), '\n', ' ');
-  refuse(path, reason.empty() ? "damaged or truncated picture" : "damaged or truncated picture: " + reason);
+  refuse_picture(path, reason.empty() ? "damaged or truncated picture" : "damaged or truncated picture: " + reason);
 }
 
 std::string read_picture_bytes(const fs::path& path) {
@@ -113,7 +115,7 @@ OpenPicture open_picture(const fs::path& path) {
     std::optional<std::string> plain = plain_png(open.bytes);
     if (!plain) refuse_damaged(path, "it ends too early, or its checksums are wrong");
     open.bytes = std::move(*plain);
-    take(path, open_picture_bytes("png", open.bytes, alpha), open);
+    take(path, open_picture_bytes("png", open.bytes, kept_alpha), open);
   } else {
     open.bytes = {};
     open.reader = opened_file(path);
@@ -126,7 +128,7 @@ OpenPicture open_png(std::string_view bytes, std::string_view colour_profile, co
   OpenPicture open;
   open.bytes = bytes;
   open.colour_profile = colour_profile;
-  take(path, open_picture_bytes("png", open.bytes, alpha), open);
+  take(path, open_picture_bytes("png", open.bytes, kept_alpha), open);
   check_opened(path, open);
   return open;
 }
@@ -135,7 +137,7 @@ OpenPicture open_jpeg(std::string_view bytes, const fs::path& path) {
   if (!is_jpeg(bytes) || !jpeg_is_whole(bytes)) refuse_damaged(path, "one of its pictures is no whole JPEG");
   OpenPicture open;
   open.bytes = bytes;
-  take(path, open_picture_bytes("jpeg", open.bytes, alpha), open);
+  take(path, open_picture_bytes("jpeg", open.bytes, kept_alpha), open);
   check_opened(path, open);
   return open;
 }

@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::plain_png_test {
 
 std::string chunk(const std::string& type, const std::string& data) {
   const auto number = [](std::uint64_t value) {
@@ -40,5 +39,4 @@ TEST(PlainPng, IsRefusedWithAnyBitOfAChunkTurned) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::plain_png_test

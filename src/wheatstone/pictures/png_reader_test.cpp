@@ -10,8 +10,7 @@
 #include "wheatstone/pictures/exif_orientation_internal.h"
 #include "wheatstone/pictures/png_chunks_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::png_reader_test {
 
 constexpr int width = 13, height = 9;
 
@@ -150,5 +149,4 @@ TEST(PngReader, TellsHowAPictureIsTurned) {
   EXPECT_EQ(open_png_bytes(turned, StoredAlpha::kept_apart).reader->picture().value_of("Orientation", 1), 6);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::png_reader_test

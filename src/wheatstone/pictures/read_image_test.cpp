@@ -9,8 +9,7 @@
 #include "throws_error.h"
 #include "wheatstone/pictures/write_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::read_image_test {
 
 namespace fs = std::filesystem;
 
@@ -256,5 +255,4 @@ TEST(ReadImage, BelievesNoHeaderOfABmpThatItsLengthBelies) {
                [&] { read_image(folder / "a.bmp"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::read_image_test

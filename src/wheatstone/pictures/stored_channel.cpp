@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 31;
 
-[[noreturn]] void refuse(const fs::path& path, std::string_view complaint) {
+[[noreturn]] void refuse_channel(const fs::path& path, std::string_view complaint) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), complaint));
 }
 
@@ -31,11 +31,11 @@ constexpr float grey_tolerance = 0.03f;
 
 void read_grey(const fs::path& path, PictureReader& reader, std::string_view what, Image<float>& values) {
   std::vector<float> colours(values.pixels().size() * 3);
-  if (!reader.read(0, values.height(), 3, colours.data())) refuse(path, "is damaged or truncated");
+  if (!reader.read(0, values.height(), 3, colours.data())) refuse_channel(path, "is damaged or truncated");
   for (std::size_t i = 0; i < values.pixels().size(); ++i) {
     const auto [least, most] = std::minmax({colours[3 * i], colours[3 * i + 1], colours[3 * i + 2]});
     if (most - least > grey_tolerance * std::max(1.f, std::abs(most)))
-      refuse(path, fmt::format("is in colour, expected the grey levels of {}", what));
+      refuse_channel(path, fmt::format("is in colour, expected the grey levels of {}", what));
     values.pixels()[i] = colours[3 * i + 1];
   }
 }
@@ -46,14 +46,14 @@ StoredChannel first_channel(PictureReader& reader, const fs::path& path, std::st
   const std::size_t bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                             static_cast<std::size_t>(picture.channels * picture.kind.bits / 8);
   if (width < 1 || height < 1 || picture.depth > 1 || bytes > most_bytes)
-    refuse(path, fmt::format("is {}x{} pixels, which is not a valid size for {}", width, height, what));
+    refuse_channel(path, fmt::format("is {}x{} pixels, which is not a valid size for {}", width, height, what));
   if (picture.channels >= 3 && colours == GreyInColours::refused)
-    refuse(path, fmt::format("has {} channels, expected one", picture.channels));
+    refuse_channel(path, fmt::format("has {} channels, expected one", picture.channels));
   StoredChannel stored{Image<float>(width, height), picture.kind};
   if (picture.channels >= 3) {
     read_grey(path, reader, what, stored.values);
   } else if (!reader.read(0, height, 1, stored.values.pixels().data())) {
-    refuse(path, "is damaged or truncated");
+    refuse_channel(path, "is damaged or truncated");
   }
   const float full = full_scale(picture.kind);
   if (full > 1)
@@ -82,7 +82,7 @@ StoredChannel read_stored_channel(std::string_view bytes, const fs::path& path, 
     opened = open_picture_bytes("jpeg", bytes);
   } else {
     opened = open_picture_file(path);
-    if (!opened.reader) refuse(path, fmt::format("is not {}, expected PNG, PFM or EXR", what));
+    if (!opened.reader) refuse_channel(path, fmt::format("is not {}, expected PNG, PFM or EXR", what));
   }
   if (!opened.reader) refuse_damaged(path, std::move(opened.complaint));
   return first_channel(*opened.reader, path, what, colours);

@@ -8,8 +8,7 @@
 #include "throws_error.h"
 #include "wheatstone/pictures/read_image.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::write_image_test {
 
 namespace fs = std::filesystem;
 
@@ -92,5 +91,4 @@ TEST(WriteImage, SaysThatTheDiskIsFull) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::write_image_test

@@ -9,8 +9,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/ranks/launch.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::ranks_test {
 
 Ranks::Bytes text(const std::string& words) { return Ranks::bytes_of(std::span<const char>(words)); }
 
@@ -84,5 +83,4 @@ TEST(Launch, IsThatOfMpirunOrNone) {
   EXPECT_TRUE(start_ranks({0, 1}).alone());
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::ranks_test

@@ -186,6 +186,11 @@ std::vector<Rgb8> rounded(const std::vector<PaletteColour>& palette) {
   return colours;
 }
 
+int squared_distance(Rgb8 a, Rgb8 b) {
+  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
+  return red * red + green * green + blue * blue;
+}
+
 std::size_t nearest_colour(const std::vector<Rgb8>& palette, Rgb8 colour) {
   std::size_t best = 0;
   int least = std::numeric_limits<int>::max();

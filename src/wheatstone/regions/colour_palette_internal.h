@@ -25,6 +25,9 @@ void follow_palette(ImageView<const Rgb8> picture, std::vector<PaletteColour>& p
 
 std::vector<Rgb8> rounded(const std::vector<PaletteColour>& palette);
 
+/// Squared distance in RGB.
+int squared_distance(Rgb8 a, Rgb8 b);
+
 /// The index of the palette's colour that is nearest in RGB; the palette is not empty.
 std::size_t nearest_colour(const std::vector<Rgb8>& palette, Rgb8 colour);
 

@@ -14,6 +14,7 @@
 #include "wheatstone/regions/cut_to_surfaces_internal.h"
 #include "wheatstone/regions/outline_internal.h"
 #include "wheatstone/regions/plan_regions_internal.h"
+#include "wheatstone/regions/region_map_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -24,11 +25,6 @@ constexpr float least_area_px = 40;
 /// distance between the kept colour and its nearest neighbour in the palette, so that a pixel leaves for that neighbour
 /// after four fifths of the way.
 constexpr float firmness = 0.6f;
-
-int squared_distance(Rgb8 a, Rgb8 b) {
-  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
-  return red * red + green * green + blue * blue;
-}
 
 /// For each colour, by how much in squared distance others must be nearer.
 std::vector<float> holds_of(const std::vector<Rgb8>& palette) {
@@ -103,11 +99,6 @@ Image<std::int32_t> label_colours(ImageView<const Rgb8> picture, ImageView<const
     }
   });
   return labels;
-}
-
-Rgb8 mean_colour(const RegionMeans& means) {
-  const auto level = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
-  return {level(means.red), level(means.green), level(means.blue)};
 }
 
 /// How many pixels of each region have each label, region after region.

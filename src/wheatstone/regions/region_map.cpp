@@ -90,6 +90,11 @@ RegionMap connected_regions(ImageView<const std::int32_t> labels, ImageView<cons
                   [&](std::int32_t index) { return labels(index % width, index / width) < 0 ? -1 : sets.find(index); });
 }
 
+Rgb8 mean_colour(const RegionMeans& means) {
+  const auto level = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
+  return {level(means.red), level(means.green), level(means.blue)};
+}
+
 std::vector<RegionMeans> means_of(const RegionMap& regions, ImageView<const Rgb8> photograph,
                                   ImageView<const float> disparity) {
   std::vector<RegionMeans> means(static_cast<std::size_t>(regions.count));

@@ -18,6 +18,9 @@ struct RegionMeans {
   std::int64_t area = 0;
 };
 
+/// Rounded to bytes.
+Rgb8 mean_colour(const RegionMeans& means);
+
 /// Two neighbours share a region where their labels are equal and their disparities differ by at most `threshold_px`.
 /// Pixels with a negative label belong to none. Both pictures are of one size.
 RegionMap connected_regions(ImageView<const std::int32_t> labels, ImageView<const float> disparity, float threshold_px);

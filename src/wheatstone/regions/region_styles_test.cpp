@@ -16,8 +16,7 @@
 #include "wheatstone/regions/colour_palette_internal.h"
 #include "wheatstone/regions/repair.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::region_styles_test {
 
 Style small_style(std::string_view name, Propagation propagation = Propagation::strokes) {
   Style style = style_by_name(name);
@@ -256,5 +255,4 @@ TEST(DrawRegions, LeavesHolesAndHidesByDepth) {
   EXPECT_EQ(draw(Painting{painting}, right_eye).picture(11, 15), (Rgb8{0, 200, 0}));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::region_styles_test

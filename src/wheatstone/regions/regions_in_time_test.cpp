@@ -20,8 +20,7 @@
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/still_scene.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::regions_in_time_test {
 
 constexpr int width = 192, height = 108;
 
@@ -235,5 +234,4 @@ TEST(Mosaic, LeavesTilesOfAStillPictureWhereTheyAre) {
 
 static_assert(std::is_trivially_copyable_v<PaletteColour> && std::is_trivially_copyable_v<MosaicTile>);
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::regions_in_time_test

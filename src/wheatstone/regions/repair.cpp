@@ -24,11 +24,6 @@ constexpr int alike = 45;
 /// Of the views in which marks may be drawn. They are few, since files tell ranges apart.
 constexpr std::array shares_of_range{0.5f, 0.8f, 1.1f, 1.4f};
 
-int squared_distance(Rgb8 a, Rgb8 b) {
-  const int red = a.r - b.r, green = a.g - b.g, blue = a.b - b.b;
-  return red * red + green * green + blue * blue;
-}
-
 std::vector<Rgb8> colours_of(const RegionPainting& painting) {
   std::set<std::tuple<int, int, int>> colours;
   for (const RegionMark& mark : painting.marks) colours.emplace(mark.colour.r, mark.colour.g, mark.colour.b);
@@ -90,11 +85,6 @@ Image<std::int32_t> label_places(const RepairTarget& target) {
   std::int32_t label = 0;
   for (std::vector<SpotPixel>& spot : pixels) label = label_colours(std::move(spot), label, labels);
   return labels;
-}
-
-Rgb8 mean_colour(const RegionMeans& means) {
-  const auto level = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
-  return {level(means.red), level(means.green), level(means.blue)};
 }
 
 /// The palette, and the colours of the places that it lacks, the largest first, as long as it may grow.

@@ -36,7 +36,7 @@ constexpr int reach_cells = 2;
 /// In time, the share of the way to its cell's middle that a tile goes, and of the turn to the picture's direction.
 constexpr float move_share = 0.2f, turn_share = 0.25f;
 /// A tile whose colour differs by more from its place's in a channel is taken to lie on something new.
-constexpr float new_thing = 40;
+constexpr float new_thing_levels = 40;
 /// A tile with a smaller cell than this share of a whole one is gone, one that lies on something new sooner; a gap of
 /// this share of one gets a new tile.
 constexpr float gone_share = 0.05f, crowded_share = 0.4f, gap_share = 0.4f;
@@ -142,16 +142,8 @@ class Tiling {
     const SampledColour now = sample(picture_, at.x, at.y);
     const float difference =
         std::max({std::abs(now.r - before.red), std::abs(now.g - before.green), std::abs(now.b - before.blue)});
-    Tile tile{at.x,
-              at.y,
-              {before.along_x, before.along_y},
-              surface,
-              before.red,
-              before.green,
-              before.blue,
-              0,
-              index,
-              difference > new_thing};
+    Tile tile{at.x, at.y,  {before.along_x, before.along_y}, surface, before.red, before.green, before.blue,
+              0,    index, difference > new_thing_levels};
     if (tile.elsewhere) {
       tile.along = field_.along(at.x, at.y, 0, 0);
       tile.red = now.r;

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::page_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -37,5 +36,4 @@ TEST(Page, HoldsPartsWithTheirLength) {
 
 TEST(Page, CodeTakesAtMost100Kilobytes) { EXPECT_LT(page_element_code().size(), 100'000u); }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::page_test

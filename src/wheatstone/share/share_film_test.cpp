@@ -7,8 +7,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/video/film_writer.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::share_film_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -56,5 +55,4 @@ TEST(ShareFilm, RefusesWhatBrowsersDoNotPlayAndPagesDoNotShow) {
                [&] { share_film(folder / "mono.mp4", {.layout = StereoLayout::mono}); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::share_film_test

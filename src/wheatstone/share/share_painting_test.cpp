@@ -5,8 +5,7 @@
 #include "scenes/two_surfaces.h"
 #include "wheatstone/painting/paint.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::share_painting_test {
 
 TEST(SharePainting, BecomesSmallerUntilThePageHasTheSizeThatIsWanted) {
   const Painting painted =
@@ -23,5 +22,4 @@ TEST(SharePainting, BecomesSmallerUntilThePageHasTheSizeThatIsWanted) {
   EXPECT_THAT(half.note, testing::HasSubstr("the picture is 160x120 pixels"));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::share_painting_test

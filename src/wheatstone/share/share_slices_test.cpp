@@ -4,8 +4,7 @@
 
 #include "wheatstone/error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::share_slices_test {
 
 /// Planes of speckled light, of which no two pixels are alike.
 SliceStack speckled_stack(int width, int height) {
@@ -40,5 +39,4 @@ TEST(ShareSlices, StaysBelowTheSizeThatIsWantedAndTellsWhatGaveWay) {
 
 TEST(ShareSlices, RefusesNothing) { EXPECT_THROW(share_slices({}, {}), Error); }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::share_slices_test

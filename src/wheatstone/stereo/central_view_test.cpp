@@ -9,8 +9,7 @@
 #include "wheatstone/stereo/scene_view.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::central_view_test {
 
 const SyntheticStillOptions options{.width = 480, .height = 360};
 
@@ -112,5 +111,4 @@ TEST(CentralView, RefusesAGeometryOfAnotherSize) {
                [&] { make_central_view(still().pictures, geometry); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::central_view_test

@@ -9,8 +9,7 @@
 #include "wheatstone/random.h"
 #include "wheatstone/stereo/compose_row_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::compose_row_test {
 
 constexpr float nowhere = -std::numeric_limits<float>::infinity();
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
@@ -61,5 +60,4 @@ TEST(ComposeRow, IsWhatEachPixelWouldBeAloneWithEveryInstructionSet) {
   hwy::SetSupportedTargetsForTest(0);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::compose_row_test

@@ -7,8 +7,7 @@
 
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::disparity_from_depth_test {
 
 constexpr int width = 200, height = 100;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
@@ -118,5 +117,4 @@ TEST(DisparityFromDepth, RefusesWhatDoesNotFitOrIsUnknown) {
   EXPECT_NO_THROW(disparity_from_depth(step(1, 2), Image<Rgb8>(401, 200)));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::disparity_from_depth_test

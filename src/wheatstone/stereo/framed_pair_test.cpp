@@ -7,8 +7,7 @@
 #include "throws_error.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::framed_pair_test {
 
 /// A picture whose red is its column.
 StereoPair columns(int width, int height, int disparity) {
@@ -61,5 +60,4 @@ TEST(FramedPair, RefusesWhatLeavesNothing) {
                [] { framed(columns(30, 20, 0), flat(30, 20, 0), {.zero_parallax_px = 30}); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::framed_pair_test

@@ -11,8 +11,7 @@
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/warp.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::geometry_test {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int width = 100, height = 6;
@@ -161,5 +160,4 @@ TEST(Occlusion, LosesWhatOpenCvFindsToBeSmall) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::geometry_test

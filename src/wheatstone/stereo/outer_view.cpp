@@ -16,7 +16,7 @@ namespace {
 constexpr float one_surface_px = 2;
 
 /// A run of a scan line that no photograph shows.
-struct Run {
+struct UnseenRun {
   int begin, end;
 };
 
@@ -32,7 +32,7 @@ class RowFiller {
         width_(outer.disparity.width()) {}
 
   void fill() {
-    for (Run run{0, 0}; run.begin < width_; run.begin = run.end) {
+    for (UnseenRun run{0, 0}; run.begin < width_; run.begin = run.end) {
       if (mask_[run.begin] == 0) {
         run.end = run.begin + 1;
         continue;
@@ -52,7 +52,7 @@ class RowFiller {
     return nearest.contains(column, y_) && nearest(column, y_) < disparity - one_surface_px;
   }
 
-  bool may_have(const Run& run, float disparity) const {
+  bool may_have(const UnseenRun& run, float disparity) const {
     constexpr int most_seen = 20;  // of which one may be seen: disparities have noise
     int seen = 0;
     for (int x = run.begin; x < run.end; ++x)
@@ -64,7 +64,7 @@ class RowFiller {
 
   /// The column of the nearest known surface beside a run that may go on in it, seen by no eye; of the farthest one
   /// where there is none such; -1 where nothing is known.
-  int source_of(const Run& run) const {
+  int source_of(const UnseenRun& run) const {
     int farthest = -1;
     for (int away = 1; away <= width_; ++away) {
       for (const int x : {run.begin - away, run.end - 1 + away}) {
@@ -80,7 +80,7 @@ class RowFiller {
   }
 
   /// The surface goes on, with its colours mirrored as far as they are known.
-  void fill(const Run& run) {
+  void fill(const UnseenRun& run) {
     const int source = source_of(run);
     if (source < 0) return;
     const float disparity = surface_[source];

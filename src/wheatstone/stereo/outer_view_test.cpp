@@ -9,8 +9,7 @@
 #include "scenes/two_surfaces.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::outer_view_test {
 
 using test_scene::square_disparity, test_scene::wall_disparity;
 
@@ -102,5 +101,4 @@ TEST(OuterView, BetweenTheEyesAlmostNothingIsUncovered) {
   EXPECT_EQ(inside, 0);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::outer_view_test

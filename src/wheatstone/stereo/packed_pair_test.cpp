@@ -10,8 +10,7 @@
 #include "largest_difference.h"
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::packed_pair_test {
 
 /// Smooth waves; `shift` moves them to the left, as for the right eye.
 Image<Rgb8> hills(int width, int height, double shift) {
@@ -144,5 +143,4 @@ TEST(PackedPair, ThatDoesNotHalveEvenlyOrIsInTwoPicturesIsRefused) {
                  [&] { put_together(Image<Rgb8>(4, 4), Image<Rgb8>(5, 4), layout); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::packed_pair_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::reduced_pair_test {
 
 TEST(ReducedPair, LongerSideIsAsAskedForAndTheAspectStays) {
   const PictureSize wide = reduced_size({12000, 9000}, 2000);
@@ -29,5 +28,4 @@ TEST(ReducedPair, PixelIsTheMeanOfItsArea) {
   EXPECT_EQ(small(1, 0), (Rgb8{100, 0, 200}));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::reduced_pair_test

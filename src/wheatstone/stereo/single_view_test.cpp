@@ -9,8 +9,7 @@
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::single_view_test {
 
 constexpr int width = 100, height = 6;
 constexpr Rgb8 post_colour{200, 30, 30}, mixed{120, 60, 60};
@@ -97,5 +96,4 @@ TEST(SingleView, MakesTheRightPictureThatACameraTakes) {
   EXPECT_LE(uncovered, moved_nothing);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::single_view_test

@@ -8,8 +8,7 @@
 
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::stereo_layout_test {
 
 TEST(StereoLayout, IsKnownByItsNamesAndAliases) {
   for (const LayoutTraits& traits : stereo_layouts()) {
@@ -57,5 +56,4 @@ TEST(StereoLayout, SwapsAndSqueezesWithoutChangingTheRest) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::stereo_layout_test

@@ -11,8 +11,7 @@
 #include "wheatstone/strokes/reference_picture.h"
 #include "wheatstone/strokes/stroke_measures.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::dual_stroke_test {
 
 Style small_style(bool dual, float threshold, Propagation propagation = Propagation::strokes) {
   Style style = style_by_name(dual ? "dual" : "impressionist");
@@ -121,5 +120,4 @@ TEST(DualStroke, FusesWhereIndependentEyesDoNot) {
   EXPECT_LT(difference(Propagation::strokes), 0.35 * difference(Propagation::independent));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::dual_stroke_test

@@ -11,8 +11,7 @@
 #include "wheatstone/strokes/plan_layer_internal.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::fit_layer_test {
 
 Style oil() {
   Style style = style_by_name("oil");
@@ -157,5 +156,4 @@ TEST(StrokeBudget, IsKeptAndSpent) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::fit_layer_test

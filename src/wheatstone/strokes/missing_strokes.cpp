@@ -11,7 +11,7 @@
 namespace wheatstone {
 namespace {
 
-struct Cell {
+struct UnpaintedCell {
   int left, right, top, bottom;
 };
 
@@ -29,7 +29,7 @@ Image<std::uint8_t> wrong_still(const CarriedGround& ground) {
 }
 
 /// Cells without anything wrong are the most by far.
-bool has_any(const Image<std::uint8_t>& mask, const Cell& cell) {
+bool has_any(const Image<std::uint8_t>& mask, const UnpaintedCell& cell) {
   const auto size = static_cast<std::size_t>(cell.right - cell.left);
   for (int y = cell.top; y < cell.bottom && size > 0; ++y)
     if (std::memchr(&mask(cell.left, y), 255, size) != nullptr) return true;
@@ -37,7 +37,7 @@ bool has_any(const Image<std::uint8_t>& mask, const Cell& cell) {
 }
 
 /// Looks at one cell among the pixels beside depth edges, or among the others.
-void look_at(const CarriedGround& ground, const Cell& cell, bool beside_edge, Image<std::uint8_t>& places) {
+void look_at(const CarriedGround& ground, const UnpaintedCell& cell, bool beside_edge, Image<std::uint8_t>& places) {
   const float squared_threshold = ground.threshold * ground.threshold;
   const auto each = [&](auto visit) {
     for (int y = cell.top; y < cell.bottom; ++y)
@@ -68,8 +68,8 @@ void look_at_all(const CarriedGround& ground, const Image<std::uint8_t>& wrong, 
   };
   tbb::parallel_for(0, cells(places.height()), [&](int row) {
     for (int column = 0; column < cells(places.width()); ++column) {
-      const Cell cell{bound(column, places.width()), bound(column + 1, places.width()), bound(row, places.height()),
-                      bound(row + 1, places.height())};
+      const UnpaintedCell cell{bound(column, places.width()), bound(column + 1, places.width()),
+                               bound(row, places.height()), bound(row + 1, places.height())};
       if (has_any(wrong, cell)) look_at(ground, cell, beside_edge, places);
     }
   });

@@ -20,7 +20,11 @@ StrokePainting plan_occluded_part(ImageView<const Rgb8> photograph, ImageView<co
   const Image<std::uint8_t> seeds = grown_occlusion(occlusion, style);
   constexpr int reduction = 2;
   const ReducedView half = reduced(photograph, disparity, seeds, reduction);
-  StrokePainting part{width, height, style.canvas_colour, std::vector<Layer>(ScaledStyle(style, width).radii_px.size()), true,
+  StrokePainting part{width,
+                      height,
+                      style.canvas_colour,
+                      std::vector<Layer>(ScaledStyle(style, width).radii_px.size()),
+                      true,
                       brush_for(style, width)};
   if (half.photograph.empty()) return part;
 

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::outline_disparity_test {
 
 constexpr int width = 120, height = 40, left_end = 30, right_end = 90;
 constexpr float wall = 4, threshold_px = 3;
@@ -68,5 +67,4 @@ TEST(DisparityWithinOutline, IsThePointsOwnElsewhere) {
   EXPECT_LT(disparity_within_outline({disparity, threshold_px, {0, 3}}, at_end, 4), at_end.disparity);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::outline_disparity_test

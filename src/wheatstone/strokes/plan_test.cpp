@@ -20,8 +20,7 @@
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/trace_stroke_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::plan_test {
 
 /// A view that is planned on a bare canvas of its own.
 struct Bench {
@@ -415,5 +414,4 @@ TEST(Flatten, CurvesBeginAndEndOnTheirOuterControlPoints) {
   EXPECT_NEAR(flat.y[flat.strokes[0].vertex_count - 1], 31, 1e-3);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::plan_test

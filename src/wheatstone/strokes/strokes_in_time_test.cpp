@@ -24,8 +24,7 @@
 #include "wheatstone/strokes/missing_strokes_internal.h"
 #include "wheatstone/strokes/strokes_between_frames.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::strokes_in_time_test {
 
 /// A film of a camera that walks and fruit that hops, with the true flow of its central views.
 const ShortFilm& film() {
@@ -378,5 +377,4 @@ TEST(CompareStrokes, CountsADualStrokeOnceAndEachPartThatPops) {
   EXPECT_EQ(changed.popped, 1);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::strokes_in_time_test

@@ -10,8 +10,7 @@
 #include "wheatstone/study/simulate.h"
 #include "wheatstone/study/trial_plan.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::analysis_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -200,5 +199,4 @@ TEST(SimulationLong, TwoThousandStudiesFindTheThesisEffectOfDepthAsOftenAsTheNon
   EXPECT_NEAR(share_of(power, "depth_cm"), power_of_f(1, 38, noncentrality()), 0.03);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::analysis_test

@@ -9,8 +9,7 @@
 #include <limits>
 #include <map>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::anova_test {
 
 using testing::ElementsAre;
 
@@ -233,5 +232,4 @@ TEST(Power, IsThatOfTheNoncentralF) {
   EXPECT_NEAR(power_of_f(4, 56, 0), 0.05, 1e-9);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::anova_test

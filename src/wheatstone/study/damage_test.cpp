@@ -13,8 +13,7 @@
 #include "wheatstone/study/simulate.h"
 #include "wheatstone/study/study_folder.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::damage_test {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -290,5 +289,4 @@ TEST(EditedStudy, SubjectsWithoutTrialsDoNotCountAndAreNamed) {
   EXPECT_THAT(analysis_page(read_study(study), analysis), HasSubstr("Without trials: sub-02, sub-03."));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::damage_test

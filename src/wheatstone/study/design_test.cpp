@@ -10,8 +10,7 @@
 #include "wheatstone/study/study_design.h"
 #include "wheatstone/study/trial_plan.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::design_test {
 
 /// Two factors within and one condition beside them, of few trials.
 std::string small_design(const std::string& more) {
@@ -193,5 +192,4 @@ TEST(StudyDesign, PicturesAreNamedByItemAndLevel) {
             (std::vector<std::string>{"05_consistent_left.png", "05_consistent_right.png"}));
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::design_test

@@ -8,12 +8,12 @@
 namespace wheatstone {
 namespace {
 
-constexpr double column_width = 46, left = 64, top = 16, height = 260, label_height = 150;
+constexpr double column_width = 46, plot_left = 64, plot_top = 16, plot_height = 260, label_height = 150;
 
 /// A vertical axis from `least` to `most`, with marks at round numbers.
 struct Axis {
   double least, most, step;
-  double y(double value) const { return top + height * (most - value) / (most - least); }
+  double y(double value) const { return plot_top + plot_height * (most - value) / (most - least); }
 };
 
 /// 1, 2 or 5 times a power of ten.
@@ -41,12 +41,12 @@ std::string axis_svg(const Axis& axis, double width, const std::string& title) {
   std::string svg;
   for (double value = axis.least; value <= axis.most + axis.step / 2; value += axis.step) {
     const double y = axis.y(value);
-    svg += line(left, y, width, y, "#ddd");
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>", left - 6, y + 4,
+    svg += line(plot_left, y, width, y, "#ddd");
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>", plot_left - 6, y + 4,
                        std::round(value / axis.step) * axis.step);
   }
   return svg + fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-                           top + height / 2, escaped(title));
+                           plot_top + plot_height / 2, escaped(title));
 }
 
 /// A condition's name below its column, one line a factor.
@@ -56,7 +56,7 @@ std::string column_label(double x, const std::string& name) {
   for (std::size_t begin = 0; begin <= name.size(); line_x += 15) {
     const std::size_t end = std::min(name.find(',', begin), name.size());
     svg += fmt::format("<text transform=\"translate({:.1f} {:.1f}) rotate(-50)\" text-anchor=\"end\">{}</text>", line_x,
-                       top + height + 16, escaped(name.substr(begin, end - begin)));
+                       plot_top + plot_height + 16, escaped(name.substr(begin, end - begin)));
     begin = end + 1;
   }
   return svg;
@@ -67,10 +67,10 @@ std::string figure(std::size_t columns, const std::string& content) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-60 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
       "height=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"12\" role=\"img\">{2}</svg>\n",
-      left + column_width * static_cast<double>(columns) + 80, top + height + label_height, content);
+      plot_left + column_width * static_cast<double>(columns) + 80, plot_top + plot_height + label_height, content);
 }
 
-double middle_of(std::size_t column) { return left + column_width * (static_cast<double>(column) + 0.5); }
+double middle_of(std::size_t column) { return plot_left + column_width * (static_cast<double>(column) + 0.5); }
 
 }  // namespace
 
@@ -101,7 +101,7 @@ std::string means_figure(const MeasureAnalysis& measure) {
   }
   if (least > most) return {};
   const Axis axis = axis_around(least, most);
-  const double width = left + column_width * static_cast<double>(measure.means.size());
+  const double width = plot_left + column_width * static_cast<double>(measure.means.size());
   std::string svg = axis_svg(axis, width, measure.text + (measure.unit.empty() ? "" : ", " + measure.unit));
   for (std::size_t i = 0; i < measure.means.size(); ++i) {
     const ConditionMean& mean = measure.means[i];
@@ -125,7 +125,7 @@ std::string head_movement_figure(const std::vector<HeadMovement>& movement) {
   }
   const Axis axis = axis_around(0, 100 * most);
   std::string svg =
-      axis_svg(axis, left + column_width * static_cast<double>(movement.size()), "Head movement in a trial, cm");
+      axis_svg(axis, plot_left + column_width * static_cast<double>(movement.size()), "Head movement in a trial, cm");
   for (std::size_t i = 0; i < movement.size(); ++i) {
     const HeadMovement& box = movement[i];
     const auto y = [&axis](double metres) { return axis.y(100 * metres); };

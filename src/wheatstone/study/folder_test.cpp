@@ -14,8 +14,7 @@
 #include "wheatstone/study/trial_table.h"
 #include "wheatstone/study/tsv_table_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::folder_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -211,5 +210,4 @@ TEST(TrialLog, AReserveThatHoldsNoAnswerIsRefused) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::folder_test

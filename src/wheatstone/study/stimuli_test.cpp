@@ -15,8 +15,7 @@
 #include "wheatstone/study/random_dots.h"
 #include "wheatstone/study/simulated_display.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::stimuli_test {
 
 using testing::FloatNear;
 
@@ -370,5 +369,4 @@ TEST(RandomDots, ADisparityMayBeLessThanAPixel) {
   EXPECT_NE(fine.left, fine.right);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::stimuli_test

@@ -16,7 +16,7 @@
 namespace wheatstone {
 namespace {
 
-std::optional<float> number_in(const std::string& text, float least, float most) {
+std::optional<float> float_in(const std::string& text, float least, float most) {
   float value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value >= least && value <= most)) return {};
@@ -39,7 +39,7 @@ struct Setting {
 template <class Put>
 Setting number_setting(std::string_view name, float least, float most, std::string_view expected, Put put) {
   return {name, expected, [=](const std::string& text, ShownSettings& shown) {
-            const std::optional<float> value = number_in(text, least, most);
+            const std::optional<float> value = float_in(text, least, most);
             if (value) put(shown, *value);
             return value.has_value();
           }};
@@ -68,7 +68,7 @@ const std::vector<Setting>& settings() {
   static const std::vector<Setting> all{
       {"nodes", "a multiple of three from 9 to 3000",
        [](const std::string& text, ShownSettings& shown) {
-         const std::optional<float> value = number_in(text, 9, 3000);
+         const std::optional<float> value = float_in(text, 9, 3000);
          if (value) shown.nodes = static_cast<int>(*value);
          return value && std::fmod(*value, 3.0f) == 0;
        }},

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_bytes = std::size_t{1} << 28;
+constexpr std::size_t most_list_bytes = std::size_t{1} << 28;
 
 fs::path participants_file(const StudyFolder& folder) { return folder.path() / "participants.tsv"; }
 fs::path questionnaire_file(const StudyFolder& folder) { return folder.path() / "phenotype" / "questionnaire.tsv"; }
@@ -58,7 +58,7 @@ void put_row(const StudyFolder& folder, const fs::path& file, const Fields& fiel
                 fmt::format("{}: cannot be written: {}", folder.design_file().string(), error.message()));
   TsvTable table{.name = file.string()};
   if (is_there(file))
-    table = parse_tsv(read_whole_file(file, most_bytes), file.string());
+    table = parse_tsv(read_whole_file(file, most_list_bytes), file.string());
   else
     for (const auto& [column, value] : fields) table.columns.push_back(column);
   const std::size_t key = table.at(fields.front().first);
@@ -143,7 +143,7 @@ std::vector<int> read_participants(const StudyFolder& folder) {
   const fs::path file = participants_file(folder);
   std::vector<int> subjects;
   if (is_there(file)) {
-    const TsvTable table = parse_tsv(read_whole_file(file, most_bytes), file.string());
+    const TsvTable table = parse_tsv(read_whole_file(file, most_list_bytes), file.string());
     subjects = subjects_of_rows(folder, table);
     for (std::size_t row = 0; row < subjects.size(); ++row)
       for (const auto& [factor, level] : levels_between(folder.design(), subjects[row]))
@@ -158,7 +158,7 @@ std::map<int, Answers> read_answers(const StudyFolder& folder, const std::vector
   const fs::path file = questionnaire_file(folder);
   std::map<int, Answers> answers;
   if (folder.design().questions.empty() || !is_there(file)) return answers;
-  const TsvTable table = parse_tsv(read_whole_file(file, most_bytes), file.string());
+  const TsvTable table = parse_tsv(read_whole_file(file, most_list_bytes), file.string());
   const std::vector<int> subjects = subjects_of_rows(folder, table);
   for (std::size_t row = 0; row < subjects.size(); ++row) {
     if (std::ranges::find(listed, subjects[row]) == listed.end())

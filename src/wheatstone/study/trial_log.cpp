@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_bytes = std::size_t{1} << 28;
+constexpr std::size_t most_log_bytes = std::size_t{1} << 28;
 constexpr std::size_t reserve_bytes = 4096;
 
 [[noreturn]] void fail(const fs::path& path, std::string_view what) {
@@ -58,7 +58,7 @@ std::size_t whole_bytes(std::string_view table) {
 std::string kept_lines(const fs::path& reserve, std::string_view table) {
   std::error_code error;
   if (!fs::exists(reserve, error)) return {};
-  const std::string bytes = read_whole_file(reserve, most_bytes);
+  const std::string bytes = read_whole_file(reserve, most_log_bytes);
   // None of them is empty.
   const std::size_t end = bytes.find("\n\n");
   std::string lines = end == std::string::npos ? bytes : bytes.substr(0, end + 1);
@@ -85,7 +85,7 @@ TrialLog::TrialLog(fs::path path, std::string_view header) : path_(std::move(pat
   else if (error)
     throw Error(ErrorKind::cannot_read_write,
                 fmt::format("{}: cannot be written: {}", path_.string(), error.message()));
-  const std::string present = read_whole_file(path_, most_bytes);
+  const std::string present = read_whole_file(path_, most_log_bytes);
   if (!header.starts_with(present) && !plain_text(present).starts_with(header))
     throw Error(ErrorKind::bad_input, fmt::format("{}:1: has other columns, expected {}", path_.string(),
                                                   fmt::join(fields_of(header.substr(0, header.find('\n'))), ", ")));
@@ -106,7 +106,8 @@ void TrialLog::add(std::string_view bytes) {
 }
 
 void TrialLog::take_over_reserve() {
-  if (const std::string lines = kept_lines(reserve_, read_whole_file(path_, most_bytes)); !lines.empty()) add(lines);
+  if (const std::string lines = kept_lines(reserve_, read_whole_file(path_, most_log_bytes)); !lines.empty())
+    add(lines);
 }
 
 void TrialLog::make_reserve() const {
@@ -142,7 +143,7 @@ void TrialLog::finish() {
 }
 
 std::string read_trial_log(const fs::path& path) {
-  const std::string present = read_whole_file(path, most_bytes);
+  const std::string present = read_whole_file(path, most_log_bytes);
   std::string whole = present.substr(0, whole_bytes(present));
   if (!whole.empty() && whole.back() != '\n') whole += '\n';
   return whole + kept_lines(reserve_of(path), whole);

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::phone_camera_test {
 
 constexpr SyntheticStillOptions small{.width = 320, .height = 240, .samples_a_side = 1};
 
@@ -74,5 +73,4 @@ TEST(PhoneCamera, IsTheSameForTheSameSeed) {
   EXPECT_EQ(first.pictures.right, again.pictures.right);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::phone_camera_test

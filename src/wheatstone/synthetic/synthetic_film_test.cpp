@@ -8,8 +8,7 @@
 #include "throws_error.h"
 #include "wheatstone/image/opencv_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::synthetic_film_test {
 
 constexpr int width = 320, height = 180;
 
@@ -254,5 +253,4 @@ TEST(SyntheticFilm, RefusesNonsense) {
       "frame 12 of a film of 12", [](auto&) {}, 12);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::synthetic_film_test

@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <variant>
 #include <vector>
 
 namespace wheatstone::still {
+
+inline constexpr float pi = std::numbers::pi_v<float>;
 
 struct Vec3 {
   float x = 0, y = 0, z = 0;

@@ -8,8 +8,6 @@
 namespace wheatstone::still {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
 /// Linear light of an sRGB colour written as 0xRRGGBB.
 Vec3 linear(std::uint32_t rgb) {
   const auto channel = [&](int shift) {

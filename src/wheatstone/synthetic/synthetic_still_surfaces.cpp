@@ -9,8 +9,6 @@
 namespace wheatstone::still {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
 /// How much of a detail of that many waves a metre a picture can show, 1 to 0.
 float shown(float frequency, float footprint) { return clamp01(1.7f - 2.6f * frequency * footprint); }
 

@@ -10,8 +10,7 @@
 
 #include "throws_error.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::synthetic_still_test {
 
 SyntheticStillOptions small(std::uint64_t seed = 1) {
   SyntheticStillOptions options;
@@ -277,5 +276,4 @@ TEST(SyntheticStill, RefusesNonsense) {
   refused("from 90 to 10 px", [](auto& o) { o.least_disparity_px = 90, o.largest_disparity_px = 10; });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::synthetic_still_test

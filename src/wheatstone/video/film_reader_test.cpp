@@ -14,8 +14,7 @@
 #include "wheatstone/video/guess_layout.h"
 #include "wheatstone/video/picture_conversion_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::film_reader_test {
 
 namespace fs = std::filesystem;
 
@@ -389,5 +388,4 @@ TEST(FilmReader, AnimatedPicturesAreFilms) {
   expect_error(ErrorKind::bad_input, "cut.webp: a damaged WebP", [&] { open_film(folder / "cut.webp"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::film_reader_test

@@ -13,8 +13,7 @@
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/libav_internal.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::film_writer_test {
 
 namespace fs = std::filesystem;
 
@@ -336,5 +335,4 @@ TEST(FilmWriter, AFullDiskIsNoticedAndLeavesNothing) {
   }
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::film_writer_test

@@ -7,8 +7,7 @@
 
 #include "wheatstone/stereo/packed_pair.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::guess_layout_test {
 
 /// Hills of random height at every 12th pixel, smooth between them: nothing repeats.
 Image<Rgb8> landscape(int width, int height, int shift, unsigned seed) {
@@ -61,5 +60,4 @@ TEST(GuessLayout, IsFooledByARepeatingPattern) {
   EXPECT_NE(guess_layout(std::array{stripes}).layout, StereoLayout::mono);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::guess_layout_test

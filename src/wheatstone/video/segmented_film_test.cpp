@@ -15,8 +15,7 @@
 #include "wheatstone/video/fingerprint_internal.h"
 #include "wheatstone/video/work_folder.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::segmented_film_test {
 
 namespace fs = std::filesystem;
 
@@ -311,5 +310,4 @@ TEST(Fingerprint, SeesAChangeAnywhereThatItSamples) {
   EXPECT_NE(print(bytes + "x"), before);
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::segmented_film_test

@@ -7,8 +7,7 @@
 #include "throws_error.h"
 #include "wheatstone/stereo/packed_pair.h"
 
-namespace wheatstone {
-namespace {
+namespace wheatstone::stereo_film_test {
 
 constexpr double eye_shift = 7;
 
@@ -112,5 +111,4 @@ TEST(StereoFilm, AnEyeThatMissesFramesIsRefusedWithBothCounts) {
                [&] { open_eye_films(folder / "l.mp4", folder / "small.mp4"); });
 }
 
-}  // namespace
-}  // namespace wheatstone
+}  // namespace wheatstone::stereo_film_test
