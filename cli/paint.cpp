@@ -262,7 +262,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   if (arguments.measure)
     measures = measure_painting(pictures, result, options.left_disparity.value_or(result.geometry.left_disparity),
                                 session.progress);
-  place_depth(placing, result);
+  redraw_with_depth(placing, result);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
   const PaintingReport told{result, options.style, subject.strength ? nullptr : &photograph.pair, measured,
                             photograph.whole};

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "wheatstone/image/image.h"
+#include "wheatstone/image/shared_image.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone::python {
@@ -22,14 +22,6 @@ ImageView<const Rgb8> picture_in(const pybind11::object& array, const std::strin
 
 /// The same for disparities, height × width numbers of single precision.
 ImageView<const float> disparities_in(const pybind11::object& array, const std::string& name);
-
-/// A picture that outlives the array it came from.
-template <class Pixel>
-Image<Pixel> copy_of(ImageView<const Pixel> view) {
-  Image<Pixel> image(view.width(), view.height());
-  for (int y = 0; y < view.height(); ++y) std::ranges::copy(view.row(y), image.row(y).begin());
-  return image;
-}
 
 /// Two pictures, copied.
 StereoPair pair_in(const pybind11::object& left, const pybind11::object& right);

@@ -165,9 +165,9 @@ Painting plan(const Photographed& photograph, const Style& style, const std::opt
   if (geometry) return plan_painting(photograph.pictures, *geometry, style);
   const Image<Rgb8>& picture = photograph.pictures.left;
   const Image<float> disparity(picture.width(), picture.height());
-  const std::vector<SceneView> views{{picture, disparity, {}, central_view}};
+  const std::vector<View> views{{picture, disparity, {}, central_view}};
   PaintingMemory nothing_before;
-  return plan_painting(FilmFrame{.views = views}, style, CarryOptions{.goes_on = false}, nothing_before).painting;
+  return plan_frame({.views = views}, style, {.goes_on = false}, nothing_before).painting;
 }
 
 /// Of each stroke: radius, opacity, colour and disparity, and where its paint varies its number and the change of its

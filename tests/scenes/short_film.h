@@ -6,7 +6,7 @@
 
 #include "wheatstone/motion/central_flow.h"
 #include "wheatstone/stereo/central_view.h"
-#include "wheatstone/stereo/scene_view.h"
+#include "wheatstone/stereo/view.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone {
@@ -16,7 +16,7 @@ struct ShortFilm {
   std::vector<CentralView> centres;
   std::vector<FlowPair> flows;  ///< of the central views, of each frame but the first
 
-  std::vector<SceneView> scene(std::size_t i) const {
+  std::vector<View> scene(std::size_t i) const {
     return scene_from_centre(centres[i], frames[i].pictures, frames[i].geometry);
   }
   const FlowPair* flow_to(std::size_t i) const { return i == 0 ? nullptr : &flows[i - 1]; }

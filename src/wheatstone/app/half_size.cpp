@@ -6,7 +6,7 @@
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {
 namespace {

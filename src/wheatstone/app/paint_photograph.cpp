@@ -66,7 +66,7 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   return result;
 }
 
-void place_depth(const DepthPlacing& placing, PaintedPhotograph& result) {
+void redraw_with_depth(const DepthPlacing& placing, PaintedPhotograph& result) {
   if (placing.regions.empty()) return;
   PaintedPair& painted = result.painted;
   const int width_px = width_of(painted.painting);

@@ -48,8 +48,8 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
                                    const Progress& progress = {});
 
 /// Places the painting's depth, draws it again for both eyes, over its canvas colour, and has disparity 0 on the
-/// screen; nothing where there are no regions. Throws as place_depth does.
-void place_depth(const DepthPlacing& placing, PaintedPhotograph& result);
+/// screen; nothing where there are no regions. Throws as place_depth (marks/mapped_depth.h) does.
+void redraw_with_depth(const DepthPlacing& placing, PaintedPhotograph& result);
 
 /// What there is to paint from, and how it was found.
 struct FoundGeometry {

@@ -78,7 +78,7 @@ void expect_consistent(const Subject& subject) {
 /// What a painting's strokes lie on: where the eyes' disparities contradict each other about what only the right eye
 /// sees, its own are not followed. That is hardly anywhere.
 StereoGeometry surfaces_of(const Subject& subject, StereoGeometry geometry) {
-  Image<float> followed = make_still_scene(subject.photographs, geometry, widest_views).right_disparity;
+  Image<float> followed = copy_of(make_still_scene(subject.photographs, geometry, widest_views)[1].disparity);
   double differing = 0;
   for (std::size_t i = 0; i < followed.pixels().size(); ++i)
     differing += followed.pixels()[i] != geometry.right_disparity.pixels()[i] ? 1 : 0;

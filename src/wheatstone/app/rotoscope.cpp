@@ -18,7 +18,7 @@
 #include "wheatstone/motion/expected_disparity.h"
 #include "wheatstone/painting/still_scene.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
-#include "wheatstone/stereo/scene_view.h"
+#include "wheatstone/stereo/view.h"
 #include "wheatstone/stopwatch.h"
 
 namespace wheatstone {
@@ -39,8 +39,7 @@ struct FrameTask {
 struct FrameAtWork {
   StereoGeometry geometry;
   CentralView centre;
-  std::vector<OuterView> outer;  ///< that a display shows
-  std::vector<SceneView> views;
+  std::vector<View> views;
 };
 
 void check_eyes(const StereoPair& eyes, const RotoscopeOptions& options, const RotoscopeState& state, bool has_depth) {
@@ -238,8 +237,9 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
   if (!task.options.display) return;
   const ViewRange wanted =
       planned_views({task.whole.left.width(), task.whole.left.height()}, state.depth, task.options.display->views);
-  frame.outer = make_outer_views(task.eyes, frame.geometry, wanted, state.depth.first.middle_px() / reduction);
-  append_views(frame.outer, frame.views);
+  const std::vector<View> outer =
+      make_outer_views(task.eyes, frame.geometry, wanted, state.depth.first.middle_px() / reduction);
+  frame.views.insert(frame.views.end(), outer.begin(), outer.end());
 }
 
 /// Shows the frame on the display, to other eyes than the film's own, or to these, over their pictures.
@@ -266,8 +266,8 @@ void paint_presented(const FilmFrame& frame, const FrameTask& task, RotoscopeSta
   {
     const Stopwatch watch(result.painting_times.planning_s);
     const bool is_smaller = task.reduction > 1;
-    PlannedFrame planned = plan_painting(frame, is_smaller ? at_half_size(style) : style, task.options.carrying,
-                                         state.memory, task.progress);
+    PlannedFrame planned =
+        plan_frame(frame, is_smaller ? at_half_size(style) : style, task.options.carrying, state.memory, task.progress);
     const PictureSize size{task.whole.left.width(), task.whole.left.height()};
     result.painting =
         is_smaller ? at_whole_size(std::move(planned.painting), size, style) : std::move(planned.painting);

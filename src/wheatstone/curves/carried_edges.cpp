@@ -7,7 +7,7 @@
 
 namespace wheatstone {
 
-CarriedEdges::CarriedEdges(const DiffusionMemory& before, const FlowPair& flow, std::span<const SceneView> views,
+CarriedEdges::CarriedEdges(const DiffusionMemory& before, const FlowPair& flow, std::span<const View> views,
                            ImageView<const float> disparity, float depth_threshold_px)
     : memory_(before),
       flow_(flow),
@@ -50,9 +50,9 @@ std::optional<PlanePoint> CarriedEdges::before(PlanePoint at) const {
 }
 
 std::optional<PlanePoint> CarriedEdges::before(const SurfacePoint& point) const {
-  const SceneView& view = views_[point.view];
+  const View& view = views_[point.view];
   const float from_reference = view.position - views_[0].position;
-  const auto left = static_cast<float>(view.left_px);
+  const auto left = static_cast<float>(view.frame.origin_px);
   const PlanePoint in_reference{point.at.x + left + from_reference * point.disparity, point.at.y};
   const int x = static_cast<int>(std::floor(in_reference.x)), y = static_cast<int>(std::floor(in_reference.y));
   if (!disparity_.contains(x, y) || std::abs(disparity_(x, y) - point.disparity) > depth_threshold_px_)

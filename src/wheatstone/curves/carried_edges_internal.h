@@ -27,7 +27,7 @@ struct EdgeBefore {
 class CarriedEdges {
  public:
   /// `views` are of this frame; `disparity` is that of its reference view, the first of them.
-  CarriedEdges(const DiffusionMemory& before, const FlowPair& flow, std::span<const SceneView> views,
+  CarriedEdges(const DiffusionMemory& before, const FlowPair& flow, std::span<const View> views,
                ImageView<const float> disparity, float depth_threshold_px);
 
   /// Which pixels of the reference view were edges, or lay beside one.
@@ -43,7 +43,7 @@ class CarriedEdges {
 
   const DiffusionMemory& memory_;
   const FlowPair& flow_;
-  std::span<const SceneView> views_;
+  std::span<const View> views_;
   ImageView<const float> disparity_;
   float depth_threshold_px_;
   std::vector<Image<std::uint32_t>> point_at_;  ///< in each view: 1 + index of a point in the pixel, 0 where none is

@@ -28,19 +28,19 @@ Image<std::uint8_t> edge_mask(const std::vector<CarriedEdge>& edges, int width, 
 DiffusionPainting plan_diffusion(const FilmFrame& frame, const Style& style, DiffusionMemory& memory) {
   if (style.propagation == Propagation::independent) return plan_diffusion(frame.views, style);
   SceneOfEdges scene = scene_of_edges(frame.views, style);
-  ViewOfEdges& reference = scene.views[0];
+  View& reference = scene.views[0];
   if (frame.flow != nullptr) check_fits(*frame.flow, frame.views);
-  const bool begins = frame.flow == nullptr || !same_size(memory.picture.frames, reference.picture);
+  const bool begins = frame.flow == nullptr || !same_size(memory.picture.frames, reference.colour);
   const FlowPair* flow = begins ? nullptr : frame.flow;
 
-  SteadyPicture picture = begins ? begin_steady(reference.picture) : std::move(memory.picture);
-  if (!begins) steady(reference.picture, flow->backward, confirmed(flow->backward, flow->forward), picture);
-  reference.picture = rounded(picture.colours);
+  SteadyPicture picture = begins ? begin_steady(reference.colour) : std::move(memory.picture);
+  if (!begins) steady(reference.colour, flow->backward, confirmed(flow->backward, flow->forward), picture);
+  reference.colour = rounded(picture.colours);
   std::optional<CarriedEdges> before;
   if (!begins) before.emplace(memory, *flow, frame.views, reference.disparity, scene.depth_threshold_px);
   LinesAndEdges found = lines_beside_edges(scene, before ? &*before : nullptr);
-  memory = {std::move(picture), reference.disparity,
-            edge_mask(found.edges, reference.picture.width(), reference.picture.height()), std::move(found.edges)};
+  memory = {std::move(picture), copy_of(reference.disparity),
+            edge_mask(found.edges, reference.colour.width(), reference.colour.height()), std::move(found.edges)};
   return std::move(found.painting);
 }
 

@@ -26,7 +26,7 @@ struct Shot {
   CentralView centre;
   std::optional<FlowPair> flow;  ///< of the central view, from the frame before
 
-  std::vector<SceneView> views() const { return scene_from_centre(centre, frame.pictures, frame.geometry); }
+  std::vector<View> views() const { return scene_from_centre(centre, frame.pictures, frame.geometry); }
 };
 
 std::vector<Shot> film_of(FilmMotion motion, float noise) {
@@ -52,8 +52,8 @@ const std::vector<Shot>& walk() {
 Style style() { return style_by_name("diffusion"); }
 
 Painting plan(const Shot& shot, PaintingMemory& memory) {
-  const std::vector<SceneView> views = shot.views();
-  return plan_painting(FilmFrame{views, shot.flow ? &*shot.flow : nullptr}, style(), {}, memory).painting;
+  const std::vector<View> views = shot.views();
+  return plan_frame(FilmFrame{views, shot.flow ? &*shot.flow : nullptr}, style(), {}, memory).painting;
 }
 
 /// Each frame's painting; with one memory, or each with a fresh one.
@@ -162,7 +162,7 @@ TEST(DiffusionInTime, ForgetsAllWhereASceneBegins) {
   const Painting again = plan(begun, memory);
   EXPECT_EQ(again, plan(begun, fresh));
   EXPECT_NE(again, remembered);
-  const std::vector<SceneView> views = begun.views();
+  const std::vector<View> views = begun.views();
   DiffusionMemory nothing_before;
   EXPECT_EQ(plan_diffusion(FilmFrame{views, nullptr}, style(), nothing_before), plan_diffusion(views, style()))
       << "the first frame is a still";
@@ -182,9 +182,9 @@ TEST(DiffusionInTime, PaintsASceneOfOneView) {
   const Image<float> flat(width, height, 0);
   PaintingMemory memory;
   for (const Shot& shot : walk()) {
-    const std::vector<SceneView> views{{shot.centre.picture, flat, {}, central_view}};
+    const std::vector<View> views{{shot.centre.picture, flat, {}, central_view}};
     const Painting painting =
-        plan_painting(FilmFrame{views, shot.flow ? &*shot.flow : nullptr}, style(), {}, memory).painting;
+        plan_frame(FilmFrame{views, shot.flow ? &*shot.flow : nullptr}, style(), {}, memory).painting;
     const DrawnView drawn = draw(painting, central_view);
     EXPECT_EQ(drawn.bare_share, 0);
     EXPECT_EQ(drawn.picture, draw(painting, left_eye).picture) << "it has no depth";
@@ -196,9 +196,9 @@ TEST(DiffusionInTime, RefusesWhatDoesNotFit) {
   expect_error(ErrorKind::bad_input, "no pixels", [&] { plan_diffusion(FilmFrame{}, style(), memory); });
   const Image<float> small(3, 2);
   const FlowPair flow{{small, small}, {small, small}};
-  const std::vector<SceneView> views = walk()[0].views();
+  const std::vector<View> views = walk()[0].views();
   expect_error(ErrorKind::bad_input, "flow", [&] { plan_diffusion(FilmFrame{views, &flow}, style(), memory); });
-  const std::vector<SceneView> torn{{views[0].picture, small, {}, central_view}};
+  const std::vector<View> torn{{views[0].colour, small, {}, central_view}};
   expect_error(ErrorKind::bad_input, "disparity", [&] { plan_diffusion(FilmFrame{torn, nullptr}, style(), memory); });
 }
 

@@ -60,7 +60,7 @@ class SideMaker {
     // Behind a nearer surface each view sees another place of the farther one.
     const bool behind =
         disparity_at(beside(station, 1 - side, colour_px)) - result.disparity > scene_.depth_threshold_px;
-    const bool only_here = index_ == 0 || view_.only_here.empty() || view_.only_here(x, y) != 0;
+    const bool only_here = index_ == 0 || view_.wanted.empty() || view_.wanted(x, y) != 0;
     // Close to a corner of something near, a line beside the eyes would carry that one's colour to what is behind it.
     const bool is_covered = disparity_at(beside(station, side, line_px)) - result.disparity > scene_.depth_threshold_px;
     result.wanted = (behind || only_here) && !(is_beside_eyes_ && is_covered);
@@ -72,8 +72,8 @@ class SideMaker {
     int x, y;
   };
   Pixel pixel(PlanePoint p) const {
-    return {std::clamp(static_cast<int>(p.x), 0, view_.picture.width() - 1),
-            std::clamp(static_cast<int>(p.y), 0, view_.picture.height() - 1)};
+    return {std::clamp(static_cast<int>(p.x), 0, view_.colour.width() - 1),
+            std::clamp(static_cast<int>(p.y), 0, view_.colour.height() - 1)};
   }
 
   float disparity_at(PlanePoint p) const {
@@ -88,7 +88,7 @@ class SideMaker {
     constexpr int steps = 3;
     const auto at = [&](int of_side, float offset_px) {
       const PlanePoint p = beside(station, of_side, offset_px);
-      return sample(view_.picture.view(), p.x, p.y);
+      return sample(view_.colour, p.x, p.y);
     };
     const auto light = [](const SampledColour& c) { return 0.299f * c.r + 0.587f * c.g + 0.114f * c.b; };
     const float outermost = disparity_at(beside(station, side, colour_px));
@@ -108,7 +108,7 @@ class SideMaker {
   }
 
   const SceneOfEdges& scene_;
-  const ViewOfEdges& view_;
+  const View& view_;
   std::size_t index_;
   bool is_beside_eyes_;
 };
@@ -176,22 +176,23 @@ void ease(const CarriedEdges& carried, std::uint32_t view, float depth_threshold
 }
 
 /// Adds the runs of a side that are wanted.
-void add_lines(const TwoSides& line, int side, const SceneOfEdges& scene, ViewPosition position,
+void add_lines(const TwoSides& line, int side, const View& view, float depth_threshold_px,
                DiffusionPainting& painting) {
   const std::vector<Side>& points = line.sides[side];
   for (std::size_t begin = 0; begin < points.size();) {
     std::size_t end = begin + 1;
     const auto joins = [&](std::size_t i) {
       return points[i].wanted == points[begin].wanted &&
-             std::abs(points[i].disparity - points[i - 1].disparity) <= scene.depth_threshold_px;
+             std::abs(points[i].disparity - points[i - 1].disparity) <= depth_threshold_px;
     };
     while (end < points.size() && joins(end)) ++end;
     if (points[begin].wanted) {
       painting.lines.push_back({static_cast<std::uint32_t>(painting.points.size()),
-                                static_cast<std::uint32_t>(end - begin), position, all_views});
+                                static_cast<std::uint32_t>(end - begin), view.position, all_views});
       for (std::size_t i = begin; i < end; ++i) {
         const PlanePoint at = beside(line.stations[i], side, line_px);
-        painting.points.push_back({{at.x, at.y, points[i].disparity}, rounded(points[i].colour)});
+        painting.points.push_back(
+            {{at.x + static_cast<float>(view.frame.origin_px), at.y, points[i].disparity}, rounded(points[i].colour)});
       }
     }
     begin = end;
@@ -234,9 +235,9 @@ std::vector<std::vector<Pixel>> border_of(int width, int height) {
 
 /// The picture's border is a line, too: between it and the edges colours are interpolated, and what no edge bounds, as
 /// a soft shadow in a corner, is not painted in the colour of some edge far away. It is there in every frame of a film.
-void add_border(const ViewOfEdges& view, float depth_threshold_px, DiffusionPainting& painting) {
-  const auto is_wanted = [&](const Pixel& at) { return view.only_here.empty() || view.only_here(at.x, at.y) != 0; };
-  for (const std::vector<Pixel>& side : border_of(view.picture.width(), view.picture.height())) {
+void add_border(const View& view, float depth_threshold_px, DiffusionPainting& painting) {
+  const auto is_wanted = [&](const Pixel& at) { return view.wanted.empty() || view.wanted(at.x, at.y) != 0; };
+  for (const std::vector<Pixel>& side : border_of(view.colour.width(), view.colour.height())) {
     bool goes_on = false;
     float disparity_before = 0;
     for (const Pixel& at : side) {
@@ -252,25 +253,26 @@ void add_border(const ViewOfEdges& view, float depth_threshold_px, DiffusionPain
       goes_on = true;
       ++painting.lines.back().point_count;
       painting.points.push_back(
-          {{static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f, disparity}, view.picture(at.x, at.y)});
+          {{static_cast<float>(at.x + view.frame.origin_px) + 0.5f, static_cast<float>(at.y) + 0.5f, disparity},
+           view.colour(at.x, at.y)});
     }
   }
 }
 
 LinesAndEdges lines_of_view(const SceneOfEdges& scene, std::size_t index, const CarriedEdges* before) {
-  const ViewOfEdges& view = scene.views[index];
+  const View& view = scene.views[index];
   const SideMaker maker(scene, index);
   const auto number = static_cast<std::uint32_t>(index);
   Image<std::uint8_t> known;
   if (before != nullptr && index == 0) known = before->known_edges();
-  LinesAndEdges result{{view.picture.width(), view.picture.height(), {}, {}}, {}};
+  LinesAndEdges result{{view.colour.width(), view.colour.height(), {}, {}}, {}};
   const EdgeOptions options{.depth_threshold_px = scene.depth_threshold_px, .known = known};
-  for (const auto& chain : find_edge_chains(view.picture, view.disparity, options)) {
+  for (const auto& chain : find_edge_chains(view.colour, view.disparity, options)) {
     TwoSides line{stations_of(chain), {}};
     for (const Station& station : line.stations)
       for (const int side : {0, 1}) line.sides[side].push_back(maker.make(station, side));
     if (before != nullptr) ease(*before, number, scene.depth_threshold_px, line);
-    for (const int side : {0, 1}) add_lines(line, side, scene, view.position, result.painting);
+    for (const int side : {0, 1}) add_lines(line, side, view, scene.depth_threshold_px, result.painting);
     add_edges(line, number, result.edges);
   }
   add_border(view, scene.depth_threshold_px, result.painting);

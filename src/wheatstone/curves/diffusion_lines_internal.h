@@ -8,24 +8,18 @@
 
 namespace wheatstone {
 
-/// A view of a scene, made ready for finding its edges.
-struct ViewOfEdges {
-  Image<Rgb8> picture;            ///< without grain
-  Image<float> disparity;         ///< without outliers
-  Image<std::uint8_t> only_here;  ///< what the reference view does not show, grown; empty: all is wanted
-  ViewPosition position;
-};
-
-/// A scene whose edges become lines, the reference view first.
+/// A scene whose edges become lines, the reference view first: pictures without grain, disparities without outliers,
+/// and what is wanted of each view, grown.
 struct SceneOfEdges {
-  std::vector<ViewOfEdges> views;
+  std::vector<View> views;
   float depth_threshold_px = 2;
 };
 
 /// Throws Error as plan_diffusion(views, style) does.
-SceneOfEdges scene_of_edges(std::span<const SceneView> views, const Style& style);
+SceneOfEdges scene_of_edges(std::span<const View> views, const Style& style);
 
-/// The lines of all views, and the edges that they lie beside. `before` is null where nothing is remembered.
+/// The lines of all views, in pixels of the reference view, and the edges that they lie beside, in those of their own.
+/// `before` is null where nothing is remembered.
 struct LinesAndEdges {
   DiffusionPainting painting;
   std::vector<CarriedEdge> edges;

@@ -22,8 +22,8 @@ void append(const DiffusionPainting& part, DiffusionPainting& whole) {
 
 /// Each view planned as if it were the only one.
 DiffusionPainting plan_each_alone(const SceneOfEdges& scene) {
-  DiffusionPainting painting{scene.views[0].picture.width(), scene.views[0].picture.height(), {}, {}};
-  for (const ViewOfEdges& view : scene.views) {
+  DiffusionPainting painting{scene.views[0].colour.width(), scene.views[0].colour.height(), {}, {}};
+  for (const View& view : scene.views) {
     DiffusionPainting part = lines_beside_edges({{view}, scene.depth_threshold_px}, nullptr).painting;
     for (ColourLine& line : part.lines) line.views = {view.position, view.position};
     append(part, painting);
@@ -33,20 +33,21 @@ DiffusionPainting plan_each_alone(const SceneOfEdges& scene) {
 
 }  // namespace
 
-SceneOfEdges scene_of_edges(std::span<const SceneView> views, const Style& style) {
+SceneOfEdges scene_of_edges(std::span<const View> views, const Style& style) {
   check_style(style);
   check_fits(views);
-  const float scale = style_scale(style, views[0].picture.width());
-  SceneOfEdges scene{std::vector<ViewOfEdges>(views.size()), style.depth_threshold_px * scale};
+  const float scale = style_scale(style, views[0].colour.width());
+  SceneOfEdges scene{std::vector<View>(views.size()), style.depth_threshold_px * scale};
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-    scene.views[i] = {
-        without_grain(views[i].picture, scale), without_outliers(views[i].disparity), {}, views[i].position};
-    if (!views[i].only_here.empty()) scene.views[i].only_here = dilate_occlusion(views[i].only_here, 1);
+    View& view = scene.views[i] = views[i];
+    view.colour = without_grain(view.colour, scale);
+    view.disparity = without_outliers(view.disparity);
+    if (!view.wanted.empty()) view.wanted = dilate_occlusion(view.wanted, 1);
   });
   return scene;
 }
 
-DiffusionPainting plan_diffusion(std::span<const SceneView> views, const Style& style) {
+DiffusionPainting plan_diffusion(std::span<const View> views, const Style& style) {
   const SceneOfEdges scene = scene_of_edges(views, style);
   if (style.propagation == Propagation::independent) return plan_each_alone(scene);
   return lines_beside_edges(scene, nullptr).painting;

@@ -4,7 +4,7 @@
 
 #include "wheatstone/marks/diffusion_painting.h"
 #include "wheatstone/marks/style.h"
-#include "wheatstone/stereo/scene_view.h"
+#include "wheatstone/stereo/view.h"
 
 namespace wheatstone {
 
@@ -14,6 +14,6 @@ namespace wheatstone {
 /// farther side. With Propagation::independent each view is planned alone. Throws Error: bad_input where pictures,
 /// disparities and masks do not fit together or a disparity is unknown, wrong_usage for a style that cannot be painted
 /// with.
-DiffusionPainting plan_diffusion(std::span<const SceneView> views, const Style& style);
+DiffusionPainting plan_diffusion(std::span<const View> views, const Style& style);
 
 }  // namespace wheatstone

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/image/reduced_view.h"
 
 namespace wheatstone::image_test {
 
@@ -65,50 +64,6 @@ TEST(OpenCvMatrix, SharesThePixelsOfAPart) {
   part.at<float>(1, 1) = 7;
   EXPECT_EQ(image(2, 2), 7);
   EXPECT_EQ(part.size(), cv::Size(2, 2));
-}
-
-TEST(ReducedView, APixelOfSeveralSurfacesIsOfTheFarthestThatIsWanted) {
-  constexpr Rgb8 near_colour{200, 0, 0}, far_colour{0, 0, 100};
-  Image<Rgb8> photograph(6, 2, far_colour);
-  Image<float> disparity(6, 2, 4.f);
-  for (int y = 0; y < 2; ++y) {
-    for (const int x : {2, 4}) {
-      photograph(x, y) = near_colour;
-      disparity(x, y) = 12;
-    }
-  }
-  Image<std::uint8_t> seeds(6, 2);
-  seeds(4, 1) = seeds(2, 0) = seeds(2, 1) = seeds(3, 0) = 255;
-  const ReducedView half = reduced(photograph, disparity, seeds, 2);
-  EXPECT_EQ(half.disparity(0, 0), 2);
-  EXPECT_EQ(half.disparity(1, 0), 2) << "the first pixel is near";
-  EXPECT_EQ(half.photograph(1, 0), far_colour) << "not mixed";
-  EXPECT_EQ(half.disparity(2, 0), 6) << "only the near pixel is wanted";
-  EXPECT_EQ(half.photograph(2, 0), near_colour);
-  EXPECT_EQ(half.seeds(2, 0), 255);
-  ASSERT_EQ(half.left_out.size(), 1u) << "the near column that is wanted beside the far one";
-  EXPECT_EQ(half.left_out[0].x, 2.5f);
-  EXPECT_EQ(half.left_out[0].y, 1.f);
-  EXPECT_EQ(half.left_out[0].disparity, 12);
-  EXPECT_EQ(half.left_out[0].colour, near_colour);
-}
-
-TEST(ReducedView, LeavesOutWhatMakesNoWholePixel) {
-  const Image<Rgb8> photograph(5, 3, Rgb8{1, 2, 3});
-  const Image<float> disparity(5, 3, -4.f);
-  Image<std::uint8_t> seeds(5, 3, 255);
-  seeds(4, 0) = 0;
-  const ReducedView half = reduced(photograph, disparity, seeds, 2);
-  EXPECT_EQ(half.photograph.width(), 2);
-  EXPECT_EQ(half.photograph.height(), 1);
-  std::vector<std::pair<float, float>> places;
-  for (const ReducedView::LeftOut& pixels : half.left_out) {
-    EXPECT_EQ(pixels.disparity, -4);
-    EXPECT_EQ(pixels.colour, photograph(0, 0));
-    places.emplace_back(pixels.x, pixels.y);
-  }
-  const std::vector<std::pair<float, float>> expected{{4.5f, 1.5f}, {1, 2.5f}, {3, 2.5f}, {4.5f, 2.5f}};
-  EXPECT_EQ(places, expected);
 }
 
 }  // namespace wheatstone::image_test

@@ -52,7 +52,7 @@ float in_steps(float disparity_px) { return std::round(disparity_px * disparity_
 
 /// One row of a surface: its disparities before and behind the mapping, and how far the view stands beside the
 /// reference view, in which nothing moves.
-struct MovedRow {
+struct MappedRow {
   std::span<const float> from, to;
   float separation = 0;
 
@@ -64,7 +64,7 @@ struct MovedRow {
 };
 
 /// Lays a row's surface, the nearest on top, into a row whose first pixel is column `first` of it.
-void lay(const MovedRow& row, int first, std::span<float> nearest) {
+void lay(const MappedRow& row, int first, std::span<float> nearest) {
   const auto land = [&](int column, float disparity) {
     const int at = column - first;
     if (at < 0 || at >= static_cast<int>(nearest.size())) return;

@@ -18,6 +18,7 @@
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/still_scene.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::any_view_test {
@@ -90,7 +91,7 @@ class AnyView : public testing::TestWithParam<const char*> {
 
 /// Lines that were not compared with the eyes' photographs.
 Painting not_mended(const Painting& painting) {
-  const std::vector<SceneView> views = scene_from_left(still().pictures, still().geometry);
+  const std::vector<View> views = scene_from_left(still().pictures, still().geometry);
   return {plan_diffusion(views, style_by_name("diffusion")), painting.surfaces};
 }
 
@@ -195,18 +196,18 @@ INSTANTIATE_TEST_SUITE_P(Of, AnyView, testing::Values("impressionist", "posteris
 TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
   const SyntheticStill large = make_synthetic_still({.width = 1920, .height = 240, .samples_a_side = 1});
   const float middle_px = 72;
-  const std::vector<OuterView> views = make_outer_views(large.pictures, large.geometry, range, middle_px);
+  const std::vector<View> views = make_outer_views(large.pictures, large.geometry, range, middle_px);
   ASSERT_FALSE(views.empty());
-  for (const OuterView& view : views) {
-    const OuterView whole = make_outer_view(large.pictures, large.geometry, view.position, middle_px);
-    ASSERT_EQ(view.picture.width(), whole.picture.width());
-    const int shift = view.left_px - whole.left_px;  // both are rounded, one of them to four pixels
+  for (const View& view : views) {
+    const View whole = make_outer_view(scene_from_left(large.pictures, large.geometry), view.position, middle_px);
+    ASSERT_EQ(view.colour.width(), whole.colour.width());
+    const int shift = view.frame.origin_px - whole.frame.origin_px;  // both are rounded, one of them to four pixels
     ASSERT_LE(std::abs(shift), 2);
     const bool is_outermost = view.position == range.first || view.position == range.last;
     int uncovered = 0, differ = 0, known = 0, off = 0;
-    for (int y = 0; y < whole.picture.height(); ++y) {
-      for (int x = 2; x < whole.picture.width() - 2; ++x) {
-        const bool at_full_size = whole.uncovered(x + shift, y) != 0, made_smaller = view.uncovered(x, y) != 0;
+    for (int y = 0; y < whole.colour.height(); ++y) {
+      for (int x = 2; x < whole.colour.width() - 2; ++x) {
+        const bool at_full_size = whole.wanted(x + shift, y) != 0, made_smaller = view.wanted(x, y) != 0;
         uncovered += at_full_size ? 1 : 0;
         differ += made_smaller ? !at_full_size : at_full_size && is_outermost;
         if (!at_full_size || !made_smaller) continue;
@@ -227,15 +228,15 @@ TEST(OuterViews, OfALargePictureUncoverWhatTheyDoAtFullSize) {
 // the same surfaces, and to paint that covers as much.
 TEST(StillScene, IsPlannedAlikeFromSmallerPicturesOfWhatNoEyeSees) {
   const SyntheticStill large = make_synthetic_still({.width = 1921, .height = 243, .samples_a_side = 1});
-  const StillScene scene = make_still_scene(large.pictures, large.geometry, range);
-  EXPECT_GT(std::ranges::count_if(scene.views, [](const SceneView& view) { return view.reduction == 4; }), 2);
-  const WholeScene whole(scene.views);
-  for (const SceneView& view : whole.views()) EXPECT_EQ(view.reduction, 1);
-  const auto planned_from = [](std::span<const SceneView> views) {
+  const std::vector<View> scene = make_still_scene(large.pictures, large.geometry, range);
+  EXPECT_GT(std::ranges::count_if(scene, [](const View& view) { return view.frame.scale == 4; }), 2);
+  const std::vector<View> whole = at_reference_scale(scene);
+  for (const View& view : whole) EXPECT_EQ(view.frame.scale, 1);
+  const auto planned_from = [](std::span<const View> views) {
     PaintingMemory nothing_before;
-    return plan_painting({views, nullptr}, Style(), CarryOptions{.goes_on = false}, nothing_before).painting;
+    return plan_frame({views, nullptr}, Style(), CarryOptions{.goes_on = false}, nothing_before).painting;
   };
-  const Painting smaller = planned_from(scene.views), full = planned_from(whole.views());
+  const Painting smaller = planned_from(scene), full = planned_from(whole);
   EXPECT_EQ(smaller.surfaces, full.surfaces);
   for (const ViewPosition view : {range.first, central_view, range.last}) {
     const auto bare_share = [view](const Painting& painting) {
@@ -248,12 +249,12 @@ TEST(StillScene, IsPlannedAlikeFromSmallerPicturesOfWhatNoEyeSees) {
     EXPECT_LT(bare, bare_of_full + 0.001) << view.eye_separations();
   }
   PaintingMemory nothing_before;
-  std::vector<SceneView> views = scene.views;
+  std::vector<View> views = scene;
   views.back().continued = false;
-  EXPECT_THROW(plan_painting({views, nullptr}, Style(), {}, nothing_before), Error) << "an eye sees it";
-  views = scene.views;
-  views.back().reduction = 2;
-  EXPECT_THROW(plan_painting({views, nullptr}, Style(), {}, nothing_before), Error) << "its pictures are smaller yet";
+  EXPECT_THROW(plan_frame({views, nullptr}, Style(), {}, nothing_before), Error) << "an eye sees it";
+  views = scene;
+  views.back().frame.scale = 2;
+  EXPECT_THROW(plan_frame({views, nullptr}, Style(), {}, nothing_before), Error) << "its pictures are smaller yet";
 }
 
 // Through a slit between two posts the eyes see different parts of the wall, and views between them see others.
@@ -267,18 +268,18 @@ TEST(StillScene, WantsWhatIsSeenThroughASlit) {
   }
   const StereoGeometry geometry = geometry_from_left(std::move(left));
   const StereoPair photographs{Image<Rgb8>(width, height), Image<Rgb8>(width, height)};
-  const StillScene scene = make_still_scene(photographs, geometry, {});
+  const std::vector<View> scene = make_still_scene(photographs, geometry, {});
   int told_to_be_hidden = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = slit_begin; x < slit_end; ++x) {
-      EXPECT_EQ(scene.views[1].only_here(x, y), 255) << x;
+      EXPECT_EQ(scene[1].wanted(x, y), 255) << x;
       told_to_be_hidden += geometry.right_occlusion(x, y) != 0 ? 1 : 0;
     }
-    EXPECT_EQ(scene.views[1].only_here(slit_begin - 1, y), 0) << "a post";
+    EXPECT_EQ(scene[1].wanted(slit_begin - 1, y), 0) << "a post";
   }
   EXPECT_EQ(told_to_be_hidden, 0) << "as if it were as near as the posts";
-  EXPECT_EQ(scene.views.back().position, central_view);
-  EXPECT_TRUE(scene.views.back().continued);
+  EXPECT_EQ(scene.back().position, central_view);
+  EXPECT_TRUE(scene.back().continued);
 }
 
 TEST(EyesApart, HaveTwoViewsAndNoSurfaces) {

@@ -7,23 +7,17 @@
 #include "wheatstone/painting/naive_planning_internal.h"
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/strokes/layer_order.h"
-#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/layer_plan.h"
 #include "wheatstone/strokes/occluded_part.h"
 
 namespace wheatstone {
 namespace {
 
-void show_only_in(ViewPosition view, StrokePainting& painting) {
-  for (Layer& layer : painting.layers)
-    for (Stroke& stroke : layer.strokes) stroke.views = {view, view};
-}
-
-StrokePainting plan_right_only(const StereoPairView& photographs, const StereoGeometryView& geometry,
-                               const Style& style) {
-  StrokePainting painting =
-      plan_occluded_part(photographs.right, geometry.right_disparity, geometry.right_occlusion, right_eye, style);
-  show_only_in(right_eye, painting);
-  return painting;
+StrokePainting shown_only_in(const View& view, const Style& style, std::vector<Layer> layers) {
+  for (Layer& layer : layers)
+    for (Stroke& stroke : layer.strokes) stroke.views = {view.position, view.position};
+  const int width = view.colour.width();
+  return {width, view.colour.height(), style.canvas_colour, std::move(layers), true, brush_for(style, width)};
 }
 
 /// Layers of two paintings of one size and style, one behind the other.
@@ -32,8 +26,7 @@ StrokePainting joined(StrokePainting left, const StrokePainting& right) {
   return left;
 }
 
-StrokePainting plan_strokes_of_each(const StereoPairView& photographs, const StereoGeometryView& geometry,
-                                    const Style& style, const Progress& progress) {
+StrokePainting plan_strokes_of_each(std::span<const View> eyes, const Style& style, const Progress& progress) {
   StrokePainting left, right;
   std::exception_ptr thrown;
   tbb::parallel_invoke(
@@ -41,15 +34,15 @@ StrokePainting plan_strokes_of_each(const StereoPairView& photographs, const Ste
         // Thrown on when the right eye has ended, too: its loops would be cancelled, and it would go on with what they
         // have not done.
         try {
-          left = plan_by_itself(photographs.left, geometry.left_disparity, left_eye, style, progress);
+          left = plan_by_itself(eyes[0], style, progress);
         } catch (...) {
           thrown = std::current_exception();
         }
       },
       [&] {
         right = style.propagation == Propagation::raster
-                    ? plan_right_only(photographs, geometry, style)
-                    : plan_by_itself(photographs.right, geometry.right_disparity, right_eye, style, {});
+                    ? shown_only_in(eyes[1], style, plan_occluded_part(eyes[1], style))
+                    : plan_by_itself(eyes[1], style, {});
       });
   if (thrown) std::rethrow_exception(thrown);
   return joined(std::move(left), right);
@@ -57,25 +50,23 @@ StrokePainting plan_strokes_of_each(const StereoPairView& photographs, const Ste
 
 }  // namespace
 
-StrokePainting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
-                              const Style& style, const Progress& progress) {
-  LayerPlanner planner(photograph, disparity, view, style);
-  StrokePainting painting = plan_alone(planner, style, ScaledStyle(style, photograph.width()), {}, progress);
-  show_only_in(view, painting);
-  return painting;
+StrokePainting plan_by_itself(View view, const Style& style, const Progress& progress) {
+  view.wanted = {};
+  ViewOnCanvas at(view, style, view.colour.width());
+  return shown_only_in(view, style, plan_alone(at, style, progress));
 }
 
 Painting plan_eyes_apart(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                          const Progress& progress) {
+  const std::vector<View> eyes = scene_from_left(photographs, geometry);
   Painting painting;
   if (is_of_strokes(style)) {
-    painting.marks = plan_strokes_of_each(photographs, geometry, style, progress);
+    painting.marks = plan_strokes_of_each(eyes, style, progress);
     painting.relief = relief_for(style, width_of(painting));
     return painting;
   }
-  const std::vector<SceneView> views = scene_from_left(photographs, geometry);
   PaintingMemory nothing;
-  painting = plan_painting({.views = views}, style, {}, nothing, progress).painting;
+  painting = plan_frame({.views = eyes}, style, {}, nothing, progress).painting;
   painting.surfaces = {};
   return painting;
 }

@@ -3,15 +3,14 @@
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
-#include "wheatstone/stereo/stereo_pair.h"
+#include "wheatstone/stereo/view.h"
 
 namespace wheatstone {
 
 // What propagated marks are measured against.
 
-/// Plans one eye from its photograph alone, with strokes.
-StrokePainting plan_by_itself(ImageView<const Rgb8> photograph, ImageView<const float> disparity, ViewPosition view,
-                              const Style& style, const Progress& progress);
+/// Plans all of one view by itself, with strokes.
+StrokePainting plan_by_itself(View view, const Style& style, const Progress& progress);
 
 /// Plans each eye by itself; with Propagation::raster, of strokes, the right eye for what it alone sees. A mark may be
 /// drawn in its own eye only, and there are no surfaces.

@@ -52,8 +52,7 @@ void draw_one_view(ImageView<const Rgb8> photograph, const Style& style, Device 
 void draw_right_under_left(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                            Device device, PaintedPair& result) {
   WarpedPicture warped = warp_picture(result.pictures.left, geometry.left_disparity, left_eye, right_eye);
-  Image<Rgb8> background(photographs.right.width(), photographs.right.height());
-  for (int y = 0; y < background.height(); ++y) std::ranges::copy(photographs.right.row(y), background.row(y).begin());
+  Image<Rgb8> background = copy_of(photographs.right);
   lay_over(warped, background);
   const Presentation right{.views = {right_eye}, .backgrounds = {background}, .device = device};
   result.pictures.right = std::move(present(result.painting, right).views.front());
@@ -81,10 +80,9 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
   const bool apart = !one_view && (style.propagation == Propagation::independent ||
                                    (style.propagation == Propagation::raster && is_of_strokes(style)));
   if (apart) return plan_eyes_apart(photographs, geometry, style, progress);
-  const StillScene scene = make_still_scene(photographs, geometry, wanted);
+  const std::vector<View> scene = make_still_scene(photographs, geometry, wanted);
   PaintingMemory nothing_before;
-  return plan_painting(FilmFrame{.views = scene.views}, style, CarryOptions{.goes_on = false}, nothing_before, progress)
-      .painting;
+  return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress).painting;
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
@@ -114,7 +112,7 @@ PaintedView paint_view(ImageView<const Rgb8> photograph, ImageView<const float> 
   PaintedView result;
   {
     const Stopwatch watch(result.times.planning_s);
-    result.painting = plan_by_itself(photograph, disparity, view, style, progress);
+    result.painting = plan_by_itself({photograph, disparity, {}, view}, style, progress);
   }
   const Stopwatch watch(result.times.rasterising_s);
   Presentation presentation{.views = {view}};

@@ -10,10 +10,10 @@ namespace wheatstone {
 namespace {
 
 /// The scene's views that are shown: the eyes, or the one view there is. Not drawn yet.
-std::vector<ShownView> shown_views(std::span<const SceneView> views) {
+std::vector<ShownView> shown_views(std::span<const View> views) {
   std::vector<ShownView> shown;
   for (const ViewPosition eye : {left_eye, right_eye})
-    for (const SceneView& view : views)
+    for (const View& view : views)
       if (view.position == eye) shown.push_back({view, {}});
   if (shown.empty()) shown.push_back({views.front(), {}});
   return shown;
@@ -24,7 +24,7 @@ void draw_shown(const Painting& painting, Background background, Device device, 
   std::vector<ImageView<const Rgb8>> backgrounds;
   for (const ShownView& eye : shown) {
     positions.push_back(eye.view.position);
-    if (background == Background::photograph) backgrounds.push_back(eye.view.picture);
+    if (background == Background::photograph) backgrounds.push_back(eye.view.colour);
   }
   std::vector<DrawnView> drawn = draw(prepare(painting, {}, device), positions, backgrounds);
   for (std::size_t i = 0; i < shown.size(); ++i) shown[i].drawn = std::move(drawn[i]);

@@ -126,7 +126,7 @@ PaintedFrame paint_first_frame(const Style& style, const Progress& progress) {
   const StereoPair eyes = test_scene::photographs();
   const StereoGeometry geometry = test_scene::geometry();
   const CentralView centre = make_central_view(eyes, geometry);
-  const std::vector<SceneView> scene = scene_from_centre(centre, eyes, geometry);
+  const std::vector<View> scene = scene_from_centre(centre, eyes, geometry);
   PaintingMemory memory;
   return paint_frame({scene, nullptr}, style, {}, memory, progress);
 }

@@ -13,52 +13,52 @@
 #include "wheatstone/error.h"
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/painting/repair_internal.h"
-#include "wheatstone/stereo/outer_view.h"
-#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/stereo/view_scale.h"
+#include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {
 namespace {
 
-/// Disparities in whole steps, as paintings keep them; of a view that is reduced, each for several pixels.
-void round_to_steps(std::span<const float> from, int reduction, std::span<float> to) {
-  const auto in_steps = [steps = disparity_steps * static_cast<float>(reduction)](float disparity) {
+/// Disparities in whole steps, as paintings keep them; of a view of another scale, each for several pixels.
+void round_to_steps(std::span<const float> from, int scale, std::span<float> to) {
+  const auto in_steps = [steps = disparity_steps * static_cast<float>(scale)](float disparity) {
     return static_cast<float>(floor_of(disparity * steps + 0.5f)) / disparity_steps;
   };
-  if (reduction == 1) {
+  if (scale == 1) {
     std::ranges::transform(from, to.begin(), in_steps);
     return;
   }
   auto at = to.begin();
-  for (const float disparity : from) at = std::fill_n(at, reduction, in_steps(disparity));
+  for (const float disparity : from) at = std::fill_n(at, scale, in_steps(disparity));
 }
 
 /// What a view is the first to see in a row, in pixels of the reference view. A rest at the end is as beside it.
-void first_seen(const SceneView& view, int row, std::span<float> to) {
+void first_seen(const View& view, int row, std::span<float> to) {
   const auto from = view.disparity.row(row);
-  if (view.only_here.empty()) {
+  if (view.wanted.empty()) {
     round_to_steps(from, 1, to);
     return;
   }
   // Most of what other views than the reference show is not their own.
   std::ranges::fill(to, std::numeric_limits<float>::quiet_NaN());
-  const auto own = view.only_here.row(row);
-  const auto reduction = static_cast<std::size_t>(view.reduction);
+  const auto own = view.wanted.row(row);
+  const auto scale = static_cast<std::size_t>(view.frame.scale);
   for (auto end = own.begin();;) {
     const auto begin = std::find_if(end, own.end(), [](std::uint8_t value) { return value != 0; });
     if (begin == own.end()) break;
     end = std::find(begin, own.end(), std::uint8_t{0});
     const auto first = static_cast<std::size_t>(begin - own.begin()), count = static_cast<std::size_t>(end - begin);
-    round_to_steps(from.subspan(first, count), view.reduction, to.subspan(reduction * first, reduction * count));
+    round_to_steps(from.subspan(first, count), view.frame.scale, to.subspan(scale * first, scale * count));
   }
-  std::ranges::fill(to.subspan(reduction * from.size()), to[reduction * from.size() - 1]);
+  std::ranges::fill(to.subspan(scale * from.size()), to[scale * from.size() - 1]);
 }
 
 /// What a view is the first to see, in a picture of this size.
-Surface surface_of(const SceneView& view, int width, int height) {
-  Surface surface{view.position, Image<float>(width, height), view.left_px, view.continued};
+Surface surface_of(const View& view, int width, int height) {
+  Surface surface{view.position, Image<float>(width, height), view.frame.origin_px, view.continued};
   const int rows = view.disparity.height();
   tbb::parallel_for(0, rows, [&](int row) {
-    const int first = row * view.reduction, end = row + 1 < rows ? first + view.reduction : height;
+    const int first = row * view.frame.scale, end = row + 1 < rows ? first + view.frame.scale : height;
     first_seen(view, row, surface.disparity.row(first));
     for (int y = first + 1; y < end; ++y)
       std::ranges::copy(surface.disparity.row(first), surface.disparity.row(y).begin());
@@ -66,11 +66,11 @@ Surface surface_of(const SceneView& view, int width, int height) {
   return surface;
 }
 
-Surfaces surfaces_of(std::span<const SceneView> views, const Style& style) {
+Surfaces surfaces_of(std::span<const View> views, const Style& style) {
   Surfaces surfaces;
-  const ImageView<const Rgb8> reference = views.front().picture;
-  for (const SceneView& view : views) surfaces.seen.push_back(surface_of(view, reference.width(), reference.height()));
-  surfaces.tolerance_px = ScaledStyle(style, views.front().picture.width()).depth_threshold_px;
+  const ImageView<const Rgb8> reference = views.front().colour;
+  for (const View& view : views) surfaces.seen.push_back(surface_of(view, reference.width(), reference.height()));
+  surfaces.tolerance_px = ScaledStyle(style, reference.width()).depth_threshold_px;
   return surfaces;
 }
 
@@ -97,8 +97,6 @@ PlannedFrame plan_from_views(const FilmFrame& frame, const Style& style, const C
       painting.marks = plan_diffusion(frame, style, memory.diffusion);
       break;
   }
-  for (const SceneView& view : frame.views)
-    if (view.left_px != 0) shift_marks(view.position, static_cast<float>(view.left_px), painting);
   painting.surfaces = surfaces_of(frame.views, style);
   painting.relief = relief_for(style, width_of(painting));
   return planned;
@@ -112,8 +110,8 @@ PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, con
   check_fits(frame.views);
   if (is_of_strokes(style) && frame.flow == nullptr) return plan_from_views(frame, style, options, memory, progress);
   // Only new strokes are planned from smaller pictures.
-  const WholeScene whole(frame.views);
-  return plan_from_views({whole.views(), frame.flow}, style, options, memory, progress);
+  const std::vector<View> scene = at_reference_scale(frame.views);
+  return plan_from_views({scene, frame.flow}, style, options, memory, progress);
 }
 
 namespace {
@@ -130,7 +128,7 @@ PlannedFrame plan_within_budget(const FilmFrame& frame, Style style, const Carry
   for (int i = 0; i <= halvings; ++i) {
     style.fineness = i == 0 ? coarse : (coarse + fine) / 2;
     PaintingMemory own;
-    PlannedFrame planned = plan_painting(frame, style, options, own, progress);
+    PlannedFrame planned = plan_frame(frame, style, options, own, progress);
     const bool fits = count_marks(planned.painting).count <= most;
     (fits ? coarse : fine) = style.fineness;
     if (!fits && best) continue;
@@ -144,8 +142,8 @@ PlannedFrame plan_within_budget(const FilmFrame& frame, Style style, const Carry
 
 }  // namespace
 
-PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                           PaintingMemory& memory, const Progress& progress) {
+PlannedFrame plan_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options, PaintingMemory& memory,
+                        const Progress& progress) {
   check_style(style);
   if (style.strokes > 0) {
     if (options.goes_on)

@@ -27,7 +27,7 @@ struct PlannedFrame {
 /// painting's surfaces, which are the views' disparities, hide them. Throws Error{wrong_usage} for a style that cannot
 /// be painted with, Error{bad_input} where the views do not fit together. What `progress` throws ends it: then `memory`
 /// is of no further use.
-PlannedFrame plan_painting(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                           PaintingMemory& memory, const Progress& progress = {});
+PlannedFrame plan_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options, PaintingMemory& memory,
+                        const Progress& progress = {});
 
 }  // namespace wheatstone

@@ -24,10 +24,10 @@ bool has_any(const Image<std::uint8_t>& mask) {
 }
 
 /// What belongs to places of a view.
-RepairTarget target_for(const SceneView& view, ViewPosition reference, const Image<std::uint8_t>& places,
+RepairTarget target_for(const View& view, ViewPosition reference, const Image<std::uint8_t>& places,
                         ImageView<const float> disparity, float depth_threshold_px) {
   const ViewRange seen_from = view.position == reference ? all_views : views_about(view.position, reference);
-  return {view.picture, places, disparity, view.position, reference, seen_from, depth_threshold_px};
+  return {view.colour, places, disparity, view.position, reference, seen_from, depth_threshold_px};
 }
 
 Layer strokes_for(const RepairTarget& target, const Style& style) {
@@ -44,16 +44,16 @@ void add_marks(const RepairTarget& target, const Style& style, Painting& paintin
 }
 
 /// What a view would show if it saw the reference view's colours where its disparities say so.
-Image<Rgb8> colours_of_reference(const SceneView& view, const SceneView& reference) {
-  Image<Rgb8> colours(view.picture.width(), view.picture.height());
+Image<Rgb8> colours_of_reference(const View& view, const View& reference) {
+  Image<Rgb8> colours(view.colour.width(), view.colour.height());
   const float separation = view.position - reference.position;
   tbb::parallel_for(0, colours.height(), [&](int y) {
-    const auto from = reference.picture.row(y), own = view.picture.row(y);
+    const auto from = reference.colour.row(y), own = view.colour.row(y);
     const auto to = colours.row(y);
     for (int x = 0; x < colours.width(); ++x) {
       const float place = static_cast<float>(x) + 0.5f + separation * view.disparity(x, y);
-      const bool is_shared = (view.only_here.empty() || view.only_here(x, y) == 0) && place >= 0 &&
-                             place < static_cast<float>(colours.width());
+      const bool is_shared =
+          (view.wanted.empty() || view.wanted(x, y) == 0) && place >= 0 && place < static_cast<float>(colours.width());
       to[x] = is_shared ? from[static_cast<std::size_t>(place)] : own[x];
     }
   });
@@ -62,12 +62,12 @@ Image<Rgb8> colours_of_reference(const SceneView& view, const SceneView& referen
 
 /// Marks of the reference view lie on what another view shows something else of where their disparity is wrong. Nearly
 /// all that is wrong with strokes is: drawing them would tell little more, and cost more.
-void repair_displaced(std::span<const SceneView> views, const Style& style, Painting& painting) {
+void repair_displaced(std::span<const View> views, const Style& style, Painting& painting) {
   constexpr int rim_px = 2;
-  const SceneView& reference = views.front();
-  for (const SceneView& view : views.subspan(1)) {
+  const View& reference = views.front();
+  for (const View& view : views.subspan(1)) {
     if (view.continued) continue;
-    Image<std::uint8_t> places = residual(colours_of_reference(view, reference), view.picture);
+    Image<std::uint8_t> places = residual(colours_of_reference(view, reference), view.colour);
     remove_occlusion_specks(places, least_repaired_px);
     if (!has_any(places)) continue;
     places = dilate_occlusion(places, rim_px);
@@ -80,18 +80,18 @@ void repair_displaced(std::span<const SceneView> views, const Style& style, Pain
 /// follow, is missing between the lines: that is known only when their colours have spread. The reference view's is
 /// repaired first, for all views. That suffices for eyes beside a central view, which are half as far from it and are
 /// moved towards it where depth is reduced; one eye lacks more of what the other shows.
-void repair_shown(std::span<const SceneView> views, const Style& style, Painting& painting) {
+void repair_shown(std::span<const View> views, const Style& style, Painting& painting) {
   const bool of_lines = style.marks == Marks::curves;
   const ViewPosition reference = views.front().position;
   const bool refers_to_eye = reference == left_eye || reference == right_eye;
-  for (const SceneView& view : views) {
+  for (const View& view : views) {
     const bool is_reference = view.position == reference;
     if (view.continued || (of_lines && !is_reference && !refers_to_eye)) continue;
-    Image<std::uint8_t> places = residual(draw(painting, view.position).picture, view.picture);
+    Image<std::uint8_t> places = residual(draw(painting, view.position).picture, view.colour);
     if (of_lines) remove_occlusion_specks(places, least_repaired_px);
     if (!has_any(places)) continue;
     const Image<float> before = is_reference || of_lines ? Image<float>() : disparity_before(view.disparity, places);
-    add_marks(target_for(view, reference, places, before.empty() ? view.disparity : before.view(),
+    add_marks(target_for(view, reference, places, before.empty() ? ImageView<const float>(view.disparity) : before,
                          painting.surfaces.tolerance_px),
               style, painting);
   }
@@ -144,10 +144,10 @@ Image<std::uint8_t> residual_in(Rows rows, const Image<Rgb8>& painted, ImageView
 
 }  // namespace
 
-void repair(std::span<const SceneView> views, const Style& style, Painting& painting) {
+void repair(std::span<const View> views, const Style& style, Painting& painting) {
   if (style.propagation == Propagation::independent || style.marks == Marks::tiles) return;
   const bool of_regions = style.marks == Marks::regions;
-  if (!of_regions && views.front().picture.width() < least_repaired_width_px) return;
+  if (!of_regions && views.front().colour.width() < least_repaired_width_px) return;
   const bool changes_colours = is_of_strokes(style) && style.jitter != ColourJitter{};
   if (!of_regions && !changes_colours) repair_displaced(views, style, painting);
   if (!is_of_strokes(style)) repair_shown(views, style, painting);
@@ -168,16 +168,16 @@ void repair_drawn(std::span<ShownView> shown, ViewPosition reference, const Styl
   dots.max_length = 1;
   std::vector<Layer>& layers = std::get<StrokePainting>(painting.marks).layers;
   for (auto& [view, drawn] : shown) {
-    Image<std::uint8_t> places = residual(drawn.picture, view.picture);
+    Image<std::uint8_t> places = residual(drawn.picture, view.colour);
     for (int round = 0; round < most_rounds; ++round) {
       remove_occlusion_specks(places, least_repaired_px);
       if (!has_any(places)) break;
       const Image<float> before = disparity_before(view.disparity, places);
       Layer strokes = strokes_for(target_for(view, reference, places, before, painting.surfaces.tolerance_px), dots);
       append_strokes(strokes, layers.back());
-      const Rows rows = rows_of(strokes, view.picture.height());
+      const Rows rows = rows_of(strokes, view.colour.height());
       draw_over(std::move(strokes), rows, view.position, drawn);
-      places = residual_in(rows, drawn.picture, view.picture);
+      places = residual_in(rows, drawn.picture, view.colour);
     }
   }
 }

@@ -8,7 +8,7 @@
 
 namespace wheatstone {
 
-/// As plan_painting, but without the marks of `repair`.
+/// As plan_frame, but without the marks of `repair`.
 PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                                  PaintingMemory& memory, const Progress& progress = {});
 
@@ -19,7 +19,7 @@ PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, con
 /// contradict the view's because a disparity is wrong. What is wrong in the reference view is repaired for all views,
 /// else for those about the view. Paintings of tiles, those whose colours are changed at random, and those of eyes
 /// apart are left as they are. The painting has its surfaces.
-void repair(std::span<const SceneView> views, const Style& style, Painting& painting);
+void repair(std::span<const View> views, const Style& style, Painting& painting);
 
 /// True for paintings of strokes that are repaired once they are drawn: what is wrong is then known, whatever made it.
 /// Not for those whose colours are changed at random, or whose paint is lit, those of eyes apart, and narrow ones.
@@ -27,7 +27,7 @@ bool is_repaired_when_drawn(const Painting& painting, const Style& style);
 
 /// A view of a scene, drawn.
 struct ShownView {
-  const SceneView& view;
+  const View& view;
   DrawnView drawn;
 };
 

@@ -120,7 +120,7 @@ TEST(Diffusion, ShowsALightWithoutEdgesInAFilm) {
   const StereoPair photographs{with_glow(), with_glow()};
   const StereoGeometry geometry = geometry_from_left(Image<float>(width, height, 0));
   const CentralView centre = make_central_view(photographs, geometry);
-  const std::vector<SceneView> views = scene_from_centre(centre, photographs, geometry);
+  const std::vector<View> views = scene_from_centre(centre, photographs, geometry);
   PaintingMemory nothing_before;
   const StereoPair painted =
       paint_frame(FilmFrame{.views = views}, style_by_name("diffusion"), {}, nothing_before).painted.pictures;
@@ -132,10 +132,10 @@ TEST(FrameOfStrokes, ShowsTheEyesNoColourThatTheyDoNotHave) {
   film.scene = FilmScene::beams;
   const SyntheticFilmFrame frame = make_synthetic_film_frame(film, 0);
   const CentralView centre = make_central_view(frame.pictures, frame.geometry);
-  const std::vector<SceneView> views = scene_from_centre(centre, frame.pictures, frame.geometry);
+  const std::vector<View> views = scene_from_centre(centre, frame.pictures, frame.geometry);
   const Style style = style_by_name("impressionist");
   PaintingMemory nothing_before;
-  const Painting planned = plan_painting(FilmFrame{.views = views}, style, {}, nothing_before).painting;
+  const Painting planned = plan_frame(FilmFrame{.views = views}, style, {}, nothing_before).painting;
   EXPECT_GT(measure_wrong_spots(draw(planned, left_eye).picture, frame.pictures.left).share, 0);
   nothing_before = {};
   const PaintedPair painted = paint_frame(FilmFrame{.views = views}, style, {}, nothing_before).painted;

@@ -11,37 +11,18 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/warp_row.h"
-#include "wheatstone/image/reduced_view.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/stereo/view_scale.h"
 
 namespace wheatstone {
 
 namespace {
 
 /// How much smaller what no photograph shows may be made: as small as its finest strokes are planned.
-int reduction_for(int width) {
+int scale_for(int width) {
   constexpr int halved_px = 480, quartered_px = 1920;
   return width < halved_px ? 1 : width < quartered_px ? 2 : 4;
-}
-
-/// A pair and its geometry, smaller; of the geometry only the disparities.
-struct ReducedScene {
-  StereoPair photographs;
-  StereoGeometry geometry;
-};
-
-ReducedScene reduced_scene(const StereoPairView& photographs, const StereoGeometryView& geometry, int reduction) {
-  const auto reduce = [=](ImageView<const Rgb8> picture, ImageView<const float> disparity) {
-    return reduced(picture, disparity, Image<std::uint8_t>(picture.width(), picture.height()), reduction);
-  };
-  ReducedView left = reduce(photographs.left, geometry.left_disparity);
-  ReducedView right = reduce(photographs.right, geometry.right_disparity);
-  ReducedScene scene;
-  scene.photographs = {std::move(left.photograph), std::move(right.photograph)};
-  scene.geometry.left_disparity = std::move(left.disparity);
-  scene.geometry.right_disparity = std::move(right.disparity);
-  return scene;
 }
 
 /// Beyond this, what few views need would take too much memory.
@@ -66,50 +47,46 @@ std::vector<ViewPosition> positions_beside_eyes(ImageView<const Rgb8> photograph
 }
 
 /// Whether a view beyond another shows the other's uncovered pixel, too, as something that is uncovered.
-bool shows(const OuterView& beyond, const OuterView& view, int x, int y) {
+bool shows(const View& beyond, const View& view, int x, int y) {
   constexpr float one_surface_px = 1;
   const float disparity = view.disparity(x, y);
-  const float place =
-      static_cast<float>(x + view.left_px - beyond.left_px) + 0.5f - (beyond.position - view.position) * disparity;
+  const int apart_px = (view.frame.origin_px - beyond.frame.origin_px) / view.frame.scale;
+  const float place = static_cast<float>(x + apart_px) + 0.5f - (beyond.position - view.position) * disparity;
   const int column = floor_of(place);
-  return beyond.uncovered.contains(column, y) && beyond.uncovered(column, y) != 0 &&
+  return beyond.wanted.contains(column, y) && beyond.wanted(column, y) != 0 &&
          std::abs(beyond.disparity(column, y) - disparity) <= one_surface_px;
 }
 
 /// Of views between others and the eyes, what those beyond them do not uncover, too: else it would be painted twice.
-void leave_out_what_others_uncover(std::vector<OuterView>& outer) {
-  for (OuterView& view : outer) {
-    for (const OuterView& beyond : outer) {
+void leave_out_what_others_uncover(std::vector<View>& outer) {
+  for (View& view : outer) {
+    Image<std::uint8_t> uncovered = copy_of(view.wanted);
+    for (const View& beyond : outer) {
       const bool is_beyond = view.position > central_view
                                  ? beyond.position > view.position
                                  : view.position < central_view && beyond.position < view.position;
       if (!is_beyond) continue;
-      tbb::parallel_for(0, view.uncovered.height(), [&](int y) {
-        for (int x = 0; x < view.uncovered.width(); ++x)
-          if (view.uncovered(x, y) != 0 && shows(beyond, view, x, y)) view.uncovered(x, y) = 0;
+      tbb::parallel_for(0, uncovered.height(), [&](int y) {
+        for (int x = 0; x < uncovered.width(); ++x)
+          if (uncovered(x, y) != 0 && shows(beyond, view, x, y)) uncovered(x, y) = 0;
       });
     }
+    view.wanted = std::move(uncovered);
   }
 }
 
 /// Views that are made smaller than the photographs where these are large.
-std::vector<OuterView> make_views_at(std::span<const ViewPosition> positions, const StereoPairView& photographs,
-                                     const StereoGeometryView& geometry, float zero_parallax_px) {
-  const int width = photographs.left.width(), height = photographs.left.height();
-  const bool is_reduced = reduction_for(width) > 1 && height >= reduction_for(width) && !positions.empty();
-  const int reduction = is_reduced ? reduction_for(width) : 1;
-  ReducedScene reduced;
-  if (is_reduced) reduced = reduced_scene(photographs, geometry, reduction);
-  std::vector<OuterView> outer;
-  for (const ViewPosition view : positions)
-    outer.push_back(is_reduced ? make_outer_view(reduced.photographs, reduced.geometry, view,
-                                                 zero_parallax_px / static_cast<float>(reduction))
-                               : make_outer_view(photographs, geometry, view, zero_parallax_px));
-  leave_out_what_others_uncover(outer);
-  for (OuterView& view : outer) {
-    view.reduction = reduction;
-    view.left_px *= reduction;
+std::vector<View> make_views_at(std::span<const ViewPosition> positions, std::span<const View> photographs,
+                                float zero_parallax_px) {
+  std::vector<View> eyes, outer;
+  const int scale = scale_for(photographs[0].colour.width());
+  for (const View& photograph : photographs) {
+    View& eye = eyes.emplace_back(photograph);
+    eye.wanted = {};
+    if (!positions.empty() && photograph.colour.height() >= scale) eye = smaller_view(eye, scale);
   }
+  for (const ViewPosition position : positions) outer.push_back(make_outer_view(eyes, position, zero_parallax_px));
+  leave_out_what_others_uncover(outer);
   return outer;
 }
 
@@ -166,36 +143,27 @@ Image<float> hidden_from_left(const StereoGeometryView& geometry, ImageView<cons
 
 }  // namespace
 
-std::vector<OuterView> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
-                                        ViewRange wanted, float zero_parallax_px) {
-  std::vector<OuterView> views =
-      make_views_at(positions_beside_eyes(photographs.left, wanted), photographs, geometry, zero_parallax_px);
-  for (OuterView& view : views)
-    if (view.reduction > 1)
-      view = enlarged(scene_view_of(view), view.reduction, photographs.left.width(), photographs.left.height());
-  return views;
+std::vector<View> make_outer_views(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                                   ViewRange wanted, float zero_parallax_px) {
+  std::vector<View> outer = make_views_at(positions_beside_eyes(photographs.left, wanted),
+                                          scene_from_left(photographs, geometry), zero_parallax_px);
+  for (View& view : outer)
+    view = larger_view(view, view.frame.scale, photographs.left.width(), photographs.left.height());
+  return outer;
 }
 
-void append_views(std::span<const OuterView> outer, std::vector<SceneView>& scene) {
-  for (const OuterView& view : outer) scene.push_back(scene_view_of(view));
-}
-
-StillScene make_still_scene(const StereoPairView& photographs, const StereoGeometryView& geometry, ViewRange wanted) {
-  StillScene scene;
-  if (photographs.right.empty()) {
-    scene.views = {{photographs.left, geometry.left_disparity, {}, central_view}};
-    return scene;
-  }
-  scene.right_only = not_told_by_left(geometry);
-  scene.right_disparity = hidden_from_left(geometry, scene.right_only);
-  const StereoGeometryView agreeing{geometry.left_disparity, scene.right_disparity, geometry.left_occlusion,
-                                    scene.right_only};
-  scene.views = scene_from_left(photographs, agreeing);
+std::vector<View> make_still_scene(const StereoPairView& photographs, const StereoGeometryView& geometry,
+                                   ViewRange wanted) {
+  if (photographs.right.empty()) return {{photographs.left, geometry.left_disparity, {}, central_view}};
+  std::vector<View> scene = scene_from_left(photographs, geometry);
+  Image<std::uint8_t> right_only = not_told_by_left(geometry);
+  scene[1].disparity = hidden_from_left(geometry, right_only);
+  scene[1].wanted = std::move(right_only);
   std::vector<ViewPosition> positions = positions_beside_eyes(photographs.left, wanted);
   // Between two near things the eyes see different parts of what is behind, and views between them see the rest.
   if (!is_large(photographs.left)) positions.push_back(central_view);
-  scene.outer = make_views_at(positions, photographs, agreeing, depth_ends(geometry.left_disparity).middle_px());
-  append_views(scene.outer, scene.views);
+  const std::vector<View> outer = make_views_at(positions, scene, depth_ends(geometry.left_disparity).middle_px());
+  scene.insert(scene.end(), outer.begin(), outer.end());
   return scene;
 }
 

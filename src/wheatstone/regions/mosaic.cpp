@@ -57,7 +57,7 @@ void add_face(const RegionMark& joint, Rgb8 colour, float inset, RegionPainting&
 void add_tiles(const ViewToCut& view, const Tiles& tiles, std::span<const RegionMeans> means,
                RegionPainting& painting) {
   const std::size_t first = painting.marks.size();
-  add_outlines(tiles.regions, view.disparity, view.view,
+  add_outlines(tiles.regions, view.disparity, view.position,
                {.tolerance_px = 0.9f, .depth_threshold_px = view.depth_threshold_px}, painting);
   for (std::size_t i = 0; i < means.size(); ++i) {
     RegionMark& joint = painting.marks[first + i];
@@ -88,10 +88,10 @@ void cut_tiles_again(const ViewToCut& view, const Style& style, std::span<const 
                      std::vector<MosaicTile>& after, RegionPainting& painting) {
   const float tile_px = style.tile_px * view.scale;
   const Image<Rgb8> picture =
-      view.number == 0 ? without_grain(view.photograph, view.scale) : without_grain_quickly(view.photograph);
+      view.number == 0 ? without_grain(view.colour, view.scale) : without_grain_quickly(view.colour);
   const Tiles tiles =
       before.empty() ? lay_tiles(view, picture, tile_px) : lay_tiles_again(view, picture, tile_px, before);
-  std::vector<RegionMeans> means = means_of(tiles.regions, view.photograph, view.disparity);
+  std::vector<RegionMeans> means = means_of(tiles.regions, view.colour, view.disparity);
   for (std::size_t i = 0; i < means.size(); ++i) {
     if (tiles.tile_of[i] < 0) continue;
     const auto index = static_cast<std::size_t>(tiles.tile_of[i]);

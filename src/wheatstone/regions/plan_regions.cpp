@@ -23,38 +23,31 @@ void sort_far_to_near(ViewPosition reference, RegionPainting& painting) {
 
 }  // namespace
 
-RegionPainting plan_regions(std::span<const SceneView> views, const Style& style, const CutView& cut) {
+RegionPainting plan_regions(std::span<const View> views, const Style& style, const CutView& cut) {
   check_style(style);
   check_fits(views);
-  const int width = views[0].picture.width();
-  const float scale = style_scale(style, width);
+  const View& reference = views.front();
+  const float scale = style_scale(style, reference.colour.width());
   const bool independent = style.propagation == Propagation::independent;
-  RegionPainting painting{width, views[0].picture.height(), {}, {}, {}};
+  RegionPainting painting{reference.colour.width(), reference.colour.height(), {}, {}, {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const SceneView& view = views[i];
-    const Image<float> disparity = without_outliers(view.disparity);
-    ViewToCut to_cut{.photograph = view.picture,
-                     .disparity = disparity,
-                     .mask = {},
-                     .number = i,
-                     .view = view.position,
-                     .views = all_views,
-                     .seed = style.seed,
-                     .scale = scale,
-                     .depth_threshold_px = style.depth_threshold_px * scale};
-    if (independent) to_cut.views = {view.position, view.position};
-    if (i > 0 && independent) to_cut.seed = hash_keys({style.seed, i});
-    Image<std::uint8_t> only_here;
-    if (i > 0 && !independent && !view.only_here.empty()) {
+    ViewToCut view{views[i], i, all_views, style.seed, scale, style.depth_threshold_px * scale};
+    view.disparity = without_outliers(view.disparity);
+    view.wanted = {};
+    if (independent) view.views = {view.position, view.position};
+    if (i > 0 && independent) view.seed = hash_keys({style.seed, i});
+    if (i > 0 && !independent && !views[i].wanted.empty()) {
       // Grown, so that the marks reach under those of the reference view.
       constexpr float overlap_px = 3;
-      only_here = dilate_occlusion(view.only_here, static_cast<int>(std::ceil(overlap_px * scale)));
-      to_cut.mask = only_here;
+      view.wanted = dilate_occlusion(views[i].wanted, static_cast<int>(std::ceil(overlap_px * scale)));
     }
-    cut(to_cut, style, painting);
+    const std::size_t first_point = painting.points.size();
+    cut(view, style, painting);
+    for (ControlPoint& point : std::span(painting.points).subspan(first_point))
+      point.x += static_cast<float>(view.frame.origin_px);
   }
   std::erase_if(painting.marks, [](const RegionMark& mark) { return mark.ring_count == 0; });
-  sort_far_to_near(views[0].position, painting);
+  sort_far_to_near(reference.position, painting);
   return painting;
 }
 

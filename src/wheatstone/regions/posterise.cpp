@@ -143,7 +143,7 @@ void add_parts(const ViewToCut& view, ImageView<const Rgb8> picture, const Colou
       cut_to_surfaces(regions.regions, view.disparity, view.depth_threshold_px, off_surface_px,
                       static_cast<std::int64_t>(std::ceil(least_off_surface_px * view.scale * view.scale)));
   const std::size_t first = painting.marks.size();
-  add_outlines(cut.parts, view.disparity, view.view, {.depth_threshold_px = view.depth_threshold_px}, painting);
+  add_outlines(cut.parts, view.disparity, view.position, {.depth_threshold_px = view.depth_threshold_px}, painting);
   const std::vector<RegionMeans> means = means_of(cut.parts, picture, view.disparity);
   for (std::size_t i = 0; i < means.size(); ++i) {
     RegionMark& mark = painting.marks[first + i];
@@ -156,7 +156,7 @@ void add_parts(const ViewToCut& view, ImageView<const Rgb8> picture, const Colou
 /// Cuts a picture without grain into the palette's colours, and adds its regions.
 ColouredRegions add_areas(const ViewToCut& view, ImageView<const Rgb8> picture, const std::vector<Rgb8>& palette,
                           const CarriedColours& carried, RegionPainting& painting) {
-  const Image<std::int32_t> labels = label_colours(picture, view.mask, palette, carried);
+  const Image<std::int32_t> labels = label_colours(picture, view.wanted, palette, carried);
   ColouredRegions regions{connected_regions(labels, view.disparity, view.depth_threshold_px), {}};
   const auto least_area = static_cast<std::int64_t>(least_area_px * view.scale * view.scale);
   regions.regions =
@@ -183,8 +183,8 @@ Image<std::uint8_t> colours_of(const ColouredRegions& regions) {
 
 /// The reference view of a scene that begins.
 void cut_first(const ViewToCut& view, const Style& style, PosterisedMemory& memory, RegionPainting& painting) {
-  memory.picture = begin_steady(view.photograph);
-  const Image<Rgb8> picture = without_grain(view.photograph, view.scale);
+  memory.picture = begin_steady(view.colour);
+  const Image<Rgb8> picture = without_grain(view.colour, view.scale);
   memory.palette = find_palette(picture, palette_size(style.colours), view.seed);
   memory.colour_of = colours_of(add_areas(view, picture, rounded(memory.palette), {}, painting));
 }
@@ -192,7 +192,7 @@ void cut_first(const ViewToCut& view, const Style& style, PosterisedMemory& memo
 /// The reference view of a scene that goes on.
 void cut_next(const ViewToCut& view, const FlowPair& flow, PosterisedMemory& memory, RegionPainting& painting) {
   const Image<std::uint8_t> kept = confirmed(flow.backward, flow.forward);
-  steady(view.photograph, flow.backward, kept, memory.picture);
+  steady(view.colour, flow.backward, kept, memory.picture);
   const Image<Rgb8> picture = without_grain(rounded(memory.picture.colours), view.scale);
   follow_palette(picture, memory.palette);
   const std::vector<Rgb8> palette = rounded(memory.palette);
@@ -206,12 +206,12 @@ RegionPainting plan_posterised(const FilmFrame& frame, const Style& style, Poste
   if (frame.flow != nullptr) check_fits(*frame.flow, frame.views);
   return plan_regions(frame.views, style, [&](const ViewToCut& view, const Style&, RegionPainting& painting) {
     if (view.number > 0) {
-      const Image<Rgb8> picture = without_grain_quickly(view.photograph);
+      const Image<Rgb8> picture = without_grain_quickly(view.colour);
       const bool alone = style.propagation == Propagation::independent;
       add_areas(view, picture,
                 rounded(alone ? find_palette(picture, palette_size(style.colours), view.seed) : memory.palette), {},
                 painting);
-    } else if (frame.flow == nullptr || !same_size(memory.picture.frames, view.photograph)) {
+    } else if (frame.flow == nullptr || !same_size(memory.picture.frames, view.colour)) {
       cut_first(view, style, memory, painting);
     } else {
       cut_next(view, *frame.flow, memory, painting);

@@ -58,7 +58,7 @@ class Painter {
       : style_(style_of(name)), places_(places) {}
 
   Painting plan(const FilmFrame& frame) {
-    Painting painting = plan_painting(frame, style_, {}, memory_).painting;
+    Painting painting = wheatstone::plan_frame(frame, style_, {}, memory_).painting;
     if (places_ == TilePlaces::keep) painting.marks = plan_mosaic(frame, style_, kept_tiles_, places_);
     return painting;
   }
@@ -67,7 +67,7 @@ class Painter {
     return plan_painting(pair, geometry, style_, {}, ViewRange{});
   }
   Painting plan_frame(const ShortFilm& film, std::size_t i, bool afresh = false) {
-    const std::vector<SceneView> views = film.scene(i);
+    const std::vector<View> views = film.scene(i);
     return plan({views, afresh ? nullptr : film.flow_to(i)});
   }
 
@@ -124,8 +124,8 @@ TEST_P(RegionsInTime, BeginASceneAsIfNothingHadBeenBefore) {
 
 TEST_P(RegionsInTime, BeginWithTheStill) {
   const SyntheticFilmFrame& frame = walk().frames[0];
-  const StillScene scene = make_still_scene(frame.pictures, frame.geometry, {});
-  const Painting film = Painter(GetParam()).plan({scene.views, nullptr});
+  const std::vector<View> scene = make_still_scene(frame.pictures, frame.geometry, {});
+  const Painting film = Painter(GetParam()).plan({scene, nullptr});
   const Painting still = Painter(GetParam()).plan_still(frame.pictures, frame.geometry);
   EXPECT_EQ(draw(film, left_eye).picture, draw(still, left_eye).picture);
 }
@@ -175,7 +175,7 @@ TEST_P(RegionsInTime, PaintAFilmOfOneView) {
   const Image<float> flat(width, height);
   Painter painter(GetParam());
   for (std::size_t i = 0; i < 2; ++i) {
-    const SceneView view{walk().centres[i].picture, flat, {}, central_view};
+    const View view{walk().centres[i].picture, flat, {}, central_view};
     const Painting painting = painter.plan({{&view, 1}, walk().flow_to(i)});
     EXPECT_EQ(draw(painting, left_eye).picture, draw(painting, right_eye).picture);
     EXPECT_LT(draw(painting, central_view).bare_share, 0.005);
@@ -185,7 +185,7 @@ TEST_P(RegionsInTime, PaintAFilmOfOneView) {
 TEST_P(RegionsInTime, RefuseWhatDoesNotFit) {
   Painter painter(GetParam());
   expect_error(ErrorKind::bad_input, "no picture", [&] { painter.plan({}); });
-  std::vector<SceneView> views = walk().scene(1);
+  std::vector<View> views = walk().scene(1);
   const FlowPair small{{Image<float>(3, 3), Image<float>(3, 3)}, {Image<float>(3, 3), Image<float>(3, 3)}};
   expect_error(ErrorKind::bad_input, "flow", [&] { painter.plan({views, &small}); });
   const Image<float> unknown(width, height, std::numeric_limits<float>::quiet_NaN()), other(7, 5);
@@ -202,7 +202,7 @@ TEST(Posterise, KeepsItsPaletteThroughAScene) {
   PosterisedMemory memory;
   std::vector<PaletteColour> before;
   for (std::size_t i = 0; i < walk().frames.size(); ++i) {
-    const std::vector<SceneView> views = walk().scene(i);
+    const std::vector<View> views = walk().scene(i);
     plan_posterised({views, walk().flow_to(i)}, style, memory);
     for (std::size_t k = 0; k < before.size(); ++k) {
       EXPECT_LT(std::abs(memory.palette[k].red - before[k].red), 4);
@@ -216,7 +216,7 @@ TEST(Posterise, KeepsItsPaletteThroughAScene) {
 
 TEST(Mosaic, LeavesTilesOfAStillPictureWhereTheyAre) {
   const Image<float> flat(width, height);
-  const SceneView view{walk().centres[0].picture, flat, {}, central_view};
+  const View view{walk().centres[0].picture, flat, {}, central_view};
   const FlowPair no_motion{{flat, flat}, {flat, flat}};
   const Style style = style_of("mosaic");
   MosaicMemory memory;

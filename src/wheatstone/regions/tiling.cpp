@@ -46,9 +46,9 @@ constexpr float gap_halves = 1.7f;
 /// The surfaces of the picture, each a connected region.
 RegionMap find_surfaces(const ViewToCut& view) {
   Image<std::int32_t> labels(view.disparity.width(), view.disparity.height());
-  if (!view.mask.empty())
+  if (!view.wanted.empty())
     for (int y = 0; y < labels.height(); ++y)
-      for (int x = 0; x < labels.width(); ++x) labels(x, y) = view.mask(x, y) != 0 ? 0 : -1;
+      for (int x = 0; x < labels.width(); ++x) labels(x, y) = view.wanted(x, y) != 0 ? 0 : -1;
   return connected_regions(labels, view.disparity, view.depth_threshold_px);
 }
 
@@ -293,7 +293,7 @@ void label_the_rest(const ViewToCut& view, float tile_px, Image<std::int32_t>& l
   const int columns = labels.width() / cell + 1;
   for (int y = 0; y < labels.height(); ++y)
     for (int x = 0; x < labels.width(); ++x)
-      if (labels(x, y) < 0 && (view.mask.empty() || view.mask(x, y) != 0))
+      if (labels(x, y) < 0 && (view.wanted.empty() || view.wanted(x, y) != 0))
         labels(x, y) = first + (y / cell) * columns + x / cell;
 }
 

@@ -10,26 +10,20 @@
 #include "wheatstone/painting/still_scene.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/share/surface_parts_internal.h"
+#include "wheatstone/stereo/view_scale.h"
 
 namespace wheatstone {
 namespace {
 
 /// What a view of the scene is the first to show.
-Surface surface_of(const SceneView& view) {
-  Surface surface{view.position, Image<float>(view.disparity.width(), view.disparity.height()), view.left_px,
+Surface surface_of(const View& view) {
+  Surface surface{view.position, Image<float>(view.disparity.width(), view.disparity.height()), view.frame.origin_px,
                   view.continued};
   for (int y = 0; y < view.disparity.height(); ++y)
     for (int x = 0; x < view.disparity.width(); ++x)
-      surface.disparity(x, y) = view.only_here.empty() || view.only_here(x, y) != 0
-                                    ? view.disparity(x, y)
-                                    : std::numeric_limits<float>::quiet_NaN();
+      surface.disparity(x, y) = view.wanted.empty() || view.wanted(x, y) != 0 ? view.disparity(x, y)
+                                                                              : std::numeric_limits<float>::quiet_NaN();
   return surface;
-}
-
-Image<Rgb8> copy_of(ImageView<const Rgb8> picture) {
-  Image<Rgb8> copy(picture.width(), picture.height());
-  for (int y = 0; y < picture.height(); ++y) std::ranges::copy(picture.row(y), copy.row(y).begin());
-  return copy;
 }
 
 }  // namespace
@@ -37,14 +31,13 @@ Image<Rgb8> copy_of(ImageView<const Rgb8> picture) {
 SharedPicture share_photograph(const StereoPair& photographs, const StereoGeometry& geometry,
                                const std::string& title) {
   constexpr ViewRange wanted{ViewPosition(-1.f), ViewPosition(1.f)};
-  const StillScene scene = make_still_scene(photographs, geometry, wanted);
-  const WholeScene whole(scene.views);
+  const std::vector<View> scene = at_reference_scale(make_still_scene(photographs, geometry, wanted));
   SharedPicture shared{.width = photographs.left.width(), .height = photographs.left.height()};
   Surfaces surfaces;
   std::vector<Image<Rgb8>> pictures;
-  for (const SceneView& view : whole.views()) {
+  for (const View& view : scene) {
     surfaces.seen.push_back(surface_of(view));
-    pictures.push_back(copy_of(view.picture));
+    pictures.push_back(copy_of(view.colour));
   }
   const DepthEnds ends = depth_ends(geometry.left_disparity);
   const float depth_px = std::max(ends.nearest_px - ends.farthest_px, 1e-3f),

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "throws_error.h"
-#include "wheatstone/stereo/scene_view.h"
+#include "wheatstone/stereo/view.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::central_view_test {

@@ -20,16 +20,11 @@ struct UnseenRun {
   int begin, end;
 };
 
-/// Fills what no photograph shows in one row of an outer view.
+/// Fills what no photograph shows in one row of an outer view, where `mask` is set.
 class RowFiller {
  public:
-  RowFiller(const StereoGeometryView& geometry, int y, OuterView& outer)
-      : geometry_(geometry),
-        y_(y),
-        outer_(outer),
-        surface_(outer.disparity.row(y)),
-        mask_(outer.uncovered.row(y)),
-        width_(outer.disparity.width()) {}
+  RowFiller(std::span<const View> eyes, int y, Composition& outer, std::span<const std::uint8_t> mask)
+      : eyes_(eyes), y_(y), outer_(outer), surface_(outer.nearest.row(y)), mask_(mask), width_(outer.nearest.width()) {}
 
   void fill() {
     for (UnseenRun run{0, 0}; run.begin < width_; run.begin = run.end) {
@@ -46,19 +41,17 @@ class RowFiller {
  private:
   /// Whether an eye would see the surface there, if it had this disparity. Neither does, or the photographs would show
   /// it.
-  bool is_seen(int x, float disparity, ViewPosition eye, const ImageView<const float>& nearest) const {
-    const float there = static_cast<float>(x + outer_.left_px) + 0.5f - (eye - outer_.position) * disparity;
+  bool is_seen(int x, float disparity, const View& eye) const {
+    const float there = static_cast<float>(x + outer_.left_px) + 0.5f - (eye.position - outer_.position) * disparity;
     const int column = static_cast<int>(std::floor(there));
-    return nearest.contains(column, y_) && nearest(column, y_) < disparity - one_surface_px;
+    return eye.disparity.contains(column, y_) && eye.disparity(column, y_) < disparity - one_surface_px;
   }
 
   bool may_have(const UnseenRun& run, float disparity) const {
     constexpr int most_seen = 20;  // of which one may be seen: disparities have noise
     int seen = 0;
     for (int x = run.begin; x < run.end; ++x)
-      if (is_seen(x, disparity, left_eye, geometry_.left_disparity) ||
-          is_seen(x, disparity, right_eye, geometry_.right_disparity))
-        ++seen;
+      if (is_seen(x, disparity, eyes_[0]) || is_seen(x, disparity, eyes_[1])) ++seen;
     return most_seen * seen <= run.end - run.begin;
   }
 
@@ -95,11 +88,11 @@ class RowFiller {
     }
   }
 
-  const StereoGeometryView& geometry_;
+  std::span<const View> eyes_;
   int y_;
-  OuterView& outer_;
+  Composition& outer_;
   std::span<float> surface_;
-  std::span<std::uint8_t> mask_;
+  std::span<const std::uint8_t> mask_;
   int width_;
 };
 
@@ -115,73 +108,32 @@ void leave_out_cracks(std::span<std::uint8_t> mask) {
 
 }  // namespace
 
-SceneView scene_view_of(const OuterView& view) {
-  return {view.picture, view.disparity, view.uncovered, view.position, view.left_px, true, view.reduction};
-}
-
-OuterView enlarged(const SceneView& view, int factor, int width, int height) {
-  OuterView whole{
-      view.position, Image<Rgb8>(width, height), Image<float>(width, height), Image<std::uint8_t>(width, height),
-      view.left_px,  view.reduction / factor};
-  const int last_column = view.picture.width() - 1, rows = view.picture.height();
-  const auto end_of = [=](int row) { return row + 1 < rows ? factor * (row + 1) : height; };
-  tbb::parallel_for(0, rows, [&](int row) {
-    const auto picture = view.picture.row(row);
-    const auto disparity = view.disparity.row(row);
-    const auto uncovered = view.only_here.row(row);
-    const int first = factor * row;
-    const auto to_picture = whole.picture.row(first);
-    const auto to_disparity = whole.disparity.row(first);
-    const auto to_uncovered = whole.uncovered.row(first);
-    for (int column = 0, x = 0; column <= last_column; ++column) {
-      const float larger = disparity[column] * static_cast<float>(factor);
-      for (const int end = column < last_column ? x + factor : width; x < end; ++x) {
-        to_picture[x] = picture[column];
-        to_disparity[x] = larger;
-        to_uncovered[x] = uncovered[column];
-      }
-    }
-    for (int y = first + 1; y < end_of(row); ++y) {
-      std::ranges::copy(to_picture, whole.picture.row(y).begin());
-      std::ranges::copy(to_disparity, whole.disparity.row(y).begin());
-      std::ranges::copy(to_uncovered, whole.uncovered.row(y).begin());
-    }
-  });
-  return whole;
-}
-
-WholeScene::WholeScene(std::span<const SceneView> views) : views_(views.begin(), views.end()) {
-  const ImageView<const Rgb8> reference = views.front().picture;
-  larger_.reserve(views.size());
-  for (SceneView& view : views_)
-    if (view.reduction > 1)
-      view = scene_view_of(larger_.emplace_back(enlarged(view, view.reduction, reference.width(), reference.height())));
-}
-
-OuterView make_outer_view(const StereoPairView& photographs, const StereoGeometryView& geometry, ViewPosition view,
-                          float zero_parallax_px) {
+View make_outer_view(std::span<const View> eyes, ViewPosition position, float zero_parallax_px) {
   constexpr float lies_before_px = 1;
-  const int width = photographs.left.width(), height = photographs.left.height();
-  const auto left_px = static_cast<int>(std::lround(-(view - central_view) * zero_parallax_px));
-  Composition seen{view, Image<Rgb8>(width, height),
-                   Image<float>(width, height, std::numeric_limits<float>::quiet_NaN()), left_px};
-  const auto lay_left = [&] {
-    warp_picture_over(photographs.left, geometry.left_disparity, left_eye, lies_before_px, seen);
+  const View &left = eyes[0], &right = eyes[1];
+  const int width = left.colour.width(), height = left.colour.height(), scale = left.frame.scale;
+  const auto origin =
+      static_cast<int>(std::lround(-(position - central_view) * (zero_parallax_px / static_cast<float>(scale))));
+  Composition seen{position, Image<Rgb8>(width, height),
+                   Image<float>(width, height, std::numeric_limits<float>::quiet_NaN()), origin};
+  const auto lay = [&](const View& eye) {
+    warp_picture_over(eye.colour, eye.disparity, eye.position, lies_before_px, seen);
   };
-  if (view < central_view) lay_left();
-  warp_picture_over(photographs.right, geometry.right_disparity, right_eye, lies_before_px, seen);
-  if (view >= central_view) lay_left();
+  if (position < central_view) lay(left);
+  lay(right);
+  if (position >= central_view) lay(left);
 
-  OuterView outer{view, std::move(seen.picture), std::move(seen.nearest), Image<std::uint8_t>(width, height), left_px};
+  Image<std::uint8_t> uncovered(width, height);
   tbb::parallel_for(0, height, [&](int y) {
-    const auto mask = outer.uncovered.row(y);
-    const auto surface = outer.disparity.row(y);
+    const auto mask = uncovered.row(y);
+    const auto surface = seen.nearest.row(y);
     for (int x = 0; x < width; ++x) mask[x] = std::isnan(surface[x]) ? 255 : 0;
-    RowFiller(geometry, y, outer).fill();
+    RowFiller(eyes, y, seen, mask).fill();
     leave_out_cracks(mask);
   });
-  fill_from_farther_side(outer.disparity);  // rows without anything known
-  return outer;
+  fill_from_farther_side(seen.nearest);  // rows without anything known
+  return {
+      std::move(seen.picture), std::move(seen.nearest), std::move(uncovered), position, {origin * scale, scale}, true};
 }
 
 }  // namespace wheatstone

@@ -35,13 +35,12 @@ PointStep smoothed(std::span<const PointStep> steps, std::size_t i) {
   return middle_of(steps.subspan(first, last - first + 1));
 }
 
-bool is_inside(const ControlPoint& point, const ImageView<const float>& picture) {
-  return point.x >= 0 && point.y >= 0 && point.x < static_cast<float>(picture.width()) &&
-         point.y < static_cast<float>(picture.height());
+bool is_inside(float x, float y, const ImageView<const float>& picture) {
+  return x >= 0 && y >= 0 && x < static_cast<float>(picture.width()) && y < static_cast<float>(picture.height());
 }
 
 /// Where a point came to lie.
-enum class Landing { on_surface, before_it, behind_it };
+enum class PlaceInDepth { on_surface, before_it, behind_it };
 
 /// A disparity follows another only as far as it must, so that noise in matching moves no paint.
 float follow(float disparity, float target, float depth_threshold_px) {
@@ -51,39 +50,39 @@ float follow(float disparity, float target, float depth_threshold_px) {
 
 /// Gives a moved point the disparity of its surface, if that is there or a pixel beside it: edges are known to a pixel
 /// at best.
-Landing land(const SceneView& now, float depth_threshold_px, ControlPoint& point) {
-  const float there = surface_disparity(now.disparity, point.x, point.y, depth_threshold_px);
+PlaceInDepth follow_surface(const View& now, float depth_threshold_px, ControlPoint& point) {
+  const float x_there = now.frame.column(point.x);
+  const float there = surface_disparity(now.disparity, x_there, point.y, depth_threshold_px);
   if (std::abs(there - point.disparity) <= depth_threshold_px) {
     point.disparity = follow(point.disparity, there, depth_threshold_px);
-    return Landing::on_surface;
+    return PlaceInDepth::on_surface;
   }
-  const int column = static_cast<int>(point.x), row = static_cast<int>(point.y);
+  const int column = static_cast<int>(x_there), row = static_cast<int>(point.y);
   float nearest = there;
   for (int y = std::max(row - 1, 0); y <= std::min(row + 1, now.disparity.height() - 1); ++y)
     for (int x = std::max(column - 1, 0); x <= std::min(column + 1, now.disparity.width() - 1); ++x)
       if (std::abs(now.disparity(x, y) - point.disparity) < std::abs(nearest - point.disparity))
         nearest = now.disparity(x, y);
   if (std::abs(nearest - point.disparity) > depth_threshold_px)
-    return there > point.disparity ? Landing::behind_it : Landing::before_it;
+    return there > point.disparity ? PlaceInDepth::behind_it : PlaceInDepth::before_it;
   point.disparity = follow(point.disparity, nearest, depth_threshold_px);
-  return Landing::on_surface;
+  return PlaceInDepth::on_surface;
 }
 
 /// Moves one stroke. False where its points came to lie on other surfaces.
-bool move_stroke(const SceneMotion& motion, const SceneView& now, float depth_threshold_px,
-                 std::span<ControlPoint> points) {
+bool move_stroke(const SceneMotion& motion, const View& now, float depth_threshold_px, std::span<ControlPoint> points) {
   std::vector<PointStep> steps(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) steps[i] = motion.of(points[i], now);
+  for (std::size_t i = 0; i < points.size(); ++i) steps[i] = motion.of(points[i], now.position);
   std::size_t slipped = 0, buried = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     ControlPoint& point = points[i];
     const PointStep step = smoothed(steps, i);
     point.x += step.x;
     point.y += step.y;
-    if (!is_inside(point, now.disparity)) continue;
-    const Landing landing = land(now, depth_threshold_px, point);
-    buried += landing == Landing::behind_it ? 1 : 0;
-    slipped += landing == Landing::before_it ? 1 : 0;
+    if (!is_inside(now.frame.column(point.x), point.y, now.disparity)) continue;
+    const PlaceInDepth place = follow_surface(now, depth_threshold_px, point);
+    buried += place == PlaceInDepth::behind_it ? 1 : 0;
+    slipped += place == PlaceInDepth::before_it ? 1 : 0;
   }
   return 8 * slipped <= points.size() && 2 * buried <= points.size();
 }
@@ -97,7 +96,7 @@ float length_px(std::span<const ControlPoint> points) {
   return length;
 }
 
-void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_threshold_px, const CarryOptions& options,
+void carry_layer(const SceneMotion& motion, const View& now, float depth_threshold_px, const CarryOptions& options,
                  TrackedLayer& tracked) {
   Layer& layer = tracked.layer;
   tbb::parallel_for(std::size_t{0}, tracked.tracks.size(), [&](std::size_t i) {
@@ -105,7 +104,7 @@ void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_th
     const std::span points = std::span(layer.points).subspan(stroke.first_point, stroke.point_count);
     StrokeTrack& track = tracked.tracks[i];
     // What the reference view showed already has paint of its own there, which this stroke would come to lie on.
-    if (now.position != motion.reference() && motion.showed_whole(points, stroke.radius_px, now)) {
+    if (now.position != motion.reference() && motion.showed_whole(points, stroke.radius_px, now.position)) {
       track = {.shown = 0, .ends = 1};
       return;
     }
@@ -151,22 +150,20 @@ struct FitSums {
   int count = 0, covered = 0;
 };
 
-FitSums sum_fits(std::span<const ControlPoint> points, Rgb8 colour, const FitGround& ground) {
+FitSums sum_fits(std::span<const ControlPoint> points, Rgb8 colour, const ViewOnCanvas& at,
+                 const ReferencePicture& reference, const Image<float>& errors) {
   FitSums sums;
   for (const ControlPoint& point : points) {
-    const float x = point.x / ground.reduction, y = point.y / ground.reduction;
-    if (!(x >= 0 && y >= 0 && x < static_cast<float>(ground.disparity.width()) &&
-          y < static_cast<float>(ground.disparity.height())))
-      continue;
-    const int column = static_cast<int>(x), row = static_cast<int>(y);
-    if (ground.disparity(column, row) * ground.reduction > point.disparity + ground.depth_threshold_px) continue;
-    const auto red = static_cast<float>(ground.reference.red(column, row) - colour.r);
-    const auto green = static_cast<float>(ground.reference.green(column, row) - colour.g);
-    const auto blue = static_cast<float>(ground.reference.blue(column, row) - colour.b);
+    if (!is_inside(point.x, point.y, at.view.disparity)) continue;
+    const int column = static_cast<int>(point.x), row = static_cast<int>(point.y);
+    if (at.view.disparity(column, row) > point.disparity + at.scaled.depth_threshold_px) continue;
+    const auto red = static_cast<float>(reference.red(column, row) - colour.r);
+    const auto green = static_cast<float>(reference.green(column, row) - colour.g);
+    const auto blue = static_cast<float>(reference.blue(column, row) - colour.b);
     const float difference = std::sqrt(red * red + green * green + blue * blue);
     sums.own += difference;
     ++sums.count;
-    const float under = ground.errors(column, row);
+    const float under = errors(column, row);
     if (under < 0 || under >= bare_error) continue;
     sums.gain += std::sqrt(under) - difference;
     ++sums.covered;
@@ -176,14 +173,15 @@ FitSums sum_fits(std::span<const ControlPoint> points, Rgb8 colour, const FitGro
 
 }  // namespace
 
-ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const FitGround& ground) {
+ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const ViewOnCanvas& at,
+                     const ReferencePicture& reference, const Image<float>& errors) {
   constexpr std::size_t points_a_part = 3, most_parts = 4;
   const std::size_t parts = std::clamp<std::size_t>(points.size() / points_a_part, 1, most_parts);
   ColourFit fit;
   bool covered = false;
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t begin = part * points.size() / parts, end = (part + 1) * points.size() / parts;
-    const FitSums sums = sum_fits(points.subspan(begin, end - begin), colour, ground);
+    const FitSums sums = sum_fits(points.subspan(begin, end - begin), colour, at, reference, errors);
     if (sums.count > 0) fit.difference = std::max(fit.difference, sums.own / static_cast<float>(sums.count));
     if (sums.covered == 0) continue;
     const float gain = sums.gain / static_cast<float>(sums.covered);
@@ -193,11 +191,10 @@ ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const Fi
   return fit;
 }
 
-bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, const SceneView& from,
-                    const Onlooker& view) {
+bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, ViewPosition from, const Onlooker& view) {
   const float reach_px = radius_px + depth_edge_px;
   return std::ranges::all_of(points, [&](ControlPoint p) {
-    const float x = p.x, column = column_in(p, from, view.view);
+    const float x = p.x, column = view.view.frame.column(x_in_view(p, from, view.view.position));
     if (!(column >= 0 && column < static_cast<float>(view.view.disparity.width()))) return false;
     return std::ranges::all_of(std::array{-reach_px, 0.f, reach_px}, [&](float aside) {
       p.x = x + aside;
@@ -209,20 +206,20 @@ bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, const
 namespace {
 
 /// The points of a stroke that a view shows.
-std::size_t visible_points(std::span<const ControlPoint> points, const SceneView& from, const SceneView& view,
+std::size_t visible_points(std::span<const ControlPoint> points, ViewPosition from, const View& view,
                            float tolerance_px) {
   return static_cast<std::size_t>(
       std::ranges::count_if(points, [&](const ControlPoint& p) { return is_visible(p, from, view, tolerance_px); }));
 }
 
 /// True where some of a stroke's paint may lie in one of the views' pictures.
-bool reaches_a_picture(std::span<const ControlPoint> points, const SceneView& from, float radius_px,
-                       std::span<const SceneView> views) {
+bool reaches_a_picture(std::span<const ControlPoint> points, ViewPosition from, float radius_px,
+                       std::span<const View> views) {
   const float reach = radius_px + 1;
-  return std::ranges::any_of(views, [&](const SceneView& view) {
+  return std::ranges::any_of(views, [&](const View& view) {
     const auto width = static_cast<float>(view.disparity.width()), height = static_cast<float>(view.disparity.height());
     return std::ranges::any_of(points, [&](const ControlPoint& p) {
-      const float x = column_in(p, from, view);
+      const float x = view.frame.column(x_in_view(p, from, view.position));
       return x > -reach && p.y > -reach && x < width + reach && p.y < height + reach;
     });
   });
@@ -230,13 +227,14 @@ bool reaches_a_picture(std::span<const ControlPoint> points, const SceneView& fr
 
 /// The view that a stroke belongs to now; the number of views where to none.
 std::size_t home_of(const Stroke& stroke, std::span<const ControlPoint> points, std::size_t home,
-                    std::span<const SceneView> views, float tolerance_px) {
-  if (!reaches_a_picture(points, views[home], stroke.radius_px, views)) return views.size();
-  const auto visible = [&](std::size_t view) { return visible_points(points, views[home], views[view], tolerance_px); };
+                    std::span<const View> views, float tolerance_px) {
+  const ViewPosition from = views[home].position;
+  if (!reaches_a_picture(points, from, stroke.radius_px, views)) return views.size();
+  const auto visible = [&](std::size_t view) { return visible_points(points, from, views[view], tolerance_px); };
   const std::size_t in_reference = visible(0);
-  if (home == 0 ? 2 * in_reference >= points.size()
-                : in_reference == points.size() &&
-                      is_shown_whole(points, stroke.radius_px, views[home], {views[0], tolerance_px}))
+  if (home == 0
+          ? 2 * in_reference >= points.size()
+          : in_reference == points.size() && is_shown_whole(points, stroke.radius_px, from, {views[0], tolerance_px}))
     return 0;
   if (home != 0 && visible(home) > 0) return home;
   for (std::size_t view = 1; view < views.size(); ++view)
@@ -244,27 +242,24 @@ std::size_t home_of(const Stroke& stroke, std::span<const ControlPoint> points, 
   return in_reference > 0 ? 0 : views.size();
 }
 
-/// Moves a stroke of a view's layer to another view's.
-struct Move {
-  const SceneView &from, &to;
-};
-void move_home(const TrackedLayer& from, std::size_t i, const Move& move, TrackedLayer& to) {
+/// Moves a stroke of a view's layer to that of the view at `home`.
+void move_home(const TrackedLayer& from, std::size_t i, ViewPosition home, TrackedLayer& to) {
   Stroke stroke = from.layer.strokes[i];
   const std::span<const ControlPoint> points = from.layer.points_of(stroke);
   const auto first = static_cast<std::uint32_t>(to.layer.points.size());
   for (ControlPoint point : points) {
-    point.x = column_in(point, move.from, move.to);
+    point.x = x_in_view(point, stroke.reference_view, home);
     to.layer.points.push_back(point);
   }
   stroke.first_point = first;
-  stroke.reference_view = move.to.position;
+  stroke.reference_view = home;
   to.layer.strokes.push_back(stroke);
   to.tracks.push_back(from.tracks[i]);
 }
 
 }  // namespace
 
-void settle(std::span<const SceneView> views, float depth_threshold_px, std::span<TrackedLayer* const> layers) {
+void settle(std::span<const View> views, float depth_threshold_px, std::span<TrackedLayer* const> layers) {
   std::vector<std::vector<std::size_t>> homes(views.size());
   for (std::size_t view = 0; view < views.size(); ++view) {
     const TrackedLayer& tracked = *layers[view];
@@ -278,7 +273,7 @@ void settle(std::span<const SceneView> views, float depth_threshold_px, std::spa
   for (std::size_t view = 0; view < views.size(); ++view) {
     for (std::size_t i = 0; i < homes[view].size(); ++i)
       if (homes[view][i] != view && homes[view][i] < views.size())
-        move_home(*layers[view], i, {views[view], views[homes[view][i]]}, arrived[homes[view][i]]);
+        move_home(*layers[view], i, views[homes[view][i]].position, arrived[homes[view][i]]);
     keep_if(*layers[view], [&](std::size_t i) { return homes[view][i] == view; });
   }
   for (std::size_t view = 0; view < views.size(); ++view) {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "wheatstone/strokes/reference_picture.h"
+#include "wheatstone/strokes/layer_plan.h"
 #include "wheatstone/strokes/scene_motion_internal.h"
 #include "wheatstone/strokes/strokes_in_time.h"
 
@@ -13,7 +13,7 @@ float length_px(std::span<const ControlPoint> points);
 
 /// Moves all strokes of one view's layer to this frame. Those whose length, or the disparity of whose points, changed
 /// too much begin to end.
-void carry_layer(const SceneMotion& motion, const SceneView& now, float depth_threshold_px, const CarryOptions& options,
+void carry_layer(const SceneMotion& motion, const View& now, float depth_threshold_px, const CarryOptions& options,
                  TrackedLayer& tracked);
 
 /// How much of a stroke's opacity is shown at first.
@@ -29,17 +29,17 @@ void fade(const CarryOptions& options, TrackedLayer& tracked);
 /// Gives every stroke to the view that sees it: what the reference view hides and another one shows belongs to that
 /// one, and what it shows whole is its own. Strokes that no view shows, or whose paint lies outside the picture, are
 /// dropped. `layers` has one layer for each of the scene's views.
-void settle(std::span<const SceneView> views, float depth_threshold_px, std::span<TrackedLayer* const> layers);
+void settle(std::span<const View> views, float depth_threshold_px, std::span<TrackedLayer* const> layers);
 
 /// A view that looks at a stroke; a surface hides it that is nearer by more than the tolerance.
 struct Onlooker {
-  const SceneView& view;
+  const View& view;
   float tolerance_px;
 };
 
-/// True where a view shows all of a stroke of the view `from`, as wide as its paint reaches to either side. Such a
+/// True where a view shows all of a stroke of the view at `from`, as wide as its paint reaches to either side. Such a
 /// stroke of another view than the reference is not needed: the reference view has paint there.
-bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, const SceneView& from, const Onlooker& view);
+bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, ViewPosition from, const Onlooker& view);
 
 /// How well a stroke's colour fits the picture along it: mean RGB distances of the part of the stroke, a few points
 /// long, where each is worst.
@@ -48,16 +48,10 @@ struct ColourFit {
   float gain = 0;        ///< by how much more the coarser layers' paint differs from the picture; 0 over bare canvas
 };
 
-/// `reference`, `errors` and `disparity` are of one size, and each point `reduction` times nearer to the corner there.
-/// Only points in the picture and not behind its surface count; where there is none, all fits.
-struct FitGround {
-  const ReferencePicture& reference;
-  const Image<float>& errors;  ///< squared RGB errors that the coarser layers left; negative: not wanted
-  ImageView<const float> disparity;
-  float reduction = 1;
-  float depth_threshold_px = 2;  ///< in the stroke's pixels
-};
-ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const FitGround& ground);
+/// `errors` are the squared RGB errors that the coarser layers left, negative where nothing is wanted. All is in the
+/// view's pixels. Only points in the picture and not behind its surface count; where there is none, all fits.
+ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const ViewOnCanvas& at,
+                     const ReferencePicture& reference, const Image<float>& errors);
 
 /// Keeps the strokes for which `keeps` holds, with their tracks; the points of the others are dropped.
 template <class Keeps>

@@ -22,9 +22,9 @@ Direction normal_at(std::span<const ControlPoint> points, std::size_t i) {
 ControlPoint beside(const LayerPlan& plan, const ControlPoint& point, Direction across, float offset_px) {
   constexpr float rim_px = 0.01f;
   const auto inside = [](float place, int size) { return std::clamp(place, 0.f, static_cast<float>(size) - rim_px); };
-  ControlPoint moved{inside(point.x + offset_px * across.x, plan.disparity.width()),
-                     inside(point.y + offset_px * across.y, plan.disparity.height()), point.disparity};
-  const float there = plan.disparity(static_cast<int>(moved.x), static_cast<int>(moved.y));
+  ControlPoint moved{inside(point.x + offset_px * across.x, plan.view.disparity.width()),
+                     inside(point.y + offset_px * across.y, plan.view.disparity.height()), point.disparity};
+  const float there = plan.view.disparity(static_cast<int>(moved.x), static_cast<int>(moved.y));
   if (std::abs(there - point.disparity) <= plan.depth_threshold_px) moved.disparity = there;
   return moved;
 }

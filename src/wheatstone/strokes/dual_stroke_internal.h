@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wheatstone/strokes/plan_layer_internal.h"
+#include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {
 

@@ -8,6 +8,7 @@
 #include "wheatstone/strokes/fit_stroke_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/seed_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -61,8 +62,7 @@ bool may_gain(const LayerPlan& plan, const Anchor& anchor) {
 
 /// The cells of one pass that begin in a block and may gain by a stroke, in an order of chance: no row of strokes
 /// shows.
-std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int left, int top, int size, int pass,
-                                 std::uint64_t seed) {
+std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int left, int top, int size, int pass) {
   const float cell = cell_px(plan), shift = static_cast<float>(pass) * cell / 2;
   const auto first = [&](int place) { return static_cast<int>(std::ceil((static_cast<float>(place) + shift) / cell)); };
   const auto place = [&](int number) { return static_cast<int>(static_cast<float>(number) * cell - shift); };
@@ -70,11 +70,11 @@ std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int
   const auto number_from = [&](int begin) { return begin == 0 ? 0 : first(begin); };
   for (int row = number_from(top); row < first(top + size); ++row) {
     for (int column = number_from(left); column < first(left + size); ++column) {
-      const Cell in_tile{std::max(place(column) - tile.left, 0), std::max(place(row) - tile.top, 0),
-                         std::min(place(column + 1) - tile.left, tile.width),
-                         std::min(place(row + 1) - tile.top, tile.height),
-                         hash_keys({seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(pass),
-                                    static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)})};
+      const Cell in_tile{
+          std::max(place(column) - tile.left, 0), std::max(place(row) - tile.top, 0),
+          std::min(place(column + 1) - tile.left, tile.width), std::min(place(row + 1) - tile.top, tile.height),
+          hash_keys({plan.style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(pass),
+                     static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)})};
       if (may_gain(plan, find_anchor(plan, tile, in_tile))) cells.push_back(in_tile);
     }
   }
@@ -84,8 +84,8 @@ std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int
 
 std::uint8_t level_of(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); }
 
-void add_stroke(const FittedStroke& fitted, const LayerPlan& plan, const FitTile& tile, const Style& style,
-                std::uint64_t random, Layer& layer) {
+void add_stroke(const FittedStroke& fitted, const LayerPlan& plan, const FitTile& tile, std::uint64_t random,
+                Layer& layer) {
   Stroke stroke;
   stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
   stroke.point_count = static_cast<std::uint32_t>(fitted.points.size());
@@ -95,15 +95,15 @@ void add_stroke(const FittedStroke& fitted, const LayerPlan& plan, const FitTile
   const std::span points = std::span(layer.points).subspan(stroke.first_point);
   settle_disparities(plan, fitted.radius_px, points);
   stroke.radius_px = fitted.radius_px;
-  stroke.opacity = style.opacity;
+  stroke.opacity = plan.style.opacity;
   const auto begin = rgb_of(fitted.begin), end = rgb_of(fitted.end);
   const Rgb8 first{level_of(begin[0]), level_of(begin[1]), level_of(begin[2])};
   const Rgb8 last{level_of(end[0]), level_of(end[1]), level_of(end[2])};
   const auto change = [](int from, int to) { return static_cast<std::int16_t>(to - from); };
-  stroke.colour = jittered(first, style.jitter, random);
+  stroke.colour = jittered(first, plan.style.jitter, random);
   stroke.change = {change(first.r, last.r), change(first.g, last.g), change(first.b, last.b)};
   stroke.disparity = points[points.size() / 2].disparity;
-  stroke.reference_view = plan.view;
+  stroke.reference_view = plan.view.position;
   stroke.views = all_views;
   layer.strokes.push_back(stroke);
 }
@@ -135,19 +135,19 @@ bool has_seeds(const LayerPlan& plan, int left, int top, int size) {
   return false;
 }
 
-Layer plan_block(const LayerPlan& plan, const Style& style, int left, int top, int size, Canvas& canvas) {
+Layer plan_block(const LayerPlan& plan, int left, int top, int size, Canvas& canvas) {
   Layer layer{plan.radius_px, {}, {}};
   if (!has_seeds(plan, left, top, size)) return layer;
   const int margin = static_cast<int>(std::ceil(fitted_reach_px(plan.radius_px)));
   FitTile tile(plan, canvas, left - margin, top - margin, left + size + margin, top + size + margin);
   for (int pass = 0; pass < passes; ++pass) {
-    for (const Cell& cell : cells_of_block(plan, tile, left, top, size, pass, style.seed)) {
+    for (const Cell& cell : cells_of_block(plan, tile, left, top, size, pass)) {
       const Anchor anchor = find_anchor(plan, tile, cell);
       if (!may_gain(plan, anchor)) continue;
       const auto fitted = fit_stroke(tile, plan, anchor.x, anchor.y, cell.random);
       if (!fitted || fitted->gain < plan.least_gain) continue;
       paint_stroke(*fitted, plan, tile);
-      add_stroke(*fitted, plan, tile, style, cell.random, layer);
+      add_stroke(*fitted, plan, tile, cell.random, layer);
     }
   }
   if (!layer.strokes.empty()) put_back(tile, canvas);
@@ -156,7 +156,7 @@ Layer plan_block(const LayerPlan& plan, const Style& style, int left, int top, i
 
 }  // namespace
 
-Layer fit_layer(const LayerPlan& plan, const Style& style) {
+Layer fit_layer(const LayerPlan& plan) {
   Canvas canvas = plan.canvas;
   const int size = block_px(plan);
   const int columns = (canvas.width + size - 1) / size, rows = (canvas.height + size - 1) / size;
@@ -171,7 +171,7 @@ Layer fit_layer(const LayerPlan& plan, const Style& style) {
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
       const int column = first_column + 2 * (static_cast<int>(i) % wave_columns);
       const int row = first_row + 2 * (static_cast<int>(i) / wave_columns);
-      blocks[i] = plan_block(plan, style, column * size, row * size, size, canvas);
+      blocks[i] = plan_block(plan, column * size, row * size, size, canvas);
     });
     for (const Layer& block : blocks) append_strokes(block, layer);
   }

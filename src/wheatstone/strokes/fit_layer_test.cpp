@@ -7,8 +7,7 @@
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/painting/paint.h"
-#include "wheatstone/strokes/layer_planner.h"
-#include "wheatstone/strokes/plan_layer_internal.h"
+#include "wheatstone/strokes/layer_plan.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::fit_layer_test {
@@ -35,8 +34,8 @@ struct Bench {
       : photograph(std::move(picture)), disparity(photograph.width(), photograph.height(), depth) {}
 
   StrokePainting plan() {
-    LayerPlanner planner(photograph, disparity, central_view, style);
-    return plan_alone(planner, style, ScaledStyle(style, photograph.width()), {});
+    ViewOnCanvas at({photograph, disparity, {}, central_view}, style, photograph.width());
+    return {photograph.width(), photograph.height(), style.canvas_colour, plan_alone(at, style)};
   }
 
   Image<Rgb8> photograph;

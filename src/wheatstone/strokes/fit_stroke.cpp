@@ -339,7 +339,7 @@ FitTile::FitTile(const LayerPlan& plan, const Canvas& canvas, int left_, int top
     const auto row = [&](const auto& plane) { return plane.row(top + y).subspan(static_cast<std::size_t>(left)); };
     const auto red = row(plan.reference.red), green = row(plan.reference.green), blue = row(plan.reference.blue);
     const auto painted_red = row(canvas.red), painted_green = row(canvas.green), painted_blue = row(canvas.blue);
-    const auto covered = row(canvas.coverage), depth = row(plan.disparity);
+    const auto covered = row(canvas.coverage), depth = row(plan.view.disparity);
     for (int x = 0; x < width; ++x) {
       const std::size_t pixel = at(x, y), i = static_cast<std::size_t>(x);
       wanted[pixel] = colour_of(red[i], green[i], blue[i]);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wheatstone/marks/spline.h"
-#include "wheatstone/strokes/plan_layer_internal.h"
+#include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {
 
@@ -58,6 +58,12 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
 
 /// Paints it.
 void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile);
+
+/// Plans the strokes of one layer by fitting each to the picture, on a canvas that holds those before it. A stroke is
+/// kept if it lowers the squared difference between picture and canvas enough. Cells of 1.3 R are visited in two
+/// passes; in each, the pixel that is most wrong begins a stroke. The picture is divided into blocks, which are planned
+/// in four waves, so that the result does not depend on threads. In drawing order.
+Layer fit_layer(const LayerPlan& plan);
 
 /// The colour in sRGB, 0..255, not rounded.
 std::array<float, 3> rgb_of(const FitColour& colour);

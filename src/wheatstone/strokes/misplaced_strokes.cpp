@@ -14,16 +14,15 @@
 
 namespace wheatstone {
 
-void drop_misplaced(const SceneView& home, std::span<const SceneView> views, float depth_threshold_px,
-                    TrackedLayer& tracked) {
+void drop_misplaced(ViewPosition home, std::span<const View> views, float depth_threshold_px, TrackedLayer& tracked) {
   std::vector<NearColours> near;
-  for (const SceneView& view : views) near.emplace_back(view.picture);
+  for (const View& view : views) near.emplace_back(view.colour);
   const auto shows_unlike = [&](const Stroke& stroke, const ControlPoint& point, std::size_t number) {
-    const SceneView& view = views[number];
+    const View& view = views[number];
     if (view.continued) return false;
-    const int x = static_cast<int>(std::floor(column_in(point, home, view)));
+    const int x = static_cast<int>(std::floor(view.frame.column(x_in_view(point, home, view.position))));
     const int y = static_cast<int>(std::floor(point.y));
-    return view.picture.contains(x, y) && is_visible(point, home, view, depth_threshold_px) &&
+    return view.colour.contains(x, y) && is_visible(point, home, view, depth_threshold_px) &&
            !near[number].has(stroke.colour, x, y);
   };
   std::vector<std::uint8_t> is_misplaced(tracked.tracks.size());

@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include "wheatstone/image/reduced_view.h"
-#include "wheatstone/marks/resize_strokes.h"
 #include "wheatstone/stereo/occlusion.h"
-#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/stereo/view_scale.h"
+#include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {
 
@@ -14,25 +13,12 @@ Image<std::uint8_t> grown_occlusion(ImageView<const std::uint8_t> occlusion, con
   return dilate_occlusion(occlusion, static_cast<int>(std::lround(style.occlusion_dilation * largest_radius_px)));
 }
 
-StrokePainting plan_occluded_part(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
-                                  ImageView<const std::uint8_t> occlusion, ViewPosition view, const Style& style) {
-  const int width = photograph.width(), height = photograph.height();
-  const Image<std::uint8_t> seeds = grown_occlusion(occlusion, style);
-  constexpr int reduction = 2;
-  const ReducedView half = reduced(photograph, disparity, seeds, reduction);
-  StrokePainting part{width,
-                      height,
-                      style.canvas_colour,
-                      std::vector<Layer>(ScaledStyle(style, width).radii_px.size()),
-                      true,
-                      brush_for(style, width)};
-  if (half.photograph.empty()) return part;
-
-  LayerPlanner planner(half.photograph, half.disparity, view, style);
-  planner.avoid_mixed_colours = false;  // no other eye sees them
-  part.layers = plan_alone(planner, style, ScaledStyle(style, width, reduction), half.seeds).layers;
-  for (Layer& layer : part.layers) resize_strokes(layer, reduction);
-  return part;
+std::vector<Layer> plan_occluded_part(View view, const Style& style) {
+  view.wanted = grown_occlusion(view.wanted, style);
+  const View half = smaller_view(view, 2);
+  if (half.colour.empty()) return std::vector<Layer>(ScaledStyle(style, view.colour.width()).radii_px.size());
+  ViewOnCanvas at(half, style, view.colour.width());
+  return plan_alone(at, style);
 }
 
 }  // namespace wheatstone

@@ -1,4 +1,4 @@
-#include "wheatstone/strokes/plan_layer_internal.h"
+#include "wheatstone/strokes/layer_plan.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,6 +7,7 @@
 
 #include "wheatstone/random.h"
 #include "wheatstone/strokes/dual_stroke_internal.h"
+#include "wheatstone/strokes/fit_stroke_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/seed_internal.h"
@@ -15,12 +16,13 @@
 namespace wheatstone {
 namespace {
 
-/// A grid of cells f_g·R wide, half that beside depth edges, but not less than the plan wants there; the last row and
-/// column may be cut off by the picture's edge.
+/// The cells in which strokes of one place begin: a grid of cells f_g·R wide, half that beside depth edges, but not
+/// less than the plan wants there; the last row and column may be cut off by the picture's edge.
 struct Grid {
-  Grid(const LayerPlan& plan, const Style& style, Place place)
-      : cell_px(place == Place::open ? std::max(style.grid * plan.radius_px, 1.f)
-                                     : std::max(style.grid * plan.radius_px / 2, plan.least_edge_cell_px)),
+  Grid(const LayerPlan& plan, Place place_)
+      : place(place_),
+        cell_px(place == Place::open ? std::max(plan.style.grid * plan.radius_px, 1.f)
+                                     : std::max(plan.style.grid * plan.radius_px / 2, plan.least_edge_cell_px)),
         width(plan.canvas.width),
         height(plan.canvas.height) {}
 
@@ -29,19 +31,9 @@ struct Grid {
   int left(int column) const { return std::min(static_cast<int>(static_cast<float>(column) * cell_px), width); }
   int top(int row) const { return std::min(static_cast<int>(static_cast<float>(row) * cell_px), height); }
 
+  Place place;
   float cell_px;
   int width, height;
-};
-
-/// One of a layer's two passes: the strokes away from depth edges, or those beside them.
-struct Pass {
-  Pass(const LayerPlan& plan_, const Style& style_, Place place_)
-      : plan(plan_), style(style_), place(place_), grid(plan_, style_, place_) {}
-
-  const LayerPlan& plan;
-  const Style& style;
-  Place place;
-  Grid grid;
 };
 
 /// Where on a bare cell a stroke would begin: the jitter of the grid.
@@ -59,9 +51,8 @@ bool may_begin(const LayerPlan& plan, Place place, int x, int y) {
 /// How much a stroke is wanted at a pixel; negative: not at all. Among bare pixels, which are all infinitely wrong, the
 /// one nearest to the cell's target is wanted most. A pixel right on a depth edge mixes two surfaces' colours: it is
 /// taken only where nothing else in the cell is bare.
-float desire(const Pass& pass, float error, int x, int y, const Target& target) {
-  const LayerPlan& plan = pass.plan;
-  const bool on_edge = pass.place == Place::beside_edge && !plan.mixed_colours.empty() && plan.edge_distance(x, y) < 1;
+float desire(const LayerPlan& plan, Place place, float error, int x, int y, const Target& target) {
+  const bool on_edge = place == Place::beside_edge && !plan.mixed_colours.empty() && plan.edge_distance(x, y) < 1;
   if (error < bare_error) return on_edge ? -1 : error;
   if (on_edge) return bare_error / 4;
   const float dx = static_cast<float>(x) - target.x, dy = static_cast<float>(y) - target.y;
@@ -73,18 +64,19 @@ constexpr float misplaced_error = 3 * 255 * 255;
 static_assert(2 * misplaced_error < bare_error / 2);
 
 /// Looks through one row of one cell for a better pixel than the seed's. `errors` is by column of the picture.
-void improve_seed(const Pass& pass, const RowPart& part, const float* errors, const Target& target, Seed& seed) {
+void improve_seed(const LayerPlan& plan, Place place, const RowPart& part, const float* errors, const Target& target,
+                  Seed& seed) {
   // Nothing in a row is wanted more than a bare pixel right above or below the target.
   const float rows_away = static_cast<float>(part.row) - target.y;
   if (seed.error >= bare_error - rows_away * rows_away && rows_away * rows_away < bare_error / 2) return;
-  const ImageView<const std::uint8_t>& mask = pass.plan.misplaced;
+  const ImageView<const std::uint8_t>& mask = plan.misplaced;
   const std::uint8_t* const misplaced = mask.empty() ? nullptr : mask.row(part.row).data();
   for (int x = part.begin; x < part.end; ++x) {
     const bool is_bare = errors[x] >= bare_error, is_misplaced = misplaced != nullptr && misplaced[x] != 0;
     const float own_error = errors[x] + (is_misplaced && !is_bare ? misplaced_error : 0);
     if (own_error <= seed.error) continue;
-    const float error = desire(pass, own_error, x, part.row, target);
-    if (error > seed.error && may_begin(pass.plan, pass.place, x, part.row)) seed = {error, x, part.row};
+    const float error = desire(plan, place, own_error, x, part.row, target);
+    if (error > seed.error && may_begin(plan, place, x, part.row)) seed = {error, x, part.row};
   }
 }
 
@@ -115,11 +107,9 @@ struct CellRun {
 };
 
 /// The cells of a row in which strokes may begin at all.
-std::vector<CellRun> runs_of_active_cells(const Pass& pass, int row) {
-  const LayerPlan& plan = pass.plan;
-  const Grid& grid = pass.grid;
+std::vector<CellRun> runs_of_active_cells(const LayerPlan& plan, const Grid& grid, int row) {
   const MaskOfRows seeds(plan.seeds, grid.top(row), grid.top(row + 1));
-  const MaskOfRows edges(pass.place == Place::beside_edge ? plan.depth_edges : ImageView<const std::uint8_t>(),
+  const MaskOfRows edges(grid.place == Place::beside_edge ? plan.depth_edges.view() : ImageView<const std::uint8_t>(),
                          grid.top(row), grid.top(row + 1));
   std::vector<CellRun> runs;
   for (int column = 0; column < grid.columns(); ++column) {
@@ -137,10 +127,9 @@ std::vector<CellRun> runs_of_active_cells(const Pass& pass, int row) {
 /// What a random number decides.
 enum Purpose : std::uint64_t { jitter_x, jitter_y, stroke_choices };
 
-std::uint64_t cell_hash(const Pass& pass, int column, int row, Purpose purpose) {
-  return hash_keys({pass.style.seed, static_cast<std::uint64_t>(pass.plan.layer),
-                    static_cast<std::uint64_t>(pass.place), static_cast<std::uint64_t>(column),
-                    static_cast<std::uint64_t>(row), purpose});
+std::uint64_t cell_hash(const LayerPlan& plan, Place place, int column, int row, Purpose purpose) {
+  return hash_keys({plan.style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(place),
+                    static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), purpose});
 }
 
 /// Single wrong disparities would bend the stroke in other views: each becomes the median of itself and its neighbours
@@ -157,7 +146,7 @@ void smooth_disparities(std::span<ControlPoint> points) {
 
 /// Of the finest layer, which lies over the others. `points` are those of one stroke.
 void keep_within_outlines(const LayerPlan& plan, float radius_px, std::span<ControlPoint> points) {
-  const StrokeGround ground{plan.disparity, plan.depth_threshold_px, plan.beside};
+  const StrokeGround ground{plan.view.disparity, plan.depth_threshold_px, plan.beside};
   const float far_px = plan.radius_px + known_edge_distance_px;
   for (ControlPoint& point : points)
     if (plan.edge_distance(static_cast<int>(point.x), static_cast<int>(point.y)) < far_px)
@@ -170,12 +159,12 @@ void keep_within_outlines(const LayerPlan& plan, float radius_px, std::span<Cont
   for (std::size_t i = points.size(); i-- > 1;) follow(i - 1, i);
 }
 
-void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer& layer) {
-  const auto& [plan, style, place, grid] = pass;
+void add_stroke(const LayerPlan& plan, Place place, const Seed& seed, std::uint64_t random, Layer& layer) {
+  const Style& style = plan.style;
   Stroke stroke;
   stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
   stroke.radius_px = stroke_radius(plan, place, seed);
-  trace_stroke(plan, style, {seed, stroke.radius_px, (random & 1) != 0}, layer.points);
+  trace_stroke(plan, {seed, stroke.radius_px, (random & 1) != 0}, layer.points);
   stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
   const std::span points = std::span(layer.points).subspan(stroke.first_point);
   settle_disparities(plan, stroke.radius_px, points);
@@ -185,51 +174,50 @@ void add_stroke(const Pass& pass, const Seed& seed, std::uint64_t random, Layer&
       jittered({reference.red(seed.x, seed.y), reference.green(seed.x, seed.y), reference.blue(seed.x, seed.y)},
                style.jitter, random);
   stroke.disparity = points.front().disparity;
-  stroke.reference_view = plan.view;
+  stroke.reference_view = plan.view.position;
   stroke.views = all_views;
   layer.strokes.push_back(stroke);
   if (style.dual) make_dual(plan, layer);
 }
 
-Target target_of(const Pass& pass, int column, int row) {
-  const float u = unit_float(cell_hash(pass, column, row, jitter_x));
-  const float v = unit_float(cell_hash(pass, column, row, jitter_y));
-  return {(static_cast<float>(column) + u) * pass.grid.cell_px, (static_cast<float>(row) + v) * pass.grid.cell_px};
+Target target_of(const LayerPlan& plan, const Grid& grid, int column, int row) {
+  const float u = unit_float(cell_hash(plan, grid.place, column, row, jitter_x));
+  const float v = unit_float(cell_hash(plan, grid.place, column, row, jitter_y));
+  return {(static_cast<float>(column) + u) * grid.cell_px, (static_cast<float>(row) + v) * grid.cell_px};
 }
 
 /// The strokes that begin in one row of cells.
-Layer plan_cells(const Pass& pass, int row) {
-  const auto& [plan, style, place, grid] = pass;
-  const std::vector<CellRun> runs = runs_of_active_cells(pass, row);
+Layer plan_cells(const LayerPlan& plan, const Grid& grid, int row) {
+  const std::vector<CellRun> runs = runs_of_active_cells(plan, grid, row);
   Layer layer;
   if (runs.empty()) return layer;
   // What is not wrong enough for a stroke is not looked at closely.
-  const float squared_threshold = style.threshold * style.threshold;
+  const float squared_threshold = plan.style.threshold * plan.style.threshold;
   std::vector<Seed> seeds(grid.columns(), Seed{std::min(squared_threshold, bare_error / 4)});
   std::vector<Target> targets(grid.columns());
   for (const CellRun& run : runs)
-    for (int column = run.first; column < run.end; ++column) targets[column] = target_of(pass, column, row);
+    for (int column = run.first; column < run.end; ++column) targets[column] = target_of(plan, grid, column, row);
 
   std::vector<float> errors(plan.canvas.width);
   for (int y = grid.top(row); y < grid.top(row + 1); ++y) {
     for (const CellRun& run : runs) {
       squared_errors(plan.reference, plan.canvas, {y, grid.left(run.first), grid.left(run.end)}, errors.data());
       for (int column = run.first; column < run.end; ++column)
-        improve_seed(pass, {y, grid.left(column), grid.left(column + 1)}, errors.data(), targets[column],
+        improve_seed(plan, grid.place, {y, grid.left(column), grid.left(column + 1)}, errors.data(), targets[column],
                      seeds[column]);
     }
   }
   for (int column = 0; column < grid.columns(); ++column) {
     if (seeds[column].error > squared_threshold)
-      add_stroke(pass, seeds[column], cell_hash(pass, column, row, stroke_choices), layer);
+      add_stroke(plan, grid.place, seeds[column], cell_hash(plan, grid.place, column, row, stroke_choices), layer);
   }
   return layer;
 }
 
-void plan_place(const LayerPlan& plan, const Style& style, Place place, Layer& layer) {
-  const Pass pass(plan, style, place);
-  std::vector<Layer> rows(pass.grid.rows());
-  tbb::parallel_for(0, pass.grid.rows(), [&](int row) { rows[row] = plan_cells(pass, row); });
+void plan_place(const LayerPlan& plan, Place place, Layer& layer) {
+  const Grid grid(plan, place);
+  std::vector<Layer> rows(grid.rows());
+  tbb::parallel_for(0, grid.rows(), [&](int row) { rows[row] = plan_cells(plan, grid, row); });
   for (const Layer& row : rows) append_strokes(row, layer);
 }
 
@@ -246,11 +234,12 @@ float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed) {
   return std::clamp(plan.edge_distance(seed.x, seed.y), least_px, plan.radius_px);
 }
 
-Layer plan_layer(const LayerPlan& plan, const Style& style) {
+Layer plan_layer(const LayerPlan& plan) {
+  if (plan.style.marks == Marks::fitted_strokes) return fit_layer(plan);
   Layer layer;
   layer.radius_px = plan.radius_px;
-  plan_place(plan, style, Place::open, layer);
-  if (!plan.edge_distance.empty()) plan_place(plan, style, Place::beside_edge, layer);
+  plan_place(plan, Place::open, layer);
+  if (!plan.edge_distance.empty()) plan_place(plan, Place::beside_edge, layer);
   return layer;
 }
 

@@ -10,15 +10,18 @@
 #include "wheatstone/image/oklab.h"
 #include "wheatstone/image/srgb.h"
 #include "wheatstone/random.h"
+#include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/bare_pixels_internal.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
+#include "wheatstone/strokes/handed_back.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
-#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/layer_plan.h"
 #include "wheatstone/strokes/reference_picture.h"
 #include "wheatstone/strokes/repair.h"
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/trace_stroke_internal.h"
+#include "wheatstone/strokes/view_to_plan_internal.h"
 
 namespace wheatstone::plan_test {
 
@@ -29,11 +32,12 @@ struct Bench {
         photograph(std::move(picture)),
         reference(make_reference(photograph, 4, style)),
         canvas(photograph.width(), photograph.height(), {0, 0, 0}),
-        disparity(photograph.width(), photograph.height(), 5.f) {}
+        disparity(photograph.width(), photograph.height(), 5.f),
+        view{photograph, disparity, {}, left_eye} {}
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
 
-  LayerPlan plan() const {
-    return {.reference = reference, .canvas = canvas, .disparity = disparity, .seeds = {}, .radius_px = 4};
-  }
+  LayerPlan plan() const { return {.style = style, .view = view, .canvas = canvas, .reference = reference}; }
 
   void cover(float level) {
     for (Image<float>* plane : {&canvas.red, &canvas.green, &canvas.blue}) std::ranges::fill(plane->pixels(), level);
@@ -45,6 +49,7 @@ struct Bench {
   ReferencePicture reference;
   Canvas canvas;
   Image<float> disparity;
+  View view;
 };
 
 Image<Rgb8> horizontal_stripes(int width, int height) {
@@ -145,18 +150,18 @@ TEST(Reference, ReducedMedianStaysNearTheFullOne) {
 
 TEST(Plan, EveryCellOfABareCanvasGetsAStroke) {
   const Bench bench(horizontal_stripes(80, 60));
-  const Layer layer = plan_layer(bench.plan(), bench.style);
+  const Layer layer = plan_layer(bench.plan());
   EXPECT_EQ(layer.strokes.size(), 20u * 15u);
 }
 
 TEST(Plan, NothingIsPaintedWhereThePictureIsRightAlready) {
   Bench bench(Image<Rgb8>(80, 60, {100, 100, 100}));
   bench.cover(100);
-  EXPECT_TRUE(plan_layer(bench.plan(), bench.style).strokes.empty());
+  EXPECT_TRUE(plan_layer(bench.plan()).strokes.empty());
   bench.cover(100 + 60);  // 60·√3 = 104 > T = 100
-  EXPECT_FALSE(plan_layer(bench.plan(), bench.style).strokes.empty());
+  EXPECT_FALSE(plan_layer(bench.plan()).strokes.empty());
   bench.cover(100 + 55);  // 95 < T
-  EXPECT_TRUE(plan_layer(bench.plan(), bench.style).strokes.empty());
+  EXPECT_TRUE(plan_layer(bench.plan()).strokes.empty());
 }
 
 TEST(Plan, AStrokeBeginsAtTheLargestErrorOfItsCell) {
@@ -167,7 +172,7 @@ TEST(Plan, AStrokeBeginsAtTheLargestErrorOfItsCell) {
   style.max_length = style.min_length = 0;
   Bench bench(picture, style);
   bench.cover(100);
-  const Layer layer = plan_layer(bench.plan(), bench.style);
+  const Layer layer = plan_layer(bench.plan());
   ASSERT_EQ(layer.strokes.size(), 1u);
   EXPECT_EQ(layer.points[0], (ControlPoint{13.5f, 22.5f, 5}));
   EXPECT_EQ(layer.strokes[0].colour, (Rgb8{255, 255, 255}));
@@ -191,7 +196,7 @@ TEST(Plan, AStrokeEndsBeforeItCoversPaintOfAColourUnlikeItsOwn) {
     for (std::uint8_t& level : bench.reference.luminance.row(y)) level = static_cast<std::uint8_t>(4 * y);
   for (const bool backwards : {false, true}) {
     std::vector<ControlPoint> points;
-    trace_stroke(bench.plan(), bench.style, {{.x = 30, .y = 30}, 4, backwards}, points);
+    trace_stroke(bench.plan(), {{.x = 30, .y = 30}, 4, backwards}, points);
     EXPECT_GT(points.size(), 4u);
     for (const ControlPoint& point : points) EXPECT_LT(point.x, 50);
   }
@@ -200,39 +205,34 @@ TEST(Plan, AStrokeEndsBeforeItCoversPaintOfAColourUnlikeItsOwn) {
 TEST(Plan, MisplacedPaintIsPaintedOverWhateverTheThreshold) {
   Bench bench(grey_then_red());
   bench.cover(100);
-  EXPECT_TRUE(plan_layer(bench.plan(), bench.style).strokes.empty());
-  const LayerPlanner planner = [&] {
-    LayerPlanner made(bench.photograph, bench.disparity, left_eye, bench.style);
-    made.canvas = bench.canvas;
-    return made;
-  }();
-  const Image<std::uint8_t> misplaced = misplaced_paint(planner, bench.style);
+  EXPECT_TRUE(plan_layer(bench.plan()).strokes.empty());
+  ViewOnCanvas at(bench.view, bench.style, 640, bench.canvas);
+  const Image<std::uint8_t> misplaced = misplaced_paint(at, bench.style);
   EXPECT_EQ(misplaced(30, 30), 0);
   EXPECT_EQ(misplaced(60, 30), 255);
   LayerPlan plan = bench.plan();
   plan.misplaced = misplaced;
-  const Layer layer = plan_layer(plan, bench.style);
+  const Layer layer = plan_layer(plan);
   EXPECT_FALSE(layer.strokes.empty());
   for (const Stroke& stroke : layer.strokes) EXPECT_GT(stroke.colour.r, 160);
 
   Style jittered;
   jittered.jitter.hue = 0.5f;
-  EXPECT_TRUE(misplaced_paint(planner, jittered).empty()) << "its colours are meant to be others";
+  EXPECT_TRUE(misplaced_paint(at, jittered).empty()) << "its colours are meant to be others";
 }
 
 /// The marks that cover places of a bench's bare canvas.
 Layer repaired(const Bench& bench, ImageView<const std::uint8_t> places) {
-  const LayerPlanner planner(bench.photograph, bench.disparity, left_eye, bench.style);
-  const ScaledStyle scaled(bench.style, 640);
-  const LayerInputs inputs = make_layer_inputs(planner, bench.style, scaled, 2);
-  const Image<std::uint8_t> bare = bare_pixels(planner.canvas, places);
+  const ViewOnCanvas at(bench.view, bench.style, 640);
+  const LayerPlan plan = make_layer_plan(at, bench.style, 2);
+  const Image<std::uint8_t> bare = bare_pixels(at.canvas, places);
   return repair({.target = {.picture = bench.photograph,
                             .places = bare,
                             .disparity = bench.disparity,
                             .view = left_eye,
                             .reference_view = left_eye},
-                 .scaled = scaled,
-                 .mixed_colours = inputs.mixed_colours},
+                 .scaled = at.scaled,
+                 .mixed_colours = plan.mixed_colours},
                 bench.style);
 }
 
@@ -268,7 +268,7 @@ TEST(RepairOfStrokes, BarePixelsOfOneColourAreCoveredByOneThread) {
 TEST(Plan, StrokesRunAcrossTheGradientWithPointsOneRadiusApart) {
   const Bench bench(horizontal_stripes(200, 80));
   std::vector<ControlPoint> points;
-  trace_stroke(bench.plan(), bench.style, {{.x = 100, .y = 40}, 4, false}, points);
+  trace_stroke(bench.plan(), {{.x = 100, .y = 40}, 4, false}, points);
   ASSERT_GT(points.size(), 4u);
   for (std::size_t i = 1; i < points.size(); ++i) {
     EXPECT_NEAR(std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y), 4, 1e-3);
@@ -278,7 +278,7 @@ TEST(Plan, StrokesRunAcrossTheGradientWithPointsOneRadiusApart) {
 
 TEST(Plan, StrokesHaveNoMorePointsThanTheirLongest) {
   const Bench bench(horizontal_stripes(400, 60));
-  for (const Layer layer = plan_layer(bench.plan(), bench.style); const Stroke& stroke : layer.strokes)
+  for (const Layer layer = plan_layer(bench.plan()); const Stroke& stroke : layer.strokes)
     EXPECT_LE(stroke.point_count, 16u);
 }
 
@@ -294,8 +294,7 @@ TEST(Plan, StrokesEndWhereTheCanvasIsNearerThanTheirColour) {
   std::vector<ControlPoint> points;
   // A steady direction to the right is forced by a strong memory of it.
   bench.style.curvature = 0.01f;
-  for (const bool backwards : {false, true})
-    trace_stroke(bench.plan(), bench.style, {{.x = 90, .y = 20}, 4, backwards}, points);
+  for (const bool backwards : {false, true}) trace_stroke(bench.plan(), {{.x = 90, .y = 20}, 4, backwards}, points);
   for (const ControlPoint& point : points) EXPECT_LT(point.x, 100 + 2 * 4);
 }
 
@@ -304,8 +303,8 @@ TEST(Plan, GradientOrientationEndsStrokesWhereItVanishes) {
   Style style;
   style.orientation = Orientation::gradient;
   const Bench paper(flat, style), ours(flat, {});
-  const Layer dots = plan_layer(paper.plan(), paper.style);
-  const Layer strokes = plan_layer(ours.plan(), ours.style);
+  const Layer dots = plan_layer(paper.plan());
+  const Layer strokes = plan_layer(ours.plan());
   EXPECT_TRUE(std::ranges::all_of(dots.strokes, [](const Stroke& s) { return s.point_count == 1; }));
   EXPECT_TRUE(std::ranges::any_of(strokes.strokes, [](const Stroke& s) { return s.point_count > 4; }));
 }
@@ -317,7 +316,7 @@ TEST(Plan, StrokesBeginOnlyOnTheirSeeds) {
     for (int x = 30; x < 50; ++x) seeds(x, y) = 255;
   LayerPlan plan = bench.plan();
   plan.seeds = seeds;
-  const Layer layer = plan_layer(plan, bench.style);
+  const Layer layer = plan_layer(plan);
   ASSERT_FALSE(layer.strokes.empty());
   for (const Stroke& stroke : layer.strokes) {
     const ControlPoint& begin = layer.points[stroke.first_point];
@@ -327,10 +326,55 @@ TEST(Plan, StrokesBeginOnlyOnTheirSeeds) {
 
 TEST(Plan, IsTheSameForTheSameSeedOnly) {
   Bench bench(horizontal_stripes(80, 60));
-  const Layer layer = plan_layer(bench.plan(), bench.style);
-  EXPECT_EQ(plan_layer(bench.plan(), bench.style), layer);
+  const Layer layer = plan_layer(bench.plan());
+  EXPECT_EQ(plan_layer(bench.plan()), layer);
   bench.style.seed = 2;
-  EXPECT_NE(plan_layer(bench.plan(), bench.style), layer);
+  EXPECT_NE(plan_layer(bench.plan()), layer);
+}
+
+TEST(HandingBack, UndoesTakingIn) {
+  Layer layer{8, {{100.25f, 30.5f, 12}, {-3, 4, 0}}, {{.point_count = 2, .radius_px = 6, .disparity = 12}}};
+  const Layer before = layer;
+  const ViewFrame frame{-40, 4};
+  take_in(frame, layer);
+  EXPECT_EQ(layer.points[0], (ControlPoint{35.0625f, 7.625f, 3}));
+  EXPECT_EQ(layer.strokes[0].radius_px, 1.5f);
+  hand_back(frame, layer);
+  EXPECT_EQ(layer, before);
+}
+
+TEST(DotsLeftOut, AreTheNearPixelsThatASmallerOneDoesNotShow) {
+  constexpr Rgb8 near_colour{200, 0, 0}, far_colour{0, 0, 100};
+  Image<Rgb8> colour(6, 2, far_colour);
+  Image<float> disparity(6, 2, 4.f);
+  for (int y = 0; y < 2; ++y) {
+    for (const int x : {2, 4}) {
+      colour(x, y) = near_colour;
+      disparity(x, y) = 12;
+    }
+  }
+  Image<std::uint8_t> wanted(6, 2);
+  wanted(4, 1) = wanted(2, 0) = wanted(2, 1) = wanted(3, 0) = 255;
+  const View view{colour, disparity, wanted, right_eye};
+  Layer dots = dots_left_out(view, smaller_view(view, 2));
+  hand_back({0, 2}, dots);
+  ASSERT_EQ(dots.strokes.size(), 1u) << "the near column that is wanted beside the far one";
+  EXPECT_EQ(dots.points[0], (ControlPoint{2.5f, 1, 12}));
+  EXPECT_EQ(dots.strokes[0].colour, near_colour);
+  EXPECT_EQ(dots.strokes[0].radius_px, 1);
+}
+
+TEST(DotsLeftOut, AreWhatMakesNoWholePixel) {
+  const Image<Rgb8> colour(5, 3, Rgb8{1, 2, 3});
+  const Image<float> disparity(5, 3, -4.f);
+  Image<std::uint8_t> wanted(5, 3, 255);
+  wanted(4, 0) = 0;
+  const View view{colour, disparity, wanted, right_eye};
+  Layer dots = dots_left_out(view, smaller_view(view, 2));
+  hand_back({0, 2}, dots);
+  const std::vector<ControlPoint> expected{{4.5f, 1.5f, -4}, {1, 2.5f, -4}, {3, 2.5f, -4}, {4.5f, 2.5f, -4}};
+  EXPECT_EQ(dots.points, expected);
+  for (const Stroke& dot : dots.strokes) EXPECT_EQ(dot.colour, (Rgb8{1, 2, 3}));
 }
 
 TEST(LayerOrder, GoesFromFarToNear) {
@@ -355,7 +399,7 @@ TEST(Plan, TakesSingleWrongDisparitiesOutOfAStroke) {
   constexpr float wrong = 40;
   for (int y = 0; y < 60; ++y)
     for (int x = y % 2; x < 80; x += 11) bench.disparity(x, y) = wrong;
-  const Layer layer = plan_layer(bench.plan(), bench.style);
+  const Layer layer = plan_layer(bench.plan());
   int taken_out = 0;
   for (const Stroke& stroke : layer.strokes) {
     const auto points = layer.points_of(stroke);

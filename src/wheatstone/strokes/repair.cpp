@@ -13,7 +13,7 @@ namespace {
 /// The largest radius, halved as often as need be, with which a dot lies on one surface.
 float fitting_radius(const StrokeRepair& repair, int x, int y) {
   const ImageView<const float>& disparity = repair.target.disparity;
-  for (float radius = repair.scaled.radii_px.back(); radius > repair.least_dot_px; radius /= 2) {
+  for (float radius = repair.scaled.radii_px.back(); radius > repair.scaled.least_dot_px; radius /= 2) {
     const int reach = static_cast<int>(std::ceil(radius));
     bool fits = true;
     for (int row = std::max(y - reach, 0); fits && row <= std::min(y + reach, disparity.height() - 1); ++row)
@@ -21,7 +21,7 @@ float fitting_radius(const StrokeRepair& repair, int x, int y) {
         fits = std::abs(disparity(column, row) - disparity(x, y)) <= repair.scaled.depth_threshold_px;
     if (fits) return radius;
   }
-  return repair.least_dot_px;
+  return repair.scaled.least_dot_px;
 }
 
 /// How far from its middle a dot covers pixels wholly.

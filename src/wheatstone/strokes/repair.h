@@ -2,7 +2,7 @@
 
 #include "wheatstone/marks/repair_target.h"
 #include "wheatstone/marks/stroke_painting.h"
-#include "wheatstone/strokes/layer_planner.h"
+#include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {
 
@@ -11,7 +11,6 @@ struct StrokeRepair {
   RepairTarget target;
   ScaledStyle scaled;                                ///< in the target's pixels
   ImageView<const std::uint8_t> mixed_colours = {};  ///< not 0 where two surfaces' colours mix; may be empty
-  float least_dot_px = 1;                            ///< radius
 };
 
 /// Dots and short threads of the picture's colours over the places, row by row. Each lies on one surface and has that

@@ -55,10 +55,10 @@ SceneMotion::SceneMotion(const FilmFrame& frame, ImageView<const float> disparit
       reference_(frame.views.front().position),
       depth_threshold_px_(depth_threshold_px) {}
 
-PointStep SceneMotion::of(const ControlPoint& point, const SceneView& view) const {
-  float x = column_of(point, view);
+PointStep SceneMotion::of(const ControlPoint& point, ViewPosition view) const {
+  float x = x_in_view(point, view, reference_);
   const float y = point.y;
-  if (view.position != reference_) {
+  if (view != reference_) {
     const int row = std::clamp(static_cast<int>(y), 0, disparity_before_.height() - 1);
     const int column = std::clamp(static_cast<int>(x), 0, disparity_before_.width() - 1);
     const int seen = column_not_nearer(disparity_before_.row(row), column, point.disparity + depth_threshold_px_);
@@ -72,10 +72,10 @@ PointStep SceneMotion::of(const ControlPoint& point, const SceneView& view) cons
   return {(fx - bx) / 2, (fy - by) / 2, true};
 }
 
-bool SceneMotion::showed_whole(std::span<const ControlPoint> points, float radius_px, const SceneView& view) const {
+bool SceneMotion::showed_whole(std::span<const ControlPoint> points, float radius_px, ViewPosition view) const {
   const float reach_px = radius_px + depth_edge_px;
   return std::ranges::all_of(points, [&](const ControlPoint& point) {
-    const float x = column_of(point, view);
+    const float x = x_in_view(point, view, reference_);
     if (!(x >= 0 && x < static_cast<float>(disparity_before_.width()))) return false;
     const int row = std::clamp(static_cast<int>(point.y), 0, disparity_before_.height() - 1);
     return std::ranges::all_of(std::array{x - reach_px, x, x + reach_px}, [&](float aside) {

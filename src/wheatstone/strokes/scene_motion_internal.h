@@ -21,20 +21,16 @@ class SceneMotion {
   /// `disparity_before` is the reference view's at the frame before; all is borrowed, and the frame has a flow.
   SceneMotion(const FilmFrame& frame, ImageView<const float> disparity_before, float depth_threshold_px);
 
-  /// Of a point that stands in the view's pictures.
-  PointStep of(const ControlPoint& point, const SceneView& view) const;
+  /// Of a point that stands in the view.
+  PointStep of(const ControlPoint& point, ViewPosition view) const;
 
   /// True where the reference view showed all of a stroke of another view at the frame before, as wide as its paint
   /// reaches to either side.
-  bool showed_whole(std::span<const ControlPoint> points, float radius_px, const SceneView& view) const;
+  bool showed_whole(std::span<const ControlPoint> points, float radius_px, ViewPosition view) const;
 
   ViewPosition reference() const { return reference_; }
 
  private:
-  float column_of(const ControlPoint& point, const SceneView& view) const {
-    return point.x + static_cast<float>(view.left_px) + (view.position - reference_) * point.disparity;
-  }
-
   const FlowPair& flow_;
   ImageView<const float> disparity_before_;
   ViewPosition reference_;

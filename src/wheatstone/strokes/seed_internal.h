@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "wheatstone/strokes/plan_layer_internal.h"
+#include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {
 
@@ -25,6 +25,9 @@ struct StrokeStart {
 
 /// The radius of a stroke that begins at a seed: the layer's, or beside a depth edge what fits.
 float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed);
+
+/// Smooths the disparities of a stroke's points, and in the finest layer keeps its paint within its surface's outline.
+void settle_disparities(const LayerPlan& plan, float radius_px, std::span<ControlPoint> points);
 
 /// Error of a bare pixel: above every squared RGB distance (at most 3·255²), with room below it for a preference.
 inline constexpr float bare_error = 1e6f;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -13,18 +12,18 @@
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/residual.h"
-#include "wheatstone/marks/resize_strokes.h"
 #include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/bare_pixels_internal.h"
 #include "wheatstone/strokes/carried_points_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
+#include "wheatstone/strokes/handed_back.h"
 #include "wheatstone/strokes/layer_order.h"
-#include "wheatstone/strokes/layer_planner.h"
 #include "wheatstone/strokes/misplaced_strokes_internal.h"
 #include "wheatstone/strokes/missing_strokes_internal.h"
 #include "wheatstone/strokes/repair.h"
 #include "wheatstone/strokes/seed_internal.h"
-#include "wheatstone/strokes/sized_view_internal.h"
+#include "wheatstone/strokes/view_to_plan_internal.h"
 #include "wheatstone/strokes/visible_runs_internal.h"
 
 namespace wheatstone {
@@ -48,131 +47,134 @@ class StrokeNumbers {
   std::uint32_t next_, step_;
 };
 
-/// A view that is being painted: its planner, of a smaller size where the brush is wide or only a part is wanted.
-class ViewAtWork {
+/// Paints one view of a frame, layer by layer; in smaller pictures where the brush is wide, or only a part is wanted.
+class ViewPainter {
  public:
   /// `motion` is the reference view's flow to the frame before; none where a scene begins. `beside`: from which views
   /// its strokes will be seen.
-  ViewAtWork(const SceneView& view, const SceneView& reference, const Style& style, const Flow* motion,
-             const ViewsBeside& beside, StrokeNumbers& numbers)
+  ViewPainter(const View& view, const View& reference, const Style& style, const Flow* motion,
+              const ViewsBeside& beside, StrokeNumbers& numbers)
       : part_(wanted_part(view, reference, style, motion == nullptr)),
-        radii_px_(ScaledStyle(style, reference.picture.width()).radii_px),
+        view_(view_to_plan(part_, reference, style)),
+        reference_width_(reference.colour.width()),
+        radii_px_(ScaledStyle(style, reference_width_).radii_px),
         style_(style),
         motion_(motion),
-        left_px_(static_cast<float>(view.left_px)),
-        uncovered_(view.continued ? view.only_here : ImageView<const std::uint8_t>()),
-        numbers_(numbers) {
-    part_.beside = beside;
-    at_ = std::make_unique<SizedView>(part_, style, factor_for(0), nullptr);
-  }
+        beside_(beside),
+        uncovered_(view.continued ? view.wanted : SharedImage<std::uint8_t>()),
+        numbers_(numbers) {}
 
   /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.
   void plan(int layer, const CarryOptions& options, TrackedLayer& tracked) {
     go_to_size(factor_for(layer));
-    LayerPlanner& planner = at_->planner;
-    if (planner.photograph.empty()) return;
-    const LayerInputs inputs = make_layer_inputs(planner, style_, at_->scaled, layer);
-    const ImageView<const std::uint8_t> part = at_->seeds();
+    if (at_->view.colour.empty()) return;
+    LayerPlan plan = make_layer_plan(*at_, style_, layer);
     Image<std::uint8_t> seeds;
     const std::size_t carried = tracked.tracks.size();
     const bool compares = options.goes_on || carried != 0;
-    const Image<float> before = compares ? errors_left(inputs) : Image<float>();
+    const Image<float> before = compares ? errors_left(plan) : Image<float>();
     const bool finest = layer + 1 == static_cast<int>(radii_px_.size());
     std::optional<Canvas> below;
-    if (carried != 0 && !finest) below = planner.canvas;
-    if (!tracked.tracks.empty()) {
-      end_wrong_colours(inputs, before, options, tracked);
+    if (carried != 0 && !finest) below = at_->canvas;
+    if (carried != 0) {
+      end_wrong_colours(plan, before, options, tracked);
       draw_on_canvas(with_opacities(tracked, [&](std::size_t i) { return standing(tracked.tracks[i]); }), layer);
     }
-    Image<std::uint8_t> misplaced = finest ? misplaced_paint(planner, style_) : Image<std::uint8_t>();
-    if (!tracked.tracks.empty()) seeds = where_strokes_are_missing(inputs, before, misplaced, tracked);
-    Layer begun = plan_on(planner, inputs, style_, at_->scaled, {seeds.empty() ? part : seeds.view(), misplaced});
+    Image<std::uint8_t> misplaced = finest ? misplaced_paint(*at_, style_) : Image<std::uint8_t>();
+    plan.misplaced = misplaced;
+    if (carried != 0) {
+      seeds = where_strokes_are_missing(plan, before, tracked);
+      plan.seeds = seeds;
+    }
+    Layer begun = plan_layer(plan);
     numbers_.give(begun);
     put_in_order(begun, style_);
-    add(begun, inputs, before, options, tracked);
+    add(begun, plan, before, options, tracked);
     if (below && !begun.strokes.empty()) {
       // New strokes lie among the carried ones: what those hide of them is for the finer layers to mend.
-      planner.canvas = std::move(*below);
+      at_->canvas = std::move(*below);
       draw_on_canvas(
           with_opacities(tracked, [&](std::size_t i) { return i < carried ? standing(tracked.tracks[i]) : 1; }), layer);
       return;
     }
     if (!finest) {
-      rasterise(begun, planner.view, hiding(), planner.canvas, cover_of_brush(layer));
+      rasterise(begun, at_->view.position, hiding(), at_->canvas, cover_of_brush(layer));
       return;
     }
-    // Nothing is planned on what the finest strokes paint: only what they leave bare matters.
-    Image<std::uint8_t> bare = bare_pixels(planner.canvas, part);
-    const Layer near = strokes_near_bare(begun, bare);
-    bare = left_bare(near, planner.view, hiding(), std::move(bare), cover_of_brush(layer));
-    Layer dots = repair({.target = {.picture = planner.photograph,
-                                    .places = bare,
-                                    .disparity = planner.disparity,
-                                    .view = planner.view,
-                                    .reference_view = planner.view},
-                         .scaled = at_->scaled,
-                         .mixed_colours = inputs.mixed_colours,
-                         .least_dot_px = planner.least_dot_px},
-                        style_);
-    if (!part_.is_whole()) append_strokes(dots_left_out({tracked, carried}), dots);
-    numbers_.give(dots);
-    add(std::move(dots), inputs, before, options, tracked);
+    cover_bare(plan, begun, carried, before, options, tracked);
     misplaced_ = std::move(misplaced);
   }
 
   /// Once all layers are planned: marks for this frame alone where the carried strokes show what the frame has nowhere
   /// near. What is new there may lie under them, and comes in slowly.
   Layer repairs() {
-    const SceneView& view = part_.view;
-    if (!part_.is_whole() || misplaced_.empty() || view.picture.width() < least_repaired_width_px) return {};
+    if (!is_whole() || misplaced_.empty() || view_.colour.width() < least_repaired_width_px) return {};
     remove_occlusion_specks(misplaced_, least_repaired_px);
-    return repair({{view.picture, misplaced_, view.disparity, view.position, view.position}, at_->scaled}, style_);
+    return repair({{view_.colour, misplaced_, view_.disparity, view_.position, view_.position}, at_->scaled}, style_);
   }
 
  private:
+  bool is_whole() const { return view_.wanted.empty(); }
+
   int factor_for(int layer) const {
     // Where a scene begins, all strokes are new, and it shows where a few of them are less exact.
     const float least_radius_px = style_.marks == Marks::fitted_strokes ? 5 : motion_ == nullptr ? 12 : 6;
     const auto number = static_cast<std::size_t>(layer);
     const bool is_finest = number + 1 == radii_px_.size();
-    return is_finest ? 1 : factor_for_layer(part_, radii_px_[number], least_radius_px);
+    return is_finest ? 1 : factor_for_layer(view_, radii_px_[number], least_radius_px);
   }
 
   void go_to_size(int factor) {
-    if (factor != at_->factor) at_ = std::make_unique<SizedView>(part_, style_, factor, at_.get());
+    if (at_ && at_->view.frame.scale == view_.frame.scale * factor) return;
+    const View view = smaller_view(view_, factor);
+    at_ = at_ ? at_size(view, style_, reference_width_, *at_) : ViewOnCanvas(view, style_, reference_width_);
+    at_->beside = beside_;
   }
 
-  float depth_threshold_px() const { return at_->scaled.depth_threshold_px * static_cast<float>(at_->reduction); }
-
-  ColourFit fit(const LayerInputs& inputs, const Image<float>& before, const Layer& layer, const Stroke& stroke) const {
-    return colour_fit(
-        layer.points_of(stroke), stroke.colour,
-        {inputs.reference, before, at_->planner.disparity, static_cast<float>(at_->reduction), depth_threshold_px()});
+  /// What the finest strokes leave bare; nothing is planned on what they paint.
+  void cover_bare(const LayerPlan& plan, const Layer& begun, std::size_t carried, const Image<float>& before,
+                  const CarryOptions& options, TrackedLayer& tracked) {
+    const View& view = at_->view;
+    Image<std::uint8_t> bare = bare_pixels(at_->canvas, view.wanted);
+    const Layer near = strokes_near_bare(begun, bare);
+    bare = left_bare(near, view.position, hiding(), std::move(bare), cover_of_brush(plan.layer));
+    Layer dots = repair({.target = {.picture = view.colour,
+                                    .places = bare,
+                                    .disparity = view.disparity,
+                                    .view = view.position,
+                                    .reference_view = view.position},
+                         .scaled = at_->scaled,
+                         .mixed_colours = plan.mixed_colours},
+                        style_);
+    if (!is_whole()) append_strokes(new_dots_left_out({tracked, carried}), dots);
+    numbers_.give(dots);
+    add(std::move(dots), plan, before, options, tracked);
   }
 
   /// True where a depth edge came under more than a quarter of a stroke's points, into the inner half of the brush.
-  bool spills(const LayerInputs& inputs, const Layer& layer, const Stroke& stroke) const {
-    if (inputs.edge_distance.empty()) return false;
+  static bool spills(const LayerPlan& plan, const Layer& layer, const Stroke& stroke) {
+    if (plan.edge_distance.empty()) return false;
     const std::span<const ControlPoint> points = layer.points_of(stroke);
-    const auto reduction = static_cast<float>(at_->reduction);
-    const float least_px = stroke.radius_px / reduction / 2 - 0.5f;
+    const float least_px = stroke.radius_px / 2 - 0.5f;
     const auto over_edge = std::ranges::count_if(points, [&](const ControlPoint& point) {
-      const int column = static_cast<int>(point.x / reduction), row = static_cast<int>(point.y / reduction);
-      return inputs.edge_distance.contains(column, row) && inputs.edge_distance(column, row) < least_px;
+      const int column = static_cast<int>(point.x), row = static_cast<int>(point.y);
+      return plan.edge_distance.contains(column, row) && plan.edge_distance(column, row) < least_px;
     });
     return 4 * static_cast<std::size_t>(over_edge) > points.size();
   }
 
   /// A stroke whose colour fits worse than at first, or that now makes the picture worse, has stayed behind.
-  void end_wrong_colours(const LayerInputs& inputs, const Image<float>& before, const CarryOptions& options,
+  void end_wrong_colours(const LayerPlan& plan, const Image<float>& before, const CarryOptions& options,
                          TrackedLayer& tracked) const {
+    Layer in_view = tracked.layer;
+    take_in(at_->view.frame, in_view);
     tbb::parallel_for(std::size_t{0}, tracked.tracks.size(), [&](std::size_t i) {
       StrokeTrack& track = tracked.tracks[i];
       if (track.ends != 0) return;
-      const ColourFit now = fit(inputs, before, tracked.layer, tracked.layer.strokes[i]);
+      const Stroke& stroke = in_view.strokes[i];
+      const ColourFit now = colour_fit(in_view.points_of(stroke), stroke.colour, *at_, plan.reference, before);
       if (now.difference <= track.first_colour_difference + options.colour_tolerance &&
-          now.gain >= std::min(track.first_gain, 0.f) - options.gain_tolerance &&
-          !spills(inputs, tracked.layer, tracked.layer.strokes[i]))
+          now.gain >= std::min(track.first_gain, 0.f) - options.gain_tolerance && !spills(plan, in_view, stroke))
         return;
       // It fades from this frame on, which it does not belong to.
       track.ends = fading_frames(tracked.layer.strokes[i].radius_px, speed_at(tracked.layer, i), options);
@@ -180,7 +182,7 @@ class ViewAtWork {
     });
   }
 
-  /// Of a stroke's opacity, what the planner's canvas is to have: what fades away is no longer there.
+  /// Of a stroke's opacity, what the canvas is to have: what fades away is no longer there.
   static float standing(const StrokeTrack& track) { return track.ends == 0 ? track.shown : 0; }
 
   /// The strokes in their order, each with a share of its opacity; those with none are left out.
@@ -197,45 +199,45 @@ class ViewAtWork {
     return layer;
   }
 
-  void draw_on_canvas(Layer layer, int number) {
-    if (at_->reduction != 1) resize_strokes(layer, 1.f / static_cast<float>(at_->reduction));
-    rasterise(layer, at_->planner.view, hiding(), at_->planner.canvas, cover_of_brush(number));
+  void draw_on_canvas(Layer strokes, int layer) {
+    take_in(at_->view.frame, strokes);
+    rasterise(strokes, at_->view.position, hiding(), at_->canvas, cover_of_brush(layer));
   }
 
   /// What the brush leaves bare counts for the strokes over it; its streaks are no error.
   Brush cover_of_brush(int layer) const {
-    const Brush brush = brush_for(style_, part_.width);
-    return {.bristle_px = brush.bristle_px / static_cast<float>(at_->reduction), .dry = layer > 0 ? brush.dry : 0};
+    const Brush& brush = at_->scaled.brush;
+    return {.bristle_px = brush.bristle_px, .dry = layer > 0 ? brush.dry : 0};
   }
 
-  Hiding hiding() const { return {.surface = at_->planner.disparity, .tolerance_px = at_->scaled.depth_threshold_px}; }
+  Hiding hiding() const { return {.surface = at_->view.disparity, .tolerance_px = at_->scaled.depth_threshold_px}; }
 
   /// By how many pixels a frame the place of a stroke's first point moves.
   float speed_at(const Layer& layer, std::size_t stroke) const {
     const ControlPoint& first = layer.points[layer.strokes[stroke].first_point];
-    const float x = first.x + left_px_;
-    const float speed = std::hypot(sample(motion_->x.view(), x, first.y), sample(motion_->y.view(), x, first.y));
+    const float speed =
+        std::hypot(sample(motion_->x.view(), first.x, first.y), sample(motion_->y.view(), first.x, first.y));
     return std::isfinite(speed) ? speed : 0;
   }
 
   /// Squared errors of what is painted so far; −1 where nothing is wanted.
-  Image<float> errors_left(const LayerInputs& inputs) const {
-    const int width = at_->planner.photograph.width(), height = at_->planner.photograph.height();
-    const ImageView<const std::uint8_t> seeds = at_->seeds();
+  Image<float> errors_left(const LayerPlan& plan) const {
+    const View& view = plan.view;
+    const int width = view.colour.width(), height = view.colour.height();
     Image<float> errors(width, height);
     tbb::parallel_for(0, height, [&](int y) {
-      squared_errors(inputs.reference, at_->planner.canvas, {y, 0, width}, errors.row(y).data());
-      if (seeds.empty()) return;
+      squared_errors(plan.reference, plan.canvas, {y, 0, width}, errors.row(y).data());
+      if (view.wanted.empty()) return;
       for (int x = 0; x < width; ++x)
-        if (seeds(x, y) == 0) errors(x, y) = -1;
+        if (view.wanted(x, y) == 0) errors(x, y) = -1;
     });
     return errors;
   }
 
   /// 255 within half a cell of where a stroke begins that stays.
   Image<std::uint8_t> where_strokes_begin(const TrackedLayer& tracked, float cell_px) const {
-    Image<std::uint8_t> begun(at_->planner.photograph.width(), at_->planner.photograph.height());
-    const auto reduction = static_cast<float>(at_->reduction);
+    const ViewFrame& frame = at_->view.frame;
+    Image<std::uint8_t> begun(at_->view.colour.width(), at_->view.colour.height());
     for (std::size_t i = 0; i < tracked.tracks.size(); ++i) {
       if (tracked.tracks[i].ends != 0) continue;
       const Stroke& stroke = tracked.layer.strokes[i];
@@ -249,7 +251,7 @@ class ViewAtWork {
       const auto end = [&](float place, int size) {
         return std::min(static_cast<int>(std::max(std::round(place + reach), std::floor(place) + 1)), size);
       };
-      const float first_x = first.x / reduction, first_y = first.y / reduction;
+      const float first_x = frame.column(first.x), first_y = frame.row(first.y);
       const int left = begin(first_x), right = end(first_x, begun.width());
       const int top = begin(first_y), bottom = end(first_y, begun.height());
       for (int y = top; y < bottom && left < right; ++y) std::fill_n(&begun(left, y), right - left, std::uint8_t{255});
@@ -259,19 +261,18 @@ class ViewAtWork {
 
   /// 255 where new strokes may begin: where carried ones do not do what painting anew would, on what they left bare,
   /// and on misplaced paint, but where one begins already.
-  Image<std::uint8_t> where_strokes_are_missing(const LayerInputs& inputs, const Image<float>& before,
-                                                ImageView<const std::uint8_t> misplaced,
+  Image<std::uint8_t> where_strokes_are_missing(const LayerPlan& plan, const Image<float>& before,
                                                 const TrackedLayer& tracked) const {
-    const float cell_px = style_.grid * at_->scaled.radii_px[inputs.layer];
-    const Image<float> after = errors_left(inputs);
+    const float cell_px = style_.grid * plan.radius_px;
+    const Image<float> after = errors_left(plan);
     const Image<std::uint8_t> begun = where_strokes_begin(tracked, cell_px);
-    Image<std::uint8_t> seeds = missing_strokes({before, after, begun, inputs.depth_edges, cell_px, style_.threshold});
+    Image<std::uint8_t> seeds = missing_strokes({before, after, begun, plan.depth_edges, cell_px, style_.threshold});
     const float squared_threshold = style_.threshold * style_.threshold;
     tbb::parallel_for(0, seeds.height(), [&](int y) {
       for (int x = 0; x < seeds.width(); ++x) {
-        if (at_->planner.canvas.coverage(x, y) < 0.5f) seeds(x, y) = before(x, y) > squared_threshold ? 255 : 0;
+        if (plan.canvas.coverage(x, y) < 0.5f) seeds(x, y) = before(x, y) > squared_threshold ? 255 : 0;
         const bool may_begin = before(x, y) >= 0 && begun(x, y) == 0;
-        if (may_begin && !misplaced.empty() && misplaced(x, y) != 0) seeds(x, y) = 255;
+        if (may_begin && !plan.misplaced.empty() && plan.misplaced(x, y) != 0) seeds(x, y) = 255;
       }
     });
     return seeds;
@@ -279,52 +280,47 @@ class ViewAtWork {
 
   /// Dots for the thin edges of near surfaces that the smaller picture does not show, but where carried strokes have a
   /// point already. Around what no photograph shows, those surfaces have strokes of their own.
-  Layer dots_left_out(const CarriedPoints& carried) const {
-    const auto made_smaller = static_cast<float>(part_.view.reduction);
-    const float reduction = static_cast<float>(at_->reduction) / made_smaller;
-    Layer dots{at_->scaled.radii_px.back(), {}, {}};
-    for (const ReducedView::LeftOut& pixels : part_.smaller->left_out) {
-      if (!uncovered_.empty() && uncovered_(static_cast<int>(pixels.x), static_cast<int>(pixels.y)) == 0) continue;
-      const ControlPoint whole{pixels.x * made_smaller, pixels.y * made_smaller, pixels.disparity * made_smaller};
-      if (carried.any_at(whole, depth_threshold_px())) continue;
-      const ControlPoint point{pixels.x / reduction, pixels.y / reduction, pixels.disparity / reduction};
-      dots.strokes.push_back({.first_point = static_cast<std::uint32_t>(dots.points.size()),
-                              .point_count = 1,
-                              .radius_px = static_cast<float>(part_.smaller->left_out_px) / 2 / reduction,
-                              .opacity = style_.opacity,
-                              .colour = pixels.colour,
-                              .disparity = point.disparity,
-                              .reference_view = at_->planner.view,
-                              .views = all_views});
-      dots.points.push_back(point);
-    }
+  Layer new_dots_left_out(const CarriedPoints& carried) const {
+    Layer dots = dots_left_out(part_, view_), whole = dots;
+    hand_back(view_.frame, whole);
+    const float depth_threshold_px = at_->scaled.depth_threshold_px * static_cast<float>(view_.frame.scale);
+    const auto factor = static_cast<float>(view_.frame.scale / part_.frame.scale);
+    std::erase_if(dots.strokes, [&](const Stroke& dot) {
+      const ControlPoint& point = dots.points[dot.first_point];
+      const bool is_photographed = !uncovered_.empty() && uncovered_(static_cast<int>(point.x * factor),
+                                                                     static_cast<int>(point.y * factor)) == 0;
+      return is_photographed || carried.any_at(whole.points[dot.first_point], depth_threshold_px);
+    });
+    for (Stroke& dot : dots.strokes) dot.opacity = style_.opacity;
     return dots;
   }
 
-  void add(Layer begun, const LayerInputs& inputs, const Image<float>& before, const CarryOptions& options,
+  void add(Layer begun, const LayerPlan& plan, const Image<float>& before, const CarryOptions& options,
            TrackedLayer& tracked) const {
-    if (at_->reduction != 1) resize_strokes(begun, static_cast<float>(at_->reduction));
-    tracked.layer.radius_px = begun.radius_px;
     for (const Stroke& stroke : begun.strokes) {
       StrokeTrack& track = tracked.tracks.emplace_back();
       track.shown = first_shown(motion_ == nullptr, options);
       if (!options.goes_on) continue;
-      track.first_length_px = length_px(begun.points_of(stroke));
-      const ColourFit first = fit(inputs, before, begun, stroke);
+      const ColourFit first = colour_fit(begun.points_of(stroke), stroke.colour, *at_, plan.reference, before);
+      track.first_length_px = length_px(begun.points_of(stroke)) * static_cast<float>(plan.view.frame.scale);
       track.first_colour_difference = first.difference;
       track.first_gain = first.gain;
     }
+    hand_back(plan.view.frame, begun);
+    tracked.layer.radius_px = begun.radius_px;
     append_strokes(begun, tracked.layer);
   }
 
-  WantedPart part_;
+  View part_;  ///< what is wanted of the view
+  View view_;  ///< the same, in the pixels in which the finest layer is planned
+  int reference_width_;
   std::vector<float> radii_px_;  ///< in the reference view's pixels
   const Style& style_;
   const Flow* motion_;
-  float left_px_;
-  ImageView<const std::uint8_t> uncovered_;  ///< what no photograph shows, of a view that goes on there
+  ViewsBeside beside_;
+  SharedImage<std::uint8_t> uncovered_;  ///< what no photograph shows, of a view that goes on there
   StrokeNumbers& numbers_;
-  std::unique_ptr<SizedView> at_;
+  std::optional<ViewOnCanvas> at_;
   Image<std::uint8_t> misplaced_;  ///< as misplaced_paint, of the carried strokes
 };
 
@@ -365,9 +361,9 @@ class ViewsPlan {
 
 /// The views of a still to either side of the reference view. In films, whose paint follows noisy disparities, points
 /// keep to their surface, as they do in what few views show.
-ViewsBeside views_beside(std::span<const SceneView> views) {
+ViewsBeside views_beside(std::span<const View> views) {
   ViewsBeside beside;
-  for (const SceneView& other : views) {
+  for (const View& other : views) {
     beside.left = std::max(beside.left, views.front().position - other.position);
     beside.right = std::max(beside.right, other.position - views.front().position);
   }
@@ -384,7 +380,7 @@ std::int64_t living_strokes(const StrokeMemory& memory) {
 
 /// Brings all strokes to this frame.
 void carry(const FilmFrame& frame, const Style& style, const CarryOptions& options, StrokeMemory& memory) {
-  const ScaledStyle scaled(style, frame.views.front().picture.width());
+  const ScaledStyle scaled(style, frame.views.front().colour.width());
   const float threshold_px = scaled.depth_threshold_px;
   const SceneMotion motion(frame, memory.reference_disparity, threshold_px);
   for (std::size_t i = 0; i < scaled.radii_px.size(); ++i) {
@@ -407,13 +403,13 @@ void drop_needless(const FilmFrame& frame, std::size_t home, std::uint32_t last_
   tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
     const Stroke& stroke = tracked.layer.strokes[i];
     if (home != 0 && frame.flow != nullptr && stroke.number > last_number &&
-        is_shown_whole(tracked.layer.points_of(stroke), stroke.radius_px / 2, frame.views[home],
+        is_shown_whole(tracked.layer.points_of(stroke), stroke.radius_px / 2, frame.views[home].position,
                        {frame.views.front(), depth_threshold_px}))
       return;
     shown[i] = stroke.number <= last_number ||
                std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
-                 return std::ranges::any_of(frame.views, [&](const SceneView& view) {
-                   return is_visible(point, frame.views[home], view, depth_threshold_px);
+                 return std::ranges::any_of(frame.views, [&](const View& view) {
+                   return is_visible(point, frame.views[home].position, view, depth_threshold_px);
                  });
                });
   });
@@ -436,14 +432,14 @@ std::int64_t count_new(StrokeMemory& memory) {
 }
 
 StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const StrokeMemory& memory) {
-  const ImageView<const Rgb8> picture = frame.views.front().picture;
+  const ImageView<const Rgb8> picture = frame.views.front().colour;
   const ScaledStyle scaled(style, picture.width());
   StrokePainting painting{picture.width(),
                           picture.height(),
                           style.canvas_colour,
                           std::vector<Layer>(scaled.radii_px.size()),
                           style.background == Background::colour,
-                          brush_for(style, picture.width())};
+                          scaled.brush};
   tbb::parallel_for(std::size_t{0}, painting.layers.size(), [&](std::size_t i) {
     Layer& shown = painting.layers[i];
     shown.radius_px = scaled.radii_px[i];
@@ -467,7 +463,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
   check_style(style);
   if (!is_of_strokes(style))
     throw Error(ErrorKind::wrong_usage, "style: its marks are not strokes, expected a style of strokes");
-  const ScaledStyle scaled(style, frame.views.front().picture.width());
+  const ScaledStyle scaled(style, frame.views.front().colour.width());
   const std::size_t layers = scaled.radii_px.size();
   const float depth_threshold_px = scaled.depth_threshold_px;
   const bool scene_begins = frame.flow == nullptr || memory.views.size() != frame.views.size();
@@ -483,26 +479,22 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
   plan.run([&](std::size_t view) {
     plan.report_step();
     StrokeNumbers numbers(memory.last_number, view, frame.views.size());
-    ViewAtWork work(frame.views[view], frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward,
-                    options.goes_on || view != 0 ? ViewsBeside() : views_beside(frame.views), numbers);
+    ViewPainter painter(frame.views[view], frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward,
+                        options.goes_on || view != 0 ? ViewsBeside() : views_beside(frame.views), numbers);
     for (std::size_t i = 0; i < layers; ++i) {
-      work.plan(static_cast<int>(i), options, memory.views[view][i]);
+      painter.plan(static_cast<int>(i), options, memory.views[view][i]);
       plan.report_step();
     }
     for (TrackedLayer& tracked : memory.views[view]) {
-      if (style.jitter == ColourJitter{}) drop_misplaced(frame.views[view], frame.views, depth_threshold_px, tracked);
+      if (style.jitter == ColourJitter{})
+        drop_misplaced(frame.views[view].position, frame.views, depth_threshold_px, tracked);
       drop_needless(frame, view, memory.last_number, depth_threshold_px, tracked);
     }
-    if (!scene_begins) repairs[view] = work.repairs();
+    if (!scene_begins) repairs[view] = painter.repairs();
   });
   result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;
-  if (options.goes_on) {
-    const ImageView<const float> disparity = frame.views.front().disparity;
-    memory.reference_disparity = Image<float>(disparity.width(), disparity.height());
-    for (int y = 0; y < disparity.height(); ++y)
-      std::ranges::copy(disparity.row(y), memory.reference_disparity.row(y).begin());
-  }
+  if (options.goes_on) memory.reference_disparity = copy_of(frame.views.front().disparity);
   result.painting = shown_painting(frame, style, memory);
   for (const Layer& marks : repairs) append_strokes(marks, result.painting.layers.back());
   return result;

@@ -31,7 +31,8 @@ struct StrokeTrack {
   friend bool operator==(const StrokeTrack&, const StrokeTrack&) = default;
 };
 
-/// The strokes of one brush radius in one view, whole, whatever hides them; `tracks` belongs to `layer.strokes`.
+/// The strokes of one brush radius in one view, whole, whatever hides them, in pixels of the reference view; `tracks`
+/// belongs to `layer.strokes`.
 struct TrackedLayer {
   Layer layer;
   std::vector<StrokeTrack> tracks;

@@ -42,7 +42,7 @@ std::vector<PaintedFrame> painted(const Style& style, bool anew) {
   std::vector<PaintedFrame> frames;
   PaintingMemory memory;
   for (std::size_t i = 0; i < film().frames.size(); ++i) {
-    const std::vector<SceneView> scene = film().scene(i);
+    const std::vector<View> scene = film().scene(i);
     if (anew) memory = {};
     frames.push_back(paint_frame({scene, anew ? nullptr : film().flow_to(i)}, style, {}, memory));
   }
@@ -136,7 +136,7 @@ TEST(StrokesInTime, FuseAsWellAsThoseOfAFrameAlone) {
 
 TEST(StrokesInTime, ASceneBegunAfreshRemembersNothingButTheLastNumber) {
   StrokeMemory used;
-  const std::vector<SceneView> first = film().scene(0), second = film().scene(1);
+  const std::vector<View> first = film().scene(0), second = film().scene(1);
   plan_strokes({first, nullptr}, {}, {}, used);
   plan_strokes({second, film().flow_to(1)}, {}, {}, used);
   StrokeMemory fresh;
@@ -152,7 +152,7 @@ TEST(StrokesInTime, ASceneBegunAfreshRemembersNothingButTheLastNumber) {
 TEST(StrokesInTime, AreTheSameOnAnyNumberOfThreads) {
   const auto two_moments = [] {
     StrokeMemory memory;
-    const std::vector<SceneView> first = film().scene(0), second = film().scene(1);
+    const std::vector<View> first = film().scene(0), second = film().scene(1);
     plan_strokes({first, nullptr}, {}, {}, memory);
     return plan_strokes({second, film().flow_to(1)}, {}, {}, memory).painting;
   };
@@ -164,7 +164,7 @@ TEST(StrokesInTime, AreTheSameOnAnyNumberOfThreads) {
 TEST(StrokesInTime, OfOneEyeStandStillWhereTheFilmDoes) {
   const Image<Rgb8>& picture = film().frames[0].pictures.left;
   const Image<float> flat(picture.width(), picture.height());
-  const std::vector<SceneView> scene{{picture, flat, {}, central_view}};
+  const std::vector<View> scene{{picture, flat, {}, central_view}};
   const FlowPair none{{flat, flat}, {flat, flat}};
   PaintingMemory memory;
   std::vector<PaintedFrame> frames;
@@ -186,7 +186,7 @@ TEST(StrokesInTime, WhereTheFlowIsWrongPaintDoesNotLinger) {
   double wrong = 0;
   for (int i = 0; i < 2; ++i) {
     const Image<Rgb8> picture = bar_at(30 + 60 * i);
-    const std::vector<SceneView> scene{{picture, flat, {}, central_view}};
+    const std::vector<View> scene{{picture, flat, {}, central_view}};
     const PaintedFrame frame = paint_frame({scene, i == 0 ? nullptr : &none}, {}, {}, memory);
     wrong = measure_wrong_spots(frame.painted.pictures.left, picture).share;
   }
@@ -214,7 +214,7 @@ TEST(StrokesInTime, ShowNothingButTheFrameWhateverTheFlowSays) {
   double carried = 0, anew = 0;
   for (std::uint64_t i = 0; i < 4; ++i) {
     const Image<Rgb8> picture = scattered_squares(i);
-    const std::vector<SceneView> scene{{picture, flat, {}, central_view}};
+    const std::vector<View> scene{{picture, flat, {}, central_view}};
     const PaintedFrame frame = paint_frame({scene, i == 0 ? nullptr : &none}, {}, {}, memory);
     PaintingMemory nothing;
     const PaintedFrame alone = paint_frame({scene, nullptr}, {}, {}, nothing);
@@ -230,17 +230,17 @@ TEST(DropMisplaced, AsksAllViewsThatShowAStroke) {
   Image<Rgb8> centre(160, 40, grey), right(160, 40, grey);
   for (int y = 0; y < 40; ++y) std::fill_n(&centre(30, y), 12, red);
   const Image<float> flat(160, 40);
-  const auto left_of = [&](const std::vector<SceneView>& views, std::uint32_t ends, float disparity) {
+  const auto left_of = [&](const std::vector<View>& views, std::uint32_t ends, float disparity) {
     TrackedLayer tracked;
     tracked.layer.points = {{36, 20, disparity}};
     tracked.layer.strokes = {{.point_count = 1, .radius_px = 2, .colour = red, .reference_view = central_view}};
     tracked.tracks = {{.ends = ends}};
-    drop_misplaced(views.front(), views, 1, tracked);
+    drop_misplaced(views.front().position, views, 1, tracked);
     return tracked.tracks.size();
   };
-  const std::vector<SceneView> alone{{centre, flat, {}, central_view}};
+  const std::vector<View> alone{{centre, flat, {}, central_view}};
   EXPECT_EQ(left_of(alone, 2, 0), 1u);
-  const std::vector<SceneView> both{alone.front(), {right, flat, {}, right_eye}};
+  const std::vector<View> both{alone.front(), {right, flat, {}, right_eye}};
   EXPECT_EQ(left_of(both, 2, 0), 0u) << "the right eye sees nothing red there";
   EXPECT_EQ(left_of(both, 0, 0), 1u) << "it does not fade";
   EXPECT_EQ(left_of(both, 2, -8), 1u) << "it is hidden";
@@ -261,15 +261,16 @@ TEST(ColourFit, IsThatOfTheWorstPartOfAStroke) {
     for (int y = 0; y < 8; ++y) std::fill_n(&half(18, y), 6, Rgb8{220, 100, 100});
     return half;
   }();
-  const ReferencePicture reference = make_reference(picture, 0.5f, {});
+  const Style style;
   const Image<float> flat(24, 8);
+  const ViewOnCanvas at({picture, flat, {}, left_eye}, style, picture.width());
+  const ReferencePicture reference = make_reference(picture, 0.5f, style);
   const Image<float> black(24, 8, 3 * 100 * 100);
-  const FitGround ground{reference, black, flat};
   std::vector<ControlPoint> points;
   for (int i = 0; i < 12; ++i) points.push_back({2.f * static_cast<float>(i) + 0.5f, 4, 0});
   const Rgb8 grey{100, 100, 100};
-  EXPECT_LT(colour_fit(std::span(points).first(8), grey, ground).difference, 5);
-  EXPECT_GT(colour_fit(points, grey, ground).difference, 100) << "a quarter of it lies on another thing";
+  EXPECT_LT(colour_fit(std::span(points).first(8), grey, at, reference, black).difference, 5);
+  EXPECT_GT(colour_fit(points, grey, at, reference, black).difference, 100) << "a quarter of it lies on another thing";
 }
 
 /// A layer of one cell in the middle of whose picture the coarser layers left an error.
@@ -292,7 +293,7 @@ TEST(StrokesInTime, ComeAndGoOverTheFramesAsked) {
   CarryOptions options;
   options.fade_in_frames = 3;
   StrokeMemory memory;
-  const std::vector<SceneView> first = film().scene(0), second = film().scene(1);
+  const std::vector<View> first = film().scene(0), second = film().scene(1);
   plan_strokes({first, nullptr}, {}, options, memory);
   const std::uint32_t last = memory.last_number;
   plan_strokes({second, film().flow_to(1)}, {}, options, memory);
@@ -322,7 +323,7 @@ TEST(StrokesInTime, AFilmOfOneEyeIsPaintedToo) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Image<Rgb8>& picture = film().frames[i].pictures.left;
     const Image<float> flat(picture.width(), picture.height());
-    const std::vector<SceneView> scene{{picture, flat, {}, central_view}};
+    const std::vector<View> scene{{picture, flat, {}, central_view}};
     const FlowPair flow = i == 0 ? FlowPair{} : film().left_flow_to(i);
     FlowPair known = flow;
     for (Image<float>* image : {&known.forward.x, &known.forward.y, &known.backward.x, &known.backward.y})
@@ -342,7 +343,7 @@ TEST(StrokesInTime, AFilmOfOneEyeIsPaintedToo) {
 
 TEST(StrokesInTime, RefusesAStyleWithoutStrokes) {
   StrokeMemory memory;
-  const std::vector<SceneView> scene = film().scene(0);
+  const std::vector<View> scene = film().scene(0);
   expect_error(ErrorKind::wrong_usage, "not strokes", [&] {
     plan_strokes({scene, nullptr}, style_by_name("mosaic"), {}, memory);
   });

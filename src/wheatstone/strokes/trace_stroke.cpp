@@ -34,9 +34,10 @@ Direction gradient_at(const ImageView<const std::uint8_t>& luminance, int x, int
 }
 
 /// The direction in which a stroke leaves a pixel, or nothing where the style ends strokes at a vanishing gradient.
-std::optional<Direction> direction_at(const LayerPlan& plan, const Style& style, float x, float y) {
+std::optional<Direction> direction_at(const LayerPlan& plan, float x, float y) {
   const Direction gradient = gradient_at(plan.reference.luminance, static_cast<int>(x), static_cast<int>(y));
-  if (style.orientation == Orientation::smooth) return plan.reference.orientation.along(x, y, gradient.x, gradient.y);
+  if (plan.style.orientation == Orientation::smooth)
+    return plan.reference.orientation.along(x, y, gradient.x, gradient.y);
   const float magnitude = std::hypot(gradient.x, gradient.y);
   constexpr float vanishing = 0.5f;  // half a luminance step a pixel: below it 8-bit rounding decides
   if (magnitude < vanishing) return {};
@@ -57,8 +58,8 @@ bool crosses_depth_edge(const LayerPlan& plan, const ControlPoint& from, const C
   float last = from.disparity;
   for (int i = 1; i <= steps; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(steps);
-    const float disparity =
-        plan.disparity(static_cast<int>(from.x + t * (to.x - from.x)), static_cast<int>(from.y + t * (to.y - from.y)));
+    const float disparity = plan.view.disparity(static_cast<int>(from.x + t * (to.x - from.x)),
+                                                static_cast<int>(from.y + t * (to.y - from.y)));
     if (std::abs(disparity - last) > plan.depth_threshold_px) return true;
     last = disparity;
   }
@@ -87,13 +88,13 @@ bool would_spill(const LayerPlan& plan, float radius_px, bool edgeways, const Co
 
 }  // namespace
 
-void trace_stroke(const LayerPlan& plan, const Style& style, const StrokeStart& start,
-                  std::vector<ControlPoint>& points) {
+void trace_stroke(const LayerPlan& plan, const StrokeStart& start, std::vector<ControlPoint>& points) {
+  const Style& style = plan.style;
   const Seed& seed = start.seed;
   const Rgb colour = reference_at(plan.reference, seed.x, seed.y);
   const auto width = static_cast<float>(plan.canvas.width), height = static_cast<float>(plan.canvas.height);
   ControlPoint point{static_cast<float>(seed.x) + 0.5f, static_cast<float>(seed.y) + 0.5f,
-                     plan.disparity(seed.x, seed.y)};
+                     plan.view.disparity(seed.x, seed.y)};
   points.push_back(point);
   const bool edgeways = !plan.depth_edges.empty() && plan.depth_edges(seed.x, seed.y) != 0;
   const int longest = edgeways && !style.follow_depth_edges ? 1 : style.max_length;
@@ -110,7 +111,7 @@ void trace_stroke(const LayerPlan& plan, const Style& style, const StrokeStart& 
     }
 
     // (c) no direction to go on in
-    std::optional<Direction> direction = direction_at(plan, style, point.x, point.y);
+    std::optional<Direction> direction = direction_at(plan, point.x, point.y);
     if (!direction) return;
     if (last) {
       direction = filtered(*direction, *last, style.curvature);
@@ -121,7 +122,7 @@ void trace_stroke(const LayerPlan& plan, const Style& style, const StrokeStart& 
 
     ControlPoint next{point.x + plan.radius_px * direction->x, point.y + plan.radius_px * direction->y, 0};
     if (!(next.x >= 0 && next.y >= 0 && next.x < width && next.y < height)) return;
-    next.disparity = plan.disparity(static_cast<int>(next.x), static_cast<int>(next.y));
+    next.disparity = plan.view.disparity(static_cast<int>(next.x), static_cast<int>(next.y));
     if (would_spill(plan, start.radius_px, edgeways, point, next) || would_cover_unlike(plan, colour, next)) return;
     points.push_back(next);
     point = next;

@@ -11,7 +11,6 @@ namespace wheatstone {
 /// enough, would make the picture worse, finds no direction, leaves the picture, or comes to a depth discontinuity or
 /// to where the picture's colour is unlike its own.
 /// Appends at least one point.
-void trace_stroke(const LayerPlan& plan, const Style& style, const StrokeStart& start,
-                  std::vector<ControlPoint>& points);
+void trace_stroke(const LayerPlan& plan, const StrokeStart& start, std::vector<ControlPoint>& points);
 
 }  // namespace wheatstone

@@ -20,16 +20,8 @@ float surface_disparity(ImageView<const float> disparity, float x, float y, floa
   return sample(disparity, x, y);
 }
 
-float column_in(const ControlPoint& point, const SceneView& from, const SceneView& to) {
-  return x_in_view(point, from.position, to.position) + static_cast<float>(from.left_px - to.left_px);
-}
-
-bool is_visible(const ControlPoint& point, const SceneView& from, const SceneView& view, float tolerance_px) {
-  const float x = column_in(point, from, view);
-  const auto reduction = static_cast<float>(view.reduction);
-  const int column = std::clamp(static_cast<int>(x) / view.reduction, 0, view.disparity.width() - 1);
-  const int row = std::clamp(static_cast<int>(point.y) / view.reduction, 0, view.disparity.height() - 1);
-  return view.disparity(column, row) * reduction <= point.disparity + tolerance_px;
+bool is_visible(const ControlPoint& point, ViewPosition from, const View& view, float tolerance_px) {
+  return disparity_at(view, x_in_view(point, from, view.position), point.y) <= point.disparity + tolerance_px;
 }
 
 void append_everywhere(Stroke stroke, std::span<const ControlPoint> points, Layer& layer) {

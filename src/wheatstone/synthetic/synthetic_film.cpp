@@ -22,29 +22,29 @@ namespace {
 using still::Cameras, still::Pose, still::Scene, still::Shot, still::Vec3, still::View;
 
 /// A frame as the left eye sees it, for looking up where points went. Not to be moved: the view borrows the rest.
-struct FilmFrame {
+struct Moment {
   Scene scene;
   Cameras cameras;
   View left;
 
   /// At a time in frames from the shot's first.
-  FilmFrame(const Shot& shot, const SyntheticFilmOptions& options, float time)
+  Moment(const Shot& shot, const SyntheticFilmOptions& options, float time)
       : scene(scene_at(shot, options, time)),
         cameras(still::cameras_at(options, time)),
         left(scene, cameras, left_eye) {}
-  FilmFrame(const FilmFrame&) = delete;
-  FilmFrame& operator=(const FilmFrame&) = delete;
+  Moment(const Moment&) = delete;
+  Moment& operator=(const Moment&) = delete;
 };
 
 /// A frame into which points are followed, and what comes of it.
 struct Neighbour {
-  const FilmFrame* frame;
+  const Moment* frame;
   Flow* flow;
   Image<std::uint8_t>* occlusion;
 };
 
 /// Follows the point at every pixel's centre into other frames.
-void find_flow(const FilmFrame& from, const std::vector<Neighbour>& neighbours) {
+void find_flow(const Moment& from, const std::vector<Neighbour>& neighbours) {
   tbb::parallel_for(0, from.cameras.height, [&](int y) {
     for (int x = 0; x < from.cameras.width; ++x) {
       const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
@@ -65,9 +65,9 @@ void find_flow(const FilmFrame& from, const std::vector<Neighbour>& neighbours) 
 }
 
 /// Both eyes' pictures, during an exposure whose moments are these.
-void expose(const std::deque<FilmFrame>& moments, int samples, SyntheticFilmFrame& result) {
+void expose(const std::deque<Moment>& moments, int samples, SyntheticFilmFrame& result) {
   std::vector<View> left, right;
-  for (const FilmFrame& moment : moments) {
+  for (const Moment& moment : moments) {
     left.push_back(moment.left);
     right.emplace_back(moment.scene, moment.cameras, right_eye);
   }
@@ -142,16 +142,16 @@ SyntheticFilmFrame make_synthetic_film_frame(const SyntheticFilmOptions& options
   const int first_of_shot = second ? cut : 0, end_of_shot = second || cut == 0 ? options.frames : cut;
   const Shot shot = still::make_shot(options, options.still.seed + (second ? 1 : 0));
   const auto time_of = [&](int in_film) { return static_cast<float>(in_film - first_of_shot); };
-  std::deque<FilmFrame> moments;
+  std::deque<Moment> moments;
   for (const float moment : still::exposure_of(options)) moments.emplace_back(shot, options, time_of(frame) + moment);
-  const FilmFrame& now = moments[moments.size() / 2];
+  const Moment& now = moments[moments.size() / 2];
   const int width = now.cameras.width, height = now.cameras.height;
   SyntheticFilmFrame result;
   expose(moments, options.still.samples_a_side, result);
 
-  std::optional<FilmFrame> next, previous;
+  std::optional<Moment> next, previous;
   std::vector<Neighbour> neighbours;
-  const auto follow = [&](int other, std::optional<FilmFrame>& in, Flow& flow, Image<std::uint8_t>& occlusion) {
+  const auto follow = [&](int other, std::optional<Moment>& in, Flow& flow, Image<std::uint8_t>& occlusion) {
     flow = unknown_flow(width, height);
     occlusion = Image<std::uint8_t>(width, height, 255);
     if (other < first_of_shot || other >= end_of_shot) return;
