@@ -53,14 +53,20 @@ Paint paintAt(Place place, float middle, float rim, float strokeLength) {
   float side = place.across > 0.0 ? 40.0 : 0.0;
   float inside = middle * (1.0 - 0.12 * shown * noise(1u, place.along / (1.2 * radius) + side)) - place.distance;
   float cover = inside / rim + 0.5;
+  // Distance beyond the ends of the curve.
+  float beyond = sqrt(max(place.distance * place.distance - place.across * place.across, 0.0));
   if (dry > 0.0 && strokeLength > 2.0 * radius) {
     float run = whole * (1.0 - dry * noise(2u, lane));
     cover = min(cover, 1.0 - (place.along - run) / (1.5 * width));
+    // A stroke ends as flat as its brush, and each bristle at its own place.
+    float reach = radius * (1.0 - shown * (0.3 + 0.5 * noise(5u, lane + (share > 0.5 ? 60.0 : 0.0))));
+    cover = min(cover, 1.0 - (beyond - reach) / width);
   }
   float fine = noise(3u, lane) - 0.5;
   float broad = noise(4u, lane / 2.3 + place.along / (3.0 * radius)) - 0.5;
   float atRim = clamp(1.0 - inside / (1.2 * width), 0.0, 1.0);
+  float beside = max(1.0 - 2.0 * beyond / radius, 0.0);
   float facing = place.across < 0.0 ? -place.facing : place.facing;
-  float tone = shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * atRim * facing);
+  float tone = shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * beside * atRim * facing);
   return Paint(clamp(cover, 0.0, 1.0), share, tone);
 }`;

@@ -71,13 +71,18 @@ Paint paint_at(Bristles of, float middle_px, float rim_px, Place place) {
   float cover = inside / rim_px + 0.5;
   // Each bristle has paint for its own length.
   float run = of.length_px - of.dry_px * noise(of.seed, 2, lane);
-  if (of.dry_px > 0) cover = min(cover, 1 - (place.along - run) / (1.5 * of.width_px));
+  // Distance beyond the ends of the curve. A stroke ends as flat as its brush, and each bristle at its own place.
+  float beyond = sqrt(max(place.distance * place.distance - place.across * place.across, 0));
+  float reach = of.radius_px * (1 - shown * (0.3 + 0.5 * noise(of.seed, 5, lane + (share > 0.5 ? 60 : 0))));
+  if (of.dry_px > 0)
+    cover = min(cover, min(1 - (place.along - run) / (1.5 * of.width_px), 1 - (beyond - reach) / of.width_px));
   // Streaks along the stroke: fine ones that go through, and broader ones that come and go.
   float fine = noise(of.seed, 3, lane) - 0.5;
   float broad = noise(of.seed, 4, lane / 2.3 + place.along / (3 * of.radius_px)) - 0.5;
-  // Paint stands up at the rim.
+  // Paint stands up at the rim of both sides.
+  float beside = max(1 - 2 * beyond / of.radius_px, 0);
   float to_rim = clamp(1 - inside / (1.2 * of.width_px), 0.0, 1.0);
   float facing = place.across < 0 ? -place.facing : place.facing;
-  return Paint(cover, share, shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * to_rim * facing));
+  return Paint(cover, share, shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * beside * to_rim * facing));
 #endif
 }

@@ -34,10 +34,10 @@ class Bristles {
         width_(std::max(brush.bristle_px, stroke.radius_px / 6)),
         dry_(brush.dry) {
     // Streaks that are too fine for the pixels of a view are filtered, so that they do not sparkle.
-    const float shown = std::clamp((width_ - 0.6f) / 0.9f, 0.f, 1.f);
-    streaks_ = shown * brush.streaks;
-    ridge_ = shown * brush.ridge;
-    ragged_ = shown * 0.12f;
+    shown_ = std::clamp((width_ - 0.6f) / 0.9f, 0.f, 1.f);
+    streaks_ = shown_ * brush.streaks;
+    ridge_ = shown_ * brush.ridge;
+    ragged_ = shown_ * 0.12f;
   }
 
   /// Pixels of a stroke: distance to its curve, and as DistanceBand.
@@ -66,20 +66,29 @@ class Bristles {
         hn::Sub(hn::NegMulAdd(hn::Set(f, ragged_ * profile_.middle_px), rim_noise, hn::Set(f, profile_.middle_px)),
                 place.distance);
     auto cover = hn::MulAdd(inside, rim, half);
+    // Distance beyond the ends of the curve.
+    const auto beyond = hn::Sqrt(
+        hn::Max(hn::NegMulAdd(place.across, place.across, hn::Mul(place.distance, place.distance)), zero));
     if (runs_dry_) {
       // Each bristle has paint for its own length.
       const auto run = hn::NegMulAdd(hn::Set(f, dry_ * length_), noise(2, lane), hn::Set(f, length_));
       cover = hn::Min(cover, hn::NegMulAdd(hn::Sub(place.along, run), hn::Set(f, 1 / (1.5f * width_)), one));
+      // A stroke ends as flat as its brush, and each bristle at its own place.
+      const auto end = hn::IfThenElse(hn::Gt(share, half), hn::Set(f, 60.f), zero);
+      const auto reach = hn::MulAdd(hn::Set(f, -0.5f * shown_ * radius_), noise(5, hn::Add(lane, end)),
+                                    hn::Set(f, (1 - 0.3f * shown_) * radius_));
+      cover = hn::Min(cover, hn::NegMulAdd(hn::Sub(beyond, reach), hn::Set(f, 1 / width_), one));
     }
     // Streaks along the stroke: fine ones that go through, and broader ones that come and go.
     const auto fine = hn::Sub(noise(3, lane), half);
     const auto broad = hn::Sub(
         noise(4, hn::MulAdd(lane, hn::Set(f, 1 / 2.3f), hn::Mul(place.along, hn::Set(f, 1 / (3 * radius_))))), half);
     auto tone = hn::Mul(hn::Set(f, streaks_), hn::MulAdd(fine, hn::Set(f, 0.8f), hn::Mul(broad, hn::Set(f, 0.6f))));
-    // Paint stands up at the rim.
+    // Paint stands up at the rim of both sides.
+    const auto beside = hn::Max(hn::NegMulAdd(beyond, hn::Set(f, 2 / radius_), one), zero);
     const auto to_rim = hn::Max(hn::NegMulAdd(inside, hn::Set(f, 1 / (1.2f * width_)), one), zero);
     const auto facing = hn::Mul(place.facing, hn::CopySign(one, place.across));
-    tone = hn::MulAdd(hn::Mul(hn::Set(f, ridge_), hn::Min(to_rim, one)), facing, tone);
+    tone = hn::MulAdd(hn::Mul(hn::Mul(hn::Set(f, ridge_), beside), hn::Min(to_rim, one)), facing, tone);
     return {cover, share, tone};
   }
 
@@ -110,7 +119,7 @@ class Bristles {
   BrushProfile profile_;
   bool has_bristles_, runs_dry_;
   std::uint32_t seed_;
-  float radius_, length_, width_, dry_, streaks_ = 0, ridge_ = 0, ragged_ = 0;
+  float radius_, length_, width_, dry_, shown_ = 0, streaks_ = 0, ridge_ = 0, ragged_ = 0;
 };
 
 }  // namespace wheatstone::HWY_NAMESPACE

@@ -59,11 +59,16 @@ class PlainBristles {
     const float ragged = noise(1, place.along / (1.2f * stroke_.radius_px) + (place.across > 0 ? 40.f : 0.f));
     const float inside = profile.middle_px * (1 - 0.12f * shown * ragged) - place.distance;
     float cover = inside / profile.rim_px + 0.5f;
-    if (brush_.dry > 0 && stroke_.length > 2 * stroke_.radius_px)
+    const float beyond = std::sqrt(std::max(place.distance * place.distance - place.across * place.across, 0.f));
+    if (brush_.dry > 0 && stroke_.length > 2 * stroke_.radius_px) {
       cover = std::min(cover, 1 - (place.along - stroke_.length * (1 - brush_.dry * noise(2, lane))) / (1.5f * width_));
+      const float reach = 1 - shown * (0.3f + 0.5f * noise(5, lane + (share > 0.5f ? 60.f : 0.f)));
+      cover = std::min(cover, 1 - (beyond - reach * stroke_.radius_px) / width_);
+    }
     const float broad = noise(4, lane / 2.3f + place.along / (3 * stroke_.radius_px)) - 0.5f;
     float tone = shown * brush_.streaks * (0.8f * (noise(3, lane) - 0.5f) + 0.6f * broad);
-    tone += shown * brush_.ridge * std::clamp(1 - inside / (1.2f * width_), 0.f, 1.f) *
+    tone += shown * brush_.ridge * std::max(1 - 2 * beyond / stroke_.radius_px, 0.f) *
+            std::clamp(1 - inside / (1.2f * width_), 0.f, 1.f) *
             std::copysign(place.facing, place.facing * place.across);
     return {std::clamp(cover, 0.f, 1.f), share, tone};
   }

@@ -117,13 +117,15 @@ void follow(const FitTile& tile, const LayerPlan& plan, PlanePoint from, Directi
   }
 }
 
-/// Broad strokes of one point would be discs: they go on a little on their surface, whatever colour is there.
+/// Strokes of a point or two would be discs: they go on a little on their surface, whatever colour is there.
 void lengthen(const FitTile& tile, const LayerPlan& plan, Direction direction, Path& path) {
-  const PlanePoint middle = path.points.front();
+  const PlanePoint middle = path.points[path.begun];
   const auto disparity_at = [&](PlanePoint p) {
     return tile.disparity[tile.at(static_cast<int>(p.x), static_cast<int>(p.y))];
   };
-  for (const float way : {-step_px(plan.radius_px), step_px(plan.radius_px)}) {
+  const float half_length = std::max(1.4f * plan.radius_px, 2.f);
+  path.points = {middle};
+  for (const float way : {-half_length, half_length}) {
     const PlanePoint end{middle.x + way * direction.x, middle.y + way * direction.y};
     if (tile.contains(end.x, end.y) && std::abs(disparity_at(end) - disparity_at(middle)) <= plan.depth_threshold_px)
       path.points.insert(way < 0 ? path.points.begin() : path.points.end(), end);
@@ -141,8 +143,7 @@ Path trace_both_ways(const FitTile& tile, const LayerPlan& plan, int x, int y) {
   path.begun = path.points.size();
   path.points.push_back(begin);
   follow(tile, plan, begin, direction, path.points);
-  constexpr float broad_px = 1.8f;
-  if (path.points.size() == 1 && plan.radius_px > broad_px) lengthen(tile, plan, direction, path);
+  if (path.points.size() < 3) lengthen(tile, plan, direction, path);
   return path;
 }
 
@@ -267,13 +268,15 @@ struct EvenChange {
 };
 
 EvenChange fit_colour(const Moments& m) {
-  // A brush carries one colour and takes up some of what it meets: less change than fits best.
-  constexpr float taken_up = 0.6f;
+  // A brush carries one colour and takes up some of what it meets: less change than fits best. Soft gradients stay soft.
+  constexpr float taken_up = 0.6f, soft_change = 5;
   const float mean_along = m.along / m.weight;
   const FitColour mean = (1 / m.weight) * m.colour;
   const float variance = m.along_squared / m.weight - mean_along * mean_along;
   FitColour change;
-  if (variance > 1e-3f) change = (taken_up / (variance * m.weight)) * (m.colour_along - mean_along * m.colour);
+  if (variance > 1e-3f) change = (1 / (variance * m.weight)) * (m.colour_along - mean_along * m.colour);
+  const float size = std::sqrt(squared(change));
+  if (size > soft_change) change = std::max(soft_change / size, taken_up) * change;
   return {mean - mean_along * change, change};
 }
 
@@ -313,9 +316,9 @@ Side side_of(float disparity, float of_stroke, float threshold) {
 }
 
 FitColour varied(std::uint64_t random) {
-  constexpr float steps = 2.4f;  // below what the eye sees as another colour, between neighbours
+  constexpr float steps = 1.4f;  // below what the eye sees as another colour, between neighbours
   const auto part = [&](std::uint64_t which) { return unit_float(hash_keys({random, which})) - 0.5f; };
-  return {steps * part(1), 0.5f * steps * part(2), 0.5f * steps * part(3)};
+  return {steps * part(1), 0.3f * steps * part(2), 0.3f * steps * part(3)};
 }
 
 }  // namespace
@@ -360,7 +363,7 @@ float fitted_reach_px(float radius_px) { return longest_px(radius_px) / 2 + radi
 std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random) {
   const Path path = trace_both_ways(tile, plan, x, y);
   const float radius = plan.radius_px;
-  const std::size_t least_points = path.points.size() > 1 && radius > narrowest_px / width_shares[0] ? 2 : 1;
+  const std::size_t least_points = path.points.size() > 1 ? 2 : 1;
   const float of_stroke = tile.disparity[tile.at(x, y)];
 
   // Moments of the pixels by the narrowest stroke and the shortest part of the path that they belong to.
