@@ -33,7 +33,7 @@ function(wheatstone_add_gtest name target)
   foreach(shard RANGE 1 ${shards})
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND ${target})
-    set_tests_properties(${name}.${shard} PROPERTIES COST ${shards} TIMEOUT 900
+    set_tests_properties(${name}.${shard} PROPERTIES COST ${shards} TIMEOUT 1800
       ENVIRONMENT "GTEST_FILTER=-*Long.*;GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
   endforeach()
   add_test(NAME ${name}.long COMMAND ${target})
