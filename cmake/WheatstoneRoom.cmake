@@ -11,11 +11,15 @@ add_library(wheatstone_warnings INTERFACE)
 target_compile_options(wheatstone_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
   # Options are structs with defaults: naming only those that differ is how they are meant to be filled.
-  -Wno-missing-field-initializers
-  # Wrong where several source files are compiled as one.
-  -Wno-subobject-linkage
+  -Wno-missing-field-initializers)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # With sanitizers, GCC cannot tell what is initialised.
-  $<$<CONFIG:RelWithDebInfo>:-Wno-maybe-uninitialized>)
+  target_compile_options(wheatstone_warnings INTERFACE $<$<CONFIG:RelWithDebInfo>:-Wno-maybe-uninitialized>)
+  if(CMAKE_UNITY_BUILD)
+    # Wrong where several source files are compiled as one.
+    target_compile_options(wheatstone_warnings INTERFACE -Wno-subobject-linkage)
+  endif()
+endif()
 
 # A test program is one entry of ctest: what its tests share, such as rendered scenes, is made once. The programs that
 # take longest are two entries, each of which runs every second test, and begin first, so that no processor is without
