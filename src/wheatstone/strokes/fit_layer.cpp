@@ -54,16 +54,10 @@ Anchor find_anchor(const LayerPlan& plan, const FitTile& tile, const Cell& cell)
   return anchor;
 }
 
-/// Broad strokes are few: they may gain less, so that soft gradients show no steps.
-float least_gain(const LayerPlan& plan) {
-  constexpr float fine_px = 5;
-  return plan.least_gain * std::min(fine_px / plan.radius_px, 1.f);
-}
-
 /// A stroke covers several cells: where the error of one is small, none gains enough.
 bool may_gain(const LayerPlan& plan, const Anchor& anchor) {
   constexpr float cells_of_stroke = 4;
-  return anchor.x >= 0 && cells_of_stroke * anchor.sum >= least_gain(plan);
+  return anchor.x >= 0 && cells_of_stroke * anchor.sum >= plan.least_gain;
 }
 
 /// The cells of one pass that begin in a block and may gain by a stroke, in an order of chance: no row of strokes
@@ -151,7 +145,7 @@ Layer plan_block(const LayerPlan& plan, int left, int top, int size, Canvas& can
       const Anchor anchor = find_anchor(plan, tile, cell);
       if (!may_gain(plan, anchor)) continue;
       const auto fitted = fit_stroke(tile, plan, anchor.x, anchor.y, cell.random);
-      if (!fitted || fitted->gain < least_gain(plan)) continue;
+      if (!fitted || fitted->gain < plan.least_gain) continue;
       paint_stroke(*fitted, plan, tile);
       add_stroke(*fitted, plan, tile, cell.random, layer);
     }

@@ -69,7 +69,7 @@ ViewOnCanvas::ViewOnCanvas(View view_, const Style& style, int reference_width)
     : ViewOnCanvas(view_, style, reference_width, canvas_of(view_, style)) {}
 
 LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer) {
-  constexpr float no_threshold_px = 1e9f;
+  constexpr float no_threshold_px = 1e9f, fine_px = 5;
   const float radius = at.scaled.radii_px[layer];
   const float threshold = style.depth_test ? at.scaled.depth_threshold_px : no_threshold_px;
   const bool finest = layer + 1 == static_cast<int>(at.scaled.radii_px.size());
@@ -80,7 +80,8 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer)
                  .layer = layer,
                  .seeds = at.view.wanted,
                  .beside = at.beside,
-                 .least_gain = at.scaled.least_gain,
+                 // Broad strokes are few: they may gain less, so that soft gradients show fewer steps.
+                 .least_gain = at.scaled.least_gain * std::min(fine_px / radius, 1.f),
                  .depth_threshold_px = threshold};
   if (at.view.continued) plan.least_edge_cell_px = 3;  // of what no photograph shows, edges need no detail
   tbb::parallel_invoke([&] { plan.reference = make_reference(at.view.colour, radius, style); },

@@ -53,7 +53,7 @@ struct LayerPlan {
   ImageView<const std::uint8_t> seeds;      ///< strokes begin only where it is not 0; empty: everywhere
   ImageView<const std::uint8_t> misplaced;  ///< as misplaced_paint: strokes are wanted first there; empty: nowhere
   ViewsBeside beside = {};                  ///< from which its strokes will be seen
-  float least_gain = 0;                     ///< as ScaledStyle
+  float least_gain = 0;                     ///< as ScaledStyle; less for broad strokes
 
   // The depth test; all are empty where the style wants none.
   float depth_threshold_px = 2;            ///< T_depth; without the test, more than any disparity
