@@ -284,16 +284,11 @@ void paint_presented(const FilmFrame& frame, const FrameTask& task, RotoscopeSta
 void paint_for_own_eyes(const FilmFrame& frame, const FrameTask& task, RotoscopeState& state, RotoscopedFrame& result) {
   const RotoscopeOptions& options = task.options;
   PaintedFrame made = paint_frame(frame, options.style, options.carrying, state.memory, task.progress, options.device);
-  PaintedPair& painted = made.painted;
-  result.painting = std::move(painted.painting);
+  result.painting = std::move(made.painting);
   result.counts = made.counts;
-  result.painting_times = painted.times;
-  result.worst_bare_share = std::max(painted.left_bare_share, painted.right_bare_share);
-  if (task.whole.right.empty()) {
-    result.pictures = std::move(painted.pictures.left);
-  } else {
-    result.pictures = std::move(painted.pictures);
-  }
+  result.painting_times = made.times;
+  result.worst_bare_share = made.shown.worst_bare_share;
+  result.pictures = frame_pictures(std::move(made.shown));
 }
 
 /// Compares the frame with the one before and adds it to the film's sums.

@@ -26,8 +26,9 @@ namespace {
 
 /// Diffusion curves lie over the drawn view, which is embedded as PNG, so that the document looks like the painting.
 void write_svg(const std::filesystem::path& path, const Painting& painting, ViewPosition view) {
-  write_whole_file(path,
-                   svg_of(painting, view, svg_has_ground(painting) ? encode_png(draw(painting, view).picture) : ""));
+  const std::string ground =
+      svg_has_ground(painting) ? encode_png(present(painting, {.views = {view}}).views.front()) : "";
+  write_whole_file(path, svg_of(painting, view, ground));
 }
 
 /// The results where all views are one picture.

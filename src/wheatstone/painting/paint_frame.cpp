@@ -1,5 +1,6 @@
 #include "wheatstone/painting/paint_frame.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -30,12 +31,14 @@ void draw_shown(const Painting& painting, Background background, Device device, 
   for (std::size_t i = 0; i < shown.size(); ++i) shown[i].drawn = std::move(drawn[i]);
 }
 
-void take_pictures(std::vector<ShownView> shown, PaintedPair& painted) {
-  painted.pictures.left = std::move(shown.front().drawn.picture);
-  painted.left_bare_share = shown.front().drawn.bare_share;
-  if (shown.size() < 2) return;
-  painted.pictures.right = std::move(shown.back().drawn.picture);
-  painted.right_bare_share = shown.back().drawn.bare_share;
+Presented presented(std::vector<ShownView> shown) {
+  Presented presented;
+  for (ShownView& eye : shown) {
+    presented.views.push_back(std::move(eye.drawn.picture));
+    presented.bare_shares.push_back(eye.drawn.bare_share);
+    presented.worst_bare_share = std::max(presented.worst_bare_share, eye.drawn.bare_share);
+  }
+  return presented;
 }
 
 }  // namespace
@@ -43,21 +46,20 @@ void take_pictures(std::vector<ShownView> shown, PaintedPair& painted) {
 PaintedFrame paint_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                          PaintingMemory& memory, const Progress& progress, Device device) {
   PaintedFrame result;
-  PaintedPair& painted = result.painted;
   {
-    const Stopwatch watch(painted.times.planning_s);
+    const Stopwatch watch(result.times.planning_s);
     PlannedFrame planned = plan_without_repair(frame, style, options, memory, progress);
-    painted.painting = std::move(planned.painting);
+    result.painting = std::move(planned.painting);
     result.counts = planned.counts;
-    if (!is_repaired_when_drawn(painted.painting, style)) repair(frame.views, style, painted.painting);
+    if (!is_repaired_when_drawn(result.painting, style)) repair(frame.views, style, result.painting);
   }
-  const Stopwatch watch(painted.times.rasterising_s);
+  const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);
   std::vector<ShownView> shown = shown_views(frame.views);
-  draw_shown(painted.painting, style.background, device, shown);
-  if (is_repaired_when_drawn(painted.painting, style))
-    repair_drawn(shown, frame.views.front().position, style, painted.painting);
-  take_pictures(std::move(shown), painted);
+  draw_shown(result.painting, style.background, device, shown);
+  if (is_repaired_when_drawn(result.painting, style))
+    repair_drawn(shown, frame.views.front().position, style, result.painting);
+  result.shown = presented(std::move(shown));
   return result;
 }
 

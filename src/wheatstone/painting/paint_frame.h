@@ -3,13 +3,16 @@
 #include "wheatstone/gpu/device.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/plan_painting.h"
+#include "wheatstone/painting/present.h"
 
 namespace wheatstone {
 
-/// A frame of a film, painted. Of a scene of one view, `pictures.right` is empty.
+/// A frame of a film, painted.
 struct PaintedFrame {
-  PaintedPair painted;
+  Painting painting;
+  Presented shown;  ///< the left eye's view and the right one's, or the one view there is
   StrokeCounts counts;
+  PaintingTimes times;
 };
 
 /// Paints a frame of a film for both eyes, or for the one view there is, and leaves at most single pixels bare. Throws

@@ -134,7 +134,7 @@ PaintedFrame paint_first_frame(const Style& style, const Progress& progress) {
 TEST(PaintFrame, PaintingIsWrittenAndReadBackEqual) {
   const TemporaryFolder folder;
   for (const std::string_view name : {"impressionist", "mosaic", "diffusion"}) {
-    const Painting painting = paint_first_frame(style_by_name(name), {}).painted.painting;
+    const Painting painting = paint_first_frame(style_by_name(name), {}).painting;
     write_painting(folder / "painting.wst", painting);
     EXPECT_EQ(read_painting(folder / "painting.wst"), painting) << name;
   }

@@ -122,9 +122,9 @@ TEST(Diffusion, ShowsALightWithoutEdgesInAFilm) {
   const CentralView centre = make_central_view(photographs, geometry);
   const std::vector<View> views = scene_from_centre(centre, photographs, geometry);
   PaintingMemory nothing_before;
-  const StereoPair painted =
-      paint_frame(FilmFrame{.views = views}, style_by_name("diffusion"), {}, nothing_before).painted.pictures;
-  EXPECT_EQ(measure_wrong_spots(painted, photographs).share, 0);
+  const std::vector<Image<Rgb8>> eyes =
+      paint_frame(FilmFrame{.views = views}, style_by_name("diffusion"), {}, nothing_before).shown.views;
+  EXPECT_EQ(measure_wrong_spots({eyes[0], eyes[1]}, photographs).share, 0);
 }
 
 TEST(FrameOfStrokes, ShowsTheEyesNoColourThatTheyDoNotHave) {
@@ -138,14 +138,14 @@ TEST(FrameOfStrokes, ShowsTheEyesNoColourThatTheyDoNotHave) {
   const Painting planned = plan_frame(FilmFrame{.views = views}, style, {}, nothing_before).painting;
   EXPECT_GT(measure_wrong_spots(draw(planned, left_eye).picture, frame.pictures.left).share, 0);
   nothing_before = {};
-  const PaintedPair painted = paint_frame(FilmFrame{.views = views}, style, {}, nothing_before).painted;
-  EXPECT_EQ(measure_wrong_spots(painted.pictures, frame.pictures).share, 0);
+  const PaintedFrame painted = paint_frame(FilmFrame{.views = views}, style, {}, nothing_before);
+  const std::vector<Image<Rgb8>>& eyes = painted.shown.views;
+  EXPECT_EQ(measure_wrong_spots({eyes[0], eyes[1]}, frame.pictures).share, 0);
   // What repairs the pictures belongs to the painting.
   const PreparedPainting prepared = prepare(painted.painting);
   constexpr int rounding = 2;
-  EXPECT_LE(largest_difference(draw(prepared, left_eye, frame.pictures.left).picture, painted.pictures.left), rounding);
-  EXPECT_LE(largest_difference(draw(prepared, right_eye, frame.pictures.right).picture, painted.pictures.right),
-            rounding);
+  EXPECT_LE(largest_difference(draw(prepared, left_eye, frame.pictures.left).picture, eyes[0]), rounding);
+  EXPECT_LE(largest_difference(draw(prepared, right_eye, frame.pictures.right).picture, eyes[1]), rounding);
 }
 
 TEST(Posterise, KeepsColoursForSmallThingsOfTheirOwn) {

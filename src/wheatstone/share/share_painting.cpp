@@ -112,7 +112,8 @@ Ground ground_of(const Painting& painting, const std::string& title) {
                   {"first", known.first.eye_separations()},
                   {"last", known.last.eye_separations()}};
   ground.facts["surfaces"] = add_surfaces(painting.surfaces, ground.shared.parts);
-  ground.shared.still_jpeg = still_of(draw(painting, is_of_two_eyes ? left_eye : central_view).picture);
+  const Presentation still{.views = {is_of_two_eyes ? left_eye : central_view}};
+  ground.shared.still_jpeg = still_of(present(painting, still).views.front());
   return ground;
 }
 

@@ -60,21 +60,22 @@ const std::vector<PaintedFrame>& frame_by_frame() {
 }
 
 const std::vector<Layer>& layers_of(const PaintedFrame& frame) {
-  return std::get<StrokePainting>(frame.painted.painting.marks).layers;
+  return std::get<StrokePainting>(frame.painting.marks).layers;
 }
+
+StereoPair eyes_of(const PaintedFrame& frame) { return {frame.shown.views[0], frame.shown.views[1]}; }
 
 double temporal_error(const std::vector<PaintedFrame>& frames) {
   TemporalError error;
   for (std::size_t i = 1; i < frames.size(); ++i)
-    error.add(frames[i - 1].painted.pictures.left, frames[i].painted.pictures.left,
-              relate_frames(film().left_flow_to(i)));
+    error.add(frames[i - 1].shown.views[0], frames[i].shown.views[0], relate_frames(film().left_flow_to(i)));
   return error.mean();
 }
 
 double rms_from_source(const std::vector<PaintedFrame>& frames) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Image<Rgb8>&a = frames[i].painted.pictures.left, &b = film().frames[i].pictures.left;
+    const Image<Rgb8>&a = frames[i].shown.views[0], &b = film().frames[i].pictures.left;
     for (std::size_t k = 0; k < a.pixels().size(); ++k) {
       const Rgb8 p = a.pixels()[k], q = b.pixels()[k];
       sum += std::pow(p.r - q.r, 2) + std::pow(p.g - q.g, 2) + std::pow(p.b - q.b, 2);
@@ -93,8 +94,8 @@ TEST(StrokesInTime, SurviveLeaveNothingBareAndDoNotPop) {
   StrokeChanges sum;
   for (std::size_t i = 0; i < carried().size(); ++i) {
     // Single pixels beside depth edges, as many in the last frame as in the first.
-    EXPECT_LT(carried()[i].painted.left_bare_share, 0.001) << i;
-    EXPECT_LT(carried()[i].painted.right_bare_share, 0.001) << i;
+    EXPECT_LT(carried()[i].shown.bare_shares[0], 0.001) << i;
+    EXPECT_LT(carried()[i].shown.bare_shares[1], 0.001) << i;
     if (i == 0) continue;
     const double largest_step = 1.0 / CarryOptions().fade_in_frames;
     const StrokeChanges changes = compare_strokes(layers_of(carried()[i - 1]), layers_of(carried()[i]), largest_step);
@@ -116,22 +117,22 @@ TEST(StrokesInTime, OfWideBrushesAreCarriedAndShowTheFrame) {
     EXPECT_EQ(changes.popped, 0) << i;
     EXPECT_GT(static_cast<double>(changes.survived), 0.8 * static_cast<double>(changes.whole)) << i;
     const Image<Rgb8>& film_picture = film().frames[i].pictures.left;
-    EXPECT_GT(measure_view(kept[i].painted.pictures.left, film_picture).psnr_db,
-              measure_view(anew[i].painted.pictures.left, film_picture).psnr_db - 1)
+    EXPECT_GT(measure_view(kept[i].shown.views[0], film_picture).psnr_db,
+              measure_view(anew[i].shown.views[0], film_picture).psnr_db - 1)
         << i;
   }
 }
 
 TEST(StrokesInTime, FuseAsWellAsThoseOfAFrameAlone) {
   const auto left_right = [](const std::vector<PaintedFrame>& frames) {
-    return measure_left_right_difference(frames.back().painted.pictures, film().frames.back().geometry.left_disparity)
+    return measure_left_right_difference(eyes_of(frames.back()), film().frames.back().geometry.left_disparity)
         .mean_absolute;
   };
   const auto bad_2 = [](const StereoPair& pictures) {
     return measure_depth_survival(pictures, film().frames.back().geometry.left_disparity).bad_2;
   };
   EXPECT_LT(left_right(carried()), 1.3 * left_right(frame_by_frame()));
-  EXPECT_LT(bad_2(carried().back().painted.pictures), bad_2(film().frames.back().pictures) + 0.03);
+  EXPECT_LT(bad_2(eyes_of(carried().back())), bad_2(film().frames.back().pictures) + 0.03);
 }
 
 TEST(StrokesInTime, ASceneBegunAfreshRemembersNothingButTheLastNumber) {
@@ -170,7 +171,7 @@ TEST(StrokesInTime, OfOneEyeStandStillWhereTheFilmDoes) {
   std::vector<PaintedFrame> frames;
   for (int i = 0; i < 8; ++i) frames.push_back(paint_frame({scene, i == 0 ? nullptr : &none}, {}, {}, memory));
   // What the first frame leaves to be done has come, and what it had too much has gone.
-  EXPECT_TRUE(frames[6].painted.pictures.left == frames[7].painted.pictures.left);
+  EXPECT_TRUE(frames[6].shown.views[0] == frames[7].shown.views[0]);
   EXPECT_TRUE(layers_of(frames[6]) == layers_of(frames[7]));
 }
 
@@ -188,7 +189,7 @@ TEST(StrokesInTime, WhereTheFlowIsWrongPaintDoesNotLinger) {
     const Image<Rgb8> picture = bar_at(30 + 60 * i);
     const std::vector<View> scene{{picture, flat, {}, central_view}};
     const PaintedFrame frame = paint_frame({scene, i == 0 ? nullptr : &none}, {}, {}, memory);
-    wrong = measure_wrong_spots(frame.painted.pictures.left, picture).share;
+    wrong = measure_wrong_spots(frame.shown.views[0], picture).share;
   }
   EXPECT_LT(wrong, 0.02) << "the bar of the frame before takes .22 of the picture";
 }
@@ -219,8 +220,8 @@ TEST(StrokesInTime, ShowNothingButTheFrameWhateverTheFlowSays) {
     PaintingMemory nothing;
     const PaintedFrame alone = paint_frame({scene, nullptr}, {}, {}, nothing);
     if (i == 0) continue;
-    carried += measure_wrong_spots(frame.painted.pictures.left, picture).share;
-    anew += measure_wrong_spots(alone.painted.pictures.left, picture).share;
+    carried += measure_wrong_spots(frame.shown.views[0], picture).share;
+    anew += measure_wrong_spots(alone.shown.views[0], picture).share;
   }
   EXPECT_LE(carried, 4 * anew) << "thirty times, if carried strokes hid new ones, and those that fade were left";
 }
@@ -330,8 +331,8 @@ TEST(StrokesInTime, AFilmOfOneEyeIsPaintedToo) {
       for (float& value : image->pixels())
         if (std::isnan(value)) value = 0;
     const PaintedFrame frame = paint_frame({scene, i == 0 ? nullptr : &known}, {}, {}, memory);
-    EXPECT_TRUE(frame.painted.pictures.right.empty());
-    EXPECT_EQ(frame.painted.left_bare_share, 0);
+    EXPECT_EQ(frame.shown.views.size(), 1u);
+    EXPECT_EQ(frame.shown.worst_bare_share, 0);
     if (i > 0) {
       const StrokeChanges changes = compare_strokes(before, layers_of(frame), 0.5);
       EXPECT_GT(static_cast<double>(changes.survived) / static_cast<double>(changes.whole), 0.85);
