@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "depth_placing.h"
+#include "depth_seen.h"
 #include "film_player.h"
 #include "output_mode.h"
 #include "particle_film.h"

@@ -1,11 +1,11 @@
 #include "command_table.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
 
-#include "command_groups_internal.h"
-#include "undo.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::viewer {
@@ -35,7 +35,84 @@ WordCount words_wanted(const Command& command) {
   return count;
 }
 
+/// What can be undone of a state: not where one looks from.
+ViewState parameters_of(ViewState state) {
+  const ViewState as_new;
+  state.framed = as_new.framed;
+  state.head = as_new.head;
+  state.orbit = as_new.orbit;
+  state.share = as_new.share;
+  state.step = as_new.step;
+  state.comparison = as_new.comparison;
+  state.layers_apart_deg = as_new.layers_apart_deg;
+  state.depth_around = as_new.depth_around;
+  return state;
+}
+
+void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState>& to) {
+  if (from.empty()) return;
+  Session& session = viewer.session();
+  const bool painted_anew = from.back().style != session.state.style;
+  const ViewState now = session.state;
+  session.state = from.back();
+  session.state.framed = now.framed;
+  session.state.head = now.head;
+  session.state.orbit = now.orbit;
+  session.state.share = now.share;
+  session.state.comparison = now.comparison;
+  session.state.layers_apart_deg = now.layers_apart_deg;
+  session.state.depth_around = now.depth_around;
+  to.push_back(now);
+  from.pop_back();
+  session.zero_parallax_target_px.reset();
+  if (painted_anew) viewer.paint();
+}
+
 }  // namespace
+
+Words words_of(std::string_view line) {
+  Words words;
+  std::string word;
+  bool quoted = false, begun = false;
+  for (const char letter : line) {
+    if (letter == '"') {
+      quoted = !quoted;
+      begun = true;
+    } else if (letter == '#' && words.empty() && !begun) {
+      return {};
+    } else if (!quoted && (letter == ' ' || letter == '\t' || letter == '\r')) {
+      if (begun) words.push_back(std::exchange(word, {}));
+      begun = false;
+    } else {
+      word += letter;
+      begun = true;
+    }
+  }
+  if (quoted) throw Error(ErrorKind::wrong_usage, fmt::format("'{}' has a quote that is not closed", line));
+  if (begun) words.push_back(std::move(word));
+  return words;
+}
+
+double number_of(const std::string& word) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(number))
+    throw Error(ErrorKind::wrong_usage, fmt::format("'{}' is no number", word));
+  return number;
+}
+
+double number_of(const std::string& word, double least, double most) {
+  const double number = number_of(word);
+  if (number < least || number > most)
+    throw Error(ErrorKind::wrong_usage, fmt::format("{} is out of range, expected {} to {}", word, least, most));
+  return number;
+}
+
+bool switch_of(const std::string& word) {
+  if (word == "on") return true;
+  if (word == "off") return false;
+  throw Error(ErrorKind::wrong_usage, fmt::format("'{}' is neither on nor off", word));
+}
 
 std::span<const Command> command_table() {
   static const std::vector<Command> table = all_commands();
@@ -74,5 +151,17 @@ void run_line(Viewer& viewer, std::string_view line) {
   const Words words = words_of(line);
   if (!words.empty()) run_command(viewer, find_command(words.front()), {words.begin() + 1, words.end()});
 }
+
+void Change::keep(Session& session) const {
+  const bool is_moving = session.zero_parallax_target_px && session.zero_parallax_target_px != target_before_;
+  if (!is_moving && parameters_of(session.state) == parameters_of(before_)) return;
+  constexpr std::size_t most_states = 200;
+  if (session.done.size() == most_states) session.done.erase(session.done.begin());
+  session.done.push_back(before_);
+  session.undone.clear();
+}
+
+void undo(Viewer& viewer) { go_back(viewer, viewer.session().done, viewer.session().undone); }
+void redo(Viewer& viewer) { go_back(viewer, viewer.session().undone, viewer.session().done); }
 
 }  // namespace wheatstone::viewer

@@ -1,12 +1,25 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "command_words.h"
 #include "viewer.h"
 
 namespace wheatstone::viewer {
+
+using Words = std::vector<std::string>;
+
+/// The words of a line: separated by white space, but for what stands in double quotes. Empty lines, and those that
+/// begin with #, have none. Throws Error{wrong_usage} where a quote is not closed.
+Words words_of(std::string_view line);
+
+// What a word says. They throw Error{wrong_usage}, as "'a' is no number".
+
+double number_of(const std::string& word);
+double number_of(const std::string& word, double least, double most);
+bool switch_of(const std::string& word);  ///< "on" or "off"
 
 /// One line of the table of commands, from which the menus, the keys, the help and scripts are made.
 struct Command {
@@ -30,5 +43,38 @@ void run_command(Viewer& viewer, const Command& command, const Words& arguments)
 
 /// Does what a line says: a command's name and its arguments. Empty lines, and those that begin with #, say nothing.
 void run_line(Viewer& viewer, std::string_view line);
+
+/// What a command changes of a session, so that it can be undone: to be made before the command, and `keep` called
+/// behind it. From where one looks (zoom, pan, head, orbit, the side of layers, the photograph) is not undone.
+class Change {
+ public:
+  explicit Change(const Session& session) : before_(session.state), target_before_(session.zero_parallax_target_px) {}
+  /// Keeps the state before for `undo` where something that can be undone has changed.
+  void keep(Session& session) const;
+
+ private:
+  ViewState before_;
+  std::optional<float> target_before_;
+};
+
+void undo(Viewer& viewer);
+void redo(Viewer& viewer);
+
+// The parts of the table, in its order, one a file.
+std::span<const Command> file_commands();
+std::span<const Command> looking_commands();
+std::span<const Command> depth_commands();
+std::span<const Command> input_commands();
+std::span<const Command> painting_commands();
+std::span<const Command> film_commands();
+std::span<const Command> particle_commands();
+std::span<const Command> quantity_commands();
+std::span<const Command> camera_commands();
+std::span<const Command> panel_commands();
+
+inline ViewState& state_of(Viewer& viewer) { return viewer.session().state; }
+
+/// Throws Error{wrong_usage} before the first frame.
+const Frame& frame_of(const Viewer& viewer);
 
 }  // namespace wheatstone::viewer

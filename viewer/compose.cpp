@@ -23,6 +23,15 @@ Image<Rgb8> put_in_layout(StereoLayout layout, const Image<Rgb8>& left, const Im
 
 }  // namespace
 
+std::optional<PlaceInView> place_at(const std::vector<ViewPlace>& places, double x, double y) {
+  for (const ViewPlace& place : places) {
+    if (x < place.left || y < place.top || x >= place.left + place.width || y >= place.top + place.height) continue;
+    return PlaceInView{place.view, ((x - place.left) / place.squeeze_x - place.origin_x) / place.scale,
+                       ((y - place.top) / place.squeeze_y - place.origin_y) / place.scale};
+  }
+  return {};
+}
+
 PictureSize eye_size(const OutputMode& mode, const Viewport& viewport) {
   const LayoutTraits* const layout = layout_of(mode);
   if (layout == nullptr) return {viewport.width, viewport.height};

@@ -1,6 +1,28 @@
 #include "content.h"
 
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "film_player.h"
+#include "particle_film.h"
+#include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/depth/convergence.h"
+#include "wheatstone/display/multiview_exr.h"
+#include "wheatstone/display/quilt.h"
+#include "wheatstone/error.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/matching/not_a_pair.h"
+#include "wheatstone/multiview/slice_file.h"
+#include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/photograph/carried_depth.h"
+#include "wheatstone/photograph/read_views.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/disparity_from_depth.h"
+#include "wheatstone/stereo/single_view.h"
+#include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -18,6 +40,143 @@ struct SizeOf {
   PictureSize operator()(const ParticlesContent& /*content*/) const { return {}; }
 };
 
+namespace fs = std::filesystem;
+
+/// Who is told of what an opening does, and what is wanted of it.
+struct Listeners {
+  const Progress& progress;
+  const ShowFirst& show;
+  const std::string& quantity;  ///< of particles
+};
+
+void show_as_it_came(const StereoPair& pictures, const ShowFirst& show) {
+  if (!show || pictures.left.empty() || !same_size(pictures.left, pictures.right)) return;
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = pictures;
+  show({.content = PaintedContent{nullptr, std::move(photograph)}, .kind = "photograph", .is_ready = false});
+}
+
+Opened opened_photograph(StereoPair pictures, const std::string& name, const Listeners& listeners) {
+  show_as_it_came(pictures, listeners.show);
+  PreparedPair prepared;
+  try {
+    prepared = prepare_pair(std::move(pictures), {}, listeners.progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_input) throw;
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+  }
+  Opened opened{.kind = "photograph"};
+  for (const std::string& note : {rectified_note(prepared), row_warning(prepared)})
+    if (!note.empty()) opened.notes.push_back(note);
+  if (prepared.eyes == EyeOrder::swapped) opened.notes.emplace_back("the eyes look swapped");
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = std::move(prepared.pictures);
+  opened.content = PaintedContent{nullptr, std::move(photograph)};
+  return opened;
+}
+
+Opened opened_with_depth(CarriedDepth found, const fs::path& path) {
+  Image<float> disparity;
+  try {
+    disparity = disparity_from_depth(found.depth, found.picture, {.kind = found.kind});
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
+  }
+  MadePair pair = make_pair_from_single_view(std::move(found.picture), std::move(disparity));
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = std::move(pair.pictures);
+  photograph->geometry = std::move(pair.geometry);
+  return {PaintedContent{nullptr, std::move(photograph)}, "picture with depth", {"with the depth of " + found.how}};
+}
+
+Opened opened_views(std::vector<Image<Rgb8>> views, std::string kind) {
+  // Neighbours are an eye separation apart where nothing tells otherwise.
+  const float span = kind == "quilt" ? 1.f : static_cast<float>(views.size() - 1);
+  return {ViewsContent{std::make_shared<const std::vector<Image<Rgb8>>>(std::move(views)), span}, std::move(kind), {}};
+}
+
+Opened open_picture(const fs::path& path, const Listeners& listeners) {
+  if (const std::optional<NamedQuilt> quilt = quilt_of_name(path.filename().string()))
+    return opened_views(views_of_quilt(read_image(path), quilt->layout), "quilt");
+  if (std::optional<CarriedDepth> depth = find_carried_depth(path)) return opened_with_depth(std::move(*depth), path);
+  std::optional<ViewsFile> found = find_views(path);
+  if (!found) {
+    std::vector<Image<Rgb8>> one;
+    one.push_back(read_image(path));
+    return {ViewsContent{std::make_shared<const std::vector<Image<Rgb8>>>(std::move(one)), 0}, "picture", {}};
+  }
+  const std::string how = describe_views(*found);
+  if (found->views.size() > 2) return opened_views(std::move(found->views), "views");
+  Opened opened = opened_photograph({std::move(found->views[0]), std::move(found->views[1])}, path.string(), listeners);
+  opened.notes.insert(opened.notes.begin(), how);
+  return opened;
+}
+
+/// Whether a file, or what stands for several, is a film.
+bool names_film(const fs::path& path) {
+  const bool is_two = !fs::exists(path) && path.string().find(',') != std::string::npos;
+  return is_film(path) || is_two || fs::is_directory(path);
+}
+
+Opened open_film_files(const FilmFiles& files) {
+  auto film = std::make_shared<const OpenedFilm>(open_film_to_play(files));
+  Opened opened{film->first.content, "film", {}};
+  if (film->film.files.layout)
+    opened.notes.push_back(
+        fmt::format("{} ({})", layout_name(*film->film.files.layout), film->film.quilt ? "a quilt" : film->layout_how));
+  opened.film = std::move(film);
+  return opened;
+}
+
+/// Whether the names of two films differ as those of two eyes.
+bool are_named_as_eyes(const fs::path& left, const fs::path& right) {
+  static constexpr std::array eyes{std::pair("left", "right"), std::pair("Left", "Right"), std::pair("_L.", "_R.")};
+  const std::string name = left.filename().string();
+  return std::ranges::any_of(eyes, [&](const auto& eye) {
+    const std::size_t at = name.rfind(eye.first);
+    return at != std::string::npos &&
+           std::string(name).replace(at, std::strlen(eye.first), eye.second) == right.filename().string();
+  });
+}
+
+/// Whether a path is the pattern of snapshots.
+bool names_series(const fs::path& path) {
+  const std::optional<FramePattern> pattern = frame_pattern(path);
+  if (!pattern) return false;
+  const std::vector<std::int64_t> numbers = numbers_of(*pattern);
+  return !numbers.empty() && holds_particles(pattern->file(numbers.front()));
+}
+
+Opened open_particles(const fs::path& path, const Listeners& listeners) {
+  auto reader = std::make_shared<ParticleReader>(path);
+  const bool is_series = !reader->times().empty();
+  const double time = is_series ? reader->times().front() : 0;
+  Opened opened{ParticlesContent{reader->read(listeners.quantity, time, listeners.progress)}, "particles", {}};
+  if (is_series) opened.notes.push_back(fmt::format("a series of {} snapshots", reader->times().size()));
+  if (!is_series && series_pattern_of(path)) opened.notes.push_back("'open-series' plays all snapshots of this name");
+  opened.reader = std::move(reader);
+  return opened;
+}
+
+Opened open_without_depth(std::span<const fs::path> files, const Listeners& listeners) {
+  const fs::path& path = files.front();
+  report(listeners.progress, "reading", 0);
+  if (names_series(path)) return open_particles(path, listeners);
+  if (names_film(path))
+    return open_film_files(files.size() == 2 ? FilmFiles{path, files[1], {}} : find_film(path.string()));
+  if (files.size() == 2)
+    return opened_photograph({read_image(path), read_image(files[1])},
+                             fmt::format("{}, {}", path.string(), files[1].string()), listeners);
+  if (path.extension() == ".wst")
+    return {PaintedContent{std::make_shared<const Painting>(read_painting(path)), nullptr}, "painting", {}};
+  if (path.extension() == ".exr") {
+    if (is_multiview_exr(path)) return opened_views(read_multiview_exr(path), "views");
+    return {SlicesContent{std::make_shared<const SliceStack>(read_slices(path))}, "slices", {}};
+  }
+  if (holds_particles(path)) return open_particles(path, listeners);
+  return open_picture(path, listeners);
+}
+
 }  // namespace
 
 PictureSize size_of(const Content& content) { return std::visit(SizeOf(), content); }
@@ -33,6 +192,29 @@ std::optional<DepthEnds> depth_of(const Content& content) {
     if (!sliced->slices->slices.empty())
       return DepthEnds{-sliced->slices->slices.back().parallax_px, -sliced->slices->slices.front().parallax_px};
   return {};
+}
+
+Opened open_content(std::span<const fs::path> files, const Progress& progress, const ShowFirst& show,
+                    const std::string& quantity) {
+  Opened opened = open_without_depth(files, {progress, show, quantity});
+  opened.depth = depth_of(opened.content);
+  return opened;
+}
+
+bool are_eyes_of_one(const fs::path& left, const fs::path& right, const ShowFirst& show) {
+  if (names_film(left) || names_film(right))
+    return names_film(left) && names_film(right) && are_named_as_eyes(left, right);
+  for (const fs::path* path : {&left, &right})
+    if (path->extension() == ".wst" || path->extension() == ".exr" || holds_particles(*path) ||
+        quilt_of_name(path->filename().string()))
+      return false;
+  try {
+    const StereoPair pair{read_image(left), read_image(right)};
+    show_as_it_came(pair, show);
+    return same_size(pair.left, pair.right) && !find_views(left) && !find_views(right) && !not_a_pair(pair);
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace wheatstone::viewer

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/multiview/slice_stack.h"
+#include "wheatstone/progress.h"
 #include "wheatstone/stereo/reduced_pair.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
@@ -77,5 +80,19 @@ struct Opened {
   bool is_ready = true;                         ///< false: shown as it came, while it is made ready
   std::optional<DepthEnds> depth = {};          ///< of the content, or of the frame of the film that was painted last
 };
+
+/// Takes what can be shown already of something that is not ready.
+using ShowFirst = std::function<void(Opened)>;
+
+/// Opens what a file holds: a painting (.wst), a stereo photograph of two files or one, one picture with its depth, a
+/// quilt, the views of a multi-view OpenEXR, slices, particles or a film. Two files are the eyes of one photograph.
+/// `show` is given a stereo photograph as it came, before it is rectified. Particles are read to show `quantity`; those
+/// of a pattern, "snap_%03d.hdf5", are a series. Throws Error that names the file.
+Opened open_content(std::span<const std::filesystem::path> files, const Progress& progress = {},
+                    const ShowFirst& show = {}, const std::string& quantity = {});
+
+/// Whether two files are the eyes of one photograph: two pictures, each of one view, that show one scene. `show` is
+/// given two pictures of one size before it is known.
+bool are_eyes_of_one(const std::filesystem::path& left, const std::filesystem::path& right, const ShowFirst& show = {});
 
 }  // namespace wheatstone::viewer

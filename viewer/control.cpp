@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "command_words.h"
+#include "command_table.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::viewer {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "line_runner.h"
+#include "script.h"
 
 namespace wheatstone::viewer {
 

@@ -1,9 +1,12 @@
+// Files, films, and the path along which a camera goes around particles.
+
+#include <fmt/format.h>
 #include <memory>
 
-#include "command_groups_internal.h"
 #include "command_line.h"
-#include "particle_moves.h"
-#include "particle_reader.h"
+#include "command_table.h"
+#include "particle_film.h"
+#include "particle_scene.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
@@ -63,8 +66,95 @@ constexpr Command file_table[] = {
     {"quit", "", "File", "Quit", "Q, Ctrl+Q", [](Viewer& v, const Words&) { v.session().ends = true; }},
 };
 
+/// Throws Error{wrong_usage} where nothing is open that goes on in time.
+FilmStatus& film_of(Viewer& viewer) {
+  if (!viewer.session().film) throw Error(ErrorKind::wrong_usage, "no film is open");
+  return *viewer.session().film;
+}
+
+void play_or_pause(Viewer& viewer, const Words& /*words*/) {
+  if (!viewer.session().film) return;
+  if (film_of(viewer).plays)
+    viewer.pause_film();
+  else
+    viewer.play_film();
+}
+
+void set_film_painting(Viewer& viewer, const Words& words) {
+  film_of(viewer).paints = switch_of(words[0]);
+  viewer.show_standing_frame();
+}
+
+constexpr double longest_film_s = 1e7;
+
+constexpr Command film_table[] = {
+    // name, arguments, menu, text, keys
+    {"play-or-pause", "", "Film", "Play, or pause what plays", "Space", play_or_pause},
+    {"play", "", "Film", "Play", "", [](Viewer& v, const Words&) { v.play_film(); }},
+    {"pause", "", "Film", "Pause", "", [](Viewer& v, const Words&) { v.pause_film(); }},
+    {"frame-step", "", "Film", "Next frame", ".", [](Viewer& v, const Words&) { v.step_film(1); }},
+    {"frame-back", "", "Film", "Previous frame", ",", [](Viewer& v, const Words&) { v.step_film(-1); }},
+    {"seek", "SECONDS", "Film", "Go so many seconds on, or back where negative", "",
+     [](Viewer& v, const Words& w) {
+       v.seek_film(film_of(v).seconds + number_of(w[0], -longest_film_s, longest_film_s));
+     }},
+    {"seek-to", "SECONDS", "Film", "Go to a time", "",
+     [](Viewer& v, const Words& w) {
+       film_of(v);
+       v.seek_film(number_of(w[0], 0, longest_film_s));
+     }},
+    {"film-painting", "on|off", "Film", "Paint the frame at which the film stands", "", set_film_painting},
+    {"paint-film", "FILE", "Film", "Paint the whole film…", "",
+     [](Viewer& v, const Words& w) { v.paint_whole_film(w[0]); }},
+    {"cancel", "", "Film", "Stop painting the film", "", [](Viewer& v, const Words&) { v.cancel_whole_film(); }},
+};
+
+void load_camera(Viewer& viewer, const Words& words) {
+  viewer.take_camera_path(read_camera_path(words[0]), words[0]);
+  if (!viewer.session().film) return;
+  viewer.seek_film(0);
+  viewer.play_film();
+}
+
+void add_key(Viewer& viewer, const Words& /*words*/) {
+  if (open_particles(viewer) == nullptr) return viewer.tell("no particles are open", true);
+  const CameraKey key = key_here(viewer.session());
+  viewer.take_camera_path(with_key(viewer.session(), key));
+  viewer.tell(fmt::format("keyframe at {:.3g}, {} in all; go to another time and add the next", key.at,
+                          viewer.session().camera_path.keys.size()));
+}
+
+void remove_key(Viewer& viewer, const Words& /*words*/) {
+  if (viewer.session().camera_path.keys.empty()) return viewer.tell("the camera path has no keyframe", true);
+  viewer.take_camera_path(without_nearest_key(viewer.session()));
+  viewer.tell(fmt::format("{} keyframes", viewer.session().camera_path.keys.size()));
+}
+
+void save_camera(Viewer& viewer, const Words& words) {
+  Session& session = viewer.session();
+  if (session.camera_path.keys.empty())
+    throw Error(ErrorKind::wrong_usage, "the camera path has no keyframe; 'add-key' makes one");
+  write_whole_file(words[0], camera_path_text(session.camera_path));
+  session.camera_file = words[0];
+  viewer.tell("saved " + words[0]);
+}
+
+constexpr Command camera_table[] = {
+    // name, arguments, menu, text, keys
+    {"camera", "FILE", "Particles", "Open a camera path…", "", load_camera},
+    {"add-key", "", "Particles", "Add a keyframe to the camera path", "K", add_key},
+    {"remove-key", "", "Particles", "Remove the nearest keyframe", "Shift+K", remove_key},
+    {"clear-camera", "", "Particles", "Remove all keyframes", "",
+     [](Viewer& v, const Words&) { v.take_camera_path({}); }},
+    {"save-camera", "FILE", "Particles", "Save the camera path…", "", save_camera},
+};
+
 }  // namespace
 
 std::span<const Command> file_commands() { return file_table; }
+
+std::span<const Command> film_commands() { return film_table; }
+
+std::span<const Command> camera_commands() { return camera_table; }
 
 }  // namespace wheatstone::viewer

@@ -13,8 +13,8 @@
 #include "cli/run.h"
 #include "command_line.h"
 #include "command_table.h"
-#include "line_runner.h"
-#include "open_content.h"
+#include "content.h"
+#include "script.h"
 
 #include "temporary_folder.h"
 #include "throws_error.h"

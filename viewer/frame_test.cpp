@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "compose.h"
-#include "frame_geometry.h"
 #include "output_mode.h"
 #include "throws_error.h"
 

@@ -5,22 +5,65 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <numbers>
 
 #include "wheatstone/error.h"
 
 namespace wheatstone::viewer {
 namespace {
 
+/// The share of a new value in a mean that forgets with a time constant.
+double share_of_new(double passed_s, double constant_s) {
+  return constant_s > 0 ? passed_s / (passed_s + constant_s) : 1;
+}
+
 constexpr double silent_after_s = 1;
 constexpr double eye_separation_cm = 6.5;
 constexpr double farthest = 100;  ///< as of the command `head`
 
 }  // namespace
+
+double HeadFilter::add(double position, double time_s, const HeadFilterOptions& options) {
+  constexpr double speed_constant_s = 0.05;
+  // Cut-off in hertz that an eye separation a second adds.
+  constexpr double beta = 2;
+  if (!before_ || time_s <= before_->time_s) {
+    if (!before_) before_ = Measured{time_s, position, position, 0};
+    return before_->steadied;
+  }
+  Measured now{time_s, position, 0, 0};
+  const double passed_s = time_s - before_->time_s;
+  const double speed = (position - before_->position) / passed_s;
+  now.speed = std::lerp(before_->speed, speed, share_of_new(passed_s, speed_constant_s));
+  double constant_s = options.smoothing_s;
+  if (constant_s > 0) {
+    const double cut_off_hz = 1 / (2 * std::numbers::pi * constant_s) + beta * std::abs(now.speed);
+    constant_s = 1 / (2 * std::numbers::pi * cut_off_hz);
+  }
+  now.steadied = std::lerp(before_->steadied, position, share_of_new(passed_s, constant_s));
+  before_ = now;
+  return now.steadied + now.speed * options.prediction_s;
+}
+
+std::optional<HeadPose> parse_opentrack(std::span<const std::byte> packet) {
+  std::array<double, 6> numbers{};
+  if (packet.size() != sizeof numbers) return {};
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    std::uint64_t bits = 0;
+    for (std::size_t byte = 0; byte < sizeof bits; ++byte)
+      bits |= std::to_integer<std::uint64_t>(packet[n * sizeof bits + byte]) << (8 * byte);
+    numbers[n] = std::bit_cast<double>(bits);
+  }
+  if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); })) return {};
+  return HeadPose{numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5]};
+}
 
 HeadTracker::HeadTracker(std::uint16_t port)
     : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {

@@ -1,12 +1,42 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-
-#include "head_filter.h"
-#include "opentrack.h"
+#include <span>
 
 namespace wheatstone::viewer {
+
+struct HeadFilterOptions {
+  double smoothing_s = 0.1;  ///< time constant of a head that rests; 0: none
+  double prediction_s = 0;   ///< how far ahead the position is told
+  friend bool operator==(const HeadFilterOptions&, const HeadFilterOptions&) = default;
+};
+
+/// Steadies a measured position without lagging behind one that moves: the one-euro filter (Casiez et al., CHI 2012),
+/// whose time constant falls with speed, and what the speed makes of the position some time ahead.
+class HeadFilter {
+ public:
+  /// The position, in eye separations, that is measured at a time, which never goes back. Returns the steadied one.
+  double add(double position, double time_s, const HeadFilterOptions& options);
+  void forget() { before_.reset(); }
+
+ private:
+  struct Measured {
+    double time_s, position, steadied, speed;
+  };
+  std::optional<Measured> before_;
+};
+
+/// Where a head is and where it looks, as OpenTrack's output "UDP over network" tells it.
+struct HeadPose {
+  double x_cm = 0, y_cm = 0, z_cm = 0;  ///< to the right, up, away from the screen
+  double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+};
+
+/// A packet is these six numbers, little-endian, in this order; none where it has another size or a number is not
+/// finite.
+std::optional<HeadPose> parse_opentrack(std::span<const std::byte> packet);
 
 /// Receives a head's position from OpenTrack or whatever speaks like it.
 class HeadTracker {

@@ -4,10 +4,14 @@
 #include <memory>
 #include <optional>
 
+#include "compose.h"
+#include "content.h"
 #include "head_tracker.h"
 #include "session.h"
 
 namespace wheatstone::viewer {
+
+class Viewer;
 
 /// What moves a session's view besides commands and time.
 class Inputs {
@@ -22,5 +26,31 @@ class Inputs {
  private:
   std::unique_ptr<HeadTracker> tracker_;
 };
+
+/// Somebody looks at that pixel of the frame: the plane of zero parallax moves to what lies there (Stavrakis & Gelautz
+/// 2005, section 4), and so does more depth where the session has it (Hassaine 2010, section 6.3), unless the gaze only
+/// trembles around where it was.
+void look_at(Viewer& viewer, double x, double y);
+
+/// Chooses how much depth there is where somebody looks, and elsewhere.
+void set_gaze_gains(Session& session, const GazeGains& gains);
+
+/// Moves more depth on towards where somebody looks.
+void move_depth_around(Session& session, double passed_s);
+
+/// The disparity of what is seen at a place, in pixels of the content; none where it is not known.
+std::optional<float> disparity_at(const Content& content, const PlaceInView& place);
+
+/// A place of what is shown.
+struct SeenPlace {
+  float x = 0, y = 0;      ///< pixels of the view in which a painting's depth moves nothing, its reference view
+  float disparity_px = 0;  ///< without more depth where somebody looks
+};
+
+/// What is seen at a pixel of a viewer's frame; none where its depth is not known.
+std::optional<SeenPlace> seen_at(const Viewer& viewer, double x, double y);
+
+/// The disparity of what is seen at a pixel of a viewer's frame, in pixels of the content; none where it is not known.
+std::optional<float> disparity_under(const Viewer& viewer, double x, double y);
 
 }  // namespace wheatstone::viewer

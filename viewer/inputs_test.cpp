@@ -19,8 +19,7 @@
 #include <vector>
 
 #include "command_table.h"
-#include "line_runner.h"
-#include "pointing.h"
+#include "script.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "viewer.h"

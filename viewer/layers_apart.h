@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compose.h"
-#include "lens_simulator.h"
+#include "output_mode.h"
 #include "view_state.h"
 #include "wheatstone/marks/painting.h"
 

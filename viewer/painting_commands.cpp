@@ -1,10 +1,16 @@
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
-#include "command_groups_internal.h"
-#include "undo.h"
+#include "command_table.h"
+#include "depth_seen.h"
+#include "inputs.h"
+#include "layers_apart.h"
+#include "screens.h"
+#include "wheatstone/depth/display_presets.h"
+#include "wheatstone/display/lenticular.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/style_parameters.h"
 
@@ -62,8 +68,145 @@ constexpr Command painting_table[] = {
     {"redo", "", "Painting", "Redo", "Ctrl+Shift+Z", [](Viewer& v, const Words&) { redo(v); }},
 };
 
+void ease_zero_parallax(Viewer& viewer, float disparity_px) {
+  viewer.session().zero_parallax_target_px = disparity_px;
+  viewer.session().easing_s = click_easing_s;
+}
+
+void zero_parallax_at(Viewer& viewer, const Words& words) {
+  frame_of(viewer);
+  const std::optional<float> disparity = disparity_under(viewer, number_of(words[0]), number_of(words[1]));
+  if (!disparity) {
+    viewer.tell("the depth is not known there");
+    return;
+  }
+  ease_zero_parallax(viewer, *disparity);
+}
+
+void step_zero_parallax(Viewer& viewer, float by_px) {
+  Adjustment& adjustment = state_of(viewer).adjustment;
+  viewer.session().zero_parallax_target_px.reset();
+  adjustment.zero_parallax_px += by_px;
+}
+
+/// While a film plays the same keys go on and back in it, as players have it.
+void move_head(Viewer& viewer, int steps) {
+  constexpr float head_step = 0.1f;
+  constexpr double film_step_s = 5;
+  if (const auto& film = viewer.session().film; film && film->plays)
+    viewer.seek_film(film->seconds + steps * film_step_s);
+  else
+    state_of(viewer).head += static_cast<float>(steps) * head_step;
+}
+
+constexpr Command depth_table[] = {
+    // name, arguments, menu, text, keys
+    {"zero-parallax", "DISPARITY", "Depth", "Disparity on the screen plane, in pixels", "",
+     [](Viewer& v, const Words& w) { ease_zero_parallax(v, static_cast<float>(number_of(w[0], -65535, 65535))); }},
+    {"zero-parallax-at", "X Y", "Depth", "Bring what lies at a place onto the screen plane", "", zero_parallax_at},
+    {"nearer", "", "Depth", "Bring the scene nearer", "Alt+Left, /",
+     [](Viewer& v, const Words&) { step_zero_parallax(v, -1); }},
+    {"farther", "", "Depth", "Move the scene farther away", "Alt+Right, *",
+     [](Viewer& v, const Words&) { step_zero_parallax(v, 1); }},
+    {"separation", "EYES", "Depth", "Distance of the eyes, in those of the picture", "",
+     [](Viewer& v, const Words& w) { state_of(v).adjustment.separation = static_cast<float>(number_of(w[0], 0, 10)); }},
+    {"comfortable", "", "Depth", "Comfortable depth", "Home", [](Viewer& v, const Words&) { v.show_comfortably(); }},
+    {"vertical", "PIXELS", "Depth", "Move the right eye's picture down, in screen pixels", "",
+     [](Viewer& v, const Words& w) {
+       state_of(v).adjustment.vertical_px = static_cast<float>(number_of(w[0], -1000, 1000));
+     }},
+    {"roll", "DEGREES", "Depth", "Turn the right eye's picture clockwise", "",
+     [](Viewer& v, const Words& w) { state_of(v).adjustment.roll_deg = static_cast<float>(number_of(w[0], -45, 45)); }},
+    {"head", "X", "Depth", "Position of the head, in eye separations", "",
+     [](Viewer& v, const Words& w) { state_of(v).head = static_cast<float>(number_of(w[0], -100, 100)); }},
+    {"head-left", "", "Depth", "Move the head to the left", "Left", [](Viewer& v, const Words&) { move_head(v, -1); }},
+    {"head-right", "", "Depth", "Move the head to the right", "Right",
+     [](Viewer& v, const Words&) { move_head(v, 1); }},
+    {"display", "NAME", "Depth", "Display", "",
+     [](Viewer& v, const Words& w) { state_of(v).display = find_display(w[0]).name; }},
+    {"screen", "NAME|FILE|bridge", "Depth", "Lenticular screen, or its calibration, or that of Looking Glass Bridge",
+     "",
+     [](Viewer& v, const Words& w) {
+       if (w[0] == "bridge") return use_screen_of_bridge(v);
+       find_lenticular(w[0]);
+       state_of(v).screen = w[0];
+     }},
+    {"lens-simulator", "on|off", "Depth", "Show what the eyes see through the display's lenses", "",
+     [](Viewer& v, const Words& w) { state_of(v).quantised = switch_of(w[0]); }},
+};
+
+void set_panel(Viewer& viewer, const Words& words) {
+  static constexpr std::array names{std::pair{std::string_view("off"), Panel::off},
+                                    std::pair{std::string_view("style"), Panel::style},
+                                    std::pair{std::string_view("depth"), Panel::depth}};
+  for (const auto& [name, panel] : names)
+    if (name == words[0]) {
+      viewer.session().panel = panel;
+      return;
+    }
+  throw Error(ErrorKind::wrong_usage, fmt::format("'{}' is no panel, expected style, depth or off", words[0]));
+}
+
+void toggle(Viewer& viewer, Panel panel) {
+  Panel& shown = viewer.session().panel;
+  shown = shown == panel ? Panel::off : panel;
+}
+
+void set_regions(Viewer& viewer, std::vector<DepthRegion> regions) {
+  viewer.session().zero_parallax_target_px.reset();
+  state_of(viewer).depth_regions = std::move(regions);
+  viewer.show_comfortably();
+}
+
+void map_depth(Viewer& viewer, const Words& words) {
+  const ViewingGeometry viewing = viewing_of(find_display(state_of(viewer).display));
+  if (words[0] == "reset") return set_regions(viewer, {});
+  if (words[0] == "comfortable") {
+    const ComfortableDepth depth = comfortable_depth(viewing);
+    return set_regions(viewer, {{0, -depth.near_mm}, {1, depth.far_mm}});
+  }
+  std::vector<DepthRegion> regions = parse_depth_regions(words[0], "the mapping");
+  for (const DepthRegion& region : regions)
+    if (!(region.behind_mm > -viewing.viewing_distance_mm))
+      throw Error(ErrorKind::wrong_usage, fmt::format("{:.0f} mm is behind the viewer, who is {:.0f} mm away",
+                                                      region.behind_mm, viewing.viewing_distance_mm));
+  set_regions(viewer, std::move(regions));
+}
+
+void set_layers_apart(Viewer& viewer, const Words& words) {
+  constexpr double steepest_deg = 80;
+  state_of(viewer).layers_apart_deg =
+      words[0] == "off" ? 0 : static_cast<float>(number_of(words[0], -steepest_deg, steepest_deg));
+}
+
+constexpr float usual_angle_deg = 40;
+
+constexpr Command panel_table[] = {
+    // name, arguments, menu, text, keys
+    {"panel", "style|depth|off", "View", "Panel beside the picture", "", set_panel},
+    {"style-panel", "", "Painting", "Style panel", "S", [](Viewer& v, const Words&) { toggle(v, Panel::style); }},
+    {"depth-panel", "", "Depth", "Depth panel", "D", [](Viewer& v, const Words&) { toggle(v, Panel::depth); }},
+    {"depth-mapping", "SHARE:MM,...|comfortable|reset", "Depth",
+     "Depths behind the screen of parts of the scene, from 0, the nearest, to 1", "", map_depth},
+    {"comfort", "", "Depth", "Tell whether the depth is comfortable", "",
+     [](Viewer& v, const Words&) { v.tell(comfort_told(v)); }},
+    {"crosstalk", "PERCENT", "Depth", "Crosstalk: light of the neighbouring views in each eye, in %", "",
+     [](Viewer& v, const Words& w) { state_of(v).crosstalk = static_cast<float>(number_of(w[0], 0, 50) / 100); }},
+    {"layers-apart", "ANGLE|off", "Painting", "Look at the layers of strokes from a side, in degrees", "",
+     set_layers_apart},
+    {"side-view", "", "Painting", "Layers from the side", "A",
+     [](Viewer& v, const Words&) {
+       float& angle = state_of(v).layers_apart_deg;
+       angle = angle == 0 ? usual_angle_deg : 0;
+     }},
+};
+
 }  // namespace
 
 std::span<const Command> painting_commands() { return painting_table; }
+
+std::span<const Command> depth_commands() { return depth_table; }
+
+std::span<const Command> panel_commands() { return panel_table; }
 
 }  // namespace wheatstone::viewer

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "cli/run.h"
-#include "comfort.h"
 #include "command_line.h"
 #include "command_table.h"
-#include "lens_simulator.h"
-#include "line_runner.h"
+#include "depth_seen.h"
+#include "output_mode.h"
+#include "script.h"
 #include "style_controls.h"
 #include "temporary_folder.h"
 #include "throws_error.h"

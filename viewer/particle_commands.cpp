@@ -1,10 +1,12 @@
+// How particles are looked at, what of them is shown, and where there is more depth.
+
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
-#include "command_groups_internal.h"
-#include "particle_moves.h"
+#include "command_table.h"
 #include "particle_scene.h"
 #include "wheatstone/error.h"
 
@@ -116,8 +118,141 @@ constexpr Command particle_table[] = {
      [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::far_mm, w[0]); }},
 };
 
+template <class Value, std::size_t count>
+Value one_of(const std::array<std::pair<std::string_view, Value>, count>& choices, const std::string& word) {
+  std::string names;
+  for (const auto& [name, value] : choices) {
+    if (name == word) return value;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  }
+  throw Error(ErrorKind::wrong_usage, fmt::format("is '{}', expected one of: {}", word, names));
+}
+
+void set_look(Viewer& viewer, const Words& words) {
+  static constexpr std::array looks{std::pair{std::string_view("mass"), Look::mass},
+                                    std::pair{std::string_view("thesis"), Look::thesis}};
+  ParticleLook& look = state_of(viewer).look;
+  look.look = one_of(looks, words[0]);
+  forget_brightness(look);
+}
+
+void set_quantity(Viewer& viewer, const Words& words) {
+  ParticleLook& look = state_of(viewer).look;
+  look.quantity = words[0] == "picture" ? std::string() : words[0];
+  look.look = Look::mass;
+  look.opaque = false;
+  forget_brightness(look);
+}
+
+void set_stretch(Viewer& viewer, const Words& words) {
+  static constexpr std::array stretches{std::pair{std::string_view("asinh"), Stretch::asinh},
+                                        std::pair{std::string_view("log"), Stretch::log},
+                                        std::pair{std::string_view("linear"), Stretch::linear}};
+  ParticleLook& look = state_of(viewer).look;
+  look.stretch = one_of(stretches, words[0]);
+  forget_brightness(look);
+}
+
+/// Changes where brightness begins or ends. Throws where it would end before it begins.
+void set_brightness(Viewer& viewer, std::optional<float> ParticleLook::*limit, const std::string& word) {
+  ParticleLook look = state_of(viewer).look;
+  look.*limit = word == "auto" ? std::nullopt : std::optional(static_cast<float>(number_of(word, -1e30, 1e30)));
+  if (look.least && look.most && !(*look.least < *look.most))
+    throw Error(ErrorKind::wrong_usage, fmt::format("brightness begins at {} and ends at {}, expected it to end after "
+                                                    "it begins",
+                                                    *look.least, *look.most));
+  if (look.stretch == Stretch::log && look.least && *look.least <= 0)
+    throw Error(ErrorKind::wrong_usage, fmt::format("is {}, expected above 0 with stretch log", *look.least));
+  state_of(viewer).look = look;
+}
+
+void set_projection(Viewer& viewer, const Words& words) {
+  static constexpr std::array projections{std::pair{std::string_view("perspective"), false},
+                                          std::pair{std::string_view("orthographic"), true}};
+  state_of(viewer).orbit.orthographic = one_of(projections, words[0]);
+}
+
+PictureSize size_of_view(const Viewer& viewer) {
+  const PictureSize content = size_of(viewer.session().opened.content);
+  if (content.width > 0) return content;
+  const Rig eyes = eyes_of(viewer);
+  return {eyes.width, eyes.height};
+}
+
+void change_focus(Viewer& viewer, const ScreenFocus& focus) {
+  const Content& content = viewer.session().opened.content;
+  const bool has_focus = std::holds_alternative<ParticlesContent>(content) ||
+                         std::holds_alternative<SlicesContent>(content) ||
+                         std::holds_alternative<std::monostate>(content);
+  if (!has_focus)
+    throw Error(ErrorKind::wrong_usage, "there are no particles or slices; 'gaze-depth' is for paintings");
+  if (const Particles* const particles = open_particles(viewer); particles != nullptr && focus.at) {
+    const Rig eyes = eyes_of(viewer);
+    const Scene scene = particle_scene(*particles, state_of(viewer), eyes);
+    float largest = 0;
+    for (const auto& point : scene.mapping.points) largest = std::max(largest, std::abs(point.parallax_px));
+    check_focus(*focus_in(focus, eyes.width, eyes.height), largest * state_of(viewer).adjustment.separation / 2);
+  }
+  state_of(viewer).look.focus = focus;
+}
+
+void set_focus(Viewer& viewer, const Words& words) {
+  ScreenFocus focus = state_of(viewer).look.focus;
+  const std::size_t comma = words[0].find(',');
+  if (words[0] == "off") {
+    focus.at.reset();
+  } else if (comma == std::string::npos) {
+    throw Error(ErrorKind::wrong_usage, fmt::format("is '{}', expected X,Y from 0 to 1, or off", words[0]));
+  } else {
+    focus.at = {static_cast<float>(number_of(words[0].substr(0, comma), 0, 1)),
+                static_cast<float>(number_of(words[0].substr(comma + 1), 0, 1))};
+  }
+  change_focus(viewer, focus);
+}
+
+void focus_at(Viewer& viewer, const Words& words) {
+  const std::optional<PlaceInView> place = place_at(frame_of(viewer).places, number_of(words[0]), number_of(words[1]));
+  const PictureSize size = size_of_view(viewer);
+  if (!place || place->x < 0 || place->y < 0 || place->x > size.width || place->y > size.height) return;
+  ScreenFocus focus = state_of(viewer).look.focus;
+  focus.at = {static_cast<float>(place->x / size.width), static_cast<float>(place->y / size.height)};
+  change_focus(viewer, focus);
+}
+
+void set_focus_number(Viewer& viewer, float ScreenFocus::*number, double value) {
+  ScreenFocus focus = state_of(viewer).look.focus;
+  focus.*number = static_cast<float>(value);
+  change_focus(viewer, focus);
+}
+
+constexpr Command quantity_table[] = {
+    // name, arguments, menu, text, keys
+    {"look", "mass|thesis", "Particles", "What is shown: mass, or the light of the thesis", "", set_look},
+    {"quantity", "NAME|column-density|mean:temperature|picture", "Particles",
+     "Numbers that are shown: the column density, or the mean of a dataset along each line of sight", "", set_quantity},
+    {"stretch", "asinh|log|linear", "Particles", "How numbers become brightness", "", set_stretch},
+    {"least", "VALUE|auto", "Particles", "Column density, or quantity, where brightness begins", "",
+     [](Viewer& v, const Words& w) { set_brightness(v, &ParticleLook::least, w[0]); }},
+    {"most", "VALUE|auto", "Particles", "Column density, or quantity, where brightness ends", "",
+     [](Viewer& v, const Words& w) { set_brightness(v, &ParticleLook::most, w[0]); }},
+    {"projection", "perspective|orthographic", "Particles", "Projection", "", set_projection},
+    {"annotate", "on|off", "Particles", "Show a scale bar, a colour bar with units, and the redshift", "",
+     [](Viewer& v, const Words& w) { state_of(v).look.annotated = switch_of(w[0]); }},
+    {"annotations", "", "Particles", "Scale and colour bars", "B",
+     [](Viewer& v, const Words&) { state_of(v).look.annotated = !state_of(v).look.annotated; }},
+    {"focus", "X,Y|off", "Depth", "Point with more depth than elsewhere, as shares of a view of particles or slices",
+     "", set_focus},
+    {"focus-at", "X Y", "Depth", "More depth around a place on the screen", "", focus_at},
+    {"focus-radius", "SHARE", "Depth", "Radius of the area with more depth, as a share of the width", "",
+     [](Viewer& v, const Words& w) { set_focus_number(v, &ScreenFocus::radius, number_of(w[0], 0.001, 10)); }},
+    {"focus-gain", "FACTOR", "Depth", "Factor on the depth at that point", "",
+     [](Viewer& v, const Words& w) { set_focus_number(v, &ScreenFocus::gain, number_of(w[0], 0, 10)); }},
+};
+
 }  // namespace
 
 std::span<const Command> particle_commands() { return particle_table; }
+
+std::span<const Command> quantity_commands() { return quantity_table; }
 
 }  // namespace wheatstone::viewer

@@ -12,7 +12,6 @@
 #include "command_line.h"
 #include "command_table.h"
 #include "particle_film.h"
-#include "particle_moves.h"
 #include "particle_scene.h"
 #include "psnr.h"
 #include "temporary_folder.h"

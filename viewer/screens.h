@@ -30,4 +30,10 @@ bool is_lost(const DesktopArea& window, std::span<const DesktopArea> screens);
 /// Where a lost window comes to stand: in the middle of what windows may fill, and no larger than that.
 DesktopArea brought_to(const DesktopArea& available, const DesktopArea& window);
 
+class Viewer;
+
+/// Has the Looking Glass that is attached taken as the screen: another program of ours asks Looking Glass Bridge for
+/// its calibration, beside all else. What fails is told.
+void use_screen_of_bridge(Viewer& viewer);
+
 }  // namespace wheatstone::viewer

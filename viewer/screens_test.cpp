@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "recent_files.h"
+#include "session.h"
 #include "stage.h"
 
 namespace wheatstone::viewer::screens_test {

@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "content.h"
-#include "head_filter.h"
+#include "head_tracker.h"
 #include "view_state.h"
 #include "wheatstone/app/camera_path.h"
 
@@ -89,5 +90,9 @@ struct Session {
 
 /// The files of what is open; none where nothing is.
 const Item* open_item(const Session& session);
+
+/// What was opened last, the newest first: what a session has opened, and what earlier ones had. Nothing twice, and at
+/// most ten. Paths are made absolute, because the next session may begin in another folder.
+std::vector<Item> recent_items(std::span<const Item> opened, std::span<const Item> before);
 
 }  // namespace wheatstone::viewer

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "lens_simulator.h"
+#include "output_mode.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/lenticular.h"

@@ -4,7 +4,6 @@
 
 #include "compose.h"
 #include "content.h"
-#include "frame_geometry.h"
 #include "layers_apart.h"
 #include "view_drawer.h"
 #include "view_state.h"

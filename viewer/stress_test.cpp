@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "command_table.h"
-#include "line_runner.h"
+#include "script.h"
 #include "temporary_folder.h"
 #include "viewer.h"
 #include "wheatstone/depth/display_presets.h"

@@ -1,18 +1,28 @@
 #include "study_runner.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/multiview/slice_file.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/study/draw_graph.h"
 #include "wheatstone/study/trial_table.h"
 
 namespace wheatstone::viewer {
 namespace {
+
+std::variant<PreparedPainting, SliceStack> read_scene(const std::filesystem::path& path) {
+  if (path.extension() == ".exr") return read_slices(path);
+  const Painting painting = read_painting(path);
+  return prepare(painting, {.placement = {.zero_parallax_px = nearest_disparity(painting)}});
+}
 
 constexpr std::size_t most_bytes = std::size_t{1} << 26;
 constexpr std::string_view head_header = "trial\ttime\tx\tdistance\tobserver\n";
@@ -48,6 +58,20 @@ Image<Rgb8> in_the_middle(const Image<Rgb8>& picture, const StudyScreen& screen)
 }
 
 }  // namespace
+
+bool StudyScene::is_named(const std::filesystem::path& path) {
+  return path.extension() == ".wst" || path.extension() == ".exr";
+}
+
+StudyScene::StudyScene(const std::filesystem::path& path) : scene_(read_scene(path)) {}
+
+Image<Rgb8> StudyScene::draw(ViewPosition view) const {
+  if (const auto* const painting = std::get_if<PreparedPainting>(&scene_))
+    return wheatstone::draw(*painting, view).picture;
+  const auto& slices = std::get<SliceStack>(scene_);
+  return std::move(
+      render_slices(slices, {.width = slices.width, .height = slices.height, .positions = {view}}).front());
+}
 
 StudyRunner::StudyRunner(const StudyFolder& folder, int subject, const StudyScreen& screen)
     : folder_(folder), screen_(screen), head_{0, screen.viewing_distance_mm} {

@@ -4,15 +4,33 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "study_scene.h"
+#include "wheatstone/depth/view_position.h"
+#include "wheatstone/drawing/draw.h"
+#include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/stereo/stereo_pair.h"
 #include "wheatstone/study/simulated_display.h"
 #include "wheatstone/study/study_folder.h"
 #include "wheatstone/study/trial_plan.h"
 
 namespace wheatstone::viewer {
+
+/// A stimulus of a study that can be looked at from anywhere: a painting (.wst), whose nearest marks lie on the screen,
+/// or slices of particles (.exr).
+class StudyScene {
+ public:
+  /// Whether a file's name says that it is one.
+  static bool is_named(const std::filesystem::path& path);
+  /// Throws Error{bad_input}.
+  explicit StudyScene(const std::filesystem::path& path);
+
+  Image<Rgb8> draw(ViewPosition view) const;
+
+ private:
+  std::variant<PreparedPainting, SliceStack> scene_;
+};
 
 /// A subject's session, from the instruction to the last question: what is on the screen, and what keys and the head
 /// do. Knows no window system. Times are of one clock that never goes back, in s. A session that was broken off goes on

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "depth_placing.h"
+#include "depth_seen.h"
 #include "output_mode.h"
 #include "particle_scene.h"
 #include "wheatstone/app/display_views.h"

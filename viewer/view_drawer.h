@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "content.h"
-#include "particle_drawer.h"
+#include "particle_scene.h"
 #include "view_state.h"
 #include "wheatstone/depth/view_position.h"
 #include "wheatstone/drawing/draw.h"

@@ -10,9 +10,9 @@
 #include <thread>
 #include <utility>
 
-#include "gaze.h"
-#include "paint_in_steps.h"
-#include "particle_reader.h"
+#include "inputs.h"
+#include "painting.h"
+#include "particle_film.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
 
@@ -333,6 +333,18 @@ void Viewer::wait() {
     else
       mailbox_.wait_for(step);
   }
+}
+
+std::vector<Item> recent_items(std::span<const Item> opened, std::span<const Item> before) {
+  constexpr std::size_t most = 10;
+  std::vector<Item> recent;
+  const auto add = [&](Item item) {
+    for (std::filesystem::path& file : item) file = std::filesystem::absolute(file).lexically_normal();
+    if (recent.size() < most && std::ranges::find(recent, item) == recent.end()) recent.push_back(std::move(item));
+  };
+  for (auto item = opened.rbegin(); item != opened.rend(); ++item) add(*item);
+  for (const Item& item : before) add(item);
+  return recent;
 }
 
 }  // namespace wheatstone::viewer

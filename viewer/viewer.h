@@ -7,13 +7,11 @@
 #include <string_view>
 #include <utility>
 
-#include "film_painting.h"
+#include "content.h"
 #include "film_player.h"
 #include "inputs.h"
-#include "mailbox.h"
-#include "newest_job.h"
-#include "open_content.h"
-#include "ordered_jobs.h"
+#include "jobs.h"
+#include "painting.h"
 #include "session.h"
 #include "stage.h"
 #include "wheatstone/error.h"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "particle_film.h"
-#include "particle_reader.h"
 #include "viewer.h"
 #include "wheatstone/error.h"
 

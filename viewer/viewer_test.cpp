@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "cli/run.h"
-#include "comfort.h"
 #include "command_line.h"
 #include "command_table.h"
-#include "open_content.h"
-#include "pointing.h"
+#include "content.h"
+#include "depth_seen.h"
+#include "inputs.h"
 #include "script.h"
 #include "temporary_folder.h"
 #include "throws_error.h"

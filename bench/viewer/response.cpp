@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/paint_in_steps.h"
+#include "viewer/painting.h"
 #include "viewer/stage.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/particles/framed_region.h"

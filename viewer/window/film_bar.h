@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "viewer/command_words.h"
+#include "viewer/command_table.h"
 #include "viewer/session.h"
 
 class QLabel;

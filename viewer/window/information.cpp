@@ -8,7 +8,7 @@
 #include <QTextBrowser>
 
 #include "viewer/command_table.h"
-#include "viewer/lens_simulator.h"
+#include "viewer/output_mode.h"
 #include "viewer/session.h"
 
 namespace wheatstone::viewer {

@@ -10,7 +10,7 @@
 
 #include "viewer/command_table.h"
 #include "viewer/output_mode.h"
-#include "viewer/recent_files.h"
+#include "viewer/session.h"
 #include "wheatstone/error.h"
 #include "window.h"
 

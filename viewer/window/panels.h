@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "viewer/command_words.h"
+#include "viewer/command_table.h"
 
 class QMainWindow;
 

@@ -64,4 +64,8 @@ class StudyWindow final : public QWidget {
   int exit_code_ = 0;
 };
 
+/// The part of the program that runs a subject's session. `argv` begins with the word "study". Returns the
+/// exit code. Throws Error.
+int run_study(int argc, char** argv);
+
 }  // namespace wheatstone::viewer

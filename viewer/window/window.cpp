@@ -19,9 +19,9 @@
 #include <map>
 
 #include "information.h"
-#include "stereo_surface.h"
-#include "viewer/comfort.h"
-#include "viewer/particle_moves.h"
+#include "picture_surface.h"
+#include "viewer/depth_seen.h"
+#include "viewer/particle_scene.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/style.h"

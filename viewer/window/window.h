@@ -7,10 +7,9 @@
 #include <memory>
 #include <optional>
 
-#include "control_link.h"
+#include "event_loop.h"
 #include "film_bar.h"
 #include "full_screen.h"
-#include "heartbeat.h"
 #include "panels.h"
 #include "picture_surface.h"
 #include "viewer/command_table.h"

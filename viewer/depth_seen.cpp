@@ -1,16 +1,19 @@
-#include "comfort.h"
+#include "depth_seen.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <variant>
 
-#include "depth_placing.h"
-#include "pointing.h"
+#include "inputs.h"
+#include "output_mode.h"
 #include "viewer.h"
 #include "wheatstone/depth/comfort.h"
+#include "wheatstone/depth/disparity_mapping.h"
 #include "wheatstone/depth/display_presets.h"
+#include "wheatstone/marks/mapped_depth.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -45,6 +48,43 @@ std::string side_of_screen(float behind) {
 }
 
 }  // namespace
+
+DepthPlacing placing_of(const ViewState& state) {
+  return {state.depth_regions, viewing_of(find_display(state.display))};
+}
+
+Content placed_content(const Content& content, const ViewState& state) {
+  if (state.depth_regions.empty()) return content;
+  DepthPlacing placing = placing_of(state);
+  if (const auto* const painted = std::get_if<PaintedContent>(&content);
+      painted && painted->painting && !shows_display_views(find_output_mode(state.mode))) {
+    PaintedContent placed = *painted;
+    placed.painting =
+        std::make_shared<const Painting>(place_depth(*painted->painting, placing, width_of(*painted->painting)));
+    return placed;
+  }
+  if (const auto* const sliced = std::get_if<SlicesContent>(&content)) {
+    auto placed = std::make_shared<SliceStack>(*sliced->slices);
+    const DepthEnds depth = depth_of(content).value_or(DepthEnds());
+    placing.viewing.width_px = placed->width;
+    const DisparityMapping mapping = disparity_mapping(placing.regions, depth, placing.viewing);
+    for (Slice& slice : placed->slices) slice.parallax_px = -mapped_px(mapping, -slice.parallax_px);
+    return SlicesContent{std::move(placed)};
+  }
+  return content;
+}
+
+bool can_bend(const Content& content) {
+  const auto* const painted = std::get_if<PaintedContent>(&content);
+  return painted && painted->painting && !std::holds_alternative<RegionPainting>(painted->painting->marks);
+}
+
+Content bent_content(const Content& content, const ViewState& state) {
+  if (!state.depth_around || !can_bend(content) || shows_display_views(find_output_mode(state.mode))) return content;
+  PaintedContent bent = std::get<PaintedContent>(content);
+  bent.painting = std::make_shared<const Painting>(with_depth_around(*bent.painting, *state.depth_around));
+  return bent;
+}
 
 std::optional<DepthSeen> depth_seen(const Viewer& viewer) {
   const Frame* const frame = viewer.frame();
