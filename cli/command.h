@@ -1,10 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "options.h"
+#include "report.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/ranks/ranks.h"
 
@@ -24,26 +29,38 @@ struct Session {
   std::function<void()> clear_progress;  ///< takes the bar away, before something else is said on `errors`
 };
 
-/// Ends a command that has said itself what went wrong.
+/// Says a line beside the results, unless --quiet.
+void remark(const Session& session, std::string_view line);
+
+/// A command of the program: its options, and what it does once a line is understood and no option of it is without
+/// effect. What it throws, wheatstone::Error, becomes one line and the exit code.
+struct Command {
+  std::string name, help;
+  std::string footer;  ///< of the help, with examples that run
+  Rows rows = {};
+  Given* given = nullptr;  ///< takes which options were given, for those rows that look at it
+  std::function<Report(const Session&)> run = {};
+  std::vector<Command> kinds = {};  ///< commands below this one, which then does nothing itself
+};
+
+/// A command whose options `rows` binds to Arguments, with which it runs. A member `given` of Arguments tells which
+/// options were given.
+template <class Arguments>
+Command make_command(std::string name, std::string help, Rows (*rows)(Arguments&),
+                     Report (*run)(const Arguments&, const Session&), std::string footer) {
+  const auto arguments = std::make_shared<Arguments>();
+  Command command{std::move(name), std::move(help), std::move(footer), rows(*arguments)};
+  if constexpr (requires { arguments->given; }) command.given = &arguments->given;
+  command.run = [arguments, run](const Session& session) { return run(*arguments, session); };
+  return command;
+}
+
+/// Adds a command, and those below it, to the parser. The session is filled when a line is parsed.
+void add_command(CLI::App& above, const Command& command, const Session& session);
+
+/// Throws what a report's exit code stands for, once it is printed.
 struct ErrorTold {
   int exit_code;
 };
-
-// Each adds its command to the program. A command throws wheatstone::Error; run_command_line turns that into one line
-// and the exit code. The session outlives the commands and is filled when their callbacks run.
-void add_calibrate_command(CLI::App& program, const Session& session);
-void add_rectify_command(CLI::App& program, const Session& session);
-void add_match_command(CLI::App& program, const Session& session);
-void add_paint_command(CLI::App& program, const Session& session);
-void add_pack_command(CLI::App& program, const Session& session);
-void add_rotoscope_command(CLI::App& program, const Session& session);
-void add_render_command(CLI::App& program, const Session& session);
-void add_share_command(CLI::App& program, const Session& session);
-void add_depth_command(CLI::App& program, const Session& session);
-void add_measure_command(CLI::App& program, const Session& session);
-void add_synth_command(CLI::App& program, const Session& session);
-void add_study_command(CLI::App& program, const Session& session);
-void add_view_command(CLI::App& program, const Session& session);
-void add_info_command(CLI::App& program, const Session& session);
 
 }  // namespace wheatstone::cli

@@ -1,14 +1,12 @@
 #include "depth_argument.h"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
 
-#include "typed_options.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/monocular_network.h"
 #include "wheatstone/photograph/carried_depth.h"
@@ -18,7 +16,7 @@
 namespace wheatstone::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, DepthKind>, 2> depth_kinds{
+constexpr std::array<Choice<DepthKind>, 2> depth_kinds{
     {{"inverse", DepthKind::inverse}, {"metric", DepthKind::metric}}};
 
 void check_size(ImageView<const Rgb8> picture, const std::string& name) {
@@ -43,61 +41,47 @@ CarriedDepth read_both(const StereoArguments& photograph, const DepthArguments& 
   return std::move(*found);
 }
 
-void add_depth_meaning(CLI::App& command, DepthArguments& arguments) {
-  add_choice<DepthKind>(command, "--depth-is", arguments.kind, depth_kinds,
-                        "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger")
-      ->group(depth_options_group);
-  command
-      .add_option(
-          "--strength", arguments.strength,
-          "Disparity from the farthest point to the nearest, in % of the width; 3% is comfortable on any screen")
-      ->type_name("SHARE")
-      ->capture_default_str()
-      ->group(depth_options_group);
+Rows rows_with(DepthArguments& a, const char* depth, const char* model, const Reason& no_depth) {
+  const Reason by_network =
+      when([&a] { return !a.model.empty(); }, "with --depth-model; a network gives inverse depth");
+  return under(
+      "One picture and its depth",
+      {row("--depth", text(a.file), depth), row("--depth-model", text(a.model), model, {}, {}, {"--depth"}),
+       row("--depth-is", choice(a.kind, depth_kinds),
+           "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger",
+           {when([&a] { return !has_depth(a); }, "without --depth"), by_network}),
+       row("--strength", share(a.strength, {0.1, 30}, "3%"),
+           "Disparity from the farthest point to the nearest, in % of the width; 3% is comfortable on any screen",
+           {no_depth})});
 }
 
 }  // namespace
 
-void add_depth_options(CLI::App& command, DepthArguments& arguments) {
-  command
-      .add_option("--depth", arguments.file,
-                  "Depth of the one picture that is given: PNG with 8 or 16 bits, PFM or EXR. A picture's own depth "
-                  "(HEIC portraits, Google's depth maps) is used without it, and with --layout rgbd the depth beside "
-                  "the picture")
-      ->group(depth_options_group);
-  command
-      .add_option(
-          "--depth-model", arguments.model,
-          "Network (.onnx) that finds the depth of the one picture that is given, as MiDaS and Depth Anything do")
-      ->excludes("--depth")
-      ->group(depth_options_group);
-  add_depth_meaning(command, arguments);
+Rows depth_rows(DepthArguments& a, const Reason& no_depth) {
+  return rows_with(
+      a,
+      "Depth of the one picture that is given: PNG with 8 or 16 bits, PFM or EXR. A picture's own depth (HEIC "
+      "portraits, Google's depth maps) is used without it, and with --layout rgbd the depth beside the picture",
+      "Network (.onnx) that finds the depth of the one picture that is given, as MiDaS and Depth Anything do",
+      no_depth);
 }
 
-void add_film_depth_options(CLI::App& command, DepthArguments& arguments) {
-  command
-      .add_option("--depth", arguments.file,
-                  "Depth of a film of one eye: a film in grey, or numbered pictures, with as many frames")
-      ->group(depth_options_group);
-  command
-      .add_option(
-          "--depth-model", arguments.model,
-          "Network (.onnx) that finds the depth of each frame of a film of one eye, as MiDaS and Depth Anything "
-          "do")
-      ->excludes("--depth")
-      ->group(depth_options_group);
-  add_depth_meaning(command, arguments);
+Rows film_depth_rows(DepthArguments& a) {
+  return rows_with(
+      a, "Depth of a film of one eye: a film in grey, or numbered pictures, with as many frames",
+      "Network (.onnx) that finds the depth of each frame of a film of one eye, as MiDaS and Depth Anything do",
+      when([&a] { return !has_depth(a); }, "without --depth"));
 }
 
 bool has_depth(const DepthArguments& arguments) { return !arguments.file.empty() || !arguments.model.empty(); }
 
-float parse_strength(const std::string& text) { return parse_share("--strength", text, {0.1, 30}); }
+std::string option_of(const DepthArguments& arguments) { return arguments.model.empty() ? "--depth" : "--depth-model"; }
 
 SinglePicture read_single_picture(const StereoArguments& photograph, const DepthArguments& arguments,
                                   const Session& session) {
   report(session.progress, "reading", 0);
   SinglePicture read;
-  read.strength = parse_strength(arguments.strength);
+  read.strength = arguments.strength;
   CarriedDepth found = read_both(photograph, arguments, session);
   check_size(found.picture, photograph.left);
   if (photograph.max_size > 0 && std::max(found.picture.width(), found.picture.height()) > photograph.max_size) {
@@ -113,10 +97,10 @@ SinglePicture read_single_picture(const StereoArguments& photograph, const Depth
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
   }
-  if (arguments.carried && !session.quiet)
-    fmt::print(session.errors, "{}: one picture, with the depth of {}\n", photograph.left, found.how);
-  if (is_flat && !session.quiet)
-    fmt::print(session.errors, "warning: {}: the depth is the same everywhere: both eyes get the same picture\n", name);
+  if (arguments.carried)
+    remark(session, fmt::format("{}: one picture, with the depth of {}", photograph.left, found.how));
+  if (is_flat)
+    remark(session, fmt::format("warning: {}: the depth is the same everywhere: both eyes get the same picture", name));
   return read;
 }
 

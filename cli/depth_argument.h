@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "command.h"
@@ -10,32 +9,29 @@
 
 namespace wheatstone::cli {
 
-/// The heading of these options in the help.
-inline constexpr auto depth_options_group = "One picture and its depth";
-
 /// One picture's depth as it is typed.
 struct DepthArguments {
   std::string file;      ///< empty: there is none
   std::string model;     ///< a network that finds it; empty: there is none
   bool carried = false;  ///< the picture's file has it: `file` is empty
   DepthKind kind = DepthKind::inverse;
-  std::string strength = "3%";
+  float strength = 0.03f;  ///< disparity from far to near, in widths
 };
 
 /// The name for --layout of a picture with its depth beside it.
 inline constexpr auto depth_layout = "rgbd";
 
-/// Adds --depth, --depth-model, --depth-is and --strength.
-void add_depth_options(CLI::App& command, DepthArguments& arguments);
+/// --depth, --depth-model, --depth-is and --strength of one picture; `no_depth` says where the strength has no effect.
+Rows depth_rows(DepthArguments& arguments, const Reason& no_depth);
 
-/// The same for the frames of a film of one eye.
-void add_film_depth_options(CLI::App& command, DepthArguments& arguments);
+/// The same of the frames of a film of one eye.
+Rows film_depth_rows(DepthArguments& arguments);
 
 /// Whether a file or a network gives the depth.
 bool has_depth(const DepthArguments& arguments);
 
-/// "3%" or ".03" as a share. Throws Error{wrong_usage}.
-float parse_strength(const std::string& text);
+/// "--depth" or "--depth-model", whichever gives it.
+std::string option_of(const DepthArguments& arguments);
 
 /// A pair that was made of one picture.
 struct SinglePicture {

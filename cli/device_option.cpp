@@ -1,29 +1,19 @@
 #include "device_option.h"
 
-#include <fmt/format.h>
-#include <fmt/ostream.h>
-
 #include <array>
-#include <string_view>
-#include <utility>
 
-#include "typed_options.h"
-#include "wheatstone/error.h"
 #include "wheatstone/gpu/gpu.h"
 
 namespace wheatstone::cli {
-namespace {
 
-constexpr std::array<std::pair<std::string_view, Device>, 3> devices{
-    {{"cpu", Device::processor}, {"gpu", Device::graphics}, {"auto", Device::automatic}}};
-
-}  // namespace
-
-CLI::Option* add_device_option(CLI::App& command, Device& device, const std::string& work) {
-  return add_choice<Device>(command, "--device", device, devices,
-                            work +
-                                ": the processor, the graphics processor (OpenGL 4.5), or a graphics processor where "
-                                "the work is worth it; 'wheatstone info --devices' lists what is there");
+Row device_row(Device& device, const std::string& work, Reasons unless) {
+  static constexpr std::array<Choice<Device>, 3> devices{
+      {{"cpu", Device::processor}, {"gpu", Device::graphics}, {"auto", Device::automatic}}};
+  return row("--device", choice(device, devices),
+             work +
+                 ": the processor, the graphics processor (OpenGL 4.5), or a graphics processor where the work is "
+                 "worth it; 'wheatstone info --devices' lists what is there",
+             std::move(unless));
 }
 
 std::string settle_device(Device& device, const Session& session) {
@@ -38,7 +28,7 @@ std::string settle_device(Device& device, const Session& session) {
     why_not = error.what();
   }
   device = Device::processor;
-  if (!session.quiet) fmt::print(session.errors, "wheatstone: --device auto takes the cpu; {}\n", why_not);
+  remark(session, fmt::format("wheatstone: --device auto takes the cpu; {}", why_not));
   return "cpu";
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "command.h"
@@ -8,8 +7,8 @@
 
 namespace wheatstone::cli {
 
-/// Adds --device. `work` says what it does: "What renders".
-CLI::Option* add_device_option(CLI::App& command, Device& device, const std::string& work);
+/// --device. `work` says what it does: "What renders".
+Row device_row(Device& device, const std::string& work, Reasons unless = {});
 
 /// The device that --device comes to on this machine, as files that depend on it name it: "cpu", or the name of the
 /// graphics processor. Where `auto` finds no real one, it becomes the processor, and a line says so. Throws

@@ -4,17 +4,12 @@
 
 #include <filesystem>
 
-#include "number_arguments.h"
-#include "option_use.h"
-#include "typed_options.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr auto display_group = "Display";
 
 bool is_for_films(const DisplayPreset& display) {
   return display.quilt_columns > 0 || display.lenses.screen_width_px > 0;
@@ -26,33 +21,55 @@ DisplayViewsOptions display_views_options(const DisplayPreset& display, const Di
   DisplayViewsOptions options = views_of_display(display);
   if (arguments.views > 0) options.views = arguments.views;
   options.span = arguments.span;
-  if (!arguments.size.empty()) {
-    const Size size = parse_size("--size", arguments.size, view_side_range);
-    options.width = size.width;
-    options.height = size.height;
+  if (arguments.size) {
+    options.width = arguments.size->width;
+    options.height = arguments.size->height;
   }
   return options;
 }
 
-void add_film_display_options(CLI::App& command, DisplayArguments& arguments) {
+std::string display_names(bool (*is_listed)(const DisplayPreset&)) {
   std::string names;
   for (const DisplayPreset& preset : display_presets())
-    if (is_for_films(preset)) names += fmt::format(" {}", preset.name);
-  auto* display =
-      command
-          .add_option("--display", arguments.name,
-                      "Paint the film for a display with many views: each frame becomes one quilt, or one picture for "
-                      "the display's lenses:" +
-                          names)
-          ->group(display_group);
-  command.add_option("--size", arguments.size, "Size of a view, WIDTHxHEIGHT; the display's own by default")
-      ->needs(display)
-      ->group(display_group);
-  add_number(command, "--span", arguments.span, {0.01, view_span_range.most},
-             "Distance from the first view to the last, in eye separations; chosen from the depth by default")
-      ->default_str("")
-      ->needs(display)
-      ->group(display_group);
+    if (is_listed(preset)) names += fmt::format(" {}", preset.name);
+  return names;
+}
+
+Rows display_view_rows(DisplayArguments& a, const Reasons& unless) {
+  return {row("--size", size(a.size, view_side_range), "Size of a view, WIDTHxHEIGHT; the display's own by default",
+              unless, "--display"),
+          row("--span", without_default(number(a.span, {0.01, view_span_range.most})),
+              "Distance from the first view to the last, in eye separations; chosen from the depth by default", unless,
+              "--display")};
+}
+
+Rows film_display_rows(DisplayArguments& a, const Reasons& unless_display) {
+  const Rows display{row("--display", text(a.name),
+                         "Paint the film for a display with many views: each frame becomes one quilt, or one picture "
+                         "for the display's lenses:" +
+                             display_names(is_for_films),
+                         unless_display)};
+  return under("Display", join({display, display_view_rows(a)}));
+}
+
+Value depth_regions(std::vector<DepthRegion>& regions) {
+  return parsed(regions,
+                [](const std::string& option, const std::string& words) { return parse_depth_regions(words, option); });
+}
+
+Value depth_budget(std::optional<float>& budget) {
+  const auto parse = [](const std::string& option, const std::string& words) -> std::optional<float> {
+    if (words == "full") return std::nullopt;
+    return parse_share(option, words, {0.1, 100});
+  };
+  return parsed(budget, parse, "SHARE", "3%");
+}
+
+Value quilt_layout(std::optional<QuiltLayout>& layout) {
+  return parsed(layout, [](const std::string& option, const std::string& words) {
+    const Size size = parse_size(option, words, {1, 1000}, "COLUMNSxROWS");
+    return QuiltLayout{size.width, size.height};
+  });
 }
 
 std::optional<FilmDisplay> film_display_from(const DisplayArguments& arguments) {
@@ -95,11 +112,10 @@ std::string codec_for(const FilmDisplay& display) {
   return blocks(width) * blocks(height) <= most_macroblocks ? "h264" : "hevc";
 }
 
-void choose_coding(const CLI::App& command, const FilmDisplay& display, FilmWriterOptions& writing) {
-  if (!was_given(command, "--codec")) writing.codec = codec_for(display);
+void choose_coding(const Given& given, const FilmDisplay& display, FilmWriterOptions& writing) {
+  if (!given("--codec")) writing.codec = codec_for(display);
   // Neighbouring sub-pixels belong to different views.
-  if (!display.quilt && !was_given(command, "--pixel-format") && writing.codec != "ffv1")
-    writing.pixel_format = "yuv444p";
+  if (!display.quilt && !given("--pixel-format") && writing.codec != "ffv1") writing.pixel_format = "yuv444p";
 }
 
 }  // namespace wheatstone::cli

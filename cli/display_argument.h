@@ -1,10 +1,12 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "options.h"
 #include "wheatstone/app/film_presentation.h"
+#include "wheatstone/depth/depth_regions.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/video/film_writer.h"
 
@@ -12,17 +14,32 @@ namespace wheatstone::cli {
 
 /// A display with many views as it is typed.
 struct DisplayArguments {
-  std::string name;  ///< of a preset; empty: there is none
-  std::string size;  ///< WIDTHxHEIGHT of a view; empty: the display's own
-  int views = 0;     ///< 0: the display's own
-  float span = 0;    ///< 0: chosen from the depth
+  std::string name;          ///< of a preset; empty: there is none
+  std::optional<Size> size;  ///< of a view; none: the display's own
+  int views = 0;             ///< 0: the display's own
+  float span = 0;            ///< 0: chosen from the depth
 };
 
 /// What the display wants, where the user does not say otherwise. Throws Error{wrong_usage}.
 DisplayViewsOptions display_views_options(const DisplayPreset& display, const DisplayArguments& arguments);
 
-/// Adds --display, --size and --span of a film.
-void add_film_display_options(CLI::App& command, DisplayArguments& arguments);
+/// --size and --span, for a --display.
+Rows display_view_rows(DisplayArguments& arguments, const Reasons& unless = {});
+
+/// The names of all displays, each with a space before it.
+std::string display_names(bool (*is_listed)(const DisplayPreset&) = [](const DisplayPreset&) { return true; });
+
+/// --display, --size and --span of a film.
+Rows film_display_rows(DisplayArguments& arguments, const Reasons& unless_display);
+
+/// "SHARE:MM,SHARE:MM,...".
+Value depth_regions(std::vector<DepthRegion>& regions);
+
+/// The most depth from far to near, as a share of the width; none: "full". The default is 3%.
+Value depth_budget(std::optional<float>& budget);
+
+/// "COLUMNSxROWS".
+Value quilt_layout(std::optional<QuiltLayout>& layout);
 
 /// What each frame of a film becomes; none where no display is named. Throws Error{wrong_usage} where the display takes
 /// neither quilts nor lenticular pictures.
@@ -41,6 +58,6 @@ std::string codec_for(const FilmDisplay& display);
 
 /// How a display's film is coded, where the user does not say otherwise: by that codec, and with colours at full size
 /// under lenses.
-void choose_coding(const CLI::App& command, const FilmDisplay& display, FilmWriterOptions& writing);
+void choose_coding(const Given& given, const FilmDisplay& display, FilmWriterOptions& writing);
 
 }  // namespace wheatstone::cli

@@ -1,26 +1,20 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
-#include "command.h"
-#include "film_facts.h"
-#include "option_use.h"
-#include "print_facts.h"
-#include "quilt_facts.h"
-#include "typed_options.h"
+#include "commands.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/multiview_exr.h"
+#include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
 #include "wheatstone/gpu/gpu.h"
 #include "wheatstone/marks/painting_file.h"
@@ -33,15 +27,15 @@
 #include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/video/film_files.h"
+#include "wheatstone/video/film_reader.h"
 
 namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
 
 /// The smallest and largest of the known disparities seen.
-struct DisparityRange {
+struct FoundDisparityRange {
   float nearest = -std::numeric_limits<float>::infinity();
   float farthest = std::numeric_limits<float>::infinity();
   std::size_t known = 0;
@@ -54,28 +48,28 @@ struct DisparityRange {
   }
 };
 
-void put_range(ordered_json& facts, const DisparityRange& range) {
+void put_range(Json& facts, const FoundDisparityRange& range) {
   if (range.known == 0) return;
   facts["farthest_disparity_px"] = range.farthest;
   facts["nearest_disparity_px"] = range.nearest;
 }
 
-ordered_json facts_of_disparity(const fs::path& path, std::optional<float> scale) {
+Json facts_of_disparity(const fs::path& path, std::optional<float> scale) {
   const Image<float> disparity = read_disparity(path, scale);
-  DisparityRange range;
+  FoundDisparityRange range;
   for (const float value : disparity.pixels()) range.add(value);
-  ordered_json facts = {{"kind", "disparity"}, {"width", disparity.width()}, {"height", disparity.height()}};
+  Json facts = {{"kind", "disparity"}, {"width", disparity.width()}, {"height", disparity.height()}};
   facts["known_share"] = static_cast<double>(range.known) / static_cast<double>(disparity.pixels().size());
   put_range(facts, range);
   return facts;
 }
 
-ordered_json facts_of_painting(const fs::path& path) {
+Json facts_of_painting(const fs::path& path) {
   const Painting painting = read_painting(path);
-  DisparityRange range;
+  FoundDisparityRange range;
   for (const float disparity : disparities_of_marks(painting)) range.add(disparity);
   const MarkCount marks = count_marks(painting);
-  ordered_json facts = {{"kind", "painting"}, {"width", width_of(painting)}, {"height", height_of(painting)}};
+  Json facts = {{"kind", "painting"}, {"width", width_of(painting)}, {"height", height_of(painting)}};
   facts[std::string(marks.kind)] = marks.count;
   put_range(facts, range);
   facts["texture"] = painting.relief.depth_px > 0;
@@ -85,7 +79,7 @@ ordered_json facts_of_painting(const fs::path& path) {
   } else {
     facts["views"] = {{"first", known.first.eye_separations()}, {"last", known.last.eye_separations()}};
   }
-  ordered_json layers = ordered_json::array();
+  Json layers = Json::array();
   for (const Layer& layer : layers_of(painting))
     layers.push_back(
         {{"radius_px", layer.radius_px}, {"strokes", count_strokes(layer)}, {"points", layer.points.size()}});
@@ -93,8 +87,8 @@ ordered_json facts_of_painting(const fs::path& path) {
   return facts;
 }
 
-ordered_json facts_of_picture(const ImageDescription& picture) {
-  ordered_json facts = {{"kind", "picture"}, {"format", picture.format}};
+Json facts_of_picture(const ImageDescription& picture) {
+  Json facts = {{"kind", "picture"}, {"format", picture.format}};
   facts["width"] = picture.width;
   facts["height"] = picture.height;
   facts["channels"] = picture.channels;
@@ -106,7 +100,7 @@ ordered_json facts_of_picture(const ImageDescription& picture) {
 }
 
 /// How deep a pair is, and how that suits who looks at a display, with the middle of its depth on the screen.
-void put_depth(ordered_json& facts, const StereoPair& pair, const std::string& display_name) {
+void put_depth(Json& facts, const StereoPair& pair, const std::string& display_name) {
   constexpr double outliers = 0.01;
   const Image<float> disparity = match(pair, {}).geometry.left_disparity;
   const float farthest = disparity_percentile(disparity, outliers);
@@ -127,7 +121,7 @@ void put_depth(ordered_json& facts, const StereoPair& pair, const std::string& d
 }
 
 /// Where a picture's views are and how that is known; nothing of an ordinary picture.
-void put_views(ordered_json& facts, const fs::path& path, const std::string& layout, const std::string& display) {
+void put_views(Json& facts, const fs::path& path, const std::string& layout, const std::string& display) {
   const ReadViewsOptions options = layout.empty() ? ReadViewsOptions() : options_for_layout(layout);
   try {
     const std::optional<ViewsFile> file = find_views(path, options);
@@ -154,9 +148,9 @@ void put_views(ordered_json& facts, const fs::path& path, const std::string& lay
   }
 }
 
-ordered_json facts_of_particles(const fs::path& path, const std::string& type) {
+Json facts_of_particles(const fs::path& path, const std::string& type) {
   const CloudSource source = open_cloud(path, {.type = type});
-  ordered_json facts = {{"kind", "particles"}, {"format", source.format}};
+  Json facts = {{"kind", "particles"}, {"format", source.format}};
   if (source.count) facts["particles"] = *source.count;
   if (source.box_size > 0) facts["box_size"] = source.box_size;
   if (source.redshift) facts["redshift"] = *source.redshift;
@@ -168,9 +162,9 @@ ordered_json facts_of_particles(const fs::path& path, const std::string& type) {
   return facts;
 }
 
-ordered_json facts_of_slices(const fs::path& path) {
+Json facts_of_slices(const fs::path& path) {
   const SliceStack stack = read_slices(path);
-  ordered_json facts = {{"kind", "slices"}, {"width", stack.width}, {"height", stack.height}};
+  Json facts = {{"kind", "slices"}, {"width", stack.width}, {"height", stack.height}};
   facts["slices"] = stack.slices.size();
   facts["span_in_eye_separations"] = stack.span;
   if (stack.tone.look == Look::thesis) {
@@ -186,6 +180,63 @@ ordered_json facts_of_slices(const fs::path& path) {
   return facts;
 }
 
+/// Where the name says that the picture is a quilt, its views; false where it does not.
+bool put_quilt(Json& facts, const fs::path& path, int width, int height) {
+  const std::optional<NamedQuilt> quilt = quilt_of_name(path.filename().string());
+  if (!quilt) return false;
+  const auto [columns, rows] = quilt->layout;
+  facts["quilt"] = fmt::format("{}x{}", columns, rows);
+  facts["views"] = columns * rows;
+  facts["view_width"] = width / columns;
+  facts["view_height"] = height / rows;
+  facts["view_aspect"] = quilt->aspect;
+  return true;
+}
+
+void put(Json& facts, const char* name, const std::string& value) {
+  if (!value.empty()) facts[name] = value;
+}
+
+Json facts_of_side_streams(const FilmFacts& film) {
+  Json all = Json::array();
+  for (const SideStream& stream : film.side_streams) {
+    Json facts = {{"kind", stream.kind}, {"codec", stream.codec}};
+    put(facts, "language", stream.language);
+    if (stream.channels > 0) facts["channels"] = stream.channels;
+    if (stream.sample_rate > 0) facts["sample_rate"] = stream.sample_rate;
+    all.push_back(std::move(facts));
+  }
+  return all;
+}
+
+/// What a film says of itself.
+Json facts_of_film(const fs::path& path) {
+  const FilmReader reader = open_film(path);
+  const FilmFacts& film = reader.facts();
+  Json facts = {{"kind", "film"}, {"container", film.container}};
+  put(facts, "codec", film.codec);
+  put(facts, "pixel_format", film.pixel_format);
+  put_quilt(facts, path, film.width, film.height);
+  facts["width"] = film.width;
+  facts["height"] = film.height;
+  if (film.pixel_aspect != Rational{1, 1}) {
+    facts["pixel_aspect"] = fmt::format("{}:{}", film.pixel_aspect.numerator, film.pixel_aspect.denominator);
+  }
+  if (film.rotation_degrees != 0) facts["rotation_applied_degrees"] = film.rotation_degrees;
+  facts["layout"] = film.layout_how.empty() ? std::string("unsaid") : std::string(layout_name(film.layout));
+  put(facts, "layout_from", film.layout_how);
+  if (film.frame_rate.numerator > 0) facts["frames_per_second"] = film.frame_rate.value();
+  if (film.frame_count) facts["frames"] = *film.frame_count;
+  if (film.duration_s > 0) facts["duration_s"] = film.duration_s;
+  put(facts, "comment", film.comment);
+  put(facts, "colour_matrix", film.colour.matrix);
+  put(facts, "colour_range", film.colour.range);
+  put(facts, "colour_primaries", film.colour.primaries);
+  put(facts, "colour_transfer", film.colour.transfer);
+  if (!film.side_streams.empty()) facts["side_streams"] = facts_of_side_streams(film);
+  return facts;
+}
+
 /// Whether a file holds particles by its content; or should, by its name: then what is wrong with it is told.
 bool is_particles(const fs::path& path) {
   constexpr const char* endings[] = {".hdf5", ".h5",  ".ply", ".las", ".npy",   ".npz",
@@ -194,8 +245,8 @@ bool is_particles(const fs::path& path) {
 }
 
 /// What --device can be, with the name of the graphics processor, or why there is none.
-ordered_json facts_of_devices() {
-  ordered_json facts{{"kind", "devices"}, {"cpu", fmt::format("{} threads", std::thread::hardware_concurrency())}};
+Json facts_of_devices() {
+  Json facts{{"kind", "devices"}, {"cpu", fmt::format("{} threads", std::thread::hardware_concurrency())}};
   try {
     const GpuFacts gpu = gpu_facts();
     facts["gpu"] = gpu.name;
@@ -214,117 +265,123 @@ struct InfoArguments {
   std::string file;
   bool devices = false;
   std::optional<float> scale;
-  std::string type;
-  std::string layout;
-  std::string display;
+  std::string type, layout, display;
 };
 
-ordered_json facts_of(const InfoArguments& arguments, const CLI::App& command) {
-  if (arguments.devices) {
-    refuse_options(command, {"FILE", "--scale", "--type", "--layout", "--display"}, "with --devices", {});
-    return facts_of_devices();
-  }
-  if (arguments.file.empty()) throw Error(ErrorKind::wrong_usage, "FILE is missing, expected a file or --devices");
+enum class DescribedKind { devices, film, painting, particles, disparity, views, slices, quilt, picture };
+
+DescribedKind described_kind_of(const InfoArguments& a) {
+  if (a.devices) return DescribedKind::devices;
+  if (a.file.empty()) throw Error(ErrorKind::wrong_usage, "FILE is missing, expected a file or --devices");
+  const fs::path path = a.file;
+  if (is_film(path)) return DescribedKind::film;
+  if (path.extension() == ".wst") return DescribedKind::painting;
+  if (is_particles(path)) return DescribedKind::particles;
+  if (a.scale) return DescribedKind::disparity;
+  const ImageDescription picture = describe_image(path);
+  if (is_multiview_exr(path)) return DescribedKind::views;
+  if (picture.format == "openexr" && picture.channels == 4) return DescribedKind::slices;
+  if (picture.is_float && picture.channels == 1)
+    return DescribedKind::disparity;  // one channel of floats is no photograph
+  return a.layout.empty() && quilt_of_name(path.filename().string()) ? DescribedKind::quilt : DescribedKind::picture;
+}
+
+std::string_view described_situation(DescribedKind kind) {
+  constexpr std::array<std::string_view, 9> words{"with --devices", "on a film",      "on a painting (.wst)",
+                                                  "on particles",   "on disparities", "on a multi-view OpenEXR",
+                                                  "on slices",      "on a quilt",     "on a picture"};
+  return words[static_cast<std::size_t>(kind)];
+}
+
+Json facts_of(const InfoArguments& arguments) {
   const fs::path path = arguments.file;
-  const auto refuse = [&](const std::vector<std::string>& options, const char* situation) {
-    refuse_options(command, options, situation, {});
-  };
-  if (!is_particles(path)) refuse({"--type"}, "on this file; it works on particles");
-  const auto refuse_all = [&](const char* situation) { refuse({"--scale", "--layout", "--display"}, situation); };
-  if (is_film(path)) {
-    refuse_all("on a film");
-    return facts_of_film(path);
-  }
-  if (path.extension() == ".wst") {
-    refuse_all("on a painting (.wst)");
-    return facts_of_painting(path);
-  }
-  if (is_particles(path)) {
-    refuse_all("on particles");
-    return facts_of_particles(path, arguments.type);
-  }
-  if (arguments.scale) {
-    refuse({"--layout", "--display"}, "with --scale, which reads disparities");
-    return facts_of_disparity(path, arguments.scale);
+  switch (described_kind_of(arguments)) {
+    case DescribedKind::devices:
+      return facts_of_devices();
+    case DescribedKind::film:
+      return facts_of_film(path);
+    case DescribedKind::painting:
+      return facts_of_painting(path);
+    case DescribedKind::particles:
+      return facts_of_particles(path, arguments.type);
+    case DescribedKind::disparity:
+      return facts_of_disparity(path, arguments.scale);
+    case DescribedKind::views: {
+      const std::vector<Image<Rgb8>> views = read_multiview_exr(path);
+      return {{"kind", "views"}, {"views", views.size()}, {"width", views[0].width()}, {"height", views[0].height()}};
+    }
+    case DescribedKind::slices:
+      return facts_of_slices(path);
+    case DescribedKind::quilt:
+    case DescribedKind::picture:
+      break;
   }
   const ImageDescription picture = describe_image(path);
-  if (is_multiview_exr(path)) {
-    refuse_all("on a multi-view OpenEXR");
-    const std::vector<Image<Rgb8>> views = read_multiview_exr(path);
-    return {{"kind", "views"}, {"views", views.size()}, {"width", views[0].width()}, {"height", views[0].height()}};
-  }
-  if (picture.format == "openexr" && picture.channels == 4) {
-    refuse_all("on slices");
-    return facts_of_slices(path);
-  }
-  // One channel of floats is no photograph.
-  if (picture.is_float && picture.channels == 1) {
-    refuse({"--layout", "--display"}, "on disparities");
-    return facts_of_disparity(path, {});
-  }
-  ordered_json facts = facts_of_picture(picture);
-  if (arguments.layout.empty() && put_quilt(facts, path, picture.width, picture.height)) {
-    refuse({"--display"}, "on a quilt; it works on two views");
-    return facts;
-  }
+  Json facts = facts_of_picture(picture);
+  if (arguments.layout.empty() && put_quilt(facts, path, picture.width, picture.height)) return facts;
   put_views(facts, path, arguments.layout, arguments.display);
-  if (!facts.contains("views")) refuse({"--display"}, "on a picture of one view; it works on two");
+  if (!facts.contains("views") && !arguments.display.empty())
+    throw Error(ErrorKind::wrong_usage, "--display: has no effect on a picture of one view; it works on two");
   return facts;
 }
 
-std::string as_text(const ordered_json& value) {
+std::string as_text(const Json& value) {
   if (value.is_null()) return "not known";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
   return value.is_string() ? value.get<std::string>() : json_text(value, -1);
 }
 
-void print_as_text(const ordered_json& facts, const Session& session) {
-  for (const auto& [name, value] : facts.items()) {
-    std::string label = name;
-    std::replace(label.begin(), label.end(), '_', ' ');
-    if (!value.is_array()) {
-      fmt::print(session.output, "{}: {}\n", label, as_text(value));
-      continue;
-    }
-    fmt::print(session.output, "{}:\n", label);
-    for (const ordered_json& entry : value) {
-      std::string line;
-      for (const auto& [key, part] : entry.items()) line += fmt::format("  {} {}", key, as_text(part));
-      fmt::print(session.output, "{}\n", line);
-    }
+/// "name: value", and a line for each of several.
+std::string line_of(const std::string& name, const Json& value) {
+  std::string label = name;
+  std::replace(label.begin(), label.end(), '_', ' ');
+  if (!value.is_array()) return fmt::format("{}: {}", label, as_text(value));
+  std::string text = label + ":";
+  for (const Json& entry : value) {
+    text += "\n";
+    for (const auto& [key, part] : entry.items()) text += fmt::format("  {} {}", key, as_text(part));
   }
+  return text;
+}
+
+Report run_info(const InfoArguments& arguments, const Session& /*session*/) {
+  if (!arguments.display.empty()) find_display(arguments.display);
+  Report report;
+  const Json facts = facts_of(arguments);
+  for (const auto& [name, value] : facts.items()) report.facts.push_back({name, value, line_of(name, value)});
+  return report;
+}
+
+Rows info_rows(InfoArguments& a) {
+  const auto only = [&a](std::vector<DescribedKind> kinds, const char* where) {
+    return only_on<DescribedKind>([&a] { return described_kind_of(a); }, std::move(kinds), described_situation, where);
+  };
+  return {
+      row("FILE", text(a.file),
+          "Picture, disparity (.pfm, .exr, or any with --scale), film, numbered pictures (frame_%04d.png), painting "
+          "(.wst), particles or slices",
+          {when([&a] { return a.devices; }, "with --devices")}),
+      row("--devices", flag(a.devices), "List what can compute: the values of --device"),
+      row("--scale", number(a.scale, {1e-9, 1e9}), "Read the picture as disparities: value / SCALE pixels",
+          {only({DescribedKind::disparity}, "it works on pictures")}),
+      row("--type", text(a.type), "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5",
+          {only({DescribedKind::particles}, "it works on particles")}),
+      row("--layout", text(a.layout), "Layout of a picture that holds both views, as for 'paint'",
+          {only({DescribedKind::picture}, "it works on pictures")}),
+      row("--display", text(a.display), "Also match the views and report their depth and comfort on this display",
+          {only({DescribedKind::picture}, "it works on pictures of two views")})};
 }
 
 }  // namespace
 
-void add_info_command(CLI::App& program, const Session& session) {
-  const auto arguments = std::make_shared<InfoArguments>();
-  CLI::App* command =
-      program.add_subcommand("info", "Describe a picture, disparity file, film, painting, particle file or slices");
-  command->add_option("FILE", arguments->file,
-                      "Picture, disparity (.pfm, .exr, or any with --scale), film, numbered pictures (frame_%04d.png), "
-                      "painting (.wst), particles or slices");
-  command->add_flag("--devices", arguments->devices, "List what can compute: the values of --device");
-  add_number(*command, "--scale", arguments->scale, {1e-9, 1e9},
-             "Read the picture as disparities: value / SCALE pixels");
-  command->add_option("--type", arguments->type,
-                      "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5");
-  command->add_option("--layout", arguments->layout, "Layout of a picture that holds both views, as for 'paint'");
-  command->add_option("--display", arguments->display,
-                      "Also match the views and report their depth and comfort on this display");
-  command->footer(
-      "Examples:\n  wheatstone info left.png\n  wheatstone info photograph.mpo --display desk-stereo\n"
-      "  wheatstone info --devices");
-  command->callback([arguments, command, &session] {
-    if (!arguments->display.empty()) find_display(arguments->display);
-    const ordered_json facts = facts_of(*arguments, *command);
-    if (session.json) {
-      print_facts(facts, session);
-    } else {
-      print_as_text(facts, session);
-    }
-  });
+Command info_command() {
+  return make_command("info", "Describe a picture, disparity file, film, painting, particle file or slices", info_rows,
+                      run_info,
+                      R"(Examples:
+  wheatstone info left.png
+  wheatstone info photograph.mpo --display desk-stereo
+  wheatstone info --devices)");
 }
 
 }  // namespace wheatstone::cli

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "failure.h"
-#include "print_facts.h"
+#include "report.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
 

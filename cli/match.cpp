@@ -1,13 +1,7 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
-#include <memory>
-#include <nlohmann/json.hpp>
-
-#include "command.h"
+#include "commands.h"
 #include "match_options.h"
-#include "output_option.h"
-#include "print_facts.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/report.h"
@@ -46,8 +40,7 @@ void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry&
   output.commit();
 }
 
-void run_match(const MatchCommandArguments& arguments, const CLI::App& command, const Session& session) {
-  refuse_match_options_without_effect(command, arguments.matching, {});
+Report run_match(const MatchCommandArguments& arguments, const Session& session) {
   // What cannot be written is said before the work.
   const StereoArguments& photographs = arguments.photographs;
   OutputFolder folder(arguments.folder, {photographs.left, photographs.right, arguments.matching.model});
@@ -59,53 +52,50 @@ void run_match(const MatchCommandArguments& arguments, const CLI::App& command, 
   const MatchConfidence confidence = measure_match(pair.pictures, matched, options.range);
   write(folder, pair, matched.geometry);
   tell_of_match(read, confidence, session);
-  if (session.json) {
-    nlohmann::ordered_json facts{{"folder", arguments.folder},
-                                 {"least_disparity_px", matched.range.least},
-                                 {"largest_disparity_px", matched.range.largest},
-                                 {"left_found_share", matched.left_found_share},
-                                 {"right_found_share", matched.right_found_share},
-                                 {"confidence", nlohmann::ordered_json::parse(confidence_json(confidence))},
-                                 {"pair", nlohmann::ordered_json::parse(preparation_json(pair))}};
-    if (read.whole.width > 0) facts["reduced_from"] = {{"width", read.whole.width}, {"height", read.whole.height}};
-    print_facts(facts, session);
-    return;
-  }
+  Report report{{{"folder", arguments.folder},
+                 {"least_disparity_px", matched.range.least,
+                  fmt::format("disparities looked for   {} to {} px", matched.range.least, matched.range.largest)},
+                 {"largest_disparity_px", matched.range.largest},
+                 {"left_found_share", matched.left_found_share,
+                  fmt::format("found, not filled        {:.1f} % of the left view, {:.1f} % of the right",
+                              100 * matched.left_found_share, 100 * matched.right_found_share)},
+                 {"right_found_share", matched.right_found_share},
+                 {"confidence", Json::parse(confidence_json(confidence)),
+                  fmt::format("streaks                  {:.1f} % of the disparity map\n"
+                              "partners differ by       {:.1f} of 255 (median)",
+                              100 * confidence.streak_share, confidence.colour_difference)},
+                 {"pair", Json::parse(preparation_json(pair)),
+                  undecided_eyes(pair).empty() ? "" : fmt::format("eyes                     {}", undecided_eyes(pair))},
+                 only_text(fmt::format("written to               {}", arguments.folder))}};
   if (read.whole.width > 0)
-    fmt::print(session.output, "reduced                  from {}x{} to {}x{} pixels\n", read.whole.width,
-               read.whole.height, pair.pictures.left.width(), pair.pictures.left.height());
-  fmt::print(session.output, "disparities looked for   {} to {} px\n", matched.range.least, matched.range.largest);
-  fmt::print(session.output, "found, not filled        {:.1f} % of the left view, {:.1f} % of the right\n",
-             100 * matched.left_found_share, 100 * matched.right_found_share);
-  fmt::print(session.output, "streaks                  {:.1f} % of the disparity map\n", 100 * confidence.streak_share);
-  fmt::print(session.output, "partners differ by       {:.1f} of 255 (median)\n", confidence.colour_difference);
-  if (const std::string_view note = undecided_eyes(pair); !note.empty())
-    fmt::print(session.output, "eyes                     {}\n", note);
-  fmt::print(session.output, "written to               {}\n", arguments.folder);
+    report.facts.insert(report.facts.begin(),
+                        Fact{"reduced_from",
+                             {{"width", read.whole.width}, {"height", read.whole.height}},
+                             fmt::format("reduced                  from {}x{} to {}x{} pixels", read.whole.width,
+                                         read.whole.height, pair.pictures.left.width(), pair.pictures.left.height())});
+  return report;
+}
+
+Rows match_command_rows(MatchCommandArguments& a) {
+  return join({pair_rows(a.photographs),
+               {row("-o,--output", output_name(a.folder), "Folder for the results"), layout_row(a.photographs.layout),
+                swap_row(a.photographs.swap), max_size_row(a.photographs.max_size), rectify_row(a.photographs.rectify)},
+               match_rows(a.matching)});
 }
 
 }  // namespace
 
-void add_match_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<MatchCommandArguments>();
-  CLI::App& command = *program.add_subcommand("match", "Estimate disparity and occlusion of a stereo pair");
-  command
-      .add_option("LEFT", arguments->photographs.left,
-                  "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other")
-      ->required();
-  command.add_option("RIGHT", arguments->photographs.right, "Right photograph, of the same size");
-  add_output_option(command, arguments->folder, "Folder for the results");
-  add_stereo_options(command, arguments->photographs);
-  add_rectify_option(command, arguments->photographs.rectify);
-  add_match_options(command, arguments->matching);
-  command.footer(
-      "Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is "
-      "red),\n"
-      "and the occlusion masks (white: the other eye does not see it); where the pair was rectified also left.png and "
-      "right.png,\nthe rectified pictures that they belong to.\n\n"
-      "Example:\n  wheatstone synth still -o still\n  wheatstone match still/left.png still/right.png -o matched\n"
-      "  wheatstone match photograph.mpo -o matched");
-  command.callback([arguments, &command, &session] { run_match(*arguments, command, session); });
+Command match_command() {
+  return make_command(
+      "match", "Estimate disparity and occlusion of a stereo pair", match_command_rows, run_match,
+      R"(Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is red),
+and the occlusion masks (white: the other eye does not see it); where the pair was rectified also left.png and right.png,
+the rectified pictures that they belong to.
+
+Example:
+  wheatstone synth still -o still
+  wheatstone match still/left.png still/right.png -o matched
+  wheatstone match photograph.mpo -o matched)");
 }
 
 }  // namespace wheatstone::cli

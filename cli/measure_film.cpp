@@ -1,22 +1,16 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "command.h"
+#include "commands.h"
 #include "film_argument.h"
-#include "measure_kinds.h"
-#include "print_facts.h"
-#include "typed_options.h"
 #include "wheatstone/app/film_presentation.h"
 #include "wheatstone/app/report.h"
 #include "wheatstone/error.h"
@@ -35,12 +29,11 @@ namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct MeasureFilmArguments {
   std::vector<std::string> films;
   std::string source;
-  std::string layout;
+  std::optional<StereoLayout> layout;
   std::string truth;
   std::string marks;
   int fade_frames = 2;
@@ -214,44 +207,33 @@ std::vector<std::string> notes_of_moved_eyes(const std::vector<MeasuredFilm>& fi
   std::vector<std::string> notes;
   for (const MeasuredFilm& film : films)
     if (tells_moved_eyes(film.reader.facts().comment))
-      notes.push_back(
-          fmt::format("{}: {}; its eyes do not fit the source's disparities, so paint it with --depth-budget full to "
-                      "measure it",
-                      film.name, film.reader.facts().comment));
+      notes.push_back(fmt::format(
+          "{}: {}; its eyes do not fit the source's disparities, so paint it with --depth-budget full to measure it",
+          film.name, film.reader.facts().comment));
   return notes;
 }
 
-Json to_json(const MeasureFilmArguments& arguments, const std::vector<MeasuredFilm>& films, int frames,
-             const std::vector<int>& cuts) {
-  Json facts{{"frames", frames},
-             {"cuts", cuts},
-             {"flow", arguments.truth.empty() ? "estimated" : "true"},
-             {"source", to_json(films.front())},
-             {"films", Json::array()}};
-  for (std::size_t i = 1; i < films.size(); ++i) facts["films"].push_back(to_json(films[i]));
-  return facts;
-}
-
-void print_table(const std::vector<MeasuredFilm>& films, const std::vector<int>& cuts, const Session& session) {
+std::string table_of(const std::vector<MeasuredFilm>& films) {
   std::size_t width = 16;
   for (const MeasuredFilm& film : films) width = std::max(width, film.name.size());
-  constexpr auto line = "{:<{}}{:>14}{:>12}{:>11}{:>14}{:>14}{:>10}{:>10}\n";
-  fmt::print(session.output, line, "", width, "E_warp x 1000", "of source", "compared", "left - right", "depth found",
-             "wrong", "at worst");
+  constexpr auto line = "{:<{}}{:>14}{:>12}{:>11}{:>14}{:>14}{:>10}{:>10}";
+  std::vector<std::string> all{fmt::format(line, "", width, "E_warp x 1000", "of source", "compared", "left - right",
+                                           "depth found", "wrong", "at worst")};
   const double source_error = films.front().temporal.mean();
   for (const MeasuredFilm& film : films) {
     const TemporalError& error = film.temporal;
     const bool stereo = !film.stereo.empty(), temporal = error.pairs() > 0;
     const Json mean = stereo ? mean_of(film.stereo) : Json();
-    fmt::print(session.output, line, film.name, width, temporal ? fmt::format("{:.4f}", 1000 * error.mean()) : "",
-               source_error > 0 ? fmt::format("{:.2f}", error.mean() / source_error) : "",
-               temporal ? fmt::format("{:.1f} %", 100 * error.compared_share()) : "",
-               stereo ? fmt::format("{:.2f}", mean.at("left_right_mean_absolute").get<double>()) : "",
-               stereo ? fmt::format("{:.1f} %", 100 * mean.at("survival_density").get<double>()) : "",
-               film.wrong.empty() ? "" : fmt::format("{:.2f} %", 100 * mean_wrong_share(film)),
-               film.wrong.empty() ? "" : fmt::format("{:.2f} %", 100 * film.wrong[worst_frame(film)].share));
+    all.push_back(
+        fmt::format(line, film.name, width, temporal ? fmt::format("{:.4f}", 1000 * error.mean()) : "",
+                    source_error > 0 ? fmt::format("{:.2f}", error.mean() / source_error) : "",
+                    temporal ? fmt::format("{:.1f} %", 100 * error.compared_share()) : "",
+                    stereo ? fmt::format("{:.2f}", mean.at("left_right_mean_absolute").get<double>()) : "",
+                    stereo ? fmt::format("{:.1f} %", 100 * mean.at("survival_density").get<double>()) : "",
+                    film.wrong.empty() ? "" : fmt::format("{:.2f} %", 100 * mean_wrong_share(film)),
+                    film.wrong.empty() ? "" : fmt::format("{:.2f} %", 100 * film.wrong[worst_frame(film)].share)));
   }
-  if (!cuts.empty()) fmt::print(session.output, "cuts before frame {}\n", fmt::join(cuts, ", "));
+  return lines({}, all);
 }
 
 /// What became of the strokes of a painted film whose frames' marks were kept.
@@ -304,8 +286,8 @@ Json to_json(const MarksOfFilm& marks) {
           {"frame", marks.frames}};
 }
 
-void run_measure_film(const MeasureFilmArguments& arguments, const Session& session) {
-  const std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
+Report run_measure_film(const MeasureFilmArguments& arguments, const Session& session) {
+  const std::optional<StereoLayout>& layout = arguments.layout;
   std::vector<MeasuredFilm> films;
   films.push_back({arguments.source, open_film(find_film(arguments.source, layout))});
   for (const std::string& name : arguments.films) films.push_back({name, open_film(find_film(name, layout))});
@@ -329,65 +311,57 @@ void run_measure_film(const MeasureFilmArguments& arguments, const Session& sess
   if (frame == 0 && !shorter.empty())
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no frame to compare", shorter.front()));
   const std::vector<std::string> moved = notes_of_moved_eyes(films);
-  std::optional<MarksOfFilm> marks;
-  if (!arguments.marks.empty()) marks = measure_marks(arguments, two_eyes, frame, cuts, session);
-  if (session.json) {
-    Json facts = to_json(arguments, films, frame, cuts);
-    if (!shorter.empty()) facts["shorter"] = shorter;
-    if (!moved.empty()) facts["notes"] = moved;
-    if (marks) facts["marks"] = to_json(*marks);
-    print_facts(facts, session);
-    return;
-  }
-  print_table(films, cuts, session);
-  for (const std::string& note : moved) fmt::print(session.output, "{}\n", note);
+  Json others = Json::array();
+  for (std::size_t i = 1; i < films.size(); ++i) others.push_back(to_json(films[i]));
+  Report report{{{"frames", frame},
+                 {"flow", arguments.truth.empty() ? "estimated" : "true"},
+                 {"source", to_json(films.front()), table_of(films)},
+                 {"films", others},
+                 {"cuts", cuts, cuts.empty() ? "" : fmt::format("cuts before frame {}", fmt::join(cuts, ", "))}}};
+  if (!moved.empty()) report.facts.push_back({"notes", moved, lines({}, moved)});
   if (!shorter.empty())
-    fmt::print(session.output, "only the first {} frames are compared: {} {} there\n", frame, fmt::join(shorter, ", "),
-               shorter.size() == 1 ? "ends" : "end");
-  if (marks)
-    fmt::print(session.output,
-               "strokes: {:.1f} % carried from frame to frame, {} popped; bare at most {:.3f} % of an eye\n",
-               100 * survival_of(marks->changes), marks->changes.popped, 100 * marks->worst_bare_share);
+    report.facts.push_back({"shorter", shorter,
+                            fmt::format("only the first {} frames are compared: {} {} there", frame,
+                                        fmt::join(shorter, ", "), shorter.size() == 1 ? "ends" : "end")});
+  if (arguments.marks.empty()) return report;
+  const MarksOfFilm marks = measure_marks(arguments, two_eyes, frame, cuts, session);
+  report.facts.push_back(
+      {"marks", to_json(marks),
+       fmt::format("strokes: {:.1f} % carried from frame to frame, {} popped; unpainted at most {:.3f} % of an eye",
+                   100 * survival_of(marks.changes), marks.changes.popped, 100 * marks.worst_bare_share)});
+  return report;
+}
+
+Rows measure_film_rows(MeasureFilmArguments& a) {
+  return {row("FILMS", required(texts(a.films)),
+              "Films, numbered pictures (left_%04d.png), folders of them, or one film per eye: LEFT,RIGHT"),
+          row("--against", required(text(a.source)), "Film that they were made from, in the same forms"),
+          row("--truth", text(a.truth),
+              "Folder from 'synth film' with the exact flow and disparities of the source, whose frames count from 0;\n"
+              "by default they are estimated from the source"),
+          row("--marks", text(a.marks), "Marks of the first film, from rotoscope --save-marks: marks_%04d.wst"),
+          row("--fade", number(a.fade_frames, {1, 1000}),
+              "Number of frames of the shorter fade; strokes that change faster count as popped", {}, "--marks"),
+          row("--layout", film_layout(a.layout), "Stereo layout of films that do not specify one"),
+          row("--frames", number(a.frames, {0, 1'000'000}), "Number of frames to measure, from the first; 0 for all"),
+          row("--stereo-frame-step", number(a.stereo_step, {1, 1'000'000}), "Compare the eyes of every Nth frame")};
 }
 
 }  // namespace
 
-void add_measure_film(CLI::App& measure, const Session& session) {
-  auto arguments = std::make_shared<MeasureFilmArguments>();
-  CLI::App& command = *measure.add_subcommand("film", "Measure flicker and stereo consistency of films");
-  command.fallthrough();
-  command
-      .add_option("FILMS", arguments->films,
-                  "Films, numbered pictures (left_%04d.png), folders of them, or one film per eye: LEFT,RIGHT")
-      ->required();
-  command.add_option("--against", arguments->source, "Film that they were made from, in the same forms")->required();
-  command.add_option(
-      "--truth", arguments->truth,
-      "Folder from 'synth film' with the exact flow and disparities of the source, whose frames count from 0;\n"
-      "by default they are estimated from the source");
-  auto* marks = command.add_option("--marks", arguments->marks,
-                                   "Marks of the first film, from rotoscope --save-marks: marks_%04d.wst");
-  add_number(command, "--fade", arguments->fade_frames, {1, 1000},
-             "Number of frames of the shorter fade; strokes that change faster count as popped")
-      ->needs(marks);
-  command.add_option("--layout", arguments->layout, "Stereo layout of films that do not specify one");
-  add_number(command, "--frames", arguments->frames, {0, 1'000'000},
-             "Number of frames to measure, from the first; 0 for all");
-  add_number(command, "--stereo-frame-step", arguments->stereo_step, {1, 1'000'000},
-             "Compare the eyes of every Nth frame");
-  command.footer(
-      "E_warp is the mean squared difference (values 0..1) between each frame of the left eye and the next frame, "
-      "warped\n"
-      "back along the optical flow of the source. Pixels whose flow is not confirmed by the backward flow are left "
-      "out,\n"
-      "and so are cuts. Blurring a film reduces E_warp: compare the gradient energy in --json, too. A pixel is wrong\n"
-      "if its colour is nowhere near that place in the source; the shares are those of the mean and of the worst "
-      "frame. With\n"
-      "--marks, the shares of strokes that are kept and that pop are printed.\n\n"
-      "Example:\n  wheatstone synth film -o film\n"
-      "  wheatstone rotoscope film --truth film --depth-budget full -o painted.mkv\n"
-      "  wheatstone measure film painted.mkv --against film --truth film");
-  command.callback([arguments, &session] { run_measure_film(*arguments, session); });
+Command measure_film_command() {
+  return make_command(
+      "film", "Measure flicker and stereo consistency of films", measure_film_rows, run_measure_film,
+      R"(E_warp is the mean squared difference (values 0..1) between each frame of the left eye and the next frame, warped
+back along the optical flow of the source. Pixels whose flow is not confirmed by the backward flow are left out,
+and so are cuts. Blurring a film reduces E_warp: compare the gradient energy in --json, too. A pixel is wrong
+if its colour is nowhere near that place in the source; the shares are those of the mean and of the worst frame. With
+--marks, the shares of strokes that are kept and that pop are printed.
+
+Example:
+  wheatstone synth film -o film
+  wheatstone rotoscope film --truth film --depth-budget full -o painted.mkv
+  wheatstone measure film painted.mkv --against film --truth film)");
 }
 
 }  // namespace wheatstone::cli

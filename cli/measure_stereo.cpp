@@ -1,16 +1,10 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
-#include "command.h"
-#include "disparity_argument.h"
+#include "commands.h"
 #include "match_options.h"
-#include "measure_kinds.h"
-#include "print_facts.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/report.h"
 #include "wheatstone/error.h"
@@ -21,8 +15,6 @@
 
 namespace wheatstone::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct MeasureStereoArguments {
   std::string left, right;
@@ -117,12 +109,12 @@ Json to_json(const MeasuredPair& measured) {
 }
 
 /// One line of the table: the stylised pair's value, and the photographs' beside it.
-struct Row {
+struct Line {
   const char* name;
   const char* format;
   double (*value)(const PairMeasures&);
 };
-constexpr Row rows[] = {
+constexpr Line table[] = {
     {"left - right, mean (0..255)", "{:.2f}", [](const PairMeasures& m) { return m.difference.mean_absolute; }},
     {"left - right, RMSE (0..1)", "{:.4f}", [](const PairMeasures& m) { return m.difference.rmse; }},
     {"compared, visible to both", "{:.1f} %", [](const PairMeasures& m) { return 100 * m.difference.compared_share; }},
@@ -136,45 +128,41 @@ constexpr Row rows[] = {
      [](const PairMeasures& m) { return 100 * ratio(m.right_gradient_energy, m.left_gradient_energy); }},
 };
 
-void print_table(const MeasuredPair& measured, const Session& session) {
-  fmt::print(session.output, "{:<30}{:>12}{:>14}\n", "", "stylised", measured.photographs ? "photographs" : "");
-  for (const Row& row : rows) {
-    const auto text = [&](const PairMeasures& m) { return fmt::format(fmt::runtime(row.format), row.value(m)); };
-    fmt::print(session.output, "{:<30}{:>12}{:>14}\n", row.name, text(measured.stylised),
-               measured.photographs ? text(*measured.photographs) : "");
-  }
-  if (measured.photographs) {
-    const auto kept = [](double stylised, double photograph) {
-      return fmt::format("{:.1f} %", 100 * ratio(stylised, photograph));
-    };
-    fmt::print(session.output, "{:<30}{:>12}\n", "  left of its photograph",
-               kept(measured.stylised.left_gradient_energy, measured.photographs->left_gradient_energy));
-    fmt::print(session.output, "{:<30}{:>12}\n", "  right of its photograph",
-               kept(measured.stylised.right_gradient_energy, measured.photographs->right_gradient_energy));
-  }
-  const auto line = [&session](const char* name, const std::string& value) {
-    fmt::print(session.output, "{:<30}{:>12}\n", name, value);
+std::string text_of(const MeasuredPair& measured) {
+  const std::optional<PairMeasures>& photographs = measured.photographs;
+  std::string text = fmt::format("{:<30}{:>12}{:>14}", "", "stylised", photographs ? "photographs" : "");
+  const auto line = [&text](const char* name, const std::string& value, const std::string& beside) {
+    text += fmt::format("\n{:<30}{:>12}{:>14}", name, value, beside);
   };
-  if (measured.wrong_spots) {
-    line("wrong spots per 100 000 px", fmt::format("{:.1f}", measured.wrong_spots->spots_per_100000_px));
-    line("  share of the pixels", fmt::format("{:.3f} %", 100 * measured.wrong_spots->share));
+  const auto add = [&text](const char* name, const char* format, double value) {
+    text += fmt::format("\n{:<30}{:>12}", name, fmt::format(fmt::runtime(format), value));
+  };
+  for (const auto& [name, format, value] : table)
+    line(name, fmt::format(fmt::runtime(format), value(measured.stylised)),
+         photographs ? fmt::format(fmt::runtime(format), value(*photographs)) : "");
+  if (photographs) {
+    add("  left of its photograph", "{:.1f} %",
+        100 * ratio(measured.stylised.left_gradient_energy, photographs->left_gradient_energy));
+    add("  right of its photograph", "{:.1f} %",
+        100 * ratio(measured.stylised.right_gradient_energy, photographs->right_gradient_energy));
   }
-  if (!measured.painting) return;
+  if (measured.wrong_spots) {
+    add("wrong spots per 100 000 px", "{:.1f}", measured.wrong_spots->spots_per_100000_px);
+    add("  share of the pixels", "{:.3f} %", 100 * measured.wrong_spots->share);
+  }
+  if (!measured.painting) return text;
   const PaintingGuards& guards = *measured.painting;
-  line("strokes", fmt::format("{}", guards.strokes.strokes));
-  line("  in both eyes, of visible", fmt::format("{:.1f} %", 100 * guards.strokes.paired_share));
-  line("  of another shape", fmt::format("{:.1f} %", 100 * guards.strokes.shape_differs_share));
-  line("unpainted, left eye", fmt::format("{:.2f} %", 100 * guards.left_bare_share));
-  line("unpainted, right eye", fmt::format("{:.2f} %", 100 * guards.right_bare_share));
+  add("strokes", "{:.0f}", static_cast<double>(guards.strokes.strokes));
+  add("  in both eyes, of visible", "{:.1f} %", 100 * guards.strokes.paired_share);
+  add("  of another shape", "{:.1f} %", 100 * guards.strokes.shape_differs_share);
+  add("unpainted, left eye", "{:.2f} %", 100 * guards.left_bare_share);
+  add("unpainted, right eye", "{:.2f} %", 100 * guards.right_bare_share);
+  return text;
 }
 
-void run_measure_stereo(const MeasureStereoArguments& arguments, const CLI::App& command, const Session& session) {
-  if (arguments.disparity.empty() && !arguments.right_disparity.empty())
-    throw Error(ErrorKind::wrong_usage, "--right-disparity needs --disparity, the left eye's");
+Report run_measure_stereo(const MeasureStereoArguments& arguments, const Session& session) {
   if (arguments.disparity.empty() && arguments.photographs.empty())
     throw Error(ErrorKind::wrong_usage, "measure stereo needs --disparity, or --photographs to match");
-  refuse_match_options_without_effect(command, arguments.matching,
-                                      arguments.disparity.empty() ? "" : "with --disparity");
   const StereoPair stylised = read_pair(arguments.left, arguments.right);
   std::optional<StereoPair> photographs;
   if (!arguments.photographs.empty()) {
@@ -194,39 +182,40 @@ void run_measure_stereo(const MeasureStereoArguments& arguments, const CLI::App&
     measured.wrong_spots = measure_wrong_spots(stylised, *photographs);
   }
   if (!arguments.painting.empty()) measured.painting = measure_guards(arguments, stylised, truth.geometry);
-  if (session.json) {
-    print_facts(to_json(measured), session);
-  } else {
-    print_table(measured, session);
-  }
+  Report report{{only_text(text_of(measured))}};
+  add_members(report, to_json(measured));
+  return report;
+}
+
+Rows measure_stereo_rows(MeasureStereoArguments& a) {
+  const Reason known =
+      when([&a] { return !a.disparity.empty(); }, "with --disparity; nothing is matched where the disparity is given");
+  Value pair = texts(a.photographs);
+  pair.takes = Value::Takes::two;
+  return join(
+      {{row("LEFT", required(text(a.left)), "Left picture, stylised"),
+        row("RIGHT", required(text(a.right)), "Right picture, of the same size"),
+        row("--photographs", pair, "Pair of photographs that they were made from, measured for comparison"),
+        row("--disparity", text(a.disparity),
+            "True disparity of the left view: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = pixels; by default the\n"
+            "photographs are matched"),
+        row("--right-disparity", text(a.right_disparity), "True disparity of the right view, in the same form",
+            {when([&a] { return a.disparity.empty(); }, "without --disparity, which is that of the left view")}),
+        row("--painting", text(a.painting), "The painting.wst that the pictures were drawn from")},
+       under({}, match_rows(a.matching), {known})});
 }
 
 }  // namespace
 
-void add_measure_stereo(CLI::App& measure, const Session& session) {
-  auto arguments = std::make_shared<MeasureStereoArguments>();
-  CLI::App& command = *measure.add_subcommand("stereo", "Measure the consistency of a stereo pair");
-  command.fallthrough();
-  command.add_option("LEFT", arguments->left, "Left picture, stylised")->required();
-  command.add_option("RIGHT", arguments->right, "Right picture, of the same size")->required();
-  command
-      .add_option("--photographs", arguments->photographs,
-                  "Pair of photographs that they were made from, measured for comparison")
-      ->expected(2);
-  command.add_option(
-      "--disparity", arguments->disparity,
-      "True disparity of the left view: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = pixels; by default the\n"
-      "photographs are matched");
-  command.add_option("--right-disparity", arguments->right_disparity,
-                     "True disparity of the right view, in the same form");
-  command.add_option("--painting", arguments->painting, "The painting.wst that the pictures were drawn from");
-  add_match_options(command, arguments->matching);
-  command.footer(
-      "Depth is matched again in the stylised pair and compared with the true one: what is lost there is lost to the\n"
-      "eyes. Blurring wins on differences and loses gradient energy.\n\n"
-      "Example:\n  wheatstone measure stereo painted/left.png painted/right.png --photographs still/left.png "
-      "still/right.png \\\n    --disparity still/left_disparity.pfm");
-  command.callback([arguments, &command, &session] { run_measure_stereo(*arguments, command, session); });
+Command measure_stereo_command() {
+  return make_command(
+      "stereo", "Measure the consistency of a stereo pair", measure_stereo_rows, run_measure_stereo,
+      R"(Depth is matched again in the stylised pair and compared with the true one: what is lost there is lost to the
+eyes. Blurring wins on differences and loses gradient energy.
+
+Example:
+  wheatstone measure stereo painted/left.png painted/right.png --photographs still/left.png still/right.png \
+    --disparity still/left_disparity.pfm)");
 }
 
 }  // namespace wheatstone::cli

@@ -1,29 +1,22 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "command.h"
-#include "measure_kinds.h"
-#include "pictures_in_folder.h"
-#include "print_facts.h"
-#include "typed_options.h"
+#include "commands.h"
 #include "wheatstone/error.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/pictures/read_image.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct MeasureViewsArguments {
   std::vector<std::string> views, against;
@@ -77,34 +70,25 @@ Json to_json(const ViewMeasures& m) {
   return facts;
 }
 
-Json to_json(const std::vector<MeasuredView>& measured, int noticeable) {
-  Json views = Json::array();
-  for (const auto& [name, measures] : measured) {
-    Json facts{{"view", name}};
-    facts.update(to_json(measures));
-    views.push_back(facts);
-  }
-  return {{"noticeable", noticeable}, {"views", views}, {"worst", to_json(worst_of(measured))}};
+std::string line_of(const std::string& name, std::size_t width, const ViewMeasures& m) {
+  return fmt::format("{:<{}}{:>10}{:>11}{:>11.2f}{:>9}{:>7}{:>14.2f}", name, width,
+                     std::isfinite(m.psnr_db) ? fmt::format("{:.1f}", m.psnr_db) : "equal", m.differing_pixels,
+                     100 * m.differing_share, m.isolated_splats, m.lost_splats, m.largest_position_error_px);
 }
 
-void print_line(const std::string& name, std::size_t width, const ViewMeasures& m, const Session& session) {
-  fmt::print(session.output, "{:<{}}{:>10}{:>11}{:>11.2f}{:>9}{:>7}{:>14.2f}\n", name, width,
-             std::isfinite(m.psnr_db) ? fmt::format("{:.1f}", m.psnr_db) : "equal", m.differing_pixels,
-             100 * m.differing_share, m.isolated_splats, m.lost_splats, m.largest_position_error_px);
-}
-
-void print_table(const std::vector<MeasuredView>& measured, int noticeable, const Session& session) {
+std::string table_of(const std::vector<MeasuredView>& measured, int noticeable) {
   std::size_t width = 16;
   for (const MeasuredView& view : measured) width = std::max(width, view.name.size());
-  constexpr auto heads = "{:<{}}{:>10}{:>11}{:>11}{:>9}{:>7}{:>14}\n";
-  fmt::print(session.output, heads, "", width, "PSNR", fmt::format("off by >{}", noticeable), "off at all", "isolated",
-             "lost", "position off");
-  fmt::print(session.output, heads, "view", width, "dB", "pixels", "%", "splats", "", "px, at most");
-  for (const auto& [name, measures] : measured) print_line(name, width, measures, session);
-  if (measured.size() > 1) print_line("worst", width, worst_of(measured), session);
+  constexpr auto heads = "{:<{}}{:>10}{:>11}{:>11}{:>9}{:>7}{:>14}";
+  std::vector<std::string> all{fmt::format(heads, "", width, "PSNR", fmt::format("off by >{}", noticeable),
+                                           "off at all", "isolated", "lost", "position off"),
+                               fmt::format(heads, "view", width, "dB", "pixels", "%", "splats", "", "px, at most")};
+  for (const auto& [name, measures] : measured) all.push_back(line_of(name, width, measures));
+  if (measured.size() > 1) all.push_back(line_of("worst", width, worst_of(measured)));
+  return lines({}, all);
 }
 
-void run_measure_views(const MeasureViewsArguments& arguments, const Session& session) {
+Report run_measure_views(const MeasureViewsArguments& arguments, const Session& session) {
   const std::vector<fs::path> views = files_of(arguments.views);
   const std::vector<fs::path> against = files_of(arguments.against);
   if (views.size() != against.size())
@@ -121,33 +105,34 @@ void run_measure_views(const MeasureViewsArguments& arguments, const Session& se
                               view.height(), reference.width(), reference.height(), against[i].string()));
     measured.push_back({views[i].filename().string(), measure_view(view, reference, arguments.options)});
   }
-  if (session.json) {
-    print_facts(to_json(measured, arguments.options.noticeable), session);
-  } else {
-    print_table(measured, arguments.options.noticeable, session);
+  const int noticeable = arguments.options.noticeable;
+  Json each = Json::array();
+  for (const auto& [name, measures] : measured) {
+    Json facts{{"view", name}};
+    facts.update(to_json(measures));
+    each.push_back(facts);
   }
+  return {{{"noticeable", noticeable},
+           {"views", each, table_of(measured, noticeable)},
+           {"worst", to_json(worst_of(measured))}}};
+}
+
+Rows measure_views_rows(MeasureViewsArguments& a) {
+  return {row("VIEWS", required(texts(a.views)),
+              "Pictures, or folders of pictures, which are taken in the order of their names"),
+          row("--against", required(texts(a.against)), "Reference views: the same number, of the same sizes"),
+          row("--noticeable", number(a.options.noticeable, {0, 255}),
+              "Count the pixels that differ by more than this, in 0..255")};
 }
 
 }  // namespace
 
-void add_measure_views(CLI::App& measure, const Session& session) {
-  auto arguments = std::make_shared<MeasureViewsArguments>();
-  CLI::App& command = *measure.add_subcommand("views", "Compare views with reference views");
-  command.fallthrough();
-  command
-      .add_option("VIEWS", arguments->views,
-                  "Pictures, or folders of pictures, which are taken in the order of their names")
-      ->required();
-  command.add_option("--against", arguments->against, "Reference views: the same number, of the same sizes")
-      ->required();
-  add_number(command, "--noticeable", arguments->options.noticeable, {0, 255},
-             "Count the pixels that differ by more than this, in 0..255");
-  command.footer(
-      "Example:\n"
-      "  wheatstone render universe.hdf5 --views 9 --method exact -o exact\n"
-      "  wheatstone render universe.hdf5 --views 9 --method layered -o layered\n"
-      "  wheatstone measure views layered --against exact");
-  command.callback([arguments, &session] { run_measure_views(*arguments, session); });
+Command measure_views_command() {
+  return make_command("views", "Compare views with reference views", measure_views_rows, run_measure_views,
+                      R"(Example:
+  wheatstone render universe.hdf5 --views 9 --method exact -o exact
+  wheatstone render universe.hdf5 --views 9 --method layered -o layered
+  wheatstone measure views layered --against exact)");
 }
 
 }  // namespace wheatstone::cli

@@ -9,11 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "number_arguments.h"
-#include "option_use.h"
-#include "picture_format.h"
+#include "display_argument.h"
 #include "stereo_arguments.h"
-#include "typed_options.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/anaglyph.h"
@@ -45,11 +42,6 @@ std::string all_names() {
   for (const PackingFormat& format : packing_formats())
     names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
   return names;
-}
-
-QuiltLayout parse_quilt(const std::string& text) {
-  const Size size = parse_size("--quilt", text, {1, 1000}, "COLUMNSxROWS");
-  return {size.width, size.height};
 }
 
 bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
@@ -175,6 +167,15 @@ void add_matched(std::vector<PackingFormat>& formats) {
                      })});
 }
 
+Reason only_with(const PackingArguments& a, const std::string& output, std::vector<std::string_view> formats,
+                 const char* where) {
+  return [&a, &output, formats = std::move(formats), where] {
+    const Packing packing = find_packing(a, output);
+    const bool works = std::ranges::find(formats, packing.format->name) != formats.end();
+    return works ? "" : fmt::format("with --to {}; {}", packing.name, where);
+  };
+}
+
 /// What a display takes: a quilt, or one picture under its lenses.
 void take_display(const PackingArguments& arguments, Packing& packing) {
   const DisplayPreset& display = find_display(arguments.display);
@@ -199,10 +200,10 @@ std::string chosen_name(const PackingArguments& arguments, const Packing& packin
     std::string endings;
     for (const PackingFormat& format : packing_formats())
       if (!format.ending.empty()) endings += fmt::format("{}, ", format.ending);
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: the ending names no format, expected {}no ending for views; or "
-                            "choose one with --to: {}",
-                            output, endings, all_names()));
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("{}: the ending names no format, expected {}no ending for views; or choose one with --to: {}",
+                    output, endings, all_names()));
   }
   return std::string(name);
 }
@@ -222,27 +223,47 @@ std::span<const PackingFormat> packing_formats() {
   return formats;
 }
 
-void add_packing_options(CLI::App& command, PackingArguments& arguments) {
-  command.add_option("--to", arguments.to,
-                     fmt::format("Output format: {}; or ffmpeg's names (arcd, sbsl, irl ...). Chosen by the ending of "
-                                 "the output by default: .mpo, .jps, .gif, .exr, none for views",
-                                 all_names()));
-  command.add_option("--screen", arguments.screen,
-                     "Lenticular screen: the name of a display with lenses, or a calibration (.json)");
-  auto* quilt = command.add_option("--quilt", arguments.quilt, "Quilt layout: COLUMNSxROWS");
-  command.add_option("--display", arguments.display, "Quilt or lenticular picture for this display")->excludes(quilt);
-  add_picture_format(command, arguments.format, "File format of views, or of a quilt without an ending");
-  add_number(command, "--quality", arguments.quality, {1, 100}, "JPEG quality of MPO and JPS");
-  add_rectify_option(command, arguments.rectify);
-  add_number(command, "--depth-scale", arguments.depth_scale, {1e-9, 1e9},
-             "Depth times disparity: camera separation times focal length in pixels");
-  add_number(command, "--seconds", arguments.seconds, {0.05, 60}, "Period of a wiggle animation, in seconds");
+Reason unless_matched(const PackingArguments& a, const std::string& output) {
+  return only_with(a, output, {"rgbd", "disparity", "depth"},
+                   "it works with disparity, depth and rgbd, which match the views");
+}
+
+Rows packing_rows(PackingArguments& a, const std::string& output) {
+  const auto only = [&a, &output](std::vector<std::string_view> formats, const char* where) {
+    return only_with(a, output, std::move(formats), where);
+  };
+  const Reason named_by_ending = [&a, &output] {
+    const Packing packing = find_packing(a, output);
+    const bool is_named =
+        packing.format->name == "views" || (packing.format->name == "quilt" && !fs::path(output).has_extension());
+    return is_named ? "" : fmt::format("with --to {}; the ending of the output says the format", packing.name);
+  };
+  return {
+      row("--to", text(a.to),
+          fmt::format("Output format: {}; or ffmpeg's names (arcd, sbsl, irl ...). Chosen by the ending of the output "
+                      "by default: .mpo, .jps, .gif, .exr, none for views",
+                      all_names())),
+      row("--screen", text(a.screen), "Lenticular screen: the name of a display with lenses, or a calibration (.json)",
+          {only({"lenticular"}, "it works with lenticular")}),
+      row("--quilt", quilt_layout(a.quilt), "Quilt layout: COLUMNSxROWS", {only({"quilt"}, "it works with quilt")}),
+      row("--display", text(a.display), "Quilt or lenticular picture for this display",
+          {only({"quilt", "lenticular"}, "it works with quilt and lenticular")}, {}, {"--quilt"}),
+      row("--format", picture_format(a.format), "File format of views, or of a quilt without an ending",
+          {named_by_ending}),
+      row("--quality", number(a.quality, {1, 100}), "JPEG quality of MPO and JPS",
+          {only({"mpo", "jps"}, "it works with mpo and jps")}),
+      rectify_row(a.rectify, {unless_matched(a, output)}),
+      row("--depth-scale", number(a.depth_scale, {1e-9, 1e9}),
+          "Depth times disparity: camera separation times focal length in pixels",
+          {only({"depth"}, "it works with depth")}),
+      row("--seconds", number(a.seconds, {0.05, 60}), "Period of a wiggle animation, in seconds",
+          {only({"wiggle"}, "it works with wiggle")})};
 }
 
 Packing find_packing(const PackingArguments& arguments, const std::string& output) {
   Packing packing{.format = nullptr, .name = {}, .quilt = {}, .aspect = 0, .screen = {}};
   if (!arguments.display.empty()) take_display(arguments, packing);
-  if (!arguments.quilt.empty()) packing.quilt = parse_quilt(arguments.quilt);
+  if (arguments.quilt) packing.quilt = arguments.quilt;
   if (!arguments.screen.empty()) packing.screen = find_lenticular(arguments.screen);
   packing.name = chosen_name(arguments, packing, output);
   packing.format = format_named(packing.name);
@@ -256,25 +277,10 @@ Packing find_packing(const PackingArguments& arguments, const std::string& outpu
   return packing;
 }
 
-bool is_matched(const Packing& packing) { return is_one_of(packing.format->name, {"rgbd", "disparity", "depth"}); }
-
-void check_packing(const CLI::App& command, const Packing& packing, const std::string& output) {
+void check_ending(const Packing& packing, const std::string& output) {
   const std::string_view name = packing.format->name;
-  const bool has_ending = fs::path(output).has_extension();
-  const auto only = [&](bool works, const char* option, const char* where) {
-    if (!works) refuse_options(command, {option}, fmt::format("with --to {}", packing.name), where);
-  };
-  only(name == "lenticular", "--screen", "it works with lenticular");
-  only(name == "quilt", "--quilt", "it works with quilt");
-  only(name == "quilt" || name == "lenticular", "--display", "it works with quilt and lenticular");
-  only(name == "mpo" || name == "jps", "--quality", "it works with mpo and jps");
-  only(name == "depth", "--depth-scale", "it works with depth");
-  only(name == "wiggle", "--seconds", "it works with wiggle");
-  only(name == "views" || (name == "quilt" && !has_ending), "--format", "the ending of the output says the format");
-  for (const char* option : {"--max-size", "--rectify"})
-    only(is_matched(packing), option, "it works with disparity, depth and rgbd, which match the views");
   const bool is_picture = !is_one_of(name, {"mpo", "jps", "views", "wiggle", "exr", "disparity", "depth"});
-  if (is_picture && (has_ending || name != "quilt")) check_picture_ending("--output", output);
+  if (is_picture && (fs::path(output).has_extension() || name != "quilt")) check_picture_ending("--output", output);
 }
 
 int views_wanted(const Packing& packing) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <span>
@@ -19,9 +18,9 @@ namespace wheatstone::cli {
 
 /// A packing as it is typed.
 struct PackingArguments {
-  std::string to;                                    ///< empty: by the output's ending
-  std::string screen;                                ///< of lenticular: a display, or a calibration file
-  std::string quilt;                                 ///< COLUMNSxROWS
+  std::string to;      ///< empty: by the output's ending
+  std::string screen;  ///< of lenticular: a display, or a calibration file
+  std::optional<QuiltLayout> quilt;
   std::string display;                               ///< a preset, whose format is taken
   std::string format = "png";                        ///< of views, and of a quilt without an ending
   int quality = 95;                                  ///< of JPEG, MPO, JPS
@@ -67,17 +66,17 @@ struct PackingFormat {
 /// pictures.
 std::span<const PackingFormat> packing_formats();
 
-void add_packing_options(CLI::App& command, PackingArguments& arguments);
+/// `output` is the name of the output, which may say the packing. Refused where the packing has no use for them.
+Rows packing_rows(PackingArguments& arguments, const std::string& output);
 
 /// What was asked for, by name or by the output's ending. Throws Error{wrong_usage} that lists what there is.
 Packing find_packing(const PackingArguments& arguments, const std::string& output);
 
-/// Throws Error{wrong_usage} for an option that has no effect with this packing, and where the output has an ending
-/// that the packing cannot be written under.
-void check_packing(const CLI::App& command, const Packing& packing, const std::string& output);
+/// Throws Error{wrong_usage} where the output has an ending that the packing cannot be written under.
+void check_ending(const Packing& packing, const std::string& output);
 
-/// Whether the packing matches the views.
-bool is_matched(const Packing& packing);
+/// A reason that holds for packings that do not match the views.
+Reason unless_matched(const PackingArguments& arguments, const std::string& output);
 
 /// How many views the packing needs; 0: any number.
 int views_wanted(const Packing& packing);

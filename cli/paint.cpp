@@ -4,20 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "command.h"
+#include "commands.h"
 #include "device_option.h"
-#include "disparity_argument.h"
 #include "display_argument.h"
-#include "number_arguments.h"
 #include "paint_arguments.h"
-#include "print_facts.h"
 #include "views_argument.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/write_results.h"
@@ -34,22 +29,7 @@ namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using Arguments = PaintArguments;
-
-ZeroParallax parse_zero_parallax(const Arguments& arguments) {
-  constexpr double farthest_px = 65535;
-  ZeroParallax wanted;
-  if (!arguments.zero_parallax_at.empty()) {
-    const std::vector<int> at =
-        parse_integers("--zero-parallax-at", arguments.zero_parallax_at, {',', 2, {0, farthest_px}, "X,Y"});
-    wanted.at = {at[0], at[1]};
-  } else if (arguments.zero_parallax != "nearest") {
-    wanted.disparity_px =
-        static_cast<float>(parse_number("--zero-parallax", arguments.zero_parallax, {-farthest_px, farthest_px}));
-  }
-  return wanted;
-}
 
 /// What eyes so far apart make of the depth.
 std::string less_depth(float separation) {
@@ -57,47 +37,41 @@ std::string less_depth(float separation) {
   return percent == 50 ? "halved" : fmt::format("reduced to {} %", percent);
 }
 
-std::string summary_of(const PaintingReport& told, std::optional<float> depth_budget) {
+void add_summary(Report& report, const PaintingReport& told, std::optional<float> depth_budget) {
   const auto& [result, style, pair, measures, whole] = told;
-  std::string text;
-  const auto to = std::back_inserter(text);
+  const auto add = [&](std::string line) { report.facts.push_back(only_text(std::move(line))); };
   const PaintedPair& painted = result.painted;
   const Painting& painting = painted.painting;
   const MarkCount marks = count_marks(painting);
   const std::size_t layers = layers_of(painting).size();
   const std::string in_layers = layers > 0 ? fmt::format(" in {} layers", layers) : "";
   const double seconds = painted.times.planning_s + painted.times.rasterising_s;
-  fmt::format_to(to, "painted          {} {}{}, {:.2f} s\n", marks.count, marks.kind, in_layers, seconds);
+  add(fmt::format("painted          {} {}{}, {:.2f} s", marks.count, marks.kind, in_layers, seconds));
   if (whole.width > 0)
-    fmt::format_to(to, "reduced          from {}x{} to {}x{} pixels\n", whole.width, whole.height, width_of(painting),
-                   height_of(painting));
+    add(fmt::format("reduced          from {}x{} to {}x{} pixels", whole.width, whole.height, width_of(painting),
+                    height_of(painting)));
   const bool one_view = painted.pictures.right.empty();
   if (pair != nullptr && !one_view && !undecided_eyes(*pair).empty())
-    fmt::format_to(to, "eyes             {}\n", undecided_eyes(*pair));
-  if (one_view) {
-    fmt::format_to(to, "unpainted        {:.2f} %\n", 100 * painted.left_bare_share);
-    return text;
-  }
-  fmt::format_to(to, "unpainted        {:.2f} % (left), {:.2f} % (right)\n", 100 * painted.left_bare_share,
-                 100 * painted.right_bare_share);
-  fmt::format_to(to, "zero parallax    disparity {:.1f} px\n", result.zero_parallax_px);
+    add(fmt::format("eyes             {}", undecided_eyes(*pair)));
+  if (one_view) return add(fmt::format("unpainted        {:.2f} %", 100 * painted.left_bare_share));
+  add(fmt::format("unpainted        {:.2f} % (left), {:.2f} % (right)", 100 * painted.left_bare_share,
+                  100 * painted.right_bare_share));
+  add(fmt::format("zero parallax    disparity {:.1f} px", result.zero_parallax_px));
   if (painted.separation < 1)
-    fmt::format_to(to,
-                   "depth            {} in side_by_side and anaglyph, to stay comfortable ({:.3g} % of width); "
-                   "--depth-budget full keeps it\n",
-                   less_depth(painted.separation), 100 * *depth_budget);
-  if (measures != nullptr) {
-    fmt::format_to(to, "left - right     {:.2f} of 255 (photographs {:.2f})\n",
-                   measures->painting.difference.mean_absolute, measures->photographs.difference.mean_absolute);
-    fmt::format_to(to, "depth lost       {:.1f} % off by over 2 px (photographs {:.1f} %)\n",
-                   100 * measures->painting.survival.bad_2, 100 * measures->photographs.survival.bad_2);
-  }
-  return text;
+    add(
+        fmt::format("depth            {} in side_by_side and anaglyph, to stay comfortable ({:.3g} % of width); "
+                    "--depth-budget full keeps it",
+                    less_depth(painted.separation), 100 * *depth_budget));
+  if (measures == nullptr) return;
+  add(fmt::format("left - right     {:.2f} of 255 (photographs {:.2f})", measures->painting.difference.mean_absolute,
+                  measures->photographs.difference.mean_absolute));
+  add(fmt::format("depth lost       {:.1f} % off by over 2 px (photographs {:.1f} %)",
+                  100 * measures->painting.survival.bad_2, 100 * measures->photographs.survival.bad_2));
 }
 
 /// Where the results of one photograph go, and all that is read.
 ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
-  ViewsOutput output{name, {arguments.style.style, arguments.matching.model}, arguments.format};
+  ViewsOutput output{name, {arguments.style.style, arguments.matching.model}, arguments.results.format};
   output.inputs.insert(output.inputs.end(), arguments.files.begin(), arguments.files.end());
   output.inputs.emplace_back(arguments.depth.file);
   output.inputs.emplace_back(arguments.depth.model);
@@ -110,10 +84,9 @@ ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
 
 /// What a display wants, where the user does not say otherwise.
 DisplayViewsOptions views_options(const Arguments& arguments, const DisplayPreset& display) {
-  DisplayViewsOptions options =
-      display_views_options(display, {arguments.display, arguments.size, arguments.views, arguments.span});
+  DisplayViewsOptions options = display_views_options(display, arguments.display);
   options.depth = depth_placing_from(arguments);
-  options.device = arguments.device;
+  options.device = arguments.painting.device;
   return options;
 }
 
@@ -147,9 +120,7 @@ struct Subject {
   }
 };
 
-bool is_single_picture(const Arguments& arguments) {
-  return !arguments.depth.file.empty() || !arguments.depth.model.empty() || arguments.depth.carried;
-}
+bool is_single_picture(const Arguments& arguments) { return has_depth(arguments.depth) || arguments.depth.carried; }
 
 /// Reads what is to be painted; what is known of its geometry goes into the options.
 Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions& options,
@@ -170,12 +141,16 @@ Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhoto
   return subject;
 }
 
-/// What is told of a photograph that was painted.
+/// What is told of a photograph that was painted, and where that was written.
 struct Painted {
-  Json facts;
-  std::string text;
+  Report report;
   std::string written;
 };
+
+Painted with_place(Report report, std::string written) {
+  report.facts.push_back(only_text(fmt::format("written to       {}", written)));
+  return {std::move(report), std::move(written)};
+}
 
 /// Writes the views of a display.
 Painted write_and_tell(const Arguments& arguments, const DisplayPreset& display, const std::string& output,
@@ -184,50 +159,58 @@ Painted write_and_tell(const Arguments& arguments, const DisplayPreset& display,
   const DisplayPlan& plan = drawn.plan;
   const Placement& placement = plan.presentation.placement;
   const std::size_t views = plan.presentation.views.size();
-  Json facts{{"output", written},
-             {"views", views},
-             {"width", placement.width},
-             {"height", placement.height},
-             {"span", plan.span},
-             {"zero_parallax_px", plan.zero_parallax_px},
-             {"worst_bare_share", drawn.shown.worst_bare_share}};
-  std::string text =
-      fmt::format("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last\n", views,
-                  placement.width, placement.height, plan.span);
-  text += fmt::format("zero parallax    disparity {:.1f} px\n", plan.zero_parallax_px);
-  text += fmt::format("unpainted        at most {:.2f} % of a view\n", 100 * drawn.shown.worst_bare_share);
-  return {std::move(facts), std::move(text), written};
+  const double worst = drawn.shown.worst_bare_share;
+  Report report{{{"output", written},
+                 {"views", views,
+                  fmt::format("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last",
+                              views, placement.width, placement.height, plan.span)},
+                 {"width", placement.width},
+                 {"height", placement.height},
+                 {"span", plan.span},
+                 {"zero_parallax_px", plan.zero_parallax_px,
+                  fmt::format("zero parallax    disparity {:.1f} px", plan.zero_parallax_px)},
+                 {"worst_bare_share", worst, fmt::format("unpainted        at most {:.2f} % of a view", 100 * worst)}}};
+  return with_place(std::move(report), written);
 }
 
 Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const Subject& subject,
                           const PaintPhotographOptions& painting, const Session& session) {
   const ReadPhotograph& photograph = subject.photograph;
-  const DisplayPreset& display = find_display(arguments.display);
+  const DisplayPreset& display = find_display(arguments.display.name);
   const DisplayViewsOptions options = views_options(arguments, display);
   const PaintedViews result = paint_views(photograph.pair.pictures, painting, options, session.progress,
                                           composition_for(display, options.views));
   if (result.confidence) tell_of_match(photograph, *result.confidence, session);
   Painted painted = write_and_tell(arguments, display, job.output, result.views, session);
-  painted.facts[subject.strength ? "depth" : "pair"] = subject.told();
-  if (result.confidence) painted.facts["confidence"] = Json::parse(confidence_json(*result.confidence));
+  std::vector<Fact>& facts = painted.report.facts;
+  facts.push_back({subject.strength ? "depth" : "pair", subject.told()});
+  if (result.confidence) facts.push_back({"confidence", Json::parse(confidence_json(*result.confidence))});
   if (photograph.whole.width > 0)
-    painted.facts["reduced_from"] = {{"width", photograph.whole.width}, {"height", photograph.whole.height}};
+    facts.push_back({"reduced_from", {{"width", photograph.whole.width}, {"height", photograph.whole.height}}});
   return painted;
 }
 
 /// What the options say, before anything is read.
 PaintPhotographOptions options_from(const Arguments& arguments, const Session& session) {
-  PaintPhotographOptions options;
+  PaintPhotographOptions options = arguments.painting;
   options.style = style_from(arguments.style, session.seed);
   options.matching = match_options_from(arguments.matching);
-  options.zero_parallax = parse_zero_parallax(arguments);
-  options.device = arguments.device;
-  if (arguments.disparity.empty() && !arguments.right_disparity.empty())
-    throw Error(ErrorKind::wrong_usage, "--right-disparity: needs --disparity, that of the left view");
-  depth_budget_from(arguments);
   depth_placing_from(arguments);
-  if (!arguments.display.empty()) views_options(arguments, find_display(arguments.display));
+  if (!arguments.display.name.empty()) views_options(arguments, find_display(arguments.display.name));
   return options;
+}
+
+/// Refuses options of two views for `picture`, which is one without depth.
+void refuse_for_flat(const Arguments& arguments, const std::string& picture) {
+  const std::string words =
+      fmt::format("on {}, one picture without depth, which is painted flat; --depth gives it depth", picture);
+  if (arguments.photographs.rectify == RectifyPolicy::always)
+    throw Error(ErrorKind::wrong_usage, fmt::format("--rectify always: has no effect {}", words));
+  const auto refuse = [&](std::initializer_list<std::string_view> options) {
+    refuse_options(arguments.given, options, words);
+  };
+  refuse({"--report", "--html", "--zero-parallax-at", "--depth-mapping", "--display"});
+  if (arguments.painting.zero_parallax.disparity_px) refuse({"--zero-parallax"});
 }
 
 Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions options,
@@ -235,13 +218,10 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   keep_freed_memory();
   // What cannot be written is said before the work.
   const ViewsOutput output = output_of(arguments, job.output);
-  ResultOptions results{
-      .photographs = arguments.photographs.rectify != RectifyPolicy::never || is_single_picture(arguments),
-      .html = arguments.html,
-      .svg = arguments.svg,
-      .format = arguments.format};
+  ResultOptions results = arguments.results;
+  results.photographs = arguments.photographs.rectify != RectifyPolicy::never || is_single_picture(arguments);
   std::optional<OutputFolder> folder;
-  if (!arguments.display.empty()) {
+  if (!arguments.display.name.empty()) {
     check_views_output(output);
   } else {
     folder.emplace(output.name, output.inputs);
@@ -252,10 +232,10 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   const StereoPair& pictures = photograph.pair.pictures;
   if (pictures.right.empty()) refuse_for_flat(arguments, photograph.name);
   results.photographs = subject.strength || photograph.pair.rectification;
-  if (!arguments.display.empty()) return paint_for_display(arguments, job, subject, options, session);
+  if (!arguments.display.name.empty()) return paint_for_display(arguments, job, subject, options, session);
 
   const DepthPlacing placing = depth_placing_from(arguments);
-  options.depth_budget = placing.regions.empty() ? depth_budget_from(arguments) : std::nullopt;
+  options.depth_budget = placing.regions.empty() ? arguments.painting.depth_budget : std::nullopt;
   PaintedPhotograph result = paint_photograph(pictures, options, session.progress);
   if (result.confidence) tell_of_match(photograph, *result.confidence, session);
   std::optional<PaintingMeasures> measures;
@@ -267,123 +247,209 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   const PaintingReport told{result, options.style, subject.strength ? nullptr : &photograph.pair, measured,
                             photograph.whole};
   write_results(*folder, pictures, told, results, session.progress);
-  return {Json::parse(report_json(told)), summary_of(told, options.depth_budget), job.output};
+  Report report;
+  add_members(report, Json::parse(report_json(told)));
+  add_summary(report, told, options.depth_budget);
+  return with_place(std::move(report), job.output);
 }
 
 /// Paints each photograph; one that fails does not stop the others.
-void paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, const PaintPhotographOptions& options,
-               const Session& session) {
+Report paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, const PaintPhotographOptions& options,
+                 const Session& session) {
   const MissingFolders made(arguments.folder);
   if (!fs::is_directory(arguments.folder))
     throw Error(ErrorKind::cannot_read_write, fmt::format("{}: is a file, expected a folder", arguments.folder));
+  Report report;
+  std::vector<std::string> places;
   Json photographs = Json::array();
-  std::size_t failed = 0;
-  int worst = 0;
   for (const PaintJob& job : jobs) {
     try {
       const Painted painted = paint_one(arguments, job, options, session);
-      photographs.push_back({{"file", job.left}, {"output", painted.written}, {"report", painted.facts}});
+      photographs.push_back({{"file", job.left}, {"output", painted.written}, {"report", json_of(painted.report)}});
+      places.push_back(fmt::format("{}: written to {}", job.left, painted.written));
     } catch (const Error& failure) {
       if (failure.kind() == ErrorKind::interrupted) throw;
-      ++failed;
-      worst = std::max(worst, static_cast<int>(failure.kind()));
-      photographs.push_back(
-          {{"file", job.left}, {"error", failure.what()}, {"exit_code", static_cast<int>(failure.kind())}});
+      const int code = static_cast<int>(failure.kind());
+      report.exit_code = std::max(report.exit_code, code);
+      report.failures.emplace_back(failure.what());
+      photographs.push_back({{"file", job.left}, {"error", failure.what()}, {"exit_code", code}});
     }
   }
-  const std::string summary = fmt::format("{} of {} photographs painted", jobs.size() - failed, jobs.size());
-  if (session.json) {
-    const Json facts{{"painted", jobs.size() - failed}, {"failed", failed}, {"photographs", photographs}};
-    print_facts(facts, session);
-  } else {
-    for (const Json& one : photographs)
-      if (one.contains("output"))
-        fmt::print(session.output, "{}: written to {}\n", one["file"].get<std::string>(),
-                   one["output"].get<std::string>());
-    fmt::print(session.output, "{}\n", summary);
-  }
-  if (failed == 0) return;
-  for (const Json& one : photographs)
-    if (one.contains("error"))
-      fmt::print(session.errors, "wheatstone: {}\n", one_line(one["error"].get<std::string>()));
-  throw ErrorTold{worst};
+  const std::size_t failed = report.failures.size(), painted = jobs.size() - failed;
+  report.facts = {{"painted", painted},
+                  {"failed", failed},
+                  {"photographs", photographs, lines({}, places)},
+                  only_text(fmt::format("{} of {} photographs painted", painted, jobs.size()))};
+  return report;
 }
 
-void tell(const Painted& painted, const Session& session) {
-  if (session.json) {
-    print_facts(painted.facts, session);
-  } else {
-    fmt::print(session.output, "{}written to       {}\n", painted.text, painted.written);
-  }
-}
-
-void draw_for_display_again(const Arguments& arguments, const Session& session) {
-  const ViewsOutput output = output_of(arguments, arguments.folder);
-  check_views_output(output);
-  const DisplayPreset& display = find_display(arguments.display);
+Report draw_for_display_again(const Arguments& arguments, const Session& session) {
+  check_views_output(output_of(arguments, arguments.folder));
+  const DisplayPreset& display = find_display(arguments.display.name);
   DisplayViewsOptions options = views_options(arguments, display);
-  options.zero_parallax_px = parse_zero_parallax(arguments).disparity_px;
+  options.zero_parallax_px = arguments.painting.zero_parallax.disparity_px;
   const DisplayViews views = draw_display_views(read_painting_for_views(arguments.files.front()), options,
                                                 session.progress, composition_for(display, options.views));
-  tell(write_and_tell(arguments, display, arguments.folder, views, session), session);
+  return write_and_tell(arguments, display, arguments.folder, views, session).report;
 }
 
-void draw_painting_again(const Arguments& arguments, const CLI::App& command, const Session& session) {
-  refuse_for_painting_file(command, arguments);
-  if (!arguments.display.empty()) return draw_for_display_again(arguments, session);
+Report draw_painting_again(const Arguments& arguments, const Session& session) {
+  if (!arguments.display.name.empty()) return draw_for_display_again(arguments, session);
   const RedrawOptions options{.scale = arguments.scale,
-                              .svg = arguments.svg,
-                              .format = arguments.format,
-                              .zero_parallax_px = parse_zero_parallax(arguments).disparity_px,
-                              .depth_budget = depth_budget_from(arguments),
+                              .svg = arguments.results.svg,
+                              .format = arguments.results.format,
+                              .zero_parallax_px = arguments.painting.zero_parallax.disparity_px,
+                              .depth_budget = arguments.painting.depth_budget,
                               .depth = depth_placing_from(arguments),
-                              .device = arguments.device};
+                              .device = arguments.painting.device};
   OutputFolder folder(arguments.folder, output_of(arguments, arguments.folder).inputs);
   draw_again(read_painting(arguments.files.front()), folder, options, session.progress);
-  if (session.json) {
-    print_facts({{"folder", arguments.folder}}, session);
-  } else {
-    fmt::print(session.output, "written to       {}\n", arguments.folder);
-  }
+  return {{{"folder", arguments.folder, fmt::format("written to       {}", arguments.folder)}}};
 }
 
-void run_paint(Arguments& arguments, const CLI::App& command, const Session& session) {
+Report run_paint(const Arguments& given, const Session& session) {
+  Arguments arguments = given;
   if (!arguments.print_style.empty()) {
-    refuse_for_printing(command);
-    StyleArguments style = arguments.style;
-    style.style = arguments.print_style;
-    fmt::print(session.output, "{}", style_to_toml(style_from(style, session.seed)));
-    return;
+    arguments.style.style = arguments.print_style;
+    fmt::print(session.output, "{}", style_to_toml(style_from(arguments.style, session.seed)));
+    return {};
   }
-  settle_device(arguments.device, session);
-  if (arguments.files.size() == 1 && arguments.files.front().ends_with(".wst"))
-    return draw_painting_again(arguments, command, session);
+  settle_device(arguments.painting.device, session);
+  if (is_painting_file(arguments)) return draw_painting_again(arguments, session);
   const std::vector<PaintJob> jobs = paint_jobs(arguments);
-  arguments.depth.carried = finds_depth_in_file(command, arguments);
-  refuse_for_photographs(command, arguments, jobs.size() > 1);
+  arguments.depth.carried = finds_depth_in_file(arguments);
+  if (has_depth(arguments.depth) && arguments.files.size() > 1)
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format(
+            "{}: belongs to one picture, but {} files are given; where there are two views, --disparity gives that "
+            "of the left one",
+            option_of(arguments.depth), arguments.files.size()));
   const PaintPhotographOptions options = options_from(arguments, session);
   if (jobs.size() > 1) return paint_all(arguments, jobs, options, session);
-  tell(paint_one(arguments, jobs.front(), options, session), session);
+  return paint_one(arguments, jobs.front(), options, session).report;
+}
+
+constexpr double farthest_px = 65535;
+
+Value zero_parallax(std::optional<float>& disparity_px) {
+  const auto parse = [](const std::string& option, const std::string& words) -> std::optional<float> {
+    if (words == "nearest") return std::nullopt;
+    return static_cast<float>(parse_number(option, words, {-farthest_px, farthest_px}));
+  };
+  return parsed(disparity_px, parse, {}, "nearest");
+}
+
+Value zero_parallax_at(std::optional<std::pair<int, int>>& at) {
+  return parsed(at, [](const std::string& option, const std::string& words) {
+    const std::vector<int> pixel = parse_integers(option, words, {',', 2, {0, farthest_px}, "X,Y"});
+    return std::pair(pixel[0], pixel[1]);
+  });
+}
+
+/// "with --depth" where one picture has its depth from elsewhere, empty where there are two views.
+std::string single_picture(const PaintArguments& a) {
+  if (has_depth(a.depth)) return fmt::format("with {}", option_of(a.depth));
+  return finds_depth_in_file(a) ? "on a picture that has its own depth" : "";
+}
+
+Rows paint_rows(PaintArguments& a) {
+  const Reason printing = when([&a] { return !a.print_style.empty(); }, "with --print-style; nothing is painted");
+  const Reason again = when([&a] { return is_painting_file(a); }, "on a painting (.wst); it works on photographs");
+  const Reason photographs =
+      when([&a] { return !is_painting_file(a); }, "on photographs; it works on a painting (.wst)");
+  const Reason display = when([&a] { return !a.display.name.empty(); }, "with --display; it works with two eyes");
+  const Reason several = when([&a] { return are_several(a); }, "on several photographs; it belongs to one");
+  const Reason disparity =
+      when([&a] { return !a.disparity.empty(); }, "with --disparity; the disparity belongs to the whole picture");
+  const Reason no_disparity =
+      when([&a] { return a.disparity.empty(); }, "without --disparity, which is that of the left view");
+  const Reason nearest = when([&a] { return !a.display.name.empty() && !a.painting.zero_parallax.disparity_px; },
+                              "as 'nearest' with --display; it works with a disparity in pixels");
+  const Reason given_depth = [&a] {
+    return has_depth(a.depth) ? single_picture(a) + "; it works where one file holds two views" : "";
+  };
+  const Reason one_view = [&a] {
+    const std::string situation = single_picture(a);
+    return situation.empty() ? "" : situation + "; it works where there are two views";
+  };
+  const Reason known = [&a] {
+    const std::string situation = a.disparity.empty() ? single_picture(a) : "with --disparity";
+    return situation.empty() ? "" : situation + "; nothing is matched where the disparity is given";
+  };
+  const Reason no_depth = when([&a] { return single_picture(a).empty(); }, "without --depth");
+
+  const Rows basic{
+      row("PHOTOGRAPHS", texts(a.files),
+          "LEFT and RIGHT photograph; or files that hold both views each: MPO, JPS, side by side, one above the other; "
+          "or one picture with --depth; or one painting.wst, which is drawn again"),
+      row("-o,--output", output_name(a.folder), "Folder for the results", {printing}),
+      row("--format", picture_format(a.results.format),
+          "File format of the painted pictures; masks and disparities are PNG", {printing}),
+      row("--print-style", text(a.print_style), "Print a style as a style file (.toml) and exit"),
+      row("--disparity", text(a.disparity),
+          "Disparity of the left view, which replaces matching: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = "
+          "pixels",
+          {printing, again, one_view, several}),
+      row("--right-disparity", text(a.right_disparity), "Disparity of the right view, in the same form",
+          {printing, again, one_view, several, no_disparity}),
+      row("--zero-parallax", zero_parallax(a.painting.zero_parallax.disparity_px),
+          "Disparity in pixels that lies on the screen plane, or 'nearest'", {printing, nearest}),
+      row("--zero-parallax-at", zero_parallax_at(a.painting.zero_parallax.at),
+          "Pixel X,Y of the left photograph that lies on the screen plane", {printing, again, several}, {},
+          {"--zero-parallax"}),
+      row("--depth-budget", depth_budget(a.painting.depth_budget),
+          "Depth of side_by_side and anaglyph from the farthest point to the nearest, at most, in % of the width; "
+          "'full' for that of the photographs. The pictures are drawn for eyes that are nearer together",
+          {printing, display}),
+      row("--depth-mapping", depth_regions(a.depth_mapping),
+          "Depth at several points, SHARE:MM,SHARE:MM,...: SHARE is from 0, the nearest disparity, to 1, the farthest, "
+          "and MM is the depth behind the screen",
+          {printing}, {}, {"--zero-parallax", "--zero-parallax-at", "--depth-budget"}),
+      row("--distance", without_default(number(a.distance_mm, {1, 1e6})),
+          "Viewing distance of a depth mapping, in mm; the display's by default, 700 without one", {printing},
+          "--depth-mapping"),
+      row("--screen-width", without_default(number(a.screen_width_mm, {1, 1e6})),
+          "Width of the screen of a depth mapping, in mm; the display's by default, 376 without one", {printing},
+          "--depth-mapping"),
+      row("--scale", number(a.scale, {0.01, 32}), "Scale factor of a painting.wst that is drawn again",
+          {printing, photographs, display}),
+      row("--display", text(a.display.name),
+          "Paint the views of a display, as one quilt where the display takes one:" + display_names(), {printing}),
+      row("--views", without_default(number(a.display.views, view_count_range)),
+          "Number of views; the display's own by default", {printing}, "--display")};
+  const Rows drawing{
+      device_row(a.painting.device, "What draws the planned pictures", {printing}),
+      row("--report", flag(a.measure), "Measure the consistency of the two painted views", {printing, again, display}),
+      row("--svg", flag(a.results.svg), "Also write left.svg and right.svg, the marks as vector graphics",
+          {printing, display}),
+      row("--html", flag(a.results.html), "Also write index.html, which shows the pictures",
+          {printing, again, display}),
+      layout_row(a.photographs.layout, {printing, again, given_depth}),
+      swap_row(a.photographs.swap, {printing, again, one_view}),
+      max_size_row(a.photographs.max_size, {printing, again, disparity}),
+      rectify_row(a.photographs.rectify, {printing, again, one_view})};
+  Rows style = under({}, style_rows(a.style), {again});
+  style.front().unless.push_back(printing);
+  return join({basic, display_view_rows(a.display, {printing}), drawing,
+               under({}, depth_rows(a.depth, no_depth), {printing, again}), style,
+               under({}, match_rows(a.matching), {printing, again, known})});
 }
 
 }  // namespace
 
-void add_paint_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App& command = *program.add_subcommand("paint", "Paint a stereo photograph, or one picture and its depth");
-  add_paint_options(command, *arguments);
-  command.footer(
-      "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for viewing, "
-      "painting.wst\n"
-      "(the marks), disparity, occlusion, and report.json; where the pair was rectified, or made of one picture and "
-      "its\n"
-      "depth, also left_photograph.png and right_photograph.png, the pictures that were painted.\n\n"
-      "Examples:\n  wheatstone synth still -o still\n"
-      "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
-      "  wheatstone paint one.mpo two.mpo three.mpo -o painted\n"
-      "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph\n"
-      "  wheatstone paint photo.jpg --depth depth.png -o painted");
-  command.callback([arguments, &command, &session] { run_paint(*arguments, command, session); });
+Command paint_command() {
+  return make_command("paint", "Paint a stereo photograph, or one picture and its depth", paint_rows, run_paint,
+                      "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for "
+                      "viewing, painting.wst\n"
+                      "(the marks), disparity, occlusion, and report.json; where the pair was rectified, or made of "
+                      "one picture and its\n"
+                      "depth, also left_photograph.png and right_photograph.png, the pictures that were painted.\n\n"
+                      "Examples:\n  wheatstone synth still -o still\n"
+                      "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
+                      "  wheatstone paint one.mpo two.mpo three.mpo -o painted\n"
+                      "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph\n"
+                      "  wheatstone paint photo.jpg --depth depth.png -o painted");
 }
 
 }  // namespace wheatstone::cli

@@ -1,63 +1,52 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "depth_argument.h"
+#include "display_argument.h"
 #include "match_options.h"
+#include "options.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
-#include "wheatstone/gpu/device.h"
+#include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/app/write_results.h"
 #include "wheatstone/marks/mapped_depth.h"
 
 namespace wheatstone::cli {
 
-/// What `paint` is told, as it is typed.
+/// What `paint` is told.
 struct PaintArguments {
+  Given given;
   std::vector<std::string> files;
   StereoArguments photographs;  ///< how each is read; the files are those of one
   std::string folder = "painted";
-  std::string format = "png";
+  ResultOptions results;
   std::string print_style;
   std::string disparity, right_disparity;
   DepthArguments depth;
-  std::string zero_parallax = "nearest";
-  std::string zero_parallax_at;
-  std::string depth_budget = "3%";
-  std::string depth_mapping;
+  PaintPhotographOptions painting;  ///< without the style, the matching and the disparities
+  std::vector<DepthRegion> depth_mapping;
   float distance_mm = 0, screen_width_mm = 0;  ///< of a depth mapping's viewer; 0: the display's, or a desk's
   double scale = 1;
-  std::string display, size;
-  int views = 0;
-  float span = 0;
-  Device device = Device::processor;
+  DisplayArguments display;
   bool measure = false;
-  bool html = false;
-  bool svg = false;
   MatchArguments matching;
   StyleArguments style;
 };
 
-void add_paint_options(CLI::App& command, PaintArguments& arguments);
-
-// Each throws Error{wrong_usage} for an option that has no effect in this kind of run.
-void refuse_for_printing(const CLI::App& command);
-void refuse_for_painting_file(const CLI::App& command, const PaintArguments& arguments);
-void refuse_for_photographs(const CLI::App& command, const PaintArguments& arguments, bool several);
-
-/// Throws Error{wrong_usage} for an option that has no effect on `picture`, one picture without depth.
-void refuse_for_flat(const PaintArguments& arguments, const std::string& picture);
-
-/// Of what is looked at, as a share of the width; none: "full".
-std::optional<float> depth_budget_from(const PaintArguments& arguments);
-
 /// Where a viewer is to see the scene's parts. Throws Error{wrong_usage}.
 DepthPlacing depth_placing_from(const PaintArguments& arguments);
 
+/// Whether the one file that is given is a painting, which is drawn again.
+bool is_painting_file(const PaintArguments& arguments);
+
+/// Whether there are several photographs.
+bool are_several(const PaintArguments& arguments);
+
 /// Whether the one file that is given is one picture that has its own depth, which is painted.
-bool finds_depth_in_file(const CLI::App& command, const PaintArguments& arguments);
+bool finds_depth_in_file(const PaintArguments& arguments);
 
 /// One photograph and where its painting goes.
 struct PaintJob {

@@ -4,7 +4,9 @@
 #include <string>
 #include <system_error>
 
-#include "typed_options.h"
+#include <CLI/CLI.hpp>
+
+#include "commands.h"
 #include "wheatstone/files/plain_file.h"
 
 namespace wheatstone::cli {
@@ -46,11 +48,12 @@ void lay_out_help(CLI::App& app, const std::string& word) {
 }
 
 void add_shared_options(CLI::App& program, Session& session) {
-  program.add_flag("--json", session.json, "Print the result, or the error, as one JSON object");
-  add_number(program, "--threads", session.threads, {0, 4096}, "Number of threads; 0 uses all processors");
-  add_number(program, "--seed", session.seed, {0, 9.2e18}, "Random seed: the same seed gives the same bytes");
-  CLI::Option* verbose = program.add_flag("-v,--verbose", session.verbose, "Verbose output");
-  program.add_flag("--quiet", session.quiet, "Print results and errors only")->excludes(verbose);
+  add_rows(program,
+           {row("--json", flag(session.json), "Print the result, or the error, as one JSON object"),
+            row("--threads", number(session.threads, {0, 4096}), "Number of threads; 0 uses all processors"),
+            row("--seed", number(session.seed, {0, 9.2e18}), "Random seed: the same seed gives the same bytes"),
+            row("-v,--verbose", flag(session.verbose), "Verbose output"),
+            row("--quiet", flag(session.quiet), "Print results and errors only", {}, {}, {"--verbose"})});
   program.set_config("--config", "", "TOML file with option values; those of a command stand under [COMMAND]")
       ->type_name("FILE.toml")
       ->check([](const std::string& name) {
@@ -75,20 +78,26 @@ std::unique_ptr<CLI::App> make_program(Session& session) {
       "4 cannot read or write, 5 interrupted.");
   add_shared_options(*program, session);
 
-  add_calibrate_command(*program, session);
-  add_rectify_command(*program, session);
-  add_match_command(*program, session);
-  add_paint_command(*program, session);
-  add_pack_command(*program, session);
-  add_rotoscope_command(*program, session);
-  add_render_command(*program, session);
-  add_share_command(*program, session);
-  add_depth_command(*program, session);
-  add_measure_command(*program, session);
-  add_synth_command(*program, session);
-  add_study_command(*program, session);
-  add_view_command(*program, session);
-  add_info_command(*program, session);
+  for (const Command& command :
+       {calibrate_command(), rectify_command(), match_command(), paint_command(), pack_command(), rotoscope_command(),
+        render_command(), share_command(), depth_command(),
+        Command{
+            .name = "measure",
+    .help = "Measure the consistency of a result",
+    .footer = "Example:\n  wheatstone measure stereo painted/left.png painted/right.png --photographs left.png "
+              "right.png",
+    .kinds = {measure_film_command(), measure_painting_command(), measure_stereo_command(), measure_views_command()}},
+        Command{.name = "synth",
+        .help = "Make synthetic input with exact ground truth",
+        .footer = "Example:\n  wheatstone synth still -o still",
+        .kinds = {synth_film_command(), synth_still_command(), synth_universe_command()}},
+        Command{.name = "study",
+        .help = "Plan, run, simulate and analyse experiments with people",
+        .footer = "Example:\n  wheatstone study stimuli --count 4 -o stimuli",
+        .kinds = {study_analyse_command(), study_design_command(), study_run_command(), study_simulate_command(),
+                  study_stimuli_command()}},
+        view_command(), info_command()})
+    add_command(*program, command, session);
   lay_out_help(*program, "COMMAND");
   return program;
 }

@@ -1,17 +1,10 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
 
-#include "command.h"
-#include "number_arguments.h"
-#include "option_use.h"
-#include "picture_format.h"
-#include "print_facts.h"
+#include "commands.h"
 #include "render_film.h"
 #include "render_options.h"
 #include "slices_argument.h"
@@ -60,10 +53,9 @@ std::string write_views(const RenderArguments& arguments, const RenderedParticle
   }
   const std::vector<Image<Rgb8>>& views = result.rendered.views;
   const Device device = arguments.options.rendering.device;
-  if (!arguments.quilt.empty()) {
-    const QuiltLayout layout = quilt_for(arguments.quilt, static_cast<int>(views.size()));
-    return write_quilt(compose(views, layout, device), layout, arguments.aspect, output_of(arguments));
-  }
+  if (arguments.quilt)
+    return write_quilt(compose(views, *arguments.quilt, device), *arguments.quilt, arguments.aspect,
+                       output_of(arguments));
   if (!arguments.display.empty() && find_display(arguments.display).lenses.screen_width_px > 0)
     return write_lenticular(compose(views, find_lenticular(arguments.display), device), output_of(arguments));
   write_view_folder(views, output_of(arguments), session.progress);
@@ -99,79 +91,65 @@ std::string write_output(const RenderArguments& arguments, const RenderedParticl
   return written;
 }
 
-/// What --verbose adds.
-void tell_how(const RenderedParticles& result, const Session& session) {
-  fmt::print(session.output, "method: {}\nplanes: {}\ndevice: {}\n", result.rendered.reason, result.rendered.planes,
-             result.rendered.device);
-  if (result.rendered.tone.look == Look::thesis) {
-    fmt::print(session.output, "exposure: {:.4g}\n", result.rendered.exposure);
-  } else {
-    fmt::print(session.output, "shown: {} from {:.4g} to {:.4g} {}\n", result.units.name, result.least, result.most,
-               result.units.value);
-  }
-}
-
 const char* word_of(DensitySource source) {
   return source == DensitySource::file ? "file" : source == DensitySource::neighbours ? "neighbours" : "grid";
 }
 
-void tell(const RenderedParticles& result, const std::string& written, const Session& session) {
-  if (session.json) {
-    nlohmann::ordered_json facts{{"output", written},
-                                 {"format", result.format},
-                                 {"particles", result.particles},
-                                 {"dropped", result.dropped},
-                                 {"weightless", result.weightless},
-                                 {"mended", result.mended},
-                                 {"extreme", result.extreme},
-                                 {"outside", result.outside},
-                                 {"density_from", word_of(result.density)},
-                                 {"views", result.rig.positions.size()},
-                                 {"method", name_of(result.rendered.method)},
-                                 {"reason", result.rendered.reason},
-                                 {"device", result.rendered.device},
-                                 {"planes", result.rendered.planes},
-                                 {"ranks", session.ranks.count()},
-                                 {"warnings", result.warnings}};
-    if (result.rendered.tone.look == Look::thesis) {
-      facts["exposure"] = result.rendered.exposure;
-    } else {
-      facts["least"] = result.least;
-      facts["most"] = result.most;
-      facts["unit"] = result.units.value;
-    }
-    print_facts(facts, session);
-    return;
+std::string text_of(DensitySource source) {
+  if (source == DensitySource::neighbours) return "density: estimated from the neighbours of each particle";
+  if (source == DensitySource::file) return {};
+  return fmt::format("density: estimated from a grid of {} cells a side, because not all particles are held",
+                     DensityGrid::side);
+}
+
+/// What is told of a number of particles, where there are any.
+std::string some(std::uint64_t count, const char* words) {
+  return count > 0 ? fmt::format(fmt::runtime(words), count) : "";
+}
+
+Report report_of(const RenderedParticles& result, const std::string& written, const Session& session) {
+  const RenderedViews& rendered = result.rendered;
+  Report report{
+      {{"output", written},
+       {"format", result.format},
+       {"particles", result.particles},
+       {"dropped", result.dropped, some(result.dropped, "skipped: {} particles without a finite position")},
+       {"weightless", result.weightless,
+        some(result.weightless, "skipped: {} particles without a mass or without what is shown")},
+       {"mended", result.mended,
+        some(result.mended, "set to the smallest positive value: {} densities or temperatures that are not above 0")},
+       {"extreme", result.extreme,
+        some(result.extreme,
+             "set to the limits of single precision, 1.2e-38 and 3.4e38: {} densities or temperatures beyond them")},
+       {"outside", result.outside,
+        result.outside > 0 ? fmt::format("outside what the views are framed by (--fit): {} of {} particles",
+                                         result.outside, result.particles)
+                           : ""},
+       {"density_from", word_of(result.density), text_of(result.density)},
+       {"views", result.rig.positions.size()},
+       {"method", name_of(rendered.method)},
+       {"ranks", session.ranks.count()},
+       {"warnings", result.warnings, lines("note: ", result.warnings)},
+       {"reason", rendered.reason, session.verbose ? fmt::format("method: {}", rendered.reason) : ""},
+       {"planes", rendered.planes, session.verbose ? fmt::format("planes: {}", rendered.planes) : ""},
+       {"device", rendered.device, session.verbose ? fmt::format("device: {}", rendered.device) : ""}}};
+  const auto add = [&](Fact fact) { report.facts.push_back(std::move(fact)); };
+  if (rendered.tone.look == Look::thesis) {
+    add({"exposure", rendered.exposure, session.verbose ? fmt::format("exposure: {:.4g}", rendered.exposure) : ""});
+  } else {
+    add({"least", result.least,
+         session.verbose ? fmt::format("shown: {} from {:.4g} to {:.4g} {}", result.units.name, result.least,
+                                       result.most, result.units.value)
+                         : ""});
+    add({"most", result.most});
+    add({"unit", result.units.value});
   }
-  if (result.dropped > 0)
-    fmt::print(session.output, "skipped: {} particles without a finite position\n", result.dropped);
-  if (result.weightless > 0)
-    fmt::print(session.output, "skipped: {} particles without a mass or without what is shown\n", result.weightless);
-  if (result.mended > 0)
-    fmt::print(session.output,
-               "set to the smallest positive value: {} densities or temperatures that are not above 0\n",
-               result.mended);
-  if (result.extreme > 0)
-    fmt::print(session.output,
-               "set to the limits of single precision, 1.2e-38 and 3.4e38: {} densities or temperatures beyond them\n",
-               result.extreme);
-  if (result.outside > 0)
-    fmt::print(session.output, "outside what the views are framed by (--fit): {} of {} particles\n", result.outside,
-               result.particles);
-  if (result.density == DensitySource::neighbours)
-    fmt::print(session.output, "density: estimated from the neighbours of each particle\n");
-  if (result.density == DensitySource::grid)
-    fmt::print(session.output,
-               "density: estimated from a grid of {} cells a side, because not all particles are held\n",
-               DensityGrid::side);
-  for (const std::string& warning : result.warnings) fmt::print(session.output, "note: {}\n", warning);
-  if (session.verbose) tell_how(result, session);
-  fmt::print(session.output, "written to {}\n", written);
+  add(only_text(fmt::format("written to {}", written)));
+  return report;
 }
 
 /// What cannot be written or makes no sense is said before the long work.
-void check_output(const RenderArguments& arguments, const RenderParticlesOptions& options, const CLI::App& command,
-                  bool slices) {
+void check_output(const RenderArguments& arguments, const RenderParticlesOptions& options) {
   const ViewsOutput output = output_of(arguments);
   check_views_output(output);
   check_not_an_input(arguments.save_slices, output.inputs);
@@ -180,52 +158,49 @@ void check_output(const RenderArguments& arguments, const RenderParticlesOptions
       {{"--output", arguments.output}, {"--save-slices", arguments.save_slices}, {"--values", arguments.values}}});
   if (!arguments.interleave.empty()) {
     const LenticularScreen screen = find_lenticular(arguments.interleave);
-    if (!slices) check_screen(screen, options.width, options.height);
+    if (!reads_slices(arguments)) check_screen(screen, options.width, options.height);
     check_picture_ending("--output", arguments.output);
     return;
   }
-  if (arguments.quilt.empty()) return;
-  quilt_for(arguments.quilt, options.views);
+  if (!arguments.quilt) return;
+  check_quilt(*arguments.quilt, options.views);
   if (std::filesystem::path(arguments.output).has_extension()) check_picture_ending("--output", arguments.output);
-  check_format_fits(command, output_of(arguments));
+  check_format_fits(arguments.given, output_of(arguments));
 }
 
-void run_render(const RenderArguments& given, const CLI::App& command, const Session& session) {
-  const bool slices = std::filesystem::path(given.file).extension() == ".exr";
-  refuse_options_without_effect(command, given, slices);
-  const RenderArguments arguments = for_display(given, command);
-  if (makes_film(command, arguments)) return run_render_film(arguments, command, session);
-  refuse_film_options(command);
+Report run_render(const RenderArguments& given, const Session& session) {
+  const RenderArguments arguments = for_display(given);
+  if (makes_film(arguments)) return run_render_film(arguments, session);
   RenderParticlesOptions options = render_options_from(arguments);
   options.rendering.ranks = session.ranks;
-  check_output(arguments, options, command, slices);
+  check_output(arguments, options);
+  const bool slices = reads_slices(arguments);
   const bool only_first = slices && !session.ranks.first();  // slices are read and drawn in one place
-  if (only_first) return session.ranks.meet();
-  RenderedParticles result = slices ? render_slice_file(arguments.file, command, options, session.progress)
+  if (only_first) {
+    session.ranks.meet();
+    return {};
+  }
+  RenderedParticles result = slices ? render_slice_file(arguments.file, arguments.given, options, session.progress)
                                     : render_particles(arguments.file, options, session.progress);
   session.ranks.meet();
-  if (!session.ranks.first()) return;
+  if (!session.ranks.first()) return {};
   if (arguments.annotate) annotate(result, result.rendered.views);
-  tell(result, write_output(arguments, result, session), session);
+  return report_of(result, write_output(arguments, result, session), session);
 }
 
 }  // namespace
 
-void add_render_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<RenderArguments>();
-  CLI::App* command = program.add_subcommand("render", "Render the views of a particle data set");
-  add_render_options(*command, *arguments);
-  add_render_film_options(*command, arguments->film);
-  command->footer(
-      "Views are written as view_000.png, the leftmost, and so on.\n\n"
-      "Examples:\n"
-      "  wheatstone synth universe -o universe.hdf5\n"
-      "  wheatstone render universe.hdf5 --views 9 -o views\n"
-      "  wheatstone render universe.hdf5 --display looking-glass-portrait -o universe\n"
-      "  wheatstone render universe.hdf5 --save-slices slices.exr && wheatstone render slices.exr --views 45\n"
-      "  wheatstone synth universe --particles 100000 --times 0.4,0.6,0.8 -o snap_%03d.hdf5\n"
-      "  wheatstone render snap_%03d.hdf5 --frames 24 --orbit 90 -o film.mp4");
-  command->callback([arguments, command, &session] { run_render(*arguments, *command, session); });
+Command render_command() {
+  return make_command("render", "Render the views of a particle data set", render_rows, run_render,
+                      R"(Views are written as view_000.png, the leftmost, and so on.
+
+Examples:
+  wheatstone synth universe -o universe.hdf5
+  wheatstone render universe.hdf5 --views 9 -o views
+  wheatstone render universe.hdf5 --display looking-glass-portrait -o universe
+  wheatstone render universe.hdf5 --save-slices slices.exr && wheatstone render slices.exr --views 45
+  wheatstone synth universe --particles 100000 --times 0.4,0.6,0.8 -o snap_%03d.hdf5
+  wheatstone render snap_%03d.hdf5 --frames 24 --orbit 90 -o film.mp4)");
 }
 
 }  // namespace wheatstone::cli

@@ -1,49 +1,43 @@
 #include "render_options.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <string_view>
-#include <utility>
+#include <filesystem>
+#include <limits>
 
 #include "device_option.h"
-#include "number_arguments.h"
-#include "option_use.h"
-#include "output_option.h"
-#include "picture_format.h"
-#include "typed_options.h"
+#include "display_argument.h"
+#include "film_argument.h"
 #include "wheatstone/app/render_limits.h"
 #include "wheatstone/app/write_values.h"
 #include "wheatstone/depth/display_presets.h"
-#include "wheatstone/error.h"
+#include "wheatstone/video/frame_sequence.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Method>, 4> methods{{{"auto", Method::automatic},
-                                                                      {"exact", Method::exact},
-                                                                      {"incremental", Method::incremental},
-                                                                      {"layered", Method::layered}}};
-constexpr std::array<std::pair<std::string_view, SliceFilter>, 3> filters{
+constexpr std::array<Choice<Method>, 4> methods{{{"auto", Method::automatic},
+                                                 {"exact", Method::exact},
+                                                 {"incremental", Method::incremental},
+                                                 {"layered", Method::layered}}};
+constexpr std::array<Choice<SliceFilter>, 3> filters{
     {{"nearest", SliceFilter::nearest}, {"linear", SliceFilter::linear}, {"centroid", SliceFilter::centroid}}};
-constexpr std::array<std::pair<std::string_view, Look>, 2> looks{{{"mass", Look::mass}, {"thesis", Look::thesis}}};
-constexpr std::array<std::pair<std::string_view, Blend>, 2> blends{{{"add", Blend::add}, {"over", Blend::over}}};
-constexpr std::array<std::pair<std::string_view, Kernel>, 2> kernels{
+constexpr std::array<Choice<Look>, 2> looks{{{"mass", Look::mass}, {"thesis", Look::thesis}}};
+constexpr std::array<Choice<Blend>, 2> blends{{{"add", Blend::add}, {"over", Blend::over}}};
+constexpr std::array<Choice<Kernel>, 2> kernels{
     {{"gaussian", Kernel::gaussian}, {"cubic-spline", Kernel::cubic_spline}}};
-constexpr std::array<std::pair<std::string_view, Stretch>, 3> stretches{
+constexpr std::array<Choice<Stretch>, 3> stretches{
     {{"asinh", Stretch::asinh}, {"log", Stretch::log}, {"linear", Stretch::linear}}};
-constexpr std::array<std::pair<std::string_view, bool>, 2> projections{
-    {{"perspective", false}, {"orthographic", true}}};
-constexpr std::array<std::pair<std::string_view, SizeRule>, 5> size_rules{
-    {{"auto", SizeRule::automatic},
-     {"density", SizeRule::density},
-     {"denser-smaller", SizeRule::denser_smaller},
-     {"denser-larger", SizeRule::denser_larger},
-     {"smoothing-length", SizeRule::smoothing_length}}};
+constexpr std::array<Choice<bool>, 2> projections{{{"perspective", false}, {"orthographic", true}}};
+constexpr std::array<Choice<SizeRule>, 5> size_rules{{{"auto", SizeRule::automatic},
+                                                      {"density", SizeRule::density},
+                                                      {"denser-smaller", SizeRule::denser_smaller},
+                                                      {"denser-larger", SizeRule::denser_larger},
+                                                      {"smoothing-length", SizeRule::smoothing_length}}};
+constexpr std::array<Choice<Distribution>, 2> distributions{
+    {{"particles", Distribution::particles}, {"frames", Distribution::frames}}};
 
-constexpr auto particles_group = "Particles", appearance_group = "Appearance", views_group = "Views and depth",
-               method_group = "Method and output";
+constexpr auto method_heading = "Method and output";
 
 /// "sphere:X,Y,Z,R" or "box:X0,Y0,Z0,X1,Y1,Z1"; nothing of something else. `expected` is for the message.
 Cut parse_region(const std::string& option, const std::string& text, std::string_view expected) {
@@ -61,344 +55,379 @@ Cut parse_region(const std::string& option, const std::string& text, std::string
 }
 
 /// "auto", "all", "99.9%", or a region as above.
-Fit parse_fit(const std::string& text) {
+Fit parse_fit(const std::string& option, const std::string& text) {
   constexpr std::string_view expected = "auto, all, 99.9%, sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1";
   if (text == "auto") return {};
   if (text == "all") return FitAll{};
   if (text.ends_with('%'))
-    return FitShare{parse_numbers("--fit", text.substr(0, text.size() - 1), {',', 1, {1, 100}, expected})[0] / 100};
-  const Cut region = parse_region("--fit", text, expected);
+    return FitShare{parse_numbers(option, text.substr(0, text.size() - 1), {',', 1, {1, 100}, expected})[0] / 100};
+  const Cut region = parse_region(option, text, expected);
   if (const Sphere* sphere = std::get_if<Sphere>(&region)) return *sphere;
   return std::get<Box>(region);
 }
 
-void add_particle_options(CLI::App& command, RenderArguments& arguments) {
-  CloudChoice& choice = arguments.options.choice;
-  const auto text = [&](const char* name, std::string& value, const char* help) {
-    return command.add_option(name, value, help)->group(particles_group);
-  };
-  text("--type", choice.type,
-       "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5; gas by default");
-  text("--position", choice.position, "Dataset or columns of the positions: /Coordinates, or x,y,z");
-  text("--density", choice.density, "Dataset or column of the density");
-  text("--temperature", choice.temperature, "Dataset or column of the temperature, which sets the colours");
-  text("--smoothing-length", choice.smoothing_length, "Dataset or column of the smoothing length");
-  text("--mass", choice.mass, "Dataset or column of the mass; each particle counts 1 where there is none");
-  text("--centre", arguments.centre, "Point X,Y,Z of a periodic box that is moved to the middle of the views");
-  text("--select", arguments.selection, "Keep the particles in sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1 only");
-  add_number(command, "--subsample", arguments.options.selection.every, every_range, "Keep every Nth particle")
-      ->group(particles_group);
-  add_number(command, "--neighbours", arguments.options.neighbours, neighbours_range,
-             "Particles in a kernel, from which the density is estimated where the file has none")
-      ->group(particles_group);
-  CLI::Option* stream = command
-                            .add_flag("--stream", arguments.options.stream,
-                                      "Read the file twice, in chunks: memory does not grow with the file")
-                            ->group(particles_group);
-  add_number(command, "--chunk", arguments.options.chunk, {1000, 1 << 30}, "Particles per chunk with --stream")
-      ->needs(stream)
-      ->group(particles_group);
+Value selected_region(Cut& cut) {
+  return parsed(cut, [](const std::string& option, const std::string& words) {
+    return parse_region(option, words, "sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1");
+  });
 }
 
-void add_appearance_options(CLI::App& command, RenderArguments& arguments) {
-  Appearance& appearance = arguments.options.appearance;
-  const auto number = [&](const char* name, float& value, NumberRange range, const char* help) {
-    add_number(command, name, value, range, help)->group(appearance_group);
-  };
-  add_choice<Look>(command, "--look", appearance.look, looks,
-                   "What is shown: mass, whose column density is the brightness; or the light of Hassaine's thesis")
-      ->group(appearance_group);
-  command
-      .add_option("--quantity", arguments.options.quantity,
-                  "Show numbers in the colours of a map: column-density, or the mean of temperature, density, "
-                  "velocity-x or any dataset or column along each line of sight, weighted by mass")
-      ->group(appearance_group);
-  add_choice<Stretch>(command, "--stretch", arguments.options.rendering.tone.stretch, stretches,
-                      "How numbers between --least and --most become brightness")
-      ->group(appearance_group);
-  number("--least", arguments.options.least, coordinate_range,
-         "Column density, or quantity, where brightness begins; 0 or the 1st percentile by default");
-  number("--most", arguments.options.most, coordinate_range,
-         "Column density, or quantity, where brightness ends; the 99.9th percentile by default");
-  add_choice<Kernel>(command, "--kernel", appearance.kernel, kernels, "How a particle's mass is spread")
-      ->group(appearance_group);
-  command
-      .add_option("--splat", arguments.splat,
-                  "Smallest and largest splat diameter in pixels: MIN,MAX; 2,6 by default. The largest counts for the "
-                  "size rules denser-smaller and denser-larger")
-      ->group(appearance_group);
-  add_choice<SizeRule>(command, "--size-rule", appearance.size_rule, size_rules, "What sets the size of a splat")
-      ->group(appearance_group);
-  number("--opacity", appearance.opacity, opacity_range, "Opacity of the densest particles");
-  number("--least-opacity", appearance.least_opacity, least_opacity_range,
-         "Opacity of the least dense particles, as a fraction of --opacity");
-  number("--density-slope", appearance.density_slope, density_slope_range,
-         "Slope of the sigmoid that turns density into opacity, per factor of ten in density");
-  number("--density-shift", appearance.density_shift, density_shift_range,
-         "Centre of that sigmoid, in factors of ten above the median density");
-  CLI::Option* map = command
-                         .add_option("--colours", appearance.colour_map,
-                                     "Colour map: inferno, magma, plasma, viridis, cividis, turbo, twilight, hot, jet, "
-                                     "bone")
-                         ->group(appearance_group);
-  command.add_option("--cold", arguments.cold, "Colour of the coldest particles")
-      ->excludes(map)
-      ->group(appearance_group);
-  command.add_option("--hot", arguments.hot, "Colour of the hottest particles")->excludes(map)->group(appearance_group);
-  number("--coldest", appearance.coldest, coordinate_range,
-         "Temperature where the colours begin; 2nd percentile by default");
-  number("--hottest", appearance.hottest, coordinate_range, "Temperature where they end; 98th percentile by default");
-  command
-      .add_flag("--annotate", arguments.annotate,
-                "Draw a scale bar, the colours with their limits and units, and the redshift into each view")
-      ->group(method_group);
-  command.add_flag("!--linear-colours", appearance.logarithmic, "Map the temperature to colours linearly")
-      ->group(appearance_group);
-  number("--exposure", arguments.options.rendering.exposure, exposure_range,
-         "Factor on the light before tone mapping; from the central view by default");
-  add_choice<Blend>(command, "--blend", appearance.blend, blends,
-                    "How particles that lie behind each other come together: their light is added, or the nearer ones "
-                    "also absorb light, so that they are in front")
-      ->group(appearance_group);
-  number("--shine", appearance.shine, shine_range,
-         "Light of highlights on the surfaces of clumps, which move from view to view, as a multiple of the particles' "
-         "own");
-  command
-      .add_flag("--opaque", arguments.options.rendering.opaque,
-                "Draw opaque particles: the nearest hides the others, instead of adding their light")
-      ->group(appearance_group);
+Value point(std::optional<std::array<double, 3>>& place) {
+  return parsed(place, [](const std::string& option, const std::string& words) {
+    const auto n = parse_numbers(option, words, {',', 3, coordinate_range, "X,Y,Z"});
+    return std::array<double, 3>{n[0], n[1], n[2]};
+  });
 }
 
-void add_camera_options(CLI::App& command, RenderArguments& arguments) {
-  command
-      .add_option("--look-at", arguments.look_at,
-                  "Point X,Y,Z in the middle of the views, around which the camera turns; that of all particles by "
-                  "default")
-      ->group(views_group);
-  Framing& framing = arguments.options.framing;
-  const auto number = [&](const char* name, float& value, NumberRange range, const char* help) {
-    add_number(command, name, value, range, help)->group(views_group);
-  };
-  command
-      .add_option("--fit", arguments.fit,
-                  "What the views show and the depth is mapped to: all particles; the middle share of them along each "
-                  "axis, as 99.9%; sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1; auto: all, but for a few that lie far out")
-      ->capture_default_str()
-      ->group(views_group);
-  number("--azimuth", framing.azimuth_deg, {-360, 360}, "Direction that the camera looks from, in degrees");
-  number("--elevation", framing.elevation_deg, elevation_range, "Height of the camera above the horizon, in degrees");
-  number("--fov", framing.field_of_view_deg, field_of_view_range, "Horizontal field of view, in degrees");
-  number("--zoom", framing.zoom, zoom_range, "Magnification: 2 shows half as much");
-  add_choice<bool>(command, "--projection", framing.orthographic, projections,
-                   "Perspective, or orthographic: everything is as large as at the point that is looked at, and the "
-                   "views are sheared")
-      ->group(views_group);
+Value point_of_screen(std::optional<std::array<double, 2>>& place) {
+  return parsed(place, [](const std::string& option, const std::string& words) {
+    const auto n = parse_numbers(option, words, {',', 2, {0, 1}, "X,Y"});
+    return std::array<double, 2>{n[0], n[1]};
+  });
 }
 
-void add_depth_options(CLI::App& command, RenderArguments& arguments) {
-  PerceivedDepth& depth = arguments.options.depth;
-  const auto length = [&](const char* name, float& value, NumberRange range, const char* help) {
-    add_length(command, name, value, range, help)->group(views_group);
-  };
-  length("--near", depth.near_mm, near_range_mm, "Depth in front of the screen, in mm");
-  length("--far", depth.far_mm, far_range_mm, "Depth behind the screen, in mm");
-  length("--eye", depth.viewing.eye_separation_mm, eye_range_mm,
-         "Eye separation, or the width of a viewing window, in mm");
-  length("--distance", depth.viewing.viewing_distance_mm, distance_range_mm, "Viewing distance, in mm");
-  length("--screen-width", depth.viewing.screen_width_mm, screen_width_range_mm, "Width of the screen, in mm");
-  CLI::Option* mapping =
-      command
-          .add_option("--depth-mapping", arguments.depth_mapping,
-                      "Depth mapping by regions: SHARE:MM,... where SHARE is 0 for the nearest and 1 for the farthest "
-                      "particle, and MM is the depth behind the screen")
-          ->group(views_group);
-  CLI::Option* focus = command
-                           .add_option("--focus", arguments.focus,
-                                       "Point X,Y of the screen around which there is more depth than elsewhere, as "
-                                       "shares of its width and height from the upper left: 0.5,0.5 is the middle")
-                           ->group(views_group);
-  add_number(command, "--focus-radius", arguments.focus_radius, {0.001, 10},
-             "Radius of that area, as a share of the width")
-      ->needs(focus)
-      ->group(views_group);
-  add_number(command, "--focus-gain", arguments.focus_gain, {0, 10}, "Factor on the depth at that point")
-      ->needs(focus)
-      ->group(views_group);
-  command.add_flag("--smooth-depth", depth.smooth, "Interpolate the depth mapping with a smooth monotone curve")
-      ->needs(mapping)
-      ->group(views_group);
-}
-
-void add_view_options(CLI::App& command, RenderArguments& arguments) {
-  RenderParticlesOptions& options = arguments.options;
-  std::string names;
-  for (const DisplayPreset& display : display_presets()) names += fmt::format(" {}", display.name);
-  command
-      .add_option("--display", arguments.display,
-                  "Set views, span, size, distance, depth and quilt for a display:" + names)
-      ->group(views_group);
-  add_number(command, "--views", options.views, view_count_range, "Number of views")->group(views_group);
-  add_number(command, "--span", options.span, view_span_range,
-             "Distance from the first view to the last, in eye separations")
-      ->group(views_group);
-  command.add_option("--size", arguments.size, "Size of a view: WIDTHxHEIGHT")
-      ->capture_default_str()
-      ->group(views_group);
-  add_camera_options(command, arguments);
-  add_depth_options(command, arguments);
-}
-
-void add_method_options(CLI::App& command, RenderArguments& arguments) {
-  RenderOptions& rendering = arguments.options.rendering;
-  add_choice<Method>(command, "--method", rendering.method, methods, "Rendering method; --verbose tells which was used")
-      ->group(method_group);
-  add_device_option(command, rendering.device, "What renders")->group(method_group);
-  add_choice<SliceFilter>(command, "--filter", rendering.filter, filters, "Depth-plane filter of the layered method")
-      ->group(method_group);
-  add_number(command, "--planes", rendering.planes, {1, planes_range.most},
-             "Number of depth planes; one per pixel of parallax by default")
-      ->default_str("")
-      ->group(method_group);
-  CLI::Option* quilt =
-      command.add_option("--quilt", arguments.quilt, "Write one quilt of COLUMNSxROWS views")->group(method_group);
-  CLI::Option* interleave = command
-                                .add_option("--interleave", arguments.interleave,
-                                            "Write one picture for a lenticular screen: its name, or a calibration "
-                                            "(.json)")
-                                ->excludes(quilt)
-                                ->group(method_group);
-  command
-      .add_option("--values", arguments.values,
-                  "Also write the views as numbers with their units: FILE.fits, .exr or .npy; of several views, "
-                  "FILE_000.fits and so on")
-      ->check(not_empty())
-      ->group(method_group);
-  command.add_option("--save-slices", arguments.save_slices, "Also write the depth planes: FILE.exr")
-      ->check(not_empty())
-      ->group(method_group);
-  add_picture_format(command, arguments.format, "File format of the views or the quilt")
-      ->excludes(interleave)
-      ->group(method_group);
-}
-
-void refuse_for_slices(const CLI::App& command) {
-  constexpr auto situation = "on slices (.exr)", where = "it works on particles";
-  refuse_group(command, particles_group, {}, situation, where);
-  refuse_group(command, appearance_group, {"--exposure"}, situation, where);
-  refuse_group(command, views_group,
-               {"--display", "--views", "--span", "--near", "--far", "--eye", "--distance", "--screen-width", "--focus",
-                "--focus-radius", "--focus-gain"},
-               situation, where);
-  refuse_options(command, {"--method", "--device", "--planes", "--values", "--annotate"}, situation, where);
-  if (!was_given(command, "--near") && !was_given(command, "--far"))
-    refuse_options(command, {"--eye", "--distance", "--screen-width"}, "on slices (.exr) whose depth stays as it is",
-                   "it works with --near or --far");
+Value splat_sizes(Appearance& appearance) {
+  return {[&appearance](const std::string& option, const std::vector<std::string>& words) {
+    const auto n = parse_numbers(option, words.front(), {',', 2, {0, SplatStyle::widest_px}, "MIN,MAX"});
+    if (!(n[0] > 0 && n[0] <= n[1]))
+      throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected MIN,MAX with 0 < MIN <= MAX <= {}", option,
+                                                      words.front(), SplatStyle::widest_px));
+    appearance.smallest_px = static_cast<float>(n[0]);
+    appearance.largest_px = static_cast<float>(n[1]);
+  }};
 }
 
 /// The option with which particles are drawn in the thesis's look without --look; empty: none.
-std::string option_of_thesis(const RenderArguments& arguments) {
-  if (arguments.options.rendering.opaque) return "--opaque";
-  return arguments.options.appearance.blend == Blend::over ? "--blend over" : "";
+std::string option_of_thesis(const RenderArguments& a) {
+  if (a.options.rendering.opaque) return "--opaque";
+  return a.options.appearance.blend == Blend::over ? "--blend over" : "";
 }
 
-/// What belongs to the other look has no effect.
-void refuse_for_look(const CLI::App& command, const RenderArguments& arguments) {
-  const Appearance& appearance = arguments.options.appearance;
-  const std::string option = option_of_thesis(arguments);
-  if (!option.empty())
-    refuse_options(command, {"--shine"}, "with " + option, "it works on particles that add their light");
-  if (!arguments.options.quantity.empty())
-    refuse_options(command, {"--shine"}, "with --quantity", "it works on pictures, not on numbers");
-  if (!option.empty() && appearance.look == Look::mass)
-    refuse_options(command, {"--look"}, "with " + option, "such particles are drawn in --look thesis");
-  if (arguments.options.rendering.opaque)
-    refuse_options(command, {"--blend"}, "with --opaque", "it works on particles that are seen through");
-  if (appearance.look == Look::thesis || !option.empty()) {
-    refuse_options(command, {"--quantity", "--stretch", "--least", "--most", "--values", "--kernel"},
-                   "with " + (option.empty() ? "--look thesis" : option), "it works with --look mass");
-    return;
-  }
-  refuse_options(command, {"--opacity", "--least-opacity", "--exposure", "--blend"}, "with --look mass",
-                 "it works with --look thesis");
-  const bool by_rank =
-      appearance.size_rule == SizeRule::denser_smaller || appearance.size_rule == SizeRule::denser_larger;
-  if (!by_rank)
-    refuse_options(command, {"--density-slope", "--density-shift"}, "with --look mass",
-                   "it works with --look thesis, or with --size-rule denser-smaller or denser-larger");
-  if (!arguments.options.quantity.empty())
-    refuse_options(command, {"--cold", "--hot", "--coldest", "--hottest", "--linear-colours"}, "with --quantity",
-                   "the colours are those of --colours between --least and --most");
+bool is_thesis(const RenderArguments& a) {
+  return a.options.appearance.look == Look::thesis || !option_of_thesis(a).empty();
 }
 
-void refuse_for_particles(const CLI::App& command, const RenderArguments& arguments) {
-  refuse_for_look(command, arguments);
-  const RenderOptions& rendering = arguments.options.rendering;
-  const bool makes_slices = !arguments.save_slices.empty() || !arguments.interleave.empty();
-  const bool other_method = rendering.method == Method::exact || rendering.method == Method::incremental;
-  if (makes_slices && other_method)
-    refuse_options(command, {"--method"}, "with --save-slices or --interleave", "these render depth planes");
-  if (makes_slices)
-    refuse_options(command, {"--device"}, "with --save-slices or --interleave", "depth planes are rendered by the cpu");
-  if (other_method)
-    refuse_options(command, {"--filter", "--planes", "--focus"},
-                   fmt::format("with --method {}", name_of(rendering.method)), "it works with --method layered");
-  if (rendering.opaque && !makes_slices)
-    refuse_options(command, {"--filter"}, "with --opaque", "it works on particles that add their light");
-  if (!arguments.interleave.empty()) refuse_options(command, {"--annotate"}, "with --interleave", "it works on views");
-  if (!arguments.centre.empty())
-    refuse_options(command, {"--look-at"}, "with --centre", "the centre is what the views look at");
-  if (!arguments.depth_mapping.empty())
-    refuse_options(command, {"--near", "--far"}, "with --depth-mapping", "the mapping says where the depth ends");
+bool makes_slices(const RenderArguments& a) { return !a.save_slices.empty() || !a.interleave.empty(); }
+
+bool is_without_planes(const RenderArguments& a) {
+  return a.options.rendering.method == Method::exact || a.options.rendering.method == Method::incremental;
+}
+
+bool is_sized_by_rank(const RenderArguments& a) {
+  const SizeRule rule = a.options.appearance.size_rule;
+  return rule == SizeRule::denser_smaller || rule == SizeRule::denser_larger;
+}
+
+/// Whether a frame is put together of many views.
+bool is_composed(const RenderArguments& a) {
+  if (a.quilt || !a.interleave.empty()) return true;
+  if (a.display.empty()) return false;
+  const DisplayPreset& display = find_display(a.display);
+  return display.quilt_columns > 0 || display.lenses.screen_width_px > 0;
+}
+
+Reason on_slices(const RenderArguments& a) {
+  return when([&a] { return reads_slices(a); }, "on slices (.exr); it works on particles");
+}
+
+Reason on_film(const RenderArguments& a) {
+  return when([&a] { return makes_film(a); }, "on a film; it works on pictures");
+}
+
+/// What an option that gives particles the thesis's look rules out.
+Reason with_thesis(const RenderArguments& a, const char* where) {
+  return [&a, where] {
+    const std::string option = option_of_thesis(a);
+    return option.empty() ? "" : fmt::format("with {}; {}", option, where);
+  };
+}
+
+Reason with_look_thesis(const RenderArguments& a) {
+  return [&a] {
+    const std::string option = option_of_thesis(a).empty() ? "--look thesis" : option_of_thesis(a);
+    return is_thesis(a) ? fmt::format("with {}; it works with --look mass", option) : "";
+  };
+}
+
+Reason without_planes(const RenderArguments& a) {
+  return [&a] {
+    return is_without_planes(a)
+               ? fmt::format("with --method {}; it works with --method layered", name_of(a.options.rendering.method))
+               : "";
+  };
+}
+
+Rows particle_rows(RenderArguments& a) {
+  CloudChoice& choice = a.options.choice;
+  return under(
+      "Particles",
+      {row("--type", text(choice.type),
+           "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5; gas by default"),
+       row("--position", text(choice.position), "Dataset or columns of the positions: /Coordinates, or x,y,z"),
+       row("--density", text(choice.density), "Dataset or column of the density"),
+       row("--temperature", text(choice.temperature), "Dataset or column of the temperature, which sets the colours"),
+       row("--smoothing-length", text(choice.smoothing_length), "Dataset or column of the smoothing length"),
+       row("--mass", text(choice.mass), "Dataset or column of the mass; each particle counts 1 where there is none"),
+       row("--centre", point(a.options.selection.centre),
+           "Point X,Y,Z of a periodic box that is moved to the middle of the views"),
+       row("--select", selected_region(a.options.selection.cut),
+           "Keep the particles in sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1 only"),
+       row("--subsample", number(a.options.selection.every, every_range), "Keep every Nth particle"),
+       row("--neighbours", number(a.options.neighbours, neighbours_range),
+           "Particles in a kernel, from which the density is estimated where the file has none"),
+       row("--stream", flag(a.options.stream), "Read the file twice, in chunks: memory does not grow with the file"),
+       row("--chunk", number(a.options.chunk, {1000, 1 << 30}), "Particles per chunk with --stream", {}, "--stream")},
+      {on_slices(a)});
+}
+
+/// The thesis's appearance and that of mass have options of their own.
+Reason with_look_mass(const RenderArguments& a) {
+  return when([&a] { return !reads_slices(a) && !is_thesis(a); }, "with --look mass; it works with --look thesis");
+}
+
+Rows look_rows(RenderArguments& a) {
+  Appearance& appearance = a.options.appearance;
+  const Reason mass = with_look_mass(a);
+  const Reason thesis = with_look_thesis(a);
+  const Reason mass_by_size =
+      when([&a] { return !is_thesis(a) && !is_sized_by_rank(a); },
+           "with --look mass; it works with --look thesis, or with --size-rule denser-smaller or denser-larger");
+  const Reason slices = on_slices(a);
+  return {
+      row("--look", choice(appearance.look, looks),
+          "What is shown: mass, whose column density is the brightness; or the light of Hassaine's thesis",
+          {slices,
+           [&a] {
+             return a.options.appearance.look == Look::mass
+                        ? with_thesis(a, "such particles are drawn in --look thesis")()
+                        : "";
+           }}),
+      row("--quantity", text(a.options.quantity),
+          "Show numbers in the colours of a map: column-density, or the mean of temperature, density, velocity-x or "
+          "any dataset or column along each line of sight, weighted by mass",
+          {slices, thesis}),
+      row("--stretch", choice(a.options.rendering.tone.stretch, stretches),
+          "How numbers between --least and --most become brightness", {slices, thesis}),
+      row("--least", number(a.options.least, coordinate_range),
+          "Column density, or quantity, where brightness begins; 0 or the 1st percentile by default", {slices, thesis}),
+      row("--most", number(a.options.most, coordinate_range),
+          "Column density, or quantity, where brightness ends; the 99.9th percentile by default", {slices, thesis}),
+      row("--kernel", choice(appearance.kernel, kernels), "How a particle's mass is spread", {slices, thesis}),
+      row("--splat", splat_sizes(appearance),
+          "Smallest and largest splat diameter in pixels: MIN,MAX; 2,6 by default. The largest counts for the size "
+          "rules denser-smaller and denser-larger",
+          {slices}),
+      row("--size-rule", choice(appearance.size_rule, size_rules), "What sets the size of a splat", {slices}),
+      row("--opacity", number(appearance.opacity, opacity_range), "Opacity of the densest particles", {slices, mass}),
+      row("--least-opacity", number(appearance.least_opacity, least_opacity_range),
+          "Opacity of the least dense particles, as a fraction of --opacity", {slices, mass}),
+      row("--density-slope", number(appearance.density_slope, density_slope_range),
+          "Slope of the sigmoid that turns density into opacity, per factor of ten in density", {slices, mass_by_size}),
+      row("--density-shift", number(appearance.density_shift, density_shift_range),
+          "Centre of that sigmoid, in factors of ten above the median density", {slices, mass_by_size})};
+}
+
+Rows colour_rows(RenderArguments& a) {
+  Appearance& appearance = a.options.appearance;
+  const Reasons reasons{on_slices(a),
+                        when([&a] { return !a.options.quantity.empty(); },
+                             "with --quantity; the colours are those of --colours between --least and --most")};
+  return {
+      row("--colours", text(appearance.colour_map),
+          "Colour map: inferno, magma, plasma, viridis, cividis, turbo, twilight, hot, jet, bone", {on_slices(a)}),
+      row("--cold", parsed(appearance.cold, parse_colour), "Colour of the coldest particles", reasons, {},
+          {"--colours"}),
+      row("--hot", parsed(appearance.hot, parse_colour), "Colour of the hottest particles", reasons, {}, {"--colours"}),
+      row("--coldest", number(appearance.coldest, coordinate_range),
+          "Temperature where the colours begin; 2nd percentile by default", reasons),
+      row("--hottest", number(appearance.hottest, coordinate_range),
+          "Temperature where they end; 98th percentile by default", reasons),
+      row("!--linear-colours", flag(appearance.logarithmic), "Map the temperature to colours linearly", reasons)};
+}
+
+Rows light_rows(RenderArguments& a) {
+  Appearance& appearance = a.options.appearance;
+  const Reason mass = with_look_mass(a), slices = on_slices(a);
+  return {row("--exposure", number(a.options.rendering.exposure, exposure_range),
+              "Factor on the light before tone mapping; from the central view by default", {mass}),
+          row("--blend", choice(appearance.blend, blends),
+              "How particles that lie behind each other come together: their light is added, or the nearer ones also "
+              "absorb light, so that they are in front",
+              {slices, mass,
+               when([&a] { return a.options.rendering.opaque; },
+                    "with --opaque; it works on particles that are seen through")}),
+          row("--shine", number(appearance.shine, shine_range),
+              "Light of highlights on the surfaces of clumps, which move from view to view, as a multiple of the "
+              "particles' own",
+              {slices, with_thesis(a, "it works on particles that add their light"),
+               when([&a] { return !a.options.quantity.empty(); },
+                    "with --quantity; it works on pictures, not on numbers")}),
+          row("--opaque", flag(a.options.rendering.opaque),
+              "Draw opaque particles: the nearest hides the others, instead of adding their light", {slices})};
+}
+
+Rows camera_rows(RenderArguments& a) {
+  Framing& framing = a.options.framing;
+  return under(
+      {},
+      {row("--look-at", point(a.options.look_at),
+           "Point X,Y,Z in the middle of the views, around which the camera turns; that of all particles by default",
+           {when([&a] { return a.options.selection.centre.has_value(); },
+                 "with --centre; the centre is what the views look at")}),
+       row("--fit", parsed(a.options.fit, parse_fit, {}, "auto"),
+           "What the views show and the depth is mapped to: all particles; the middle share of them along each axis, "
+           "as 99.9%; sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1; auto: all, but for a few that lie far out"),
+       row("--azimuth", number(framing.azimuth_deg, {-360, 360}), "Direction that the camera looks from, in degrees"),
+       row("--elevation", number(framing.elevation_deg, elevation_range),
+           "Height of the camera above the horizon, in degrees"),
+       row("--fov", number(framing.field_of_view_deg, field_of_view_range), "Horizontal field of view, in degrees"),
+       row("--zoom", number(framing.zoom, zoom_range), "Magnification: 2 shows half as much"),
+       row("--projection", choice(framing.orthographic, projections),
+           "Perspective, or orthographic: everything is as large as at the point that is looked at, and the views are "
+           "sheared")},
+      {on_slices(a)});
+}
+
+Rows depth_mapping_rows(RenderArguments& a) {
+  PerceivedDepth& depth = a.options.depth;
+  const Reason mapped = when([&a] { return !a.options.depth.regions.empty(); },
+                             "with --depth-mapping; the mapping says where the depth ends");
+  const Reason kept = when([&a] { return reads_slices(a) && !a.given("--near") && !a.given("--far"); },
+                           "on slices (.exr) whose depth stays as it is; it works with --near or --far");
+  return {row("--near", length(depth.near_mm, near_range_mm), "Depth in front of the screen, in mm", {mapped}),
+          row("--far", length(depth.far_mm, far_range_mm), "Depth behind the screen, in mm", {mapped}),
+          row("--eye", length(depth.viewing.eye_separation_mm, eye_range_mm),
+              "Eye separation, or the width of a viewing window, in mm", {kept}),
+          row("--distance", length(depth.viewing.viewing_distance_mm, distance_range_mm), "Viewing distance, in mm",
+              {kept}),
+          row("--screen-width", length(depth.viewing.screen_width_mm, screen_width_range_mm),
+              "Width of the screen, in mm", {kept}),
+          row("--depth-mapping", depth_regions(depth.regions),
+              "Depth mapping by regions: SHARE:MM,... where SHARE is 0 for the nearest and 1 for the farthest "
+              "particle, and MM is the depth behind the screen",
+              {on_slices(a)}),
+          row("--focus", point_of_screen(a.focus),
+              "Point X,Y of the screen around which there is more depth than elsewhere, as shares of its width and "
+              "height from the upper left: 0.5,0.5 is the middle",
+              {without_planes(a)}),
+          row("--focus-radius", number(a.focus_radius, {0.001, 10}), "Radius of that area, as a share of the width", {},
+              "--focus"),
+          row("--focus-gain", number(a.focus_gain, {0, 10}), "Factor on the depth at that point", {}, "--focus"),
+          row("--smooth-depth", flag(depth.smooth), "Interpolate the depth mapping with a smooth monotone curve",
+              {on_slices(a)}, "--depth-mapping")};
+}
+
+Rows view_rows(RenderArguments& a) {
+  const Rows views{row("--display", text(a.display),
+                       "Set views, span, size, distance, depth and quilt for a display:" + display_names()),
+                   row("--views", number(a.options.views, view_count_range), "Number of views"),
+                   row("--span", number(a.options.span, view_span_range),
+                       "Distance from the first view to the last, in eye separations"),
+                   row("--size", size(a.size, view_side_range), "Size of a view: WIDTHxHEIGHT", {on_slices(a)})};
+  return under("Views and depth", join({views, camera_rows(a), depth_mapping_rows(a)}));
+}
+
+Rows method_rows(RenderArguments& a) {
+  RenderOptions& rendering = a.options.rendering;
+  const Reason slices = on_slices(a);
+  return under(
+      method_heading,
+      {row("--annotate", flag(a.annotate),
+           "Draw a scale bar, the colours with their limits and units, and the redshift into each view",
+           {slices, on_film(a), when([&a] { return !a.interleave.empty(); }, "with --interleave; it works on views")}),
+       row("--method", choice(rendering.method, methods), "Rendering method; --verbose tells which was used",
+           {slices, when([&a] { return makes_slices(a) && is_without_planes(a); },
+                         "with --save-slices or --interleave; these render depth planes")}),
+       device_row(rendering.device, "What renders",
+                  {slices, when([&a] { return makes_slices(a); },
+                                "with --save-slices or --interleave; depth planes are rendered by the cpu")}),
+       row("--filter", choice(rendering.filter, filters), "Depth-plane filter of the layered method",
+           {without_planes(a), when([&a] { return a.options.rendering.opaque && !makes_slices(a); },
+                                    "with --opaque; it works on particles that add their light")}),
+       row("--planes", without_default(number(rendering.planes, {1, planes_range.most})),
+           "Number of depth planes; one per pixel of parallax by default", {slices, without_planes(a)}),
+       row("--quilt", quilt_layout(a.quilt), "Write one quilt of COLUMNSxROWS views"),
+       row("--interleave", text(a.interleave),
+           "Write one picture for a lenticular screen: its name, or a calibration (.json)", {}, {}, {"--quilt"}),
+       row("--values", output_name(a.values),
+           "Also write the views as numbers with their units: FILE.fits, .exr or .npy; of several views, FILE_000.fits "
+           "and so on",
+           {slices, on_film(a), with_look_thesis(a)}),
+       row("--save-slices", output_name(a.save_slices), "Also write the depth planes: FILE.exr"),
+       row("--format", picture_format(a.format), "File format of the views or the quilt", {on_film(a)}, {},
+           {"--interleave"})});
+}
+
+Rows film_rows(RenderArguments& a) {
+  RenderFilmArguments& film = a.film;
+  const Reason camera = when([&a] { return reads_slices(a); }, "on slices (.exr); the camera stays where it was");
+  const Rows moving{
+      row("--frames", without_default(number(film.frames, {1, 10'000'000})),
+          "Number of frames of a film, from the first snapshot of a series (snap_%03d.hdf5) to the last; one a "
+          "snapshot by default",
+          {camera}),
+      row("--orbit", without_default(number(film.orbit_deg, {-36'000, 36'000})),
+          "Degrees that the camera turns around the middle of the views during the film", {camera}),
+      row("--camera", text(film.camera), "Keyframes of the camera and of time: FILE.toml", {camera}),
+      row("--rate", parsed(film.rate, parse_frame_rate, {}, "24"), "Frames per second, for example 25 or 24000/1001"),
+      row("--output-layout", film_layout(film.output_layout),
+          "Stereo layout of a film of two views; side by side by default",
+          {when([&a] { return is_composed(a); }, "with many views; it works with two")})};
+  const Rows frames{
+      row("--frame-range", text(film.frame_range),
+          "Make these of the frames only, as numbered pictures (frame_%04d.png): 1-240x2,300"),
+      row("--distribute", choice(film.distribute, distributions),
+          "What the processes of mpirun share: the particles of each frame, or whole frames"),
+      row("--skip-existing", flag(film.skip_existing), "Leave numbered pictures alone that are there already")};
+  return under("Film",
+               join({moving, film_coding_rows(film.writing), film_resume_rows(film.resume, film.checkpoint), frames}),
+               {when([&a] { return !makes_film(a); },
+                     "on one moment of one snapshot; it works on films: --frames, or a series")});
 }
 
 }  // namespace
 
+Rows render_rows(RenderArguments& a) {
+  const Rows basic{
+      row("FILE", required(text(a.file)),
+          "GADGET snapshot (HDF5 or binary), any HDF5, PLY, LAS, NumPy (.npy, .npz), FITS or text; or slices (.exr)"),
+      row("-o,--output", output_name(a.output), "Folder for the views; or the name of the quilt or picture")};
+  return join({basic, particle_rows(a), under("Appearance", join({look_rows(a), colour_rows(a), light_rows(a)})),
+               method_rows(a), view_rows(a), film_rows(a)});
+}
+
+bool reads_slices(const RenderArguments& arguments) {
+  return std::filesystem::path(arguments.file).extension() == ".exr";
+}
+
+bool makes_film(const RenderArguments& arguments) {
+  const Given& given = arguments.given;
+  return frame_pattern(arguments.file) || given("--frames") || given("--orbit") || given("--camera");
+}
+
 std::string name_of(Method method) {
-  const auto* const found = std::ranges::find(methods, method, [](const auto& entry) { return entry.second; });
-  return std::string(found->first);
+  return std::string(std::ranges::find(methods, method, &Choice<Method>::value)->name);
 }
 
-QuiltLayout quilt_for(const std::string& text, int views) {
-  const Size size = parse_size("--quilt", text, {1, 1000}, "COLUMNSxROWS");
-  if (size.width * size.height != views)
+void check_quilt(const QuiltLayout& layout, int views) {
+  if (layout.columns * layout.rows != views)
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("--quilt: is '{}', expected as many places as there are views, {}", text, views));
-  return {size.width, size.height};
+                fmt::format("--quilt: is '{}x{}', expected as many places as there are views, {}", layout.columns,
+                            layout.rows, views));
 }
 
-void add_render_options(CLI::App& command, RenderArguments& arguments) {
-  command
-      .add_option(
-          "FILE", arguments.file,
-          "GADGET snapshot (HDF5 or binary), any HDF5, PLY, LAS, NumPy (.npy, .npz), FITS or text; or slices (.exr)")
-      ->required();
-  add_output_option(command, arguments.output, "Folder for the views; or the name of the quilt or picture");
-  add_particle_options(command, arguments);
-  add_appearance_options(command, arguments);
-  add_view_options(command, arguments);
-  add_method_options(command, arguments);
-}
-
-void refuse_options_without_effect(const CLI::App& command, const RenderArguments& arguments, bool input_is_slices) {
-  if (input_is_slices) {
-    refuse_for_slices(command);
-  } else {
-    refuse_for_particles(command, arguments);
-  }
-}
-
-RenderArguments for_display(const RenderArguments& given, const CLI::App& command) {
+RenderArguments for_display(const RenderArguments& given) {
   RenderArguments arguments = given;
   if (given.display.empty()) return arguments;
   const DisplayPreset& display = find_display(given.display);
   const auto unless_given = [&](const char* option, auto& value, const auto& preset) {
-    if (!was_given(command, option)) value = preset;
+    if (!given.given(option)) value = preset;
   };
   RenderParticlesOptions& options = arguments.options;
   ViewingGeometry& viewing = options.depth.viewing;
   unless_given("--views", options.views, display.views);
   unless_given("--span", options.span, span_of(display, viewing.eye_separation_mm));
-  unless_given("--size", arguments.size, fmt::format("{}x{}", display.view_width_px, display.view_height_px));
+  unless_given("--size", arguments.size, Size{display.view_width_px, display.view_height_px});
   unless_given("--distance", viewing.viewing_distance_mm, display.viewing_distance_mm);
   unless_given("--screen-width", viewing.screen_width_mm, display.screen_width_mm);
   const float depth_mm = usual_depth_mm(display.screen_width_mm);
@@ -406,53 +435,27 @@ RenderArguments for_display(const RenderArguments& given, const CLI::App& comman
   unless_given("--far", options.depth.far_mm, depth_mm);
   arguments.aspect = display.aspect;
   if (display.quilt_columns > 0 && given.interleave.empty())
-    unless_given("--quilt", arguments.quilt, fmt::format("{}x{}", display.quilt_columns, display.quilt_rows));
+    unless_given("--quilt", arguments.quilt, QuiltLayout{display.quilt_columns, display.quilt_rows});
   return arguments;
-}
-
-std::optional<Focus> focus_in(const RenderArguments& arguments, const Size& size) {
-  if (arguments.focus.empty()) return {};
-  const auto point = parse_numbers("--focus", arguments.focus, {',', 2, {0, 1}, "X,Y"});
-  const auto width = static_cast<float>(size.width);
-  return Focus{.x_px = static_cast<float>(point[0]) * width,
-               .y_px = static_cast<float>(point[1]) * static_cast<float>(size.height),
-               .radius_px = arguments.focus_radius * width,
-               .gain = arguments.focus_gain};
 }
 
 RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   RenderParticlesOptions options = arguments.options;
-  const std::string splat_text = arguments.splat.empty() ? "2,6" : arguments.splat;
-  const auto splat = parse_numbers("--splat", splat_text, {',', 2, {0, SplatStyle::widest_px}, "MIN,MAX"});
-  if (!(splat[0] > 0 && splat[0] <= splat[1]))
-    throw Error(ErrorKind::wrong_usage, fmt::format("--splat: is '{}', expected MIN,MAX with 0 < MIN <= MAX <= {}",
-                                                    splat_text, SplatStyle::widest_px));
-  const Size size = parse_size("--size", arguments.size, view_side_range);
-  options.width = size.width;
-  options.height = size.height;
-  options.appearance.smallest_px = static_cast<float>(splat[0]);
-  options.appearance.largest_px = static_cast<float>(splat[1]);
-  if (!arguments.centre.empty()) {
-    const auto centre = parse_numbers("--centre", arguments.centre, {',', 3, coordinate_range, "X,Y,Z"});
-    options.selection.centre = {centre[0], centre[1], centre[2]};
+  options.width = arguments.size.width;
+  options.height = arguments.size.height;
+  if (arguments.focus) {
+    const auto width = static_cast<float>(options.width), height = static_cast<float>(options.height);
+    const auto [x, y] = *arguments.focus;
+    options.rendering.focus = Focus{.x_px = static_cast<float>(x) * width,
+                                    .y_px = static_cast<float>(y) * height,
+                                    .radius_px = arguments.focus_radius * width,
+                                    .gain = arguments.focus_gain};
   }
-  if (!arguments.look_at.empty()) {
-    const auto point = parse_numbers("--look-at", arguments.look_at, {',', 3, coordinate_range, "X,Y,Z"});
-    options.look_at = {point[0], point[1], point[2]};
-  }
-  if (!arguments.selection.empty())
-    options.selection.cut = parse_region("--select", arguments.selection, "sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1");
-  options.fit = parse_fit(arguments.fit);
-  if (!arguments.depth_mapping.empty())
-    options.depth.regions = parse_depth_regions(arguments.depth_mapping, "--depth-mapping");
-  options.rendering.focus = focus_in(arguments, size);
-  if (!arguments.cold.empty()) options.appearance.cold = parse_colour("--cold", arguments.cold);
-  if (!arguments.hot.empty()) options.appearance.hot = parse_colour("--hot", arguments.hot);
   check_render_options(options);
-  if (!option_of_thesis(arguments).empty()) options.appearance.look = Look::thesis;
+  if (is_thesis(arguments)) options.appearance.look = Look::thesis;
   options.values = !arguments.values.empty();
   if (options.values) check_values_ending("--values", arguments.values);
-  options.slices = !arguments.save_slices.empty() || !arguments.interleave.empty();
+  options.slices = makes_slices(arguments);
   options.without_views = !arguments.interleave.empty();
   return options;
 }

@@ -1,10 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <array>
+#include <optional>
 #include <string>
 
+#include "options.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/display/quilt.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/film_writer.h"
 
 namespace wheatstone::cli {
@@ -12,52 +15,54 @@ namespace wheatstone::cli {
 /// What the processes of mpirun share of a film.
 enum class Distribution { particles, frames };
 
-/// What `render` is told of a film, as it is typed.
+/// What `render` is told of a film.
 struct RenderFilmArguments {
   int frames = 0;  ///< 0: one a snapshot
   float orbit_deg = 0;
   std::string camera;  ///< a path's file
-  std::string rate = "24";
-  std::string output_layout, frame_range;
+  Rational rate{24, 1};
+  std::optional<StereoLayout> output_layout;
+  std::string frame_range;
   FilmWriterOptions writing;
   int checkpoint = 48;
   bool resume = false, skip_existing = false;
   Distribution distribute = Distribution::particles;
 };
 
-/// What `render` is told, as it is typed.
+/// What `render` is told.
 struct RenderArguments {
+  Given given;
   std::string file;
   std::string output = "views";
   RenderParticlesOptions options;
-  std::string size = "640x360";
-  std::string splat;
-  std::string display, centre, look_at, selection, depth_mapping;
-  std::string focus;
+  Size size{640, 360};
+  std::string display;
+  std::optional<std::array<double, 2>> focus;  ///< shares of a view's width and height
   float focus_radius = 0.25f, focus_gain = 1.5f;
-  std::string fit = "auto";
   bool annotate = false;
-  std::string values;
-  std::string cold, hot;
-  std::string quilt, interleave, save_slices;
+  std::string values, interleave, save_slices;
+  std::optional<QuiltLayout> quilt;
   std::string format = "png";
   double aspect = 0;  ///< of the display; 0: a view's own
   RenderFilmArguments film;
 };
 
-void add_render_options(CLI::App& command, RenderArguments& arguments);
+Rows render_rows(RenderArguments& arguments);
 
-/// Throws Error{wrong_usage} for an option that has no effect on this input, or beside the others.
-void refuse_options_without_effect(const CLI::App& command, const RenderArguments& arguments, bool input_is_slices);
+/// Whether depth planes are read in place of particles.
+bool reads_slices(const RenderArguments& arguments);
+
+/// Whether a run makes a film: of a series, or with a camera that moves.
+bool makes_film(const RenderArguments& arguments);
 
 /// What a display by name asks for, where the user does not say otherwise. Throws Error{wrong_usage}.
-RenderArguments for_display(const RenderArguments& given, const CLI::App& command);
+RenderArguments for_display(const RenderArguments& given);
 
 /// Throws Error{wrong_usage}.
 RenderParticlesOptions render_options_from(const RenderArguments& arguments);
 
-/// The layout that --quilt is for so many views. Throws Error{wrong_usage}.
-QuiltLayout quilt_for(const std::string& text, int views);
+/// Throws Error{wrong_usage} where --quilt has not a place for each of so many views.
+void check_quilt(const QuiltLayout& layout, int views);
 
 /// The name of a way of rendering.
 std::string name_of(Method method);

@@ -1,32 +1,22 @@
-#include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "command.h"
+#include "commands.h"
 #include "depth_argument.h"
 #include "device_option.h"
 #include "display_argument.h"
 #include "film_argument.h"
 #include "match_options.h"
-#include "number_arguments.h"
-#include "option_use.h"
-#include "output_option.h"
-#include "print_facts.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
-#include "typed_options.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/error.h"
@@ -43,22 +33,24 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RotoscopeArguments {
+  Given given;
   std::string film, right;
   std::string output = "painted.mp4";
-  std::string layout, output_layout;
-  std::string from, to;
+  std::optional<StereoLayout> layout, output_layout;
+  std::optional<double> from_s, to_s;
   int frame_step = 1;
   bool no_audio = false, no_subtitles = false;
-  std::string rate;
+  std::optional<Rational> rate;
   std::string truth;
   DisplayArguments display;
-  std::string depth_budget = "3%";
   std::string flow_values = "255";
   DepthArguments depth;
   RotoscopeFilmOptions options;
   MatchArguments matching;
   StyleArguments style;
 };
+
+bool writes_marks(const RotoscopeArguments& arguments) { return fs::path(arguments.output).extension() == ".wst"; }
 
 /// A frame of a film that `synth film` made.
 KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
@@ -78,10 +70,10 @@ KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
 StereoLayout layout_of_output(const RotoscopeArguments& arguments, const StereoFilmReader& source, bool two_films) {
   if (arguments.options.frames.display) return StereoLayout::mono;
   two_films = two_films || has_depth(arguments.depth);
-  if (const auto asked = film_layout_option("--output-layout", arguments.output_layout)) {
+  if (const auto asked = arguments.output_layout) {
     if (source.layout() == StereoLayout::mono && !two_films && *asked != StereoLayout::mono)
-      throw Error(ErrorKind::wrong_usage,
-                  fmt::format("--output-layout: is '{}', but the film has one eye", arguments.output_layout));
+      throw Error(ErrorKind::wrong_usage, fmt::format("--output-layout: is '{}', but the film has one eye",
+                                                      arguments.given.word_of("--output-layout")));
     return *asked;
   }
   return layout_of_painted_film(source, two_films);
@@ -99,100 +91,66 @@ FilmWriterOptions writing_options(const RotoscopeArguments& arguments, const Fil
   return writing;
 }
 
-nlohmann::ordered_json to_json(const RotoscopeArguments& arguments, const RotoscopedFilm& film,
-                               const Session& session) {
+Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film, const Session& session) {
   const RotoscopeTotals& totals = film.totals;
+  const RotoscopeOptions& options = arguments.options.frames;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
-  nlohmann::ordered_json facts{{"output", arguments.output},
-                               {"frames", film.frames},
-                               {"resumed_frames", film.resumed_frames},
-                               {"scenes", totals.scenes},
-                               {"strokes_a_frame", film.frames > 0 ? totals.strokes / film.frames : 0},
-                               {"worst_bare_share", totals.worst_bare_share},
-                               {"popped_strokes", totals.popped_strokes}};
-  if (totals.whole_strokes > 0)
-    facts["survival"] = static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes);
-  facts["seconds_a_frame"] = film.seconds / painted;
-  facts["core_seconds_a_frame"] = film.core_seconds / painted;
-  facts["matching_seconds_a_frame"] = film.times.matching_s / painted;
-  facts["central_view_seconds_a_frame"] = film.times.central_s / painted;
-  facts["flow_seconds_a_frame"] = film.times.flow_s / painted;
-  facts["planning_seconds_a_frame"] = film.painting_times.planning_s / painted;
-  facts["drawing_seconds_a_frame"] = film.painting_times.rasterising_s / painted;
-  if (const std::optional<FilmDisplay>& display = arguments.options.frames.display) {
-    facts["views"] = display->views.views;
-    facts["view_width"] = display->views.width;
-    facts["view_height"] = display->views.height;
-  } else {
-    facts["moved_frames"] = totals.moved_frames;
-    facts["presented_separation"] = totals.least_separation;
+  std::string frames = fmt::format("painted          {} frames in {} scene{}", film.frames, totals.scenes,
+                                   totals.scenes == 1 ? "" : "s");
+  if (film.resumed_frames > 0) frames += fmt::format(", the first {} by an earlier run", film.resumed_frames);
+  Report report{{{"output", arguments.output},
+                 {"frames", film.frames, frames},
+                 {"resumed_frames", film.resumed_frames},
+                 {"scenes", totals.scenes},
+                 {"strokes_a_frame", film.frames > 0 ? totals.strokes / film.frames : 0},
+                 {"seconds_a_frame", film.seconds / painted,
+                  fmt::format("time             {:.2f} s a frame, {:.2f} core-seconds", film.seconds / painted,
+                              film.core_seconds / painted)},
+                 {"core_seconds_a_frame", film.core_seconds / painted},
+                 {"matching_seconds_a_frame", film.times.matching_s / painted},
+                 {"central_view_seconds_a_frame", film.times.central_s / painted},
+                 {"flow_seconds_a_frame", film.times.flow_s / painted},
+                 {"planning_seconds_a_frame", film.painting_times.planning_s / painted},
+                 {"drawing_seconds_a_frame", film.painting_times.rasterising_s / painted},
+                 {"popped_strokes", totals.popped_strokes}}};
+  const auto add = [&](Fact fact) { report.facts.push_back(std::move(fact)); };
+  if (totals.whole_strokes > 0) {
+    const double survival = static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes);
+    add({"survival", survival,
+         fmt::format("carried          {:.1f} % of the strokes from frame to frame, {} popped", 100 * survival,
+                     totals.popped_strokes)});
   }
-  facts["ranks"] = session.ranks.count();
-  facts["notes"] = film.notes;
-  if (film.loss) facts["loss"] = *film.loss;
-  return facts;
-}
-
-void print_summary(const RotoscopeArguments& arguments, const RotoscopedFilm& film, const Session& session) {
-  const RotoscopeTotals& totals = film.totals;
-  const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
-  fmt::print(session.output, "painted          {} frames in {} scene{}", film.frames, totals.scenes,
-             totals.scenes == 1 ? "" : "s");
-  if (film.resumed_frames > 0) fmt::print(session.output, ", the first {} by an earlier run", film.resumed_frames);
-  fmt::print(session.output, "\ntime             {:.2f} s a frame, {:.2f} core-seconds\n", film.seconds / painted,
-             film.core_seconds / painted);
-  if (totals.whole_strokes > 0)
-    fmt::print(session.output, "carried          {:.1f} % of the strokes from frame to frame, {} popped\n",
-               100 * static_cast<double>(totals.survived_strokes) / static_cast<double>(totals.whole_strokes),
-               totals.popped_strokes);
-  fmt::print(session.output, "unpainted        at most {:.3f} % of {}\n", 100 * totals.worst_bare_share,
-             arguments.options.frames.display ? "a view" : "an eye");
+  add({"worst_bare_share", totals.worst_bare_share,
+       fmt::format("unpainted        at most {:.3f} % of {}", 100 * totals.worst_bare_share,
+                   options.display ? "a view" : "an eye")});
+  if (options.display) {
+    add({"views", options.display->views.views});
+    add({"view_width", options.display->views.width});
+    add({"view_height", options.display->views.height});
+  } else {
+    add({"moved_frames", totals.moved_frames});
+    add({"presented_separation", totals.least_separation});
+  }
   if (totals.moved_frames > 0)
-    fmt::print(session.output,
-               "depth            reduced in {} frames, to {:.0f} % or more, to stay comfortable ({:.3g} % of width); "
-               "--depth-budget full keeps it\n",
-               totals.moved_frames, 100 * totals.least_separation,
-               100 * arguments.options.frames.depth_budget.value_or(1));
-  if (film.loss) fmt::print(session.output, "source           {}\n", *film.loss);
-  for (const std::string& note : film.notes) fmt::print(session.output, "note             {}\n", note);
-  fmt::print(session.output, "written to       {}\n", arguments.output);
-}
-
-/// Refuses options that change nothing in this run, as far as that is known before the film is opened.
-void refuse_options_without_effect(const CLI::App& command, const RotoscopeArguments& arguments) {
-  const bool known = !arguments.truth.empty(), deep = has_depth(arguments.depth);
-  const std::string with_depth = arguments.depth.model.empty() ? "with --depth" : "with --depth-model";
-  refuse_match_options_without_effect(command, arguments.matching, known ? "with --truth" : deep ? with_depth : "");
-  const Style& style = arguments.options.frames.style;
-  const auto refuse = [&](const std::vector<std::string>& options, std::string_view situation, std::string_view where) {
-    refuse_options(command, options, situation, where);
-  };
-  if (is_of_strokes(style))
-    refuse({"--propagation"}, "on the strokes of a film", "they are planned in the view between the eyes");
-  if (!is_of_strokes(style))
-    refuse({"--fade-in", "--fade-out"}, fmt::format("on a painting of {}", name_of(style.marks)),
-           "it works with strokes");
-  const RotoscopeOptions& frames = arguments.options.frames;
-  if (frames.anew)
-    refuse({"--flow", "--flow-model", "--flow-values", "--fade-in", "--fade-out"}, "with --frame-by-frame",
-           "nothing is carried from frame to frame");
-  if (deep) refuse({"--truth", "--rectify"}, with_depth, "it works where there are two eyes");
-  if (!arguments.depth.model.empty()) refuse({"--depth-is"}, with_depth, "a network gives inverse depth");
-  if (!deep) refuse({"--depth-is", "--strength"}, "without --depth", "");
-  if (known)
-    refuse({"--flow", "--flow-model", "--flow-values", "--rectify"}, "with --truth",
-           "the exact flow and disparity are read");
+    add(only_text(
+        fmt::format("depth            reduced in {} frames, to {:.0f} % or more, to stay comfortable ({:.3g} % of "
+                    "width); --depth-budget full keeps it",
+                    totals.moved_frames, 100 * totals.least_separation, 100 * options.depth_budget.value_or(1))));
+  add({"ranks", session.ranks.count()});
+  if (film.loss) add({"loss", *film.loss, fmt::format("source           {}", *film.loss)});
+  add({"notes", film.notes, lines("note             ", film.notes)});
+  add(only_text(fmt::format("written to       {}", arguments.output)));
+  return report;
 }
 
 /// Depth makes a pair of a film of one eye.
 void take_depth(const RotoscopeArguments& arguments, const FilmFiles& film, const StereoFilmReader& source,
                 RotoscopeFilmOptions& options) {
-  const std::string option = arguments.depth.model.empty() ? "--depth" : "--depth-model";
   const FilmFacts& facts = source.facts();
-  const bool says_two = !facts.layout_how.empty() && facts.layout != StereoLayout::mono && arguments.layout.empty();
+  const bool says_two = !facts.layout_how.empty() && facts.layout != StereoLayout::mono && !arguments.layout;
   if (source.layout() != StereoLayout::mono || !film.right.empty() || says_two)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: belongs to a film of one eye, but {} has two", option, film.film.string()));
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: belongs to a film of one eye, but {} has two",
+                                                    option_of(arguments.depth), film.film.string()));
   const DepthArguments& depth = arguments.depth;
   const FilmDepth depth_of = depth.model.empty()
                                  ? depth_of_film(depth.file, {film.film, source.facts(), options.reading}, depth.kind)
@@ -203,45 +161,28 @@ void take_depth(const RotoscopeArguments& arguments, const FilmFiles& film, cons
   options.made_from.emplace_back(depth.model.empty() ? depth.file : depth.model);
 }
 
-/// The depth of what two eyes look at. Of marks, and of a display with more views, it is that of the film.
-void take_depth_budget(const CLI::App& command, RotoscopeArguments& arguments) {
-  const std::vector<std::string> option{"--depth-budget"};
-  if (arguments.options.frames.display)
-    return refuse_options(command, option, "with --display", "--span sets how deep it looks");
-  if (fs::path(arguments.output).extension() == ".wst")
-    return refuse_options(command, option, "on marks (.wst)", "they have the depth of the film");
-  if (arguments.depth_budget != "full")
-    arguments.options.frames.depth_budget = parse_share("--depth-budget", arguments.depth_budget, {0.1, 100});
-}
-
-/// A network for the optical flow, and nothing of it without one.
+/// A network for the optical flow.
 void take_flow(RotoscopeArguments& arguments) {
   RotoscopeOptions& frames = arguments.options.frames;
-  const bool by_network = frames.flow == FlowMethod::onnx;
-  if (by_network && frames.flow_model.empty())
+  if (frames.flow == FlowMethod::onnx && frames.flow_model.empty())
     throw Error(ErrorKind::wrong_usage, "--flow: onnx needs a network, expected --flow-model FILE.onnx");
-  if (!by_network && !frames.flow_model.empty())
-    throw Error(ErrorKind::wrong_usage, "--flow-model: has no effect with this --flow; it works with onnx");
   frames.flow_model_values = *network_values_by_name(arguments.flow_values);
 }
 
 /// What a display asks for, where the user does not say otherwise.
-void take_display(const CLI::App& command, RotoscopeArguments& arguments) {
+void take_display(RotoscopeArguments& arguments) {
   arguments.options.frames.display = film_display_from(arguments.display);
   if (!arguments.options.frames.display) return;
-  refuse_options(command, {"--output-layout"}, "with --display", "it works where two eyes are painted");
-  if (!was_given(command, "--output")) arguments.output = "painted";
+  if (!arguments.given("--output")) arguments.output = "painted";
   arguments.output = name_of_display_film(arguments.output, arguments.display);
-  if (fs::path(arguments.output).extension() == ".wst")
-    refuse_options(command, {"--display"}, "on marks (.wst)", "'paint --display' draws them for a display");
-  choose_coding(command, *arguments.options.frames.display, arguments.options.writing);
+  choose_coding(arguments.given, *arguments.options.frames.display, arguments.options.writing);
 }
 
 /// The exact geometry and flow of a film of 'synth film'.
 void take_truth(const RotoscopeArguments& arguments, const Session& session, RotoscopeFilmOptions& options) {
   if (arguments.truth.empty()) return;
   if (!session.ranks.alone()) throw Error(ErrorKind::wrong_usage, "--truth works in one process, not under mpirun");
-  if (!arguments.from.empty() || arguments.frame_step != 1)
+  if (arguments.from_s || arguments.frame_step != 1)
     throw Error(ErrorKind::wrong_usage, "--truth counts all frames from the first: leave out --from and --frame-step");
   options.known = [folder = arguments.truth](std::int64_t frame, const Image<Rgb8>& /*left*/) {
     return read_known_frame(folder, frame);
@@ -252,10 +193,7 @@ void take_truth(const RotoscopeArguments& arguments, const Session& session, Rot
 }
 
 /// Frames of one film are drawn by one device: --resume compares it.
-void take_device(const CLI::App& command, const Session& session, const std::string& output,
-                 RotoscopeFilmOptions& options) {
-  if (fs::path(output).extension() == ".wst")
-    refuse_options(command, {"--device"}, "on marks (.wst)", "they are not drawn");
+void take_device(const Session& session, RotoscopeFilmOptions& options) {
   if (options.frames.device != Device::processor && !session.ranks.alone())
     throw Error(ErrorKind::wrong_usage, "--device: works in one process, expected --device cpu under mpirun");
   options.made_by += fmt::format(", drawn by {}", settle_device(options.frames.device, session));
@@ -264,7 +202,7 @@ void take_device(const CLI::App& command, const Session& session, const std::str
 FilmFiles films_from(const RotoscopeArguments& arguments) {
   check_distinct_outputs(
       std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--save-marks", arguments.options.marks}}});
-  std::optional<StereoLayout> layout = film_layout_option("--layout", arguments.layout);
+  std::optional<StereoLayout> layout = arguments.layout;
   if (has_depth(arguments.depth) && !layout) layout = StereoLayout::mono;
   FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
@@ -275,64 +213,64 @@ FilmFiles films_from(const RotoscopeArguments& arguments) {
 }
 
 FilmReaderOptions reading_options(const RotoscopeArguments& arguments, const FilmFiles& film, const Session& session) {
-  FilmReaderOptions reading{.from_s = parse_time_s("--from", arguments.from),
-                            .to_s = parse_time_s("--to", arguments.to),
-                            .every = arguments.frame_step,
-                            .threads = session.threads};
-  if (arguments.rate.empty()) return reading;
+  FilmReaderOptions reading{
+      .from_s = arguments.from_s, .to_s = arguments.to_s, .every = arguments.frame_step, .threads = session.threads};
+  if (!arguments.rate) return reading;
   if (!frame_pattern(film.film))
     throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures");
-  reading.sequence_rate = parse_frame_rate("--rate", arguments.rate);
+  reading.sequence_rate = *arguments.rate;
   return reading;
 }
 
 /// A film of one eye has no depth.
-void refuse_for_one_eye(const CLI::App& command, const FilmFiles& film, const RotoscopeFilmOptions& options) {
-  if (options.frames.display)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: has one eye, expected two, or --depth, for a display of more views (--layout says how "
-                            "they lie)",
-                            film.film.string()));
-  refuse_group(command, match_options_group, {}, "on a film of one eye", {});
-  refuse_options(command, {"--central", "--rectify", "--depth-budget"}, "on a film of one eye", {});
+void refuse_for_one_eye(const RotoscopeArguments& arguments, const FilmFiles& film) {
+  if (arguments.options.frames.display)
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format(
+            "{}: has one eye, expected two, or --depth, for a display of more views (--layout says how they lie)",
+            film.film.string()));
+  MatchArguments matching;
+  for (const Row& row : match_rows(matching)) refuse_options(arguments.given, {name_of(row)}, "on a film of one eye");
+  refuse_options(arguments.given, {"--central", "--rectify", "--depth-budget"}, "on a film of one eye");
 }
 
-void run_rotoscope(RotoscopeArguments arguments, const CLI::App& command, const Session& session) {
-  arguments.options.frames.style = style_from(arguments.style, session.seed);
-  arguments.options.frames.matching = match_options_from(arguments.matching);
+Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
+  RotoscopeArguments arguments = given;
+  RotoscopeOptions& frames = arguments.options.frames;
+  frames.style = style_from(arguments.style, session.seed);
+  frames.matching = match_options_from(arguments.matching);
   // Whoever chooses a method of matching has each frame matched by it.
-  arguments.options.frames.match_near_last =
-      arguments.matching.quality != "best" &&
-      std::ranges::none_of(std::array{"--matcher", "--block", "--no-left-right-check", "--refine"},
-                           [&](const char* option) { return was_given(command, option); });
-  arguments.options.frames.at_half_size = arguments.matching.quality == "fast";
+  frames.match_near_last = arguments.matching.quality != "best" &&
+                           std::ranges::none_of(std::array{"--matcher", "--block", "--no-left-right-check", "--refine"},
+                                                [&](const char* option) { return arguments.given(option); });
+  frames.at_half_size = arguments.matching.quality == "fast";
   take_flow(arguments);
-  take_display(command, arguments);
-  take_depth_budget(command, arguments);
-  arguments.options.frames.depth = {.kind = arguments.depth.kind, .strength = parse_strength(arguments.depth.strength)};
-  refuse_options_without_effect(command, arguments);
+  take_display(arguments);
+  if (arguments.options.frames.display || writes_marks(arguments)) arguments.options.frames.depth_budget.reset();
+  frames.depth = {.kind = arguments.depth.kind, .strength = arguments.depth.strength};
   tell_what_film_keeps(arguments.output, arguments.options.marks);
   RotoscopeFilmOptions options = arguments.options;
   take_truth(arguments, session, options);
   const FilmFiles film = films_from(arguments);
   options.reading = reading_options(arguments, film, session);
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
-  take_device(command, session, arguments.output, options);
+  take_device(session, options);
   StereoFilmReader source = open_film(film, options.reading);
   if (has_depth(arguments.depth)) {
     take_depth(arguments, film, source, options);
   } else if (source.layout() == StereoLayout::mono && film.right.empty()) {
-    refuse_for_one_eye(command, film, options);
+    refuse_for_one_eye(arguments, film);
   }
   if (session.verbose && film.right.empty())
-    fmt::print(session.errors, "layout: {} ({})\n", layout_name(source.layout()), source.layout_how());
+    remark(session, fmt::format("layout: {} ({})", layout_name(source.layout()), source.layout_how()));
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));
   options.writing = writing_options(arguments, film, source, options.reading);
   options.expected_frames = expected_frames(source.facts(), options.reading);
   options.made_from.push_back(film.film);
   if (!film.right.empty()) options.made_from.push_back(film.right);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
-  if (!left_out.empty() && !session.quiet) fmt::print(session.errors, "wheatstone: {}\n", fmt::join(left_out, "; "));
+  if (!left_out.empty()) remark(session, fmt::format("wheatstone: {}", fmt::join(left_out, "; ")));
   if (!session.ranks.alone()) {
     options.ranks = session.ranks;
     StereoFilmReader looked_at = open_film(film, options.reading);
@@ -341,128 +279,136 @@ void run_rotoscope(RotoscopeArguments arguments, const CLI::App& command, const 
   const RotoscopedFilm result =
       make_or_say_how_to_continue([&] { return rotoscope_film(source, arguments.output, options, session.progress); });
   session.ranks.meet();
-  if (!session.ranks.first()) return;
-  if (session.json) {
-    print_facts(to_json(arguments, result, session), session);
-  } else {
-    print_summary(arguments, result, session);
-  }
+  return session.ranks.first() ? report_of(arguments, result, session) : Report();
 }
 
-void add_film_options(CLI::App& command, RotoscopeArguments& arguments) {
-  constexpr auto group = "Film";
-  command
-      .add_option("--layout", arguments.layout,
-                  "Stereo layout of the film: sbs, sbs-half, tb, tb-half, mono, …; by default from its metadata, or "
-                  "else estimated from the pictures")
-      ->group(group);
-  command
-      .add_option("--output-layout", arguments.output_layout,
-                  "Stereo layout of the painted film; that of the source by default")
-      ->group(group);
-  command.add_option("--from", arguments.from, "Start time: seconds or [HH:]MM:SS")->group(group);
-  command.add_option("--to", arguments.to, "End time: seconds or [HH:]MM:SS")->group(group);
-  command
-      .add_option("--rate", arguments.rate,
-                  "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default")
-      ->group(group);
-  add_number(command, "--frame-step", arguments.frame_step, {1, 1'000'000}, "Paint every Nth frame only")->group(group);
-  add_film_coding_options(command, arguments.options.writing, group);
-  command.add_flag("--no-audio", arguments.no_audio, "Do not copy the film's sound")->group(group);
-  command.add_flag("--no-subtitles", arguments.no_subtitles, "Do not copy the film's subtitles")->group(group);
-  command.add_option("--save-marks", arguments.options.marks, "Also write the marks of each frame: marks_%04d.wst")
-      ->group(group);
-  add_film_resume_options(command, arguments.options.resume, arguments.options.frames_between_checkpoints, group);
-  command
-      .add_flag("--keep-going", arguments.options.keep_going,
-                "Paint the frames of a damaged film that can be decoded, without an error at the end")
-      ->group(group);
+Rows film_rows(RotoscopeArguments& a) {
+  const Rows source{
+      row("--layout", film_layout(a.layout),
+          "Stereo layout of the film: sbs, sbs-half, tb, tb-half, mono, …; by default from its metadata, or else "
+          "estimated from the pictures"),
+      row("--output-layout", film_layout(a.output_layout),
+          "Stereo layout of the painted film; that of the source by default",
+          {when([&a] { return !a.display.name.empty(); }, "with --display; it works where two eyes are painted")}),
+      row("--from", parsed(a.from_s, parse_time_s), "Start time: seconds or [HH:]MM:SS"),
+      row("--to", parsed(a.to_s, parse_time_s), "End time: seconds or [HH:]MM:SS"),
+      row("--rate", parsed(a.rate, parse_frame_rate),
+          "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default"),
+      row("--frame-step", number(a.frame_step, {1, 1'000'000}), "Paint every Nth frame only")};
+  const Rows side{row("--no-audio", flag(a.no_audio), "Do not copy the film's sound"),
+                  row("--no-subtitles", flag(a.no_subtitles), "Do not copy the film's subtitles"),
+                  row("--save-marks", text(a.options.marks), "Also write the marks of each frame: marks_%04d.wst")};
+  const Rows damaged{row("--keep-going", flag(a.options.keep_going),
+                         "Paint the frames of a damaged film that can be decoded, without an error at the end")};
+  return under("Film", join({source, film_coding_rows(a.options.writing), side,
+                             film_resume_rows(a.options.resume, a.options.frames_between_checkpoints), damaged}));
 }
 
-void add_time_options(CLI::App& command, RotoscopeArguments& arguments) {
-  constexpr auto group = "Time and depth";
-  RotoscopeOptions& frames = arguments.options.frames;
-  add_rectify_option(command, frames.rectify)->group(group);
-  static constexpr std::array flows{std::pair{std::string_view("dis"), FlowMethod::dis},
-                                    std::pair{std::string_view("farneback"), FlowMethod::farneback},
-                                    std::pair{std::string_view("onnx"), FlowMethod::onnx}};
-  CLI::Option* flow =
-      add_choice<FlowMethod>(command, "--flow", frames.flow, flows,
-                             "Optical flow method: dis (dense inverse search), farneback (polynomial expansion), which "
-                             "is slower, or onnx, a network (--flow-model)")
-          ->group(group);
-  CLI::Option* model = command
-                           .add_option("--flow-model", frames.flow_model,
-                                       "Network (.onnx) for --flow onnx: takes two frames, 1x3xHxW each or stacked "
-                                       "1x6xHxW; returns a flow, 1x2xHxW")
-                           ->needs(flow)
-                           ->group(group);
-  add_name(command, "--flow-values", arguments.flow_values, network_values_names(),
-           "Value range of that network's inputs: 0..255, 0..1, or ImageNet's normalisation")
-      ->needs(model)
-      ->group(group);
-  static constexpr std::array merges{std::pair{std::string_view("visible"), CentralMerge::visible},
-                                     std::pair{std::string_view("average"), CentralMerge::average}};
-  add_choice<CentralMerge>(
-      command, "--central", frames.central, merges,
-      "How the eyes are merged to the central view: visible takes the colour from the eyes that see a point; average "
-      "takes the average of both, which causes ghosting")
-      ->group(group);
-  add_number(command, "--fade-in", frames.carrying.fade_in_frames, {1, 1000},
-             "Number of frames over which new strokes fade in")
-      ->group(group);
-  add_number(command, "--fade-out", frames.carrying.fade_out_frames, {1, 1000},
-             "Number of frames over which strokes that no longer fit fade out")
-      ->group(group);
-  command
-      .add_option(
-          "--depth-budget", arguments.depth_budget,
-          "Depth of the painted film from the farthest point to the nearest, at most, in % of the width; 'full' "
-          "for that of the source. The film is drawn for eyes that are nearer together")
-      ->type_name("SHARE")
-      ->capture_default_str()
-      ->group(group);
-  command.add_flag("--frame-by-frame", frames.anew, "Paint every frame separately, which flickers; for comparison")
-      ->group(group);
-  command
-      .add_option("--truth", arguments.truth,
-                  "Folder of 'synth film' whose exact flow and disparities are used instead of estimates")
-      ->group(group);
+/// "with --truth" or "with --depth", which stand in for what is estimated.
+std::string known_depth(const RotoscopeArguments& a) {
+  if (!a.truth.empty()) return "with --truth";
+  return has_depth(a.depth) ? "with " + option_of(a.depth) : "";
+}
+
+Reason with_depth(const RotoscopeArguments& a) {
+  return [&a] {
+    return has_depth(a.depth) ? fmt::format("with {}; it works where there are two eyes", option_of(a.depth)) : "";
+  };
+}
+
+Rows time_rows(RotoscopeArguments& a) {
+  RotoscopeOptions& frames = a.options.frames;
+  static constexpr std::array<Choice<FlowMethod>, 3> flows{
+      {{"dis", FlowMethod::dis}, {"farneback", FlowMethod::farneback}, {"onnx", FlowMethod::onnx}}};
+  static constexpr std::array<Choice<CentralMerge>, 2> merges{
+      {{"visible", CentralMerge::visible}, {"average", CentralMerge::average}}};
+  const Reason truth = when([&a] { return !a.truth.empty(); }, "with --truth; the exact flow and disparity are read");
+  const Reason anew =
+      when([&a] { return a.options.frames.anew; }, "with --frame-by-frame; nothing is carried from frame to frame");
+  const Reason other_marks = [&a] {
+    const Style style = style_from(a.style, 1);
+    return is_of_strokes(style) ? "" : fmt::format("on a painting of {}; it works with strokes", name_of(style.marks));
+  };
+  return under(
+      "Time and depth",
+      {rectify_row(frames.rectify, {with_depth(a), truth}),
+       row("--flow", choice(frames.flow, flows),
+           "Optical flow method: dis (dense inverse search), farneback (polynomial expansion), which is slower, or "
+           "onnx, a network (--flow-model)",
+           {anew, truth}),
+       row("--flow-model", text(frames.flow_model),
+           "Network (.onnx) for --flow onnx: takes two frames, 1x3xHxW each or stacked 1x6xHxW; returns a flow, "
+           "1x2xHxW",
+           {anew, truth,
+            when([&a] { return a.options.frames.flow != FlowMethod::onnx; }, "with this --flow; it works with onnx")},
+           "--flow"),
+       row("--flow-values", name(a.flow_values, network_values_names()),
+           "Value range of that network's inputs: 0..255, 0..1, or ImageNet's normalisation", {anew, truth},
+           "--flow-model"),
+       row("--central", choice(frames.central, merges),
+           "How the eyes are merged to the central view: visible takes the colour from the eyes that see a point; "
+           "average takes the average of both, which causes ghosting"),
+       row("--fade-in", number(frames.carrying.fade_in_frames, {1, 1000}),
+           "Number of frames over which new strokes fade in", {other_marks, anew}),
+       row("--fade-out", number(frames.carrying.fade_out_frames, {1, 1000}),
+           "Number of frames over which strokes that no longer fit fade out", {other_marks, anew}),
+       row("--depth-budget", depth_budget(frames.depth_budget),
+           "Depth of the painted film from the farthest point to the nearest, at most, in % of the width; 'full' for "
+           "that of the source. The film is drawn for eyes that are nearer together",
+           {when([&a] { return !a.display.name.empty(); }, "with --display; --span sets how deep it looks"),
+            when([&a] { return writes_marks(a); }, "on marks (.wst); they have the depth of the film")}),
+       row("--frame-by-frame", flag(frames.anew), "Paint every frame separately, which flickers; for comparison"),
+       row("--truth", text(a.truth),
+           "Folder of 'synth film' whose exact flow and disparities are used instead of estimates", {with_depth(a)})});
+}
+
+Rows rotoscope_rows(RotoscopeArguments& a) {
+  a.matching.matcher = name_of(RotoscopeOptions().matching.matcher);  // films need a quick one
+  a.options.frames.depth_budget = comfortable_parallax_share;
+  const Reason marks =
+      when([&a] { return writes_marks(a); }, "on marks (.wst); 'paint --display' draws them for a display");
+  const Reason undrawn = when([&a] { return writes_marks(a); }, "on marks (.wst); they are not drawn");
+  const Reason known = [&a] {
+    return known_depth(a).empty() ? "" : known_depth(a) + "; nothing is matched where the disparity is given";
+  };
+  const Rows basic{row("FILM", required(text(a.film)),
+                       "Film with one or two eyes; numbered pictures (frame_%04d.png); a folder of them; or one film "
+                       "per eye: LEFT,RIGHT"),
+                   row("RIGHT", text(a.right), "Film of the right eye, if FILM is that of the left eye"),
+                   row("-o,--output", output_name(a.output),
+                       "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks "
+                       "(frame_%04d.wst); the stem of the name with --display")};
+  Rows style = style_rows(a.style);
+  std::ranges::find(style, "--propagation", &Row::names)->unless.push_back([&a] {
+    return is_of_strokes(style_from(a.style, 1))
+               ? "on the strokes of a film; they are planned in the view between the eyes"
+               : "";
+  });
+  return join({basic,
+               film_rows(a),
+               time_rows(a),
+               film_depth_rows(a.depth),
+               film_display_rows(a.display, {marks}),
+               {device_row(a.options.frames.device, "What draws the planned frames", {undrawn})},
+               style,
+               under({}, match_rows(a.matching), {known})});
 }
 
 }  // namespace
 
-void add_rotoscope_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<RotoscopeArguments>();
-  CLI::App& command =
-      *program.add_subcommand("rotoscope", "Paint a stereo or ordinary film; strokes follow the motion of the film");
-  command
-      .add_option("FILM", arguments->film,
-                  "Film with one or two eyes; numbered pictures (frame_%04d.png); a folder of them; or one film per "
-                  "eye: LEFT,RIGHT")
-      ->required();
-  command.add_option("RIGHT", arguments->right, "Film of the right eye, if FILM is that of the left eye");
-  add_output_option(
-      command, arguments->output,
-      "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks (frame_%04d.wst); the stem of "
-      "the name with --display");
-  add_film_options(command, *arguments);
-  add_time_options(command, *arguments);
-  add_film_depth_options(command, arguments->depth);
-  add_film_display_options(command, arguments->display);
-  add_device_option(command, arguments->options.frames.device, "What draws the planned frames");
-  add_style_options(command, arguments->style);
-  arguments->matching.matcher = name_of(RotoscopeOptions().matching.matcher);  // films need a quick one
-  add_match_options(command, arguments->matching);
-  command.footer(
-      "Strokes are planned in the view between the eyes and follow the motion of the film. Audio and subtitles are\n"
-      "copied. --resume continues a stopped run and gives the same film.\n\n"
-      "Examples:\n  wheatstone rotoscope film.mp4 -o painted.mp4\n"
-      "  wheatstone rotoscope film.mp4 --from 0:10 --to 0:12 --style expressionist -o try.mp4\n"
-      "  wheatstone rotoscope film.mp4 --display looking-glass-portrait -o painted\n"
-      "  wheatstone rotoscope walk.mp4 --depth depth.mp4 -o painted.mp4\n"
-      "  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4");
-  command.callback([arguments, &command, &session] { run_rotoscope(*arguments, command, session); });
+Command rotoscope_command() {
+  return make_command(
+      "rotoscope", "Paint a stereo or ordinary film; strokes follow the motion of the film", rotoscope_rows,
+      run_rotoscope,
+      R"(Strokes are planned in the view between the eyes and follow the motion of the film. Audio and subtitles are
+copied. --resume continues a stopped run and gives the same film.
+
+Examples:
+  wheatstone rotoscope film.mp4 -o painted.mp4
+  wheatstone rotoscope film.mp4 --from 0:10 --to 0:12 --style expressionist -o try.mp4
+  wheatstone rotoscope film.mp4 --display looking-glass-portrait -o painted
+  wheatstone rotoscope walk.mp4 --depth depth.mp4 -o painted.mp4
+  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4)");
 }
 
 }  // namespace wheatstone::cli

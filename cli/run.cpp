@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <opencv2/core/utility.hpp>
 #include <optional>
@@ -17,7 +16,6 @@
 
 #include "failure.h"
 #include "interrupt.h"
-#include "print_facts.h"
 #include "program.h"
 #include "wheatstone/error.h"
 #include "wheatstone/gpu/gpu.h"
@@ -35,7 +33,7 @@ int fail(const Session& session, Ranks::Failure own) {
   fmt::print(session.errors, "wheatstone: {}\n", message);
   session.errors.flush();
   if (session.json) {
-    print_facts({{"error", message}, {"exit_code", code}}, session);
+    session.output << json_text({{"error", message}, {"exit_code", code}}) << '\n';
     session.output.flush();
   }
   return code;
@@ -138,10 +136,11 @@ void share_with_ranks(const CLI::App& program, Session& session) {
   if (!launch || launch->count == 1) return;
   const std::string command = program.get_subcommands().front()->get_name();
   if (command != "render" && command != "rotoscope")
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("mpirun started {} processes, but '{}' works in one: only 'render' and 'rotoscope' share "
-                            "their work",
-                            launch->count, command));
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format(
+            "mpirun started {} processes, but '{}' works in one: only 'render' and 'rotoscope' share their work",
+            launch->count, command));
   session.ranks = start_ranks(*launch);
 }
 

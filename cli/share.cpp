@@ -1,23 +1,16 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "command.h"
+#include "commands.h"
 #include "depth_argument.h"
-#include "disparity_argument.h"
-#include "film_argument.h"
-#include "number_arguments.h"
-#include "option_use.h"
-#include "output_option.h"
-#include "print_facts.h"
+#include "display_argument.h"
 #include "stereo_arguments.h"
 #include "views_argument.h"
 #include "wheatstone/app/paint_photograph.h"
@@ -35,6 +28,7 @@
 #include "wheatstone/share/share_photograph.h"
 #include "wheatstone/share/share_slices.h"
 #include "wheatstone/share/share_views.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {
@@ -81,13 +75,8 @@ void refuse_too_large(const ShareArguments& arguments, const SharedPicture& pict
 /// Whether the files are views that are shown as they are, and no photograph of two that is looked into.
 bool are_ready_views(const ViewsArguments& views) {
   const std::string& first = views.files.front();
-  return views.files.size() > 2 || fs::is_directory(first) || !views.quilt.empty() || first.ends_with(".exr") ||
+  return views.files.size() > 2 || fs::is_directory(first) || views.quilt || first.ends_with(".exr") ||
          quilt_of_name(fs::path(first).filename().string()).has_value();
-}
-
-SharedPicture share_ready_views(const ViewsArguments& views, const std::string& title, const CLI::App& command,
-                                const Session& session) {
-  return share_views(read_views_argument(views, 0, command, session).views, title);
 }
 
 SharedPicture share_picture_with_depth(const ShareArguments& arguments, const Session& session) {
@@ -112,59 +101,79 @@ SharedPicture share_stereo_photograph(const ShareArguments& arguments, const Ses
   return share_photograph(read.pair.pictures, found.geometry, arguments.words.title);
 }
 
-/// Refuses options that have no effect on what is shared.
-void refuse_others(const CLI::App& command, std::vector<std::string> kept, std::string_view situation) {
-  kept.insert(kept.end(), {"--output", "--title", "--caption", "--description", "--element"});
-  refuse_all_but(command, kept, situation, "it is for other pictures");
+enum class SharedKind { painting, film, quilt_film, slices, views, picture_with_depth, stereo_photograph };
+
+SharedKind shared_kind_of(const ShareArguments& arguments) {
+  const ViewsArguments& views = arguments.views;
+  const std::string& first = views.files.front();
+  const bool is_one = views.files.size() == 1;
+  if (is_one && first.ends_with(".wst")) return SharedKind::painting;
+  if (is_one && is_film(first))
+    return views.quilt || quilt_of_name(fs::path(first).filename().string()) ? SharedKind::quilt_film
+                                                                             : SharedKind::film;
+  if (is_one && first.ends_with(".exr") && !is_multiview_exr(first)) return SharedKind::slices;
+  if (are_ready_views(views)) return SharedKind::views;
+  const bool has_own = is_one && (has_depth(arguments.depth) || views.layout == depth_layout || carries_depth(first));
+  return has_own ? SharedKind::picture_with_depth : SharedKind::stereo_photograph;
 }
 
-SharedPicture share_film_file(const ShareArguments& arguments, const CLI::App& command) {
+std::string_view shared_situation(SharedKind kind) {
+  constexpr std::array<std::string_view, 7> words{"on a painting (.wst)",
+                                                  "on a film",
+                                                  "on a film of quilts",
+                                                  "on slices",
+                                                  "on views",
+                                                  "on one picture with its depth",
+                                                  "on a stereo photograph"};
+  return words[static_cast<std::size_t>(kind)];
+}
+
+SharedPicture share_film_file(const ShareArguments& arguments) {
   const ViewsArguments& views = arguments.views;
   const fs::path film = views.files.front();
   ShareFilmOptions options{.title = arguments.words.title, .page = arguments.output};
-  if (const auto named = quilt_of_name(film.filename().string())) options.quilt = named->layout;
-  if (!views.quilt.empty()) {
-    const Size size = parse_size("--from-quilt", views.quilt, {1, 1000}, "COLUMNSxROWS");
-    options.quilt = QuiltLayout{size.width, size.height};
+  options.quilt = views.quilt;
+  if (const auto named = quilt_of_name(film.filename().string()); named && !views.quilt) options.quilt = named->layout;
+  if (!views.layout.empty()) {
+    options.layout = find_stereo_layout(views.layout);
+    if (!options.layout)
+      throw Error(ErrorKind::wrong_usage, fmt::format("--layout: there is no layout '{}', expected one of {}",
+                                                      views.layout, stereo_layout_names()));
   }
-  refuse_others(command, {options.quilt ? "--from-quilt" : "--layout", "--max-size", "--subtitles"}, "on a film");
-  options.layout = film_layout_option("--layout", views.layout);
   if (const auto most = most_bytes(arguments)) options.most_bytes = *most;
   options.subtitles = arguments.subtitles;
   return share_film(film, options);
 }
 
-SharedPicture share_slice_file(const ShareArguments& arguments, const CLI::App& command) {
-  refuse_others(command, {"--max-size"}, "on slices");
+SharedPicture share_slice_file(const ShareArguments& arguments) {
   ShareSlicesOptions options{.title = arguments.words.title};
   if (const auto most = most_bytes(arguments)) options.most_bytes = *most;
   return share_slices(read_slices(arguments.views.files.front()), options);
 }
 
-SharedPicture share(const ShareArguments& arguments, const CLI::App& command, const Session& session) {
-  const ViewsArguments& views = arguments.views;
-  const std::string& first = views.files.front();
-  const bool is_one = views.files.size() == 1;
-  if (is_one && first.ends_with(".wst")) {
-    refuse_others(command, {"--max-size"}, "on a painting (.wst)");
-    return share_painting(read_painting(first), {.title = arguments.words.title, .most_bytes = most_bytes(arguments)});
+SharedPicture share(const ShareArguments& arguments, const Session& session) {
+  const std::string& title = arguments.words.title;
+  switch (shared_kind_of(arguments)) {
+    case SharedKind::painting:
+      return share_painting(read_painting(arguments.views.files.front()),
+                            {.title = title, .most_bytes = most_bytes(arguments)});
+    case SharedKind::film:
+    case SharedKind::quilt_film:
+      return share_film_file(arguments);
+    case SharedKind::slices:
+      return share_slice_file(arguments);
+    case SharedKind::views:
+      return share_views(read_views_argument(arguments.views, 0, session).views, title);
+    case SharedKind::picture_with_depth:
+      return share_picture_with_depth(arguments, session);
+    case SharedKind::stereo_photograph:
+      break;
   }
-  if (is_one && is_film(first)) return share_film_file(arguments, command);
-  if (is_one && first.ends_with(".exr") && !is_multiview_exr(first)) return share_slice_file(arguments, command);
-  if (are_ready_views(views)) {
-    refuse_others(command, {"--swap", "--from-quilt"}, "on views");
-    return share_ready_views(views, arguments.words.title, command, session);
-  }
-  if (is_one && (has_depth(arguments.depth) || views.layout == depth_layout || carries_depth(first))) {
-    refuse_others(command, {"--depth", "--depth-model", "--depth-is", "--strength", "--layout"},
-                  "on one picture with its depth");
-    return share_picture_with_depth(arguments, session);
-  }
-  refuse_others(command, {"--disparity", "--layout", "--swap"}, "on a stereo photograph");
   return share_stereo_photograph(arguments, session);
 }
 
-void run_share(ShareArguments arguments, const CLI::App& command, const Session& session) {
+Report run_share(const ShareArguments& given, const Session& session) {
+  ShareArguments arguments = given;
   most_bytes(arguments);  // refused before anything is read
   const std::vector<fs::path> inputs = files_that_are_read(arguments);
   for (const std::string& output : {arguments.output, arguments.element}) check_not_an_input(output, inputs);
@@ -172,63 +181,67 @@ void run_share(ShareArguments arguments, const CLI::App& command, const Session&
       std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--element", arguments.element}}});
   if (arguments.words.title.empty()) arguments.words.title = fs::path(arguments.views.files.front()).stem().string();
   report(session.progress, "reading", 0);
-  const SharedPicture picture = share(arguments, command, session);
+  const SharedPicture picture = share(arguments, session);
   refuse_too_large(arguments, picture);
   const std::string page = html_page(picture, arguments.words);
   write_whole_file(arguments.output, page);
   if (!arguments.element.empty()) write_whole_file(arguments.element, page_element_code());
-  if (session.json) {
-    nlohmann::ordered_json facts{{"output", arguments.output}, {"bytes", page.size()}};
-    if (!picture.note.empty()) facts["note"] = picture.note;
-    print_facts(facts, session);
-    return;
-  }
-  if (!picture.note.empty()) fmt::print(session.output, "note: {}\n", picture.note);
-  fmt::print(session.output, "written to {} ({:.0f} kB)\n", arguments.output, static_cast<double>(page.size()) / 1000);
+  Report report{
+      {{"output", arguments.output},
+       {"bytes", page.size(),
+        fmt::format("written to {} ({:.0f} kB)", arguments.output, static_cast<double>(page.size()) / 1000)}}};
+  if (!picture.note.empty())
+    report.facts.insert(report.facts.begin(), Fact{"note", picture.note, fmt::format("note: {}", picture.note)});
+  return report;
+}
+
+Rows share_rows(ShareArguments& a) {
+  const auto only = [&a](std::vector<SharedKind> kinds) {
+    return only_on<SharedKind>([&a] { return shared_kind_of(a); }, std::move(kinds), shared_situation,
+                               "it is for other pictures");
+  };
+  const Rows page{
+      row("FILE", required(texts(a.views.files)),
+          "Painting (.wst); LEFT and RIGHT photograph, or one file that holds both; one picture with its depth; views "
+          "from left to right, a folder of them or a quilt; slices (.exr); film of both eyes or of quilts"),
+      row("-o,--output", output_name(a.output), "Page: one HTML file, which needs nothing else"),
+      row("--title", text(a.words.title), "Title of the page; the name of the file by default"),
+      row("--caption", text(a.words.caption), "Text below the picture"),
+      row("--description", text(a.words.description),
+          "What the picture shows, for readers who cannot see it; the title by default"),
+      row("--element", text(a.element),
+          "Also write the code of the element <wheatstone-picture>, with which other pages embed this one, to this .js "
+          "file"),
+      row("--disparity", text(a.disparity),
+          "Disparity of the left photograph, which replaces matching, as of 'wheatstone paint'",
+          {only({SharedKind::stereo_photograph})}),
+      row("--layout", text(a.views.layout), "Layout of one file that holds both views, as of 'wheatstone paint'",
+          {only({SharedKind::film, SharedKind::picture_with_depth, SharedKind::stereo_photograph})}),
+      row("--swap", flag(a.views.swap), "Swap the two views, or reverse the order of all",
+          {only({SharedKind::views, SharedKind::stereo_photograph})}),
+      row("--from-quilt", quilt_layout(a.views.quilt), "Read the picture as a quilt of COLUMNSxROWS views",
+          {only({SharedKind::quilt_film, SharedKind::views})}),
+      row("--max-size", of_type("SIZE", text(a.max_size)),
+          "Most bytes of the page, as 8MB: of a painting and of slices, numbers are rounded more and pictures made "
+          "smaller; a film that is larger stays beside the page",
+          {only({SharedKind::painting, SharedKind::film, SharedKind::quilt_film, SharedKind::slices})}),
+      row("--subtitles", text(a.subtitles), "Subtitles of a film: a WebVTT file (.vtt)",
+          {only({SharedKind::film, SharedKind::quilt_film})})};
+  const Reason no_depth = when([&a] { return shared_kind_of(a) != SharedKind::picture_with_depth; }, "without --depth");
+  return join({page, under({}, depth_rows(a.depth, no_depth), {only({SharedKind::picture_with_depth})})});
 }
 
 }  // namespace
 
-void add_share_command(CLI::App& program, const Session& session) {
-  auto arguments = std::make_shared<ShareArguments>();
-  CLI::App* command =
-      program.add_subcommand("share", "Write a page that shows a picture with its depth in any browser");
-  command
-      ->add_option(
-          "FILE", arguments->views.files,
-          "Painting (.wst); LEFT and RIGHT photograph, or one file that holds both; one picture with its "
-          "depth; views from left to right, a folder of them or a quilt; slices (.exr); film of both eyes or of quilts")
-      ->required();
-  add_output_option(*command, arguments->output, "Page: one HTML file, which needs nothing else");
-  command->add_option("--title", arguments->words.title, "Title of the page; the name of the file by default");
-  command->add_option("--caption", arguments->words.caption, "Text below the picture");
-  command->add_option("--description", arguments->words.description,
-                      "What the picture shows, for readers who cannot see it; the title by default");
-  command->add_option("--element", arguments->element,
-                      "Also write the code of the element <wheatstone-picture>, with which other pages embed this one, "
-                      "to this .js file");
-  command->add_option("--disparity", arguments->disparity,
-                      "Disparity of the left photograph, which replaces matching, as of 'wheatstone paint'");
-  command->add_option("--layout", arguments->views.layout,
-                      "Layout of one file that holds both views, as of 'wheatstone paint'");
-  command->add_flag("--swap", arguments->views.swap, "Swap the two views, or reverse the order of all");
-  command->add_option("--from-quilt", arguments->views.quilt, "Read the picture as a quilt of COLUMNSxROWS views");
-  command
-      ->add_option("--max-size", arguments->max_size,
-                   "Most bytes of the page, as 8MB: of a painting and of slices, numbers are rounded more and pictures "
-                   "made smaller; a film that is larger stays beside the page")
-      ->type_name("SIZE");
-  command->add_option("--subtitles", arguments->subtitles, "Subtitles of a film: a WebVTT file (.vtt)");
-  add_depth_options(*command, arguments->depth);
-  command->footer(
-      "Examples:\n"
-      "  wheatstone share painting.wst -o page.html\n"
-      "  wheatstone share painting.wst -o page.html --title Fruit --element wheatstone-picture.js\n"
-      "  wheatstone share painted.mp4 -o page.html\n"
-      "  wheatstone share slices.exr -o page.html --max-size 4MB\n"
-      "  wheatstone share left.png right.png -o page.html\n"
-      "  wheatstone share photo.jpg --depth depth.png -o page.html");
-  command->callback([arguments, command, &session] { run_share(*arguments, *command, session); });
+Command share_command() {
+  return make_command("share", "Write a page that shows a picture with its depth in any browser", share_rows, run_share,
+                      R"(Examples:
+  wheatstone share painting.wst -o page.html
+  wheatstone share painting.wst -o page.html --title Fruit --element wheatstone-picture.js
+  wheatstone share painted.mp4 -o page.html
+  wheatstone share slices.exr -o page.html --max-size 4MB
+  wheatstone share left.png right.png -o page.html
+  wheatstone share photo.jpg --depth depth.png -o page.html)");
 }
 
 }  // namespace wheatstone::cli

@@ -4,23 +4,22 @@
 
 #include <cmath>
 
-#include "option_use.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
 
 namespace wheatstone::cli {
 
-RenderedParticles render_slice_file(const std::filesystem::path& file, const CLI::App& command,
+RenderedParticles render_slice_file(const std::filesystem::path& file, const Given& given,
                                     const RenderParticlesOptions& options, const Progress& progress) {
   RenderedParticles result;
   result.format = "slices";
   result.stack = read_slices(file);
-  if (was_given(command, "--near") || was_given(command, "--far")) {
+  if (given("--near") || given("--far")) {
     const DepthMapping mapping = mapping_for(options.depth, result.stack.width, 1, 2);
     map_depth(result.stack, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
   }
   if (result.stack.tone.look == Look::mass)
-    refuse_options(command, {"--exposure"}, "on these slices", "it works on slices of --look thesis");
+    refuse_options(given, {"--exposure"}, "on these slices; it works on slices of --look thesis");
   if (!std::isnan(options.rendering.exposure)) result.stack.tone.exposure = options.rendering.exposure;
   result.focus = options.rendering.focus;
   if (result.focus) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "render_options.h"
@@ -10,7 +9,7 @@
 namespace wheatstone::cli {
 
 /// The views of depth planes that were written before, with the depth that --near and --far ask for.
-RenderedParticles render_slice_file(const std::filesystem::path& file, const CLI::App& command,
+RenderedParticles render_slice_file(const std::filesystem::path& file, const Given& given,
                                     const RenderParticlesOptions& options, const Progress& progress);
 
 }  // namespace wheatstone::cli

@@ -1,20 +1,20 @@
 #include "stereo_arguments.h"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <filesystem>
+#include <optional>
 #include <string_view>
 #include <utility>
 
-#include "typed_options.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/eye_order.h"
 #include "wheatstone/matching/not_a_pair.h"
 #include "wheatstone/photograph/read_views.h"
+#include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/fitting_pair.h"
 
@@ -27,12 +27,6 @@ void check_sizes(const StereoPair& pair, const std::string& left, const std::str
   if (pair.left.width() < least_side_px || pair.left.height() < least_side_px)
     throw Error(ErrorKind::bad_input, fmt::format("{}: is {}x{} pixels, expected at least {}x{}", left,
                                                   pair.left.width(), pair.left.height(), least_side_px, least_side_px));
-}
-
-void tell(const Session& session, std::string_view line) {
-  if (session.quiet) return;
-  session.clear_progress();
-  fmt::print(session.errors, "{}\n", line);
 }
 
 /// The two views that are painted or matched: neighbours in the middle where there are more.
@@ -95,27 +89,41 @@ NamedPair read_two_files(const StereoArguments& arguments) {
 
 }  // namespace
 
-void add_layout_options(CLI::App& command, StereoArguments& arguments) {
-  command.add_option("--layout", arguments.layout,
-                     fmt::format("Layout of one file that holds both views: {}; detected by default",
-                                 fmt::join(photograph_layout_names(), ", ")));
-  command.add_flag("--swap", arguments.swap, "Swap the two views");
+Row layout_row(std::string& layout, Reasons unless) {
+  return row("--layout", text(layout),
+             fmt::format("Layout of one file that holds both views: {}; detected by default",
+                         fmt::join(photograph_layout_names(), ", ")),
+             std::move(unless));
 }
 
-void add_stereo_options(CLI::App& command, StereoArguments& arguments) {
-  add_layout_options(command, arguments);
-  add_number(command, "--max-size", arguments.max_size, {16, 65535},
-             "Work on a reduced copy whose longer side has at most this many pixels")
-      ->default_str("");
+Row swap_row(bool& swap, Reasons unless) { return row("--swap", flag(swap), "Swap the two views", std::move(unless)); }
+
+Row max_size_row(int& longest_px, Reasons unless) {
+  return row("--max-size", without_default(number(longest_px, {16, 65535})),
+             "Work on a reduced copy whose longer side has at most this many pixels", std::move(unless));
 }
 
-CLI::Option* add_rectify_option(CLI::App& command, RectifyPolicy& policy) {
-  static constexpr std::array policies{std::pair{std::string_view("auto"), RectifyPolicy::automatic},
-                                       std::pair{std::string_view("never"), RectifyPolicy::never},
-                                       std::pair{std::string_view("always"), RectifyPolicy::always}};
-  return add_choice<RectifyPolicy>(
-      command, "--rectify", policy, policies,
-      "Whether the views are rectified first, as 'wheatstone rectify' does; auto: where their rows differ");
+Row rectify_row(RectifyPolicy& policy, Reasons unless) {
+  static constexpr std::array<Choice<RectifyPolicy>, 3> policies{
+      {{"auto", RectifyPolicy::automatic}, {"never", RectifyPolicy::never}, {"always", RectifyPolicy::always}}};
+  return row("--rectify", choice(policy, policies),
+             "Whether the views are rectified first, as 'wheatstone rectify' does; auto: where their rows differ",
+             std::move(unless));
+}
+
+Rows pair_rows(StereoArguments& arguments) {
+  return {row("LEFT", required(text(arguments.left)),
+              "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other"),
+          row("RIGHT", text(arguments.right), "Right photograph, of the same size")};
+}
+
+Image<float> read_disparity_argument(const std::string& argument) {
+  const std::size_t colon = argument.rfind(':');
+  if (colon == std::string::npos || std::filesystem::exists(argument)) return read_disparity(argument);
+  // Stored values are divided by the scale.
+  const auto scale = static_cast<float>(
+      parse_number(argument.substr(0, colon) + ": the scale", argument.substr(colon + 1), {1e-9, 1e9}));
+  return read_disparity(argument.substr(0, colon), scale);
 }
 
 StereoPair read_pair(const std::string& left, const std::string& right) {
@@ -135,15 +143,15 @@ PreparedPair prepare_named_pair(StereoPair pair, const PreparePairOptions& optio
 }
 
 void tell_of_rows(const PreparedPair& pair, const std::string& name, const Session& session) {
-  if (const std::string note = rectified_note(pair); !note.empty()) tell(session, fmt::format("{}: {}", name, note));
+  if (const std::string note = rectified_note(pair); !note.empty()) remark(session, fmt::format("{}: {}", name, note));
   if (const std::string warning = row_warning(pair); !warning.empty())
-    tell(session, fmt::format("warning: {}: {}", name, warning));
+    remark(session, fmt::format("warning: {}: {}", name, warning));
 }
 
 void tell_of_match(const ReadPhotograph& photograph, const MatchConfidence& confidence, const Session& session) {
   const std::string warning = match_warning(confidence);
   if (warning.empty() || !row_warning(photograph.pair).empty()) return;
-  tell(session, fmt::format("warning: {}: {}", photograph.name, warning));
+  remark(session, fmt::format("warning: {}: {}", photograph.name, warning));
 }
 
 std::string_view undecided_eyes(const PreparedPair& pair) {
@@ -156,7 +164,7 @@ NamedPair read_named_pair(const StereoArguments& arguments) {
 }
 
 void tell_of_layout(const NamedPair& pair, const Session& session) {
-  if (!pair.note.empty()) tell(session, pair.note);
+  if (!pair.note.empty()) remark(session, pair.note);
 }
 
 ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session) {
@@ -182,8 +190,8 @@ ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity
   }
   tell_of_layout(read, session);
   if (!read.eyes_known_from_picture && prepared.eyes == EyeOrder::swapped)
-    tell(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
-                              arguments.left, arguments.swap ? "leave out" : "add"));
+    remark(session, fmt::format("{}: the eyes look swapped; {} --swap if near and far come out the wrong way round",
+                                arguments.left, arguments.swap ? "leave out" : "add"));
   std::string name = read.note.empty() ? read.name : arguments.left;
   tell_of_rows(prepared, name, session);
   return {std::move(prepared), whole, std::move(name)};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 
@@ -22,14 +21,18 @@ struct StereoArguments {
   int max_size = 0;          ///< longer side of what is worked on, in pixels; 0: as large as it is
 };
 
-/// Adds --layout and --swap.
-void add_layout_options(CLI::App& command, StereoArguments& arguments);
+/// --layout, --swap, --max-size and --rectify.
+Row layout_row(std::string& layout, Reasons unless = {});
+Row swap_row(bool& swap, Reasons unless = {});
+Row max_size_row(int& longest_px, Reasons unless = {});
+Row rectify_row(RectifyPolicy& policy, Reasons unless = {});
 
-/// Adds --layout, --swap and --max-size.
-void add_stereo_options(CLI::App& command, StereoArguments& arguments);
+/// LEFT and RIGHT, two files or one that holds both.
+Rows pair_rows(StereoArguments& arguments);
 
-/// Adds --rectify.
-CLI::Option* add_rectify_option(CLI::App& command, RectifyPolicy& policy);
+/// Reads "FILE" or "FILE:SCALE": disparity in pixels is the stored value divided by the scale. A file whose own name
+/// has a colon is taken as it is. Throws Error as read_disparity.
+Image<float> read_disparity_argument(const std::string& argument);
 
 /// Reads two photographs. Throws Error{bad_input} that names both where their sizes differ.
 StereoPair read_pair(const std::string& left, const std::string& right);
@@ -69,10 +72,9 @@ struct ReadPhotograph {
 void tell_of_match(const ReadPhotograph& photograph, const MatchConfidence& confidence, const Session& session);
 
 /// Reads photographs from two files or one, of which the right one is empty where a flat picture will do and is given,
-/// and says on standard error how one was understood, and where the eyes look
-/// swapped. Where `disparity_is_given` they are taken as they are, and else prepared for matching: what makes them no
-/// pair is refused; that it was rectified, and rows that do not fit, are told on standard error. Throws Error:
-/// bad_input, wrong_usage.
+/// and says on standard error how one was understood, and where the eyes look swapped. Where `disparity_is_given` they
+/// are taken as they are, and else prepared for matching: what makes them no pair is refused; that it was rectified,
+/// and rows that do not fit, are told on standard error. Throws Error: bad_input, wrong_usage.
 ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session);
 
 }  // namespace wheatstone::cli

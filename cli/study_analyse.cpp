@@ -1,17 +1,10 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
-#include "command.h"
-#include "output_option.h"
-#include "print_facts.h"
-#include "study_kinds.h"
-#include "typed_options.h"
+#include "commands.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/study/analysis_report.h"
@@ -26,87 +19,78 @@ struct StudyAnalyseArguments {
   AnalysisOptions options;
 };
 
-void print_text(const StudyData& data, const StudyAnalysis& analysis, const Session& session) {
-  if (data.simulated) fmt::print(session.output, "simulated observers: no person took part\n");
-  fmt::print(session.output, "subjects: {}, trials: {}\n", analysis.subjects, analysis.trials);
-  if (!analysis.unfinished.empty())
-    fmt::print(session.output, "not finished: {}\n", fmt::join(analysis.unfinished, ", "));
-  for (const MeasureAnalysis& measure : analysis.measures) {
-    fmt::print(session.output, "{}\n", measure.name);
-    const auto print = [&](std::string_view test, const AnovaEffect& effect) {
-      if (std::isnan(effect.f))
-        fmt::print(session.output, "  {} {}({}, {}) n/a: there is no variance\n", effect.name, test, effect.df_effect,
-                   effect.df_error);
-      else
-        fmt::print(session.output, "  {} {}({}, {}) = {:.2f}, p {}, partial eta squared {:.3f}\n", effect.name, test,
-                   effect.df_effect, effect.df_error, effect.f,
-                   effect.p < 0.0001 ? "< 0.0001" : fmt::format("= {:.4f}", effect.p), effect.partial_eta_squared);
-    };
-    for (const AnovaEffect& effect : measure.by_subjects.effects) print("F1", effect);
-    for (const AnovaEffect& effect : measure.by_items.effects) print("F2", effect);
-    for (const std::string& name : measure.by_subjects.left_out)
-      fmt::print(session.output, "  left out: {} has a missing cell\n", name);
-  }
+std::string text_of(const AnovaEffect& effect, std::string_view test) {
+  if (std::isnan(effect.f))
+    return fmt::format("  {} {}({}, {}) n/a: there is no variance", effect.name, test, effect.df_effect,
+                       effect.df_error);
+  return fmt::format("  {} {}({}, {}) = {:.2f}, p {}, partial eta squared {:.3f}", effect.name, test, effect.df_effect,
+                     effect.df_error, effect.f, effect.p < 0.0001 ? "< 0.0001" : fmt::format("= {:.4f}", effect.p),
+                     effect.partial_eta_squared);
 }
 
-void print_json(const StudyData& data, const StudyAnalysis& analysis, const Session& session) {
-  nlohmann::ordered_json measures;
-  for (const MeasureAnalysis& measure : analysis.measures) {
-    nlohmann::ordered_json& told = measures[measure.name];
-    const auto list = [](const AnovaResult& result) {
-      nlohmann::ordered_json effects = nlohmann::ordered_json::array();
-      for (const AnovaEffect& effect : result.effects)
-        effects.push_back({{"effect", effect.name},
-                           {"F", effect.f},
-                           {"df", {effect.df_effect, effect.df_error}},
-                           {"p", effect.p},
-                           {"partial_eta_squared", effect.partial_eta_squared}});
-      return effects;
-    };
-    told["by_subjects"] = list(measure.by_subjects);
-    told["by_items"] = list(measure.by_items);
-    told["left_out"] = measure.by_subjects.left_out;
-  }
-  print_facts({{"simulated", data.simulated},
-               {"subjects", analysis.subjects},
-               {"trials", analysis.trials},
-               {"unfinished", analysis.unfinished},
-               {"without_trials", analysis.without_trials},
-               {"outliers", analysis.outliers},
-               {"measures", measures}},
-              session);
+std::string text_of(const MeasureAnalysis& measure) {
+  std::vector<std::string> all{measure.name};
+  for (const AnovaEffect& effect : measure.by_subjects.effects) all.push_back(text_of(effect, "F1"));
+  for (const AnovaEffect& effect : measure.by_items.effects) all.push_back(text_of(effect, "F2"));
+  for (const std::string& name : measure.by_subjects.left_out)
+    all.push_back(fmt::format("  left out: {} has a missing cell", name));
+  return lines({}, all);
 }
 
-void run_study_analyse(const StudyAnalyseArguments& arguments, const Session& session) {
+Json json_of(const AnovaResult& result) {
+  Json effects = Json::array();
+  for (const AnovaEffect& effect : result.effects)
+    effects.push_back({{"effect", effect.name},
+                       {"F", effect.f},
+                       {"df", {effect.df_effect, effect.df_error}},
+                       {"p", effect.p},
+                       {"partial_eta_squared", effect.partial_eta_squared}});
+  return effects;
+}
+
+Report run_study_analyse(const StudyAnalyseArguments& arguments, const Session& session) {
   const StudyData data = read_study(arguments.study);
   const StudyAnalysis analysis = analyse_study(data, arguments.options);
   OutputFolder folder(arguments.folder, {arguments.study});
   for (const auto& [name, table] : analysis_tables(data, analysis)) write_whole_file(folder.file(name), table);
   write_whole_file(folder.file("analysis.html"), analysis_page(data, analysis));
   folder.commit();
-  if (!analysis.without_trials.empty() && !session.quiet)
-    fmt::print(session.errors, "wheatstone: warning: {}: no trials of {}, which do not count\n", arguments.study,
-               fmt::join(analysis.without_trials, ", "));
-  if (session.json)
-    print_json(data, analysis, session);
-  else
-    print_text(data, analysis, session);
+  if (!analysis.without_trials.empty())
+    remark(session, fmt::format("wheatstone: warning: {}: no trials of {}, which do not count", arguments.study,
+                                fmt::join(analysis.without_trials, ", ")));
+  Json measures;
+  std::vector<std::string> texts;
+  for (const MeasureAnalysis& measure : analysis.measures) {
+    measures[measure.name] = {{"by_subjects", json_of(measure.by_subjects)},
+                              {"by_items", json_of(measure.by_items)},
+                              {"left_out", measure.by_subjects.left_out}};
+    texts.push_back(text_of(measure));
+  }
+  const std::vector<std::string>& unfinished = analysis.unfinished;
+  return {{{"simulated", data.simulated, data.simulated ? "simulated observers: no person took part" : ""},
+           {"subjects", analysis.subjects, fmt::format("subjects: {}, trials: {}", analysis.subjects, analysis.trials)},
+           {"trials", analysis.trials},
+           {"unfinished", unfinished,
+            unfinished.empty() ? "" : fmt::format("not finished: {}", fmt::join(unfinished, ", "))},
+           {"without_trials", analysis.without_trials},
+           {"outliers", analysis.outliers},
+           {"measures", measures, lines({}, texts)}}};
+}
+
+Rows analyse_rows(StudyAnalyseArguments& a) {
+  return {row("study", required(of_type("DIR", text(a.study))), "Folder of the data"),
+          row("-o,--output", output_name(a.folder), "Output folder"),
+          row("--outliers", number(a.options.outlier_deviations, {0, 100}),
+              "Response times farther from the subject's mean than so many standard deviations are left out; 0: none")};
 }
 
 }  // namespace
 
-void add_study_analyse(CLI::App& study, const Session& session) {
-  const auto arguments = std::make_shared<StudyAnalyseArguments>();
-  CLI::App& command =
-      *study.add_subcommand("analyse", "Analyse the data of an experiment: a page with figures, and tables");
-  command.fallthrough();
-  command.add_option("study", arguments->study, "Folder of the data")->required()->type_name("DIR");
-  add_output_option(command, arguments->folder, "Output folder");
-  add_number(command, "--outliers", arguments->options.outlier_deviations, {0, 100},
-             "Response times farther from the subject's mean than so many standard deviations are left out; 0: none");
-  command.footer(
-      "Example:\n  wheatstone study simulate path-searching-1 -o data && wheatstone study analyse data -o analysis");
-  command.callback([arguments, &session] { run_study_analyse(*arguments, session); });
+Command study_analyse_command() {
+  return make_command("analyse", "Analyse the data of an experiment: a page with figures, and tables", analyse_rows,
+                      run_study_analyse,
+                      R"(Example:
+  wheatstone study simulate path-searching-1 -o data && wheatstone study analyse data -o analysis)");
 }
 
 }  // namespace wheatstone::cli

@@ -1,10 +1,4 @@
-#include <memory>
-#include <ostream>
-#include <string>
-#include <vector>
-
-#include "command.h"
-#include "study_kinds.h"
+#include "commands.h"
 #include "study_run_arguments.h"
 #include "wheatstone/study/study_folder.h"
 #include "window_program.h"
@@ -12,27 +6,28 @@
 namespace wheatstone::cli {
 namespace {
 
-void run_study_run(const StudyRunArguments& arguments, const Session& session) {
+Report run_study_run(const StudyRunArguments& arguments, const Session& session) {
   // What is wrong with the design or the folder is said before there is a window; the window's program makes the
   // folder.
   const StudyDesign design = load_study_design(arguments.design);
   check_subject(design, arguments.subject - 1);
   check_study_folder(arguments.folder, design, false);
   check_stimuli(arguments.folder, design);
-  session.output.flush();
-  std::vector<std::string> words = study_run_words(arguments);
+  std::vector<std::string> words = words_of(arguments.given);
   words.insert(words.begin(), "study");
-  if (const int code = run_window_program(words); code != 0) throw ErrorTold{code};
+  return run_window_program(std::move(words), session);
 }
 
 }  // namespace
 
-void add_study_run(CLI::App& study, const Session& session) {
-  const auto arguments = std::make_shared<StudyRunArguments>();
-  CLI::App& command = *study.add_subcommand("run", "Run a subject's session in the window, on the full screen");
-  command.fallthrough();
-  add_study_run_options(command, *arguments);
-  command.callback([arguments, &session] { run_study_run(*arguments, session); });
+Command study_run_command() {
+  return make_command(
+      "run", "Run a subject's session in the window, on the full screen", study_run_rows, run_study_run,
+      R"(Y and N answer yes and no, digits rate, space goes on, Escape breaks off. A session that was broken off goes on
+where it stopped when it is run again.
+
+Example:
+  wheatstone study run path-searching-1 --subject 1 --screen-width 52cm --distance 70cm -o study)");
 }
 
 }  // namespace wheatstone::cli

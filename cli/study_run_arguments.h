@@ -1,13 +1,14 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
-#include <vector>
+
+#include "options.h"
 
 namespace wheatstone::cli {
 
 /// How a session is to be run, as it is typed.
 struct StudyRunArguments {
+  Given given;
   std::string design;
   std::string folder = "study";
   int subject = 1;
@@ -21,11 +22,8 @@ struct StudyRunArguments {
   std::string size;  ///< of a window instead of the full screen
 };
 
-/// Adds the options of `wheatstone study run`, which the window's own program takes as well.
-void add_study_run_options(CLI::App& command, StudyRunArguments& arguments);
-
-/// The words that add_study_run_options understands as these arguments.
-std::vector<std::string> study_run_words(const StudyRunArguments& arguments);
+/// The options of `wheatstone study run`, which the window's own program takes as well.
+Rows study_run_rows(StudyRunArguments& arguments);
 
 /// Width of a screen of so many pixels, in mm, where it was given or measured by a card; 0 where neither.
 double screen_width_mm(const StudyRunArguments& arguments, int width_px);

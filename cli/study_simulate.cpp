@@ -1,19 +1,11 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <cstdint>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "command.h"
-#include "number_arguments.h"
-#include "output_option.h"
-#include "print_facts.h"
-#include "study_kinds.h"
-#include "typed_options.h"
+#include "commands.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/error.h"
 #include "wheatstone/study/simulate.h"
@@ -46,22 +38,22 @@ SimulatedEffect parse_effect(const std::string& text) {
 }
 
 /// How often that many studies find each effect; nothing is written.
-void print_power(const StudyDesign& design, const StudySimulateArguments& arguments, int subjects,
-                 const Session& session) {
+Report report_power(const StudyDesign& design, const StudySimulateArguments& arguments, int subjects,
+                    const Session& session) {
   const std::vector<SimulatedPower> power = simulated_power(
       design, arguments.observers, {.subjects = subjects, .studies = arguments.studies, .seed = session.seed});
-  if (session.json) {
-    nlohmann::ordered_json effects = nlohmann::ordered_json::array();
-    for (const SimulatedPower& one : power)
-      effects.push_back({{"measure", one.measure}, {"effect", one.effect}, {"share", one.share}});
-    print_facts({{"simulated", true}, {"subjects", subjects}, {"studies", arguments.studies}, {"found", effects}},
-                session);
-    return;
+  Json effects = Json::array();
+  std::vector<std::string> texts;
+  for (const SimulatedPower& one : power) {
+    effects.push_back({{"measure", one.measure}, {"effect", one.effect}, {"share", one.share}});
+    texts.push_back(fmt::format("{} on {}: {:.3f}", one.effect, one.measure, one.share));
   }
-  fmt::print(session.output, "{} simulated studies of {} subjects; share that finds an effect at the 5 % level:\n",
-             arguments.studies, subjects);
-  for (const SimulatedPower& one : power)
-    fmt::print(session.output, "  {} on {}: {:.3f}\n", one.effect, one.measure, one.share);
+  return {{{"simulated", true},
+           {"subjects", subjects},
+           {"studies", arguments.studies,
+            fmt::format("{} simulated studies of {} subjects; share that finds an effect at the 5 % level:",
+                        arguments.studies, subjects)},
+           {"found", effects, lines("  ", texts)}}};
 }
 
 /// How observers answer, in words: what is the same of data that may lie in one folder.
@@ -74,8 +66,8 @@ std::string simulation_text(const StudySimulateArguments& arguments, int subject
   return text;
 }
 
-void write_data(const StudyDesign& design, const StudySimulateArguments& arguments, int subjects,
-                const Session& session) {
+Report write_data(const StudyDesign& design, const StudySimulateArguments& arguments, int subjects,
+                  const Session& session) {
   const std::string simulation = simulation_text(arguments, subjects, session.seed);
   check_study_folder(arguments.folder, design, true, simulation);
   OutputFolder output(arguments.folder);
@@ -85,57 +77,49 @@ void write_data(const StudyDesign& design, const StudySimulateArguments& argumen
     write_subject(folder, simulate_subject(design, arguments.observers, subject, session.seed));
   }
   output.commit();
-  if (session.json)
-    print_facts({{"simulated", true}, {"folder", arguments.folder}, {"subjects", subjects}, {"seed", session.seed}},
-                session);
-  else
-    fmt::print(session.output, "{} simulated subjects written to {}\n", subjects, arguments.folder);
+  return {{{"simulated", true},
+           {"folder", arguments.folder, fmt::format("{} simulated subjects written to {}", subjects, arguments.folder)},
+           {"subjects", subjects},
+           {"seed", session.seed}}};
 }
 
-void run_study_simulate(StudySimulateArguments arguments, const Session& session) {
+Report run_study_simulate(const StudySimulateArguments& given, const Session& session) {
+  StudySimulateArguments arguments = given;
   const StudyDesign design = load_study_design(arguments.design);
   for (const std::string& effect : arguments.effects) arguments.observers.effects.push_back(parse_effect(effect));
   check_effects(design, arguments.observers);
   const int subjects = arguments.subjects.value_or(design.subjects);
-  if (arguments.studies > 0)
-    print_power(design, arguments, subjects, session);
-  else
-    write_data(design, arguments, subjects, session);
+  return arguments.studies > 0 ? report_power(design, arguments, subjects, session)
+                               : write_data(design, arguments, subjects, session);
+}
+
+Rows simulate_rows(StudySimulateArguments& a) {
+  SimulatedObservers& observers = a.observers;
+  return {
+      row("design", required(of_type("NAME|FILE.toml", text(a.design))), "Design, as for study design"),
+      row("-o,--output", output_name(a.folder), "Folder of the data, marked as simulated"),
+      row("--subjects", number(a.subjects, {1, 10'000}), "Number of subjects; the design's if not given"),
+      row("--studies", number(a.studies, {0, 1'000'000}),
+          "Simulate that many studies, write none of them, and tell how often each effect is found", {}, {},
+          {"--output"}),
+      row("--effect", of_type("EFFECT", texts(a.effects)),
+          "FACTOR=LEVEL:SECONDS[:SHARE]: what a level adds to response times, and to the probability of a right answer "
+          "or to ratings; may be given several times"),
+      row("--time", number(observers.response_time_s, {0.5, 1000}), "Mean response time in seconds"),
+      row("--noise", number(observers.noise_s, {0, 1000}), "Standard deviation of a subject's response times"),
+      row("--between", number(observers.between_subjects_s, {0, 1000}), "Standard deviation of subjects' mean times"),
+      row("--correct", number(observers.correct, {0, 1}), "Probability of a right answer"),
+      row("--lapses", number(observers.lapses, {0, 1}), "Share of trials answered by chance")};
 }
 
 }  // namespace
 
-void add_study_simulate(CLI::App& study, const Session& session) {
-  const auto arguments = std::make_shared<StudySimulateArguments>();
-  CLI::App& command = *study.add_subcommand(
-      "simulate", "Let simulated observers answer: to try an analysis, or how many subjects are needed");
-  command.fallthrough();
-  command.add_option("design", arguments->design, "Design, as for study design")
-      ->required()
-      ->type_name("NAME|FILE.toml");
-  CLI::Option* const output = add_output_option(command, arguments->folder, "Folder of the data, marked as simulated");
-  add_number(command, "--subjects", arguments->subjects, {1, 10'000}, "Number of subjects; the design's if not given");
-  add_number(command, "--studies", arguments->studies, {0, 1'000'000},
-             "Simulate that many studies, write none of them, and tell how often each effect is found")
-      ->excludes(output);
-  command
-      .add_option(
-          "--effect", arguments->effects,
-          "FACTOR=LEVEL:SECONDS[:SHARE]: what a level adds to response times, and to the probability of a right "
-          "answer or to ratings; may be given several times")
-      ->type_name("EFFECT");
-  SimulatedObservers& observers = arguments->observers;
-  add_number(command, "--time", observers.response_time_s, {0.5, 1000}, "Mean response time in seconds");
-  add_number(command, "--noise", observers.noise_s, {0, 1000}, "Standard deviation of a subject's response times");
-  add_number(command, "--between", observers.between_subjects_s, {0, 1000},
-             "Standard deviation of subjects' mean times");
-  add_number(command, "--correct", observers.correct, {0, 1}, "Probability of a right answer");
-  add_number(command, "--lapses", observers.lapses, {0, 1}, "Share of trials answered by chance");
-  command.footer(
-      "Examples:\n"
-      "  wheatstone study simulate path-searching-1 --effect depth_cm=10:-1.24:0.04 -o data\n"
-      "  wheatstone study simulate path-searching-2 --subjects 15 --effect views_per_10cm=8:-3 --studies 200");
-  command.callback([arguments, &session] { run_study_simulate(*arguments, session); });
+Command study_simulate_command() {
+  return make_command("simulate", "Let simulated observers answer: to try an analysis, or how many subjects are needed",
+                      simulate_rows, run_study_simulate,
+                      R"(Examples:
+  wheatstone study simulate path-searching-1 --effect depth_cm=10:-1.24:0.04 -o data
+  wheatstone study simulate path-searching-2 --subjects 15 --effect views_per_10cm=8:-3 --studies 200)");
 }
 
 }  // namespace wheatstone::cli

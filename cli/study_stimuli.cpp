@@ -1,18 +1,10 @@
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <array>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
-#include "command.h"
-#include "number_arguments.h"
-#include "output_option.h"
-#include "print_facts.h"
-#include "study_kinds.h"
-#include "typed_options.h"
+#include "commands.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/files/whole_file.h"
@@ -24,26 +16,26 @@
 namespace wheatstone::cli {
 namespace {
 
-enum class Kind { planes, volume, dots };
-constexpr std::array<std::pair<std::string_view, Kind>, 3> kinds{
-    {{"planes", Kind::planes}, {"volume", Kind::volume}, {"dots", Kind::dots}}};
+enum class StimulusKind { planes, volume, dots };
+constexpr std::array<Choice<StimulusKind>, 3> stimulus_kinds{
+    {{"planes", StimulusKind::planes}, {"volume", StimulusKind::volume}, {"dots", StimulusKind::dots}}};
 
 struct StudyStimuliArguments {
-  Kind kind = Kind::planes;
+  StimulusKind kind = StimulusKind::planes;
   int count = 2;
   int nodes = 90;
   float depth_mm = 100;
   float disparity_arcsec = 400;
   int views = 2;
   float span = 1;
-  std::string size = "1024x768";
+  Size size{1024, 768};
   StudyScreen screen;
   std::string folder = "stimuli";
 };
 
 /// The names of a stimulus' views: "left" and "right" of two, else "view_00" and so on.
 std::string view_name(const StudyStimuliArguments& arguments, int view) {
-  if (arguments.views == 2 || arguments.kind == Kind::dots) return view == 0 ? "left" : "right";
+  if (arguments.views == 2 || arguments.kind == StimulusKind::dots) return view == 0 ? "left" : "right";
   return fmt::format("view_{:03}", view);
 }
 
@@ -51,7 +43,7 @@ void write_graph(const StudyStimuliArguments& arguments, int number, const Outpu
                  const Session& session) {
   const PathGraphOptions options{
       .nodes = arguments.nodes,
-      .placement = arguments.kind == Kind::volume ? GraphPlacement::volume : GraphPlacement::planes,
+      .placement = arguments.kind == StimulusKind::volume ? GraphPlacement::volume : GraphPlacement::planes,
       .depth_mm = arguments.depth_mm,
       .viewing_distance_mm = arguments.screen.viewing_distance_mm,
       .eye_separation_mm = arguments.screen.eye_separation_mm};
@@ -78,58 +70,54 @@ void write_dots(const StudyStimuliArguments& arguments, int number, const Output
                                                 static_cast<RingGap>(side), seed);
   write_image(folder.file(fmt::format("dots_{:03}_left.png", number)), pair.left);
   write_image(folder.file(fmt::format("dots_{:03}_right.png", number)), pair.right);
-  const nlohmann::ordered_json facts{{"kind", "random-dot stereogram"},
-                                     {"seed", seed},
-                                     {"gap", sides[side]},
-                                     {"disparity_arcsec", arguments.disparity_arcsec}};
+  const Json facts{{"kind", "random-dot stereogram"},
+                   {"seed", seed},
+                   {"gap", sides[side]},
+                   {"disparity_arcsec", arguments.disparity_arcsec}};
   write_whole_file(folder.file(fmt::format("dots_{:03}.json", number)), facts.dump() + "\n");
 }
 
-void run_study_stimuli(StudyStimuliArguments arguments, const Session& session) {
-  const Size size = parse_size("--size", arguments.size, {64, 8192});
-  arguments.screen.width_px = size.width;
-  arguments.screen.height_px = size.height;
+Report run_study_stimuli(const StudyStimuliArguments& given, const Session& session) {
+  StudyStimuliArguments arguments = given;
+  arguments.screen.width_px = given.size.width;
+  arguments.screen.height_px = given.size.height;
   OutputFolder folder(arguments.folder);
   for (int number = 0; number < arguments.count; ++number) {
     report(session.progress, "drawing stimuli", static_cast<double>(number) / arguments.count);
-    if (arguments.kind == Kind::dots)
+    if (arguments.kind == StimulusKind::dots)
       write_dots(arguments, number, folder, session);
     else
       write_graph(arguments, number, folder, session);
   }
   folder.commit();
-  if (session.json)
-    print_facts({{"folder", arguments.folder}, {"stimuli", arguments.count}, {"seed", session.seed}}, session);
-  else
-    fmt::print(session.output, "written to {}\n", arguments.folder);
+  return {{{"folder", arguments.folder, fmt::format("written to {}", arguments.folder)},
+           {"stimuli", arguments.count},
+           {"seed", session.seed}}};
+}
+
+Rows stimuli_rows(StudyStimuliArguments& a) {
+  return {row("-o,--output", output_name(a.folder), "Output folder"),
+          row("--kind", choice(a.kind, stimulus_kinds),
+              "Graphs on three depth planes, or in a volume; dots: rings to test stereoscopic vision with"),
+          row("--count", number(a.count, {1, 100'000}), "Number of stimuli"),
+          row("--nodes", number(a.nodes, {9, 3000}), "Nodes of a graph, a multiple of three"),
+          row("--depth", length(a.depth_mm, {0, 1000}), "Depth range of a graph, half of it before the screen"),
+          row("--disparity", number(a.disparity_arcsec, {1, 3600}), "Of a ring of dots, in seconds of arc"),
+          row("--views", number(a.views, {1, 200}), "Number of views of a graph"),
+          row("--span", number(a.span, {0.01, 20}), "From the first view to the last, in eye separations"),
+          row("--size", of_type("WIDTHxHEIGHT", size(a.size, {64, 8192})), "Of a view, in pixels"),
+          row("--screen-width", length(a.screen.width_mm, {50, 10'000}), "Width of the screen"),
+          row("--distance", length(a.screen.viewing_distance_mm, {100, 10'000}), "Viewing distance")};
 }
 
 }  // namespace
 
-void add_study_stimuli(CLI::App& study, const Session& session) {
-  const auto arguments = std::make_shared<StudyStimuliArguments>();
-  CLI::App& command = *study.add_subcommand("stimuli", "Draw graphs for path searching, or random-dot stereograms");
-  command.fallthrough();
-  add_output_option(command, arguments->folder, "Output folder");
-  add_choice<Kind>(command, "--kind", arguments->kind, kinds,
-                   "Graphs on three depth planes, or in a volume; dots: rings to test stereoscopic vision with");
-  add_number(command, "--count", arguments->count, {1, 100'000}, "Number of stimuli");
-  add_number(command, "--nodes", arguments->nodes, {9, 3000}, "Nodes of a graph, a multiple of three");
-  add_length(command, "--depth", arguments->depth_mm, {0, 1000},
-             "Depth range of a graph, half of it before the screen");
-  add_number(command, "--disparity", arguments->disparity_arcsec, {1, 3600}, "Of a ring of dots, in seconds of arc");
-  add_number(command, "--views", arguments->views, {1, 200}, "Number of views of a graph");
-  add_number(command, "--span", arguments->span, {0.01, 20}, "From the first view to the last, in eye separations");
-  command.add_option("--size", arguments->size, "Of a view, in pixels")
-      ->type_name("WIDTHxHEIGHT")
-      ->capture_default_str();
-  add_length(command, "--screen-width", arguments->screen.width_mm, {50, 10'000}, "Width of the screen");
-  add_length(command, "--distance", arguments->screen.viewing_distance_mm, {100, 10'000}, "Viewing distance");
-  command.footer(
-      "Examples:\n"
-      "  wheatstone study stimuli --count 4 --nodes 90 --depth 10cm -o stimuli\n"
-      "  wheatstone study stimuli --kind dots --disparity 40 -o screening");
-  command.callback([arguments, &session] { run_study_stimuli(*arguments, session); });
+Command study_stimuli_command() {
+  return make_command("stimuli", "Draw graphs for path searching, or random-dot stereograms", stimuli_rows,
+                      run_study_stimuli,
+                      R"(Examples:
+  wheatstone study stimuli --count 4 --nodes 90 --depth 10cm -o stimuli
+  wheatstone study stimuli --kind dots --disparity 40 -o screening)");
 }
 
 }  // namespace wheatstone::cli

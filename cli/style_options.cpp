@@ -22,28 +22,22 @@ namespace {
 
 }  // namespace
 
-void add_style_options(CLI::App& command, StyleArguments& arguments) {
-  constexpr auto group = "Style";
-  command
-      .add_option("--style", arguments.style,
-                  fmt::format("{}, or a style file (.toml)", fmt::join(style_names(), ", ")))
-      ->capture_default_str()
-      ->group(group);
+Rows style_rows(StyleArguments& arguments) {
+  Rows rows{row("--style", text(arguments.style),
+                fmt::format("{}, or a style file (.toml)", fmt::join(style_names(), ", ")))};
   for (const StyleParameter& parameter : style_parameters()) {
     const std::string name(parameter.name);
-    const auto keep = [&arguments, name](const std::string& text) { arguments.changes[name] = text; };
-    const std::string option = "--" + name;
-    if (parameter.is_switch) {
-      // "--depth-test" and "--depth-test=false" are both understood.
-      command
-          .add_flag_function(
-              option + ",!--no-" + name, [keep](std::int64_t count) { keep(count > 0 ? "true" : "false"); },
-              std::string(parameter.help))
-          ->group(group);
-    } else {
-      command.add_option_function<std::string>(option, keep, std::string(parameter.help))->group(group);
-    }
+    const auto keep = [&arguments, name](const std::string&, const std::vector<std::string>& words) {
+      arguments.changes[name] = words.front();
+    };
+    // "--depth-test" and "--depth-test=false" are both understood.
+    if (parameter.is_switch)
+      rows.push_back(
+          {fmt::format("--{0},!--no-{0}", name), {keep, {}, {}, Value::Takes::nothing}, std::string(parameter.help)});
+    else
+      rows.push_back({"--" + name, {keep}, std::string(parameter.help)});
   }
+  return under("Style", std::move(rows));
 }
 
 Style style_from(const StyleArguments& arguments, std::uint64_t seed) {

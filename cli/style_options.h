@@ -1,8 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <string>
+
+#include "options.h"
 
 #include "wheatstone/marks/style.h"
 
@@ -14,7 +15,7 @@ struct StyleArguments {
   std::map<std::string, std::string> changes;  ///< by parameter name
 };
 
-void add_style_options(CLI::App& command, StyleArguments& arguments);
+Rows style_rows(StyleArguments& arguments);
 
 /// Throws Error: wrong_usage, also for a parameter given that the style's kind of marks does not read; bad_input for a
 /// style file.

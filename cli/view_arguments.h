@@ -1,15 +1,17 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "options.h"
+
 namespace wheatstone::cli {
 
 /// What the window is to begin with, as it is typed.
 struct ViewArguments {
+  Given given;
   std::vector<std::string> files;
   std::string mode, style, display, camera, quantity, focus, script, control, bridge_calibration;
   std::string size = "960x640";
@@ -19,10 +21,7 @@ struct ViewArguments {
   bool commands = false, full_screen = false, opengl = false, no_opengl = false, stereo = false;
 };
 
-/// Adds the files and options of `wheatstone view`, which the window's own program takes as well.
-void add_view_options(CLI::App& command, ViewArguments& arguments);
-
-/// What the command was given of these, as the words of another line.
-std::vector<std::string> view_words(const CLI::App& command);
+/// The files and options of `wheatstone view`, which the window's own program takes as well.
+Rows view_rows(ViewArguments& arguments);
 
 }  // namespace wheatstone::cli

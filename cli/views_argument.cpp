@@ -4,14 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
-#include "number_arguments.h"
-#include "option_use.h"
-#include "pictures_in_folder.h"
-#include "typed_options.h"
+#include "device_option.h"
+#include "display_argument.h"
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/multiview_exr.h"
@@ -25,6 +24,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/film_files.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -96,10 +96,7 @@ ReadViews render_stack(const std::string& file, int count, float span, const Pro
 
 /// As the option or else the file's name says it; nothing where the file is no quilt.
 std::optional<QuiltLayout> quilt_layout_of(const ViewsArguments& arguments, const std::string& file) {
-  if (!arguments.quilt.empty()) {
-    const Size size = parse_size("--from-quilt", arguments.quilt, {1, 1000}, "COLUMNSxROWS");
-    return QuiltLayout{size.width, size.height};
-  }
+  if (arguments.quilt) return arguments.quilt;
   const std::optional<NamedQuilt> named = quilt_of_name(fs::path(file).filename().string());
   if (!named || !arguments.layout.empty()) return {};
   return named->layout;
@@ -118,38 +115,28 @@ ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::stri
   return {std::move(found->views), std::move(how)};
 }
 
-ReadViews read_one_file(const ViewsArguments& arguments, int wanted, const CLI::App& command, const Session& session) {
+enum class ViewsKind { files, folder, film, quilt, painting, slices, multiview_exr, picture };
+
+ViewsKind kind_of(const ViewsArguments& arguments) {
+  if (arguments.files.size() != 1) return ViewsKind::files;
   const std::string& file = arguments.files.front();
-  const auto refuse = [&](const std::vector<std::string>& options, const char* situation) {
-    refuse_options(command, options, situation, {});
-  };
-  if (fs::is_directory(file)) {
-    refuse({"--layout", "--from-quilt", "--views", "--span", "--device"}, "on a folder of views");
-    return read_pictures(pictures_in(file), session.progress);
-  }
-  if (is_film(file))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is a film, expected pictures; of a film a single frame can be packed, saved as a "
-                            "picture{}",
-                            file, quilt_of_name(fs::path(file).filename().string()) ? " with such a name" : ""));
-  if (const std::optional<QuiltLayout> layout = quilt_layout_of(arguments, file)) {
-    refuse({"--layout", "--views", "--span", "--device"}, arguments.quilt.empty() ? "on a quilt" : "with --from-quilt");
-    return {views_of_quilt(read_image(file), *layout), "taken from a quilt"};
-  }
-  if (file.ends_with(".wst")) {
-    refuse({"--layout"}, "on a painting (.wst)");
-    return draw_painting(arguments, count_of(arguments, wanted), session.progress);
-  }
-  if (file.ends_with(".exr")) {
-    refuse({"--layout", "--device"}, "on OpenEXR files");
-    if (!is_multiview_exr(file))
-      return render_stack(file, count_of(arguments, wanted), arguments.span, session.progress);
-    refuse({"--views", "--span"}, "on a multi-view OpenEXR, which has its own views");
-    return {read_multiview_exr(file), "a multi-view OpenEXR"};
-  }
-  refuse({"--device"}, "on pictures; it works on a painting (.wst)");
-  refuse({"--views", "--span"}, "on pictures; it works on a painting (.wst) or slices (.exr)");
-  return read_views_in_picture(arguments, file, session.progress);
+  if (fs::is_directory(file)) return ViewsKind::folder;
+  if (is_film(file)) return ViewsKind::film;
+  if (quilt_layout_of(arguments, file)) return ViewsKind::quilt;
+  if (file.ends_with(".wst")) return ViewsKind::painting;
+  if (!file.ends_with(".exr")) return ViewsKind::picture;
+  return is_multiview_exr(file) ? ViewsKind::multiview_exr : ViewsKind::slices;
+}
+
+std::string_view views_situation(ViewsKind kind) {
+  constexpr std::array<std::string_view, 8> words{
+      "on several files", "on a folder of views",    "on a film",  "on a quilt", "on a painting (.wst)",
+      "on slices (.exr)", "on a multi-view OpenEXR", "on pictures"};
+  return words[static_cast<std::size_t>(kind)];
+}
+
+Reason only(const ViewsArguments& arguments, std::vector<ViewsKind> kinds, const char* where) {
+  return only_on<ViewsKind>([&arguments] { return kind_of(arguments); }, std::move(kinds), views_situation, where);
 }
 
 }  // namespace
@@ -164,24 +151,30 @@ Painting read_painting_for_views(const std::string& file) {
   return painting;
 }
 
-void add_views_arguments(CLI::App& command, ViewsArguments& arguments) {
-  command
-      .add_option("VIEWS", arguments.files,
-                  "Pictures from left to right; a folder of them; or one file: MPO, JPS, both views in one picture, "
-                  "multi-view OpenEXR, painting (.wst), slices (.exr)")
-      ->required();
-  command.add_option("--layout", arguments.layout,
-                     fmt::format("Layout of one picture that holds both views: {}; detected by default",
-                                 fmt::join(photograph_layout_names(), ", ")));
-  command.add_option("--from-quilt", arguments.quilt,
-                     "Read the picture as a quilt of COLUMNSxROWS views; by default where its name says so, as in "
-                     "gas_qs8x6a0.75.png");
-  command.add_flag("--swap", arguments.swap, "Reverse the order of the views: they are stored from right to left");
-  add_number(command, "--views", arguments.views, view_count_range,
-             "Number of views to make from a painting or from slices")
-      ->default_str("");
-  add_number(command, "--span", arguments.span, view_span_range,
-             "Distance from the first view to the last, in eye separations, for a painting or slices");
+Rows views_rows(ViewsArguments& a) {
+  const Reason made = only(a, {ViewsKind::film, ViewsKind::painting, ViewsKind::slices},
+                           "it works on a painting (.wst) or slices (.exr)");
+  return {row("VIEWS", required(texts(a.files)),
+              "Pictures from left to right; a folder of them; or one file: MPO, JPS, both views in one picture, "
+              "multi-view OpenEXR, painting (.wst), slices (.exr)"),
+          row("--layout", text(a.layout),
+              fmt::format("Layout of one picture that holds both views: {}; detected by default",
+                          fmt::join(photograph_layout_names(), ", ")),
+              {only(a, {ViewsKind::film, ViewsKind::picture}, "it works on one picture that holds both views")}),
+          row("--from-quilt", quilt_layout(a.quilt),
+              "Read the picture as a quilt of COLUMNSxROWS views; by default where its name says so, as in "
+              "gas_qs8x6a0.75.png",
+              {only(a, {ViewsKind::film, ViewsKind::quilt}, "it works on one picture")}),
+          row("--swap", flag(a.swap), "Reverse the order of the views: they are stored from right to left"),
+          row("--views", without_default(number(a.views, view_count_range)),
+              "Number of views to make from a painting or from slices", {made}),
+          row("--span", number(a.span, view_span_range),
+              "Distance from the first view to the last, in eye separations, for a painting or slices", {made})};
+}
+
+Row views_device_row(ViewsArguments& a) {
+  return device_row(a.device, "What draws the views of a painting",
+                    {only(a, {ViewsKind::film, ViewsKind::painting}, "it works on a painting (.wst)")});
 }
 
 std::vector<fs::path> files_read(const ViewsArguments& arguments) {
@@ -190,16 +183,37 @@ std::vector<fs::path> files_read(const ViewsArguments& arguments) {
   return {arguments.files.begin(), arguments.files.end()};
 }
 
-ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const CLI::App& command,
-                              const Session& session) {
-  const bool one_file = arguments.files.size() == 1;
-  if (!one_file)
-    refuse_options(command, {"--layout", "--from-quilt", "--views", "--span", "--device"}, "on several files",
-                   "it works on one file that holds all views");
-  ReadViews read =
-      one_file ? read_one_file(arguments, wanted, command, session) : read_pictures(arguments.files, session.progress);
-  if (arguments.swap) std::ranges::reverse(read.views);
-  return read;
+ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const Session& session) {
+  const std::string& file = arguments.files.front();
+  const Progress& progress = session.progress;
+  const auto read = [&]() -> ReadViews {
+    switch (kind_of(arguments)) {
+      case ViewsKind::files:
+        return read_pictures(arguments.files, progress);
+      case ViewsKind::folder:
+        return read_pictures(pictures_in(file), progress);
+      case ViewsKind::film:
+        throw Error(
+            ErrorKind::bad_input,
+            fmt::format(
+                "{}: is a film, expected pictures; of a film a single frame can be packed, saved as a picture{}", file,
+                quilt_of_name(fs::path(file).filename().string()) ? " with such a name" : ""));
+      case ViewsKind::quilt:
+        return {views_of_quilt(read_image(file), *quilt_layout_of(arguments, file)), "taken from a quilt"};
+      case ViewsKind::painting:
+        return draw_painting(arguments, count_of(arguments, wanted), progress);
+      case ViewsKind::slices:
+        return render_stack(file, count_of(arguments, wanted), arguments.span, progress);
+      case ViewsKind::multiview_exr:
+        return {read_multiview_exr(file), "a multi-view OpenEXR"};
+      case ViewsKind::picture:
+        break;
+    }
+    return read_views_in_picture(arguments, file, progress);
+  };
+  ReadViews views = read();
+  if (arguments.swap) std::ranges::reverse(views.views);
+  return views;
 }
 
 }  // namespace wheatstone::cli

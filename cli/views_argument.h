@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "command.h"
 #include "wheatstone/display/compose.h"
+#include "wheatstone/display/quilt.h"
 #include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/stereo/reduced_pair.h"
@@ -18,7 +18,7 @@ namespace wheatstone::cli {
 struct ViewsArguments {
   std::vector<std::string> files;
   std::string layout;                 ///< of one picture that holds two
-  std::string quilt;                  ///< COLUMNSxROWS of one picture that is a quilt
+  std::optional<QuiltLayout> quilt;   ///< of one picture that is a quilt
   bool swap = false;                  ///< right to left
   int views = 0;                      ///< of slices; 0: what the packing wants
   float span = 1;                     ///< of slices, in eye separations
@@ -27,7 +27,11 @@ struct ViewsArguments {
   std::optional<DisplayComposition> composition = {};
 };
 
-void add_views_arguments(CLI::App& command, ViewsArguments& arguments);
+/// The files, and --layout, --from-quilt, --swap, --views and --span.
+Rows views_rows(ViewsArguments& arguments);
+
+/// --device, with which paintings are drawn.
+Row views_device_row(ViewsArguments& arguments);
 
 struct ReadViews {
   std::vector<Image<Rgb8>> views;  ///< left to right, of one size
@@ -46,8 +50,7 @@ Painting read_painting_for_views(const std::string& file);
 std::vector<std::filesystem::path> files_read(const ViewsArguments& arguments);
 
 /// Reads or makes the views. `wanted` is how many the packing needs where they are made; 0: no matter.
-/// Throws Error: bad_input, wrong_usage also for an option of `command` that has no effect on this input.
-ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const CLI::App& command,
-                              const Session& session);
+/// Throws Error: bad_input, wrong_usage.
+ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const Session& session);
 
 }  // namespace wheatstone::cli

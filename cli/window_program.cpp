@@ -42,14 +42,15 @@ std::unique_ptr<const ChildProcess> start(std::vector<std::string> words) {
 
 }  // namespace
 
-int run_window_program(std::vector<std::string> words) {
+Report run_window_program(std::vector<std::string> words, const Session& session) {
+  session.output.flush();
   words.insert(words.begin(), window_program_path());
   throw_if_interrupted();
   const std::unique_ptr<const ChildProcess> window = start(std::move(words));
   on_signal([&window] { window->signal(SIGTERM); }, patience);
   const int status = window->wait();
   on_signal({});
-  if (WIFEXITED(status)) return WEXITSTATUS(status);
+  if (WIFEXITED(status)) return {.facts = {}, .exit_code = WEXITSTATUS(status)};
   // It was told to end before it could say so itself.
   throw_if_interrupted();
   const std::string end = fmt::format("{}: ended by signal {}", window_program, WTERMSIG(status));

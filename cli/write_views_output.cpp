@@ -1,14 +1,34 @@
 #include "write_views_output.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "pictures_in_folder.h"
+#include <algorithm>
+#include <array>
+#include <cctype>
+
 #include "wheatstone/app/output_folder.h"
-#include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::cli {
+namespace {
+
+bool is_picture(const std::filesystem::path& path) {
+  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(endings, ending) != std::end(endings);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> pictures_in_folder(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_regular_file() && is_picture(entry.path())) files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
 
 void check_views_output(const ViewsOutput& output) {
   if (!std::filesystem::is_directory(output.name)) return check_not_an_input(output.name, output.inputs);
@@ -16,11 +36,22 @@ void check_views_output(const ViewsOutput& output) {
     if (file.filename().string().starts_with("view_")) check_not_an_input(file, output.inputs);
 }
 
-void check_format_fits(const CLI::App& command, const ViewsOutput& output) {
+Value picture_format(std::string& format) {
+  static constexpr std::array<std::string_view, 4> formats{"png", "jpg", "tif", "webp"};
+  return name(format, formats);
+}
+
+void check_format_fits(const Given& given, const ViewsOutput& output) {
   const std::string ending = std::filesystem::path(output.name).extension().string();
-  if (command.count("--format") > 0 && !ending.empty() && ending != "." + output.format)
+  if (given("--format") && !ending.empty() && ending != "." + output.format)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("--format: is '{}', but --output is '{}'", output.format, output.name));
+}
+
+void check_picture_ending(const std::string& option, const std::string& output) {
+  if (!is_picture_name(output))
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected a name that ends in {}", option, output,
+                                                    fmt::join(picture_endings(), ", ")));
 }
 
 std::string write_quilt(ImageView<const Rgb8> quilt, const QuiltLayout& layout, double aspect,

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -14,10 +15,11 @@ using testing::ElementsAre;
 std::vector<std::string> passed_on(std::vector<std::string> words) {
   CLI::App command;
   ViewArguments arguments;
-  add_view_options(command, arguments);
+  const Rows rows = view_rows(arguments);
+  add_rows(command, rows);
   std::ranges::reverse(words);  // CLI11 takes the last word first
   command.parse(words);
-  return view_words(command);
+  return words_of(given_on(command, rows));
 }
 
 TEST(ViewWords, AreThoseThatWereGiven) {

@@ -20,7 +20,7 @@
 
 #include "cli/failure.h"
 #include "cli/interrupt.h"
-#include "cli/print_facts.h"
+#include "cli/report.h"
 #include "cli/view_arguments.h"
 #include "event_loop.h"
 #include "kept_settings.h"
@@ -159,7 +159,7 @@ void on_message_of_qt(QtMsgType type, const QMessageLogContext& /*context*/, con
 int run_view(int argc, char** argv) {
   CLI::App program("Look at paintings, photographs, slices and particles in a window", "wheatstone-view");
   ViewArguments arguments;
-  cli::add_view_options(program, arguments);
+  cli::add_rows(program, cli::view_rows(arguments));
   program.add_option("--threads", arguments.threads, "Number of threads; 0 uses all processors");
   program.add_option("--seed", arguments.seed, "Random seed of styles");
   try {

@@ -19,7 +19,7 @@
 
 #include "cli/failure.h"
 #include "cli/interrupt.h"
-#include "cli/print_facts.h"
+#include "cli/report.h"
 #include "cli/study_run_arguments.h"
 #include "event_loop.h"
 #include "viewer/compose.h"
@@ -262,7 +262,7 @@ void StudyWindow::keyPressEvent(QKeyEvent* event) {
 int run_study(int argc, char** argv) {
   CLI::App program("Run a subject's session of a study", "wheatstone-view study");
   StudyRunArguments arguments;
-  cli::add_study_run_options(program, arguments);
+  cli::add_rows(program, cli::study_run_rows(arguments));
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {

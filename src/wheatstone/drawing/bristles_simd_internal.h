@@ -67,8 +67,8 @@ class Bristles {
                 place.distance);
     auto cover = hn::MulAdd(inside, rim, half);
     // Distance beyond the ends of the curve.
-    const auto beyond = hn::Sqrt(
-        hn::Max(hn::NegMulAdd(place.across, place.across, hn::Mul(place.distance, place.distance)), zero));
+    const auto beyond =
+        hn::Sqrt(hn::Max(hn::NegMulAdd(place.across, place.across, hn::Mul(place.distance, place.distance)), zero));
     if (runs_dry_) {
       // Each bristle has paint for its own length.
       const auto run = hn::NegMulAdd(hn::Set(f, dry_ * length_), noise(2, lane), hn::Set(f, length_));

@@ -268,7 +268,8 @@ struct EvenChange {
 };
 
 EvenChange fit_colour(const Moments& m) {
-  // A brush carries one colour and takes up some of what it meets: less change than fits best. Soft gradients stay soft.
+  // A brush carries one colour and takes up some of what it meets: less change than fits best. Soft gradients stay
+  // soft.
   constexpr float taken_up = 0.6f, soft_change = 5;
   const float mean_along = m.along / m.weight;
   const FitColour mean = (1 / m.weight) * m.colour;
