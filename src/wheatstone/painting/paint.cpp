@@ -19,6 +19,8 @@
 namespace wheatstone {
 namespace {
 
+bool is_raster(const Style& style) { return style.propagation == Propagation::raster && is_of_strokes(style); }
+
 /// Draws both eyes of a planned painting, and nearer ones, which have no photograph to be drawn over.
 void draw_views(const StereoPairView& photographs, const Style& style, const PaintDrawing& drawing,
                 PaintedPair& result) {
@@ -36,21 +38,24 @@ void draw_views(const StereoPairView& photographs, const Style& style, const Pai
   if (shown.views.size() > 2) result.nearer = {std::move(shown.views[2]), std::move(shown.views[3])};
 }
 
-/// Draws the one view that there is.
-void draw_one_view(ImageView<const Rgb8> photograph, const Style& style, Device device, PaintedPair& result) {
-  Presentation presentation{.views = {central_view}, .device = device};
+/// Draws one view as the left picture.
+void draw_one_view(ImageView<const Rgb8> photograph, ViewPosition view, const Style& style, Device device,
+                   PaintedPair& result) {
+  Presentation presentation{.views = {view}, .device = device};
   if (style.background == Background::photograph) presentation.backgrounds = {photograph};
   Presented shown = present(result.painting, presentation);
   result.pictures.left = std::move(shown.views.front());
   result.left_bare_share = shown.worst_bare_share;
 }
 
-/// Stavrakis & Gelautz 2004, sec. 3.2: the left picture is warped over the right eye's paint, but not where the grown
-/// occlusion mask is. The paint of near things reaches beyond their outlines, and what lies there is warped by the
-/// disparity of what is behind them: beside an occlusion it would be seen as a second outline. What the right eye's
-/// paint leaves bare there shows the warped picture, and the few pixels that neither reaches show the photograph.
+/// Draws the left eye, and the right eye from it. Stavrakis & Gelautz 2004, sec. 3.2: the left picture is warped over
+/// the right eye's paint, but not where the grown occlusion mask is. The paint of near things reaches beyond their
+/// outlines, and what lies there is warped by the disparity of what is behind them: beside an occlusion it would be
+/// seen as a second outline. What the right eye's paint leaves bare there shows the warped picture, and the few pixels
+/// that neither reaches show the photograph.
 void draw_right_under_left(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                            Device device, PaintedPair& result) {
+  draw_one_view(photographs.left, left_eye, style, device, result);
   WarpedPicture warped = warp_picture(result.pictures.left, geometry.left_disparity, left_eye, right_eye);
   Image<Rgb8> background = copy_of(photographs.right);
   lay_over(warped, background);
@@ -76,10 +81,8 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
                        const Progress& progress, ViewRange wanted) {
   check_style(style);
   check_fits(photographs, geometry);
-  const bool one_view = photographs.right.empty();
-  const bool apart = !one_view && (style.propagation == Propagation::independent ||
-                                   (style.propagation == Propagation::raster && is_of_strokes(style)));
-  if (apart) return plan_eyes_apart(photographs, geometry, style, progress);
+  const bool apart = style.propagation == Propagation::independent || is_raster(style);
+  if (apart && !photographs.right.empty()) return plan_eyes_apart(photographs, geometry, style, progress);
   const std::vector<View> scene = make_still_scene(photographs, geometry, wanted);
   PaintingMemory nothing_before;
   return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress).painting;
@@ -95,12 +98,12 @@ PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& g
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);
   if (photographs.right.empty()) {
-    draw_one_view(photographs.left, style, drawing.device, result);
-    return result;
-  }
-  draw_views(photographs, style, drawing, result);
-  if (style.propagation == Propagation::raster && is_of_strokes(style))
+    draw_one_view(photographs.left, central_view, style, drawing.device, result);
+  } else if (is_raster(style)) {
     draw_right_under_left(photographs, geometry, style, drawing.device, result);
+  } else {
+    draw_views(photographs, style, drawing, result);
+  }
   report(progress, "drawing", 1);
   return result;
 }
