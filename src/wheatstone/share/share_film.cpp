@@ -47,7 +47,7 @@ FilmViews views_of_quilts(const fs::path& film, const QuiltLayout& quilt) {
   Frame frame;
   if (!reader.read(frame)) throw Error(ErrorKind::bad_input, fmt::format("{}: has no frames", film.string()));
   std::vector<Image<Rgb8>> views = views_of_quilt(frame.picture, quilt);
-  reader.skip(std::numeric_limits<std::int64_t>::max());
+  reader.skip_rest();
   return {reader.facts(), quilt, true, false, std::move(views[views.size() / 2]), reader.loss()};
 }
 
@@ -62,7 +62,7 @@ FilmViews views_of_eyes(const fs::path& film, std::optional<StereoLayout> layout
                             film.string(), traits.name));
   StereoFrame frame;
   if (!reader.read(frame)) throw Error(ErrorKind::bad_input, fmt::format("{}: has no frames", film.string()));
-  reader.skip(std::numeric_limits<std::int64_t>::max());
+  reader.skip_rest();
   if (beside) return {reader.facts(), {2, 1}, true, traits.right_first, std::move(frame.left), reader.loss()};
   return {reader.facts(), {1, 2}, traits.right_first, false, std::move(frame.left), reader.loss()};
 }

@@ -189,26 +189,42 @@ bool DecodedFilm::step() {
   return true;
 }
 
-/// Gives the decoder the next packet, or the word that none follows.
-void DecodedFilm::feed() {
-  bool ours = false;
-  while (!ours) {
+/// The next packet of the pictures, which is to be given back. False where none follows.
+bool DecodedFilm::read_packet() {
+  while (true) {
     const int error = av_read_frame(input_.get(), packet_.get());
     if (error < 0) {
       if (error != AVERROR_EOF) read_error_ = error;
-      fed_all_ = true;
-      avcodec_send_packet(decoder_.get(), nullptr);
-      return;
+      return false;
     }
-    ours = packet_->stream_index == stream_->index;
-    if (ours) {
-      ++packets_;
-      const bool is_corrupt = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
-      const bool is_refused = avcodec_send_packet(decoder_.get(), packet_.get()) == AVERROR_INVALIDDATA;
-      if (is_corrupt || is_refused) ++damaged_;
-    }
+    if (packet_->stream_index == stream_->index) break;
     av_packet_unref(packet_.get());
   }
+  ++packets_;
+  // Packets come in the order of decoding.
+  const std::int64_t pts = packet_->pts != AV_NOPTS_VALUE ? packet_->pts : packet_->dts;
+  if (pts != AV_NOPTS_VALUE && pts >= latest_.pts) latest_ = {pts, usual_duration(packet_->duration)};
+  return true;
+}
+
+/// Gives the decoder the next packet, or the word that none follows.
+void DecodedFilm::feed() {
+  if (!read_packet()) {
+    fed_all_ = true;
+    avcodec_send_packet(decoder_.get(), nullptr);
+    return;
+  }
+  const bool is_corrupt = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
+  const bool is_refused = avcodec_send_packet(decoder_.get(), packet_.get()) == AVERROR_INVALIDDATA;
+  if (is_corrupt || is_refused) ++damaged_;
+  av_packet_unref(packet_.get());
+}
+
+void DecodedFilm::pass_over_rest() {
+  while (!fed_all_ && read_packet()) av_packet_unref(packet_.get());
+  time_ = latest_;
+  time_ahead_.reset();
+  at_end_ = true;
 }
 
 void DecodedFilm::look_ahead() {
@@ -230,10 +246,15 @@ void DecodedFilm::look_ahead() {
   }
 }
 
-FrameTime DecodedFilm::time_of(const AVFrame& frame) const {
-  FrameTime time{frame.best_effort_timestamp, std::max<std::int64_t>(0, frame.pkt_duration)};
+/// What is said of a frame's duration, or else that of the average frame.
+std::int64_t DecodedFilm::usual_duration(std::int64_t said) const {
   const AVRational rate = stream_->avg_frame_rate;
-  if (time.duration == 0 && rate.num > 0) time.duration = av_rescale_q(1, av_inv_q(rate), stream_->time_base);
+  if (said > 0 || rate.num <= 0) return std::max<std::int64_t>(0, said);
+  return av_rescale_q(1, av_inv_q(rate), stream_->time_base);
+}
+
+FrameTime DecodedFilm::time_of(const AVFrame& frame) const {
+  FrameTime time{frame.best_effort_timestamp, usual_duration(frame.pkt_duration)};
   const FrameTime* before = time_ahead_ ? &*time_ahead_ : nullptr;
   if (time.pts == AV_NOPTS_VALUE) time.pts = before ? before->pts + std::max<std::int64_t>(1, before->duration) : 0;
   // Two frames at one moment, or time that runs backwards, could not be written again.

@@ -29,6 +29,8 @@ class DecodedFilm {
 
   /// Decodes the next frame. False after the last.
   bool step();
+  /// Reads what remains, without decoding it. No frame is at hand then.
+  void pass_over_rest();
   FrameTime time() const { return time_; }
   /// The frame that `step` came to.
   void convert(Image<Rgb8>& picture);
@@ -42,7 +44,9 @@ class DecodedFilm {
   void gather_layout();
   void decode_afresh();
   void look_ahead();
+  bool read_packet();
   void feed();
+  std::int64_t usual_duration(std::int64_t said) const;
   FrameTime time_of(const AVFrame& frame) const;
   void check_size() const;
   double stated_end_s();
@@ -60,6 +64,7 @@ class DecodedFilm {
   FilmFacts facts_;
   Orientation orientation_;
   FrameTime time_;
+  FrameTime latest_;                     ///< of the packets that were read
   std::optional<FrameTime> time_ahead_;  ///< nothing where no frame follows
 
   bool fed_all_ = false;   ///< the decoder was told that nothing follows

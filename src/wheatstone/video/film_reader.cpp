@@ -95,6 +95,11 @@ std::int64_t FilmReader::skip(std::int64_t frames) {
   return skipped;
 }
 
+void FilmReader::skip_rest() {
+  if (auto* const film = std::get_if<DecodedFilm>(&implementation_->source)) film->pass_over_rest();
+  implementation_->past_end = true;
+}
+
 std::optional<std::string> FilmReader::loss() const {
   return std::visit([](const auto& film) { return film.loss(); }, implementation_->source);
 }

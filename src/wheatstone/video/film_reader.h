@@ -70,6 +70,10 @@ class FilmReader {
   /// there were.
   std::int64_t skip(std::int64_t frames);
 
+  /// Passes over all that remains, of films without decoding it: `loss` then tells of a film that breaks off, but not
+  /// of damaged pictures.
+  void skip_rest();
+
   /// After the last frame: what is missing or damaged, in words; nothing where the film was whole.
   std::optional<std::string> loss() const;
 

@@ -265,6 +265,11 @@ TEST(FilmReader, DeliversWhatIsLeftOfATruncatedFilmAndSaysSo) {
     EXPECT_LT(count, 90) << name;
     ASSERT_TRUE(reader.loss().has_value()) << name;
     EXPECT_THAT(*reader.loss(), testing::HasSubstr("breaks off after")) << name;
+    FilmReader passed = open_film(folder / name);
+    passed.skip_rest();
+    EXPECT_THAT(passed.loss().value_or("whole"), testing::HasSubstr("breaks off after")) << name;
+    Frame none;
+    EXPECT_FALSE(passed.read(none)) << name;
   }
 }
 
@@ -277,6 +282,9 @@ TEST(FilmReader, ATruncatedFilmWithSoundIsNoticedToo) {
     FilmReader whole = open_film(folder / name);
     EXPECT_EQ(whole.skip(1000), 75);
     EXPECT_EQ(whole.loss(), std::nullopt) << name << " " << *whole.loss();
+    FilmReader passed = open_film(folder / name);
+    passed.skip_rest();
+    EXPECT_EQ(passed.loss(), std::nullopt) << name << " " << *passed.loss();
     const std::string bytes = bytes_of(folder / name);
     put_bytes(folder / name, bytes.substr(0, bytes.size() / 2));
     FilmReader part = open_film(folder / name);
@@ -292,6 +300,12 @@ TEST(FilmReader, AWholeFilmHasNoLoss) {
     for (const FilmReaderOptions& options : {FilmReaderOptions{}, {.from_s = 0.5}, {.to_s = 0.5}, {.every = 7}}) {
       FilmReader reader = open_film(folder / name, options);
       reader.skip(1000);
+      EXPECT_EQ(reader.loss(), std::nullopt) << name << " " << *reader.loss();
+    }
+    for (const int frames : {0, 1, 29, 30}) {
+      FilmReader reader = open_film(folder / name);
+      reader.skip(frames);
+      reader.skip_rest();
       EXPECT_EQ(reader.loss(), std::nullopt) << name << " " << *reader.loss();
     }
   }

@@ -134,6 +134,11 @@ std::int64_t StereoFilmReader::skip(std::int64_t frames) {
   return skipped;
 }
 
+void StereoFilmReader::skip_rest() {
+  implementation_->left.skip_rest();
+  if (implementation_->right) implementation_->right->skip_rest();
+}
+
 std::optional<std::string> StereoFilmReader::loss() const {
   const std::optional<std::string> left = implementation_->left.loss();
   const std::optional<std::string> right = implementation_->right ? implementation_->right->loss() : std::nullopt;

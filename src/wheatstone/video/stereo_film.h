@@ -30,6 +30,9 @@ class StereoFilmReader {
   /// As FilmReader, counted in moments.
   std::int64_t skip(std::int64_t frames);
 
+  /// As FilmReader, of both films, whose numbers of frames are not compared.
+  void skip_rest();
+
   /// As FilmReader, of both films.
   std::optional<std::string> loss() const;
 
