@@ -334,6 +334,8 @@ void write_slices(const TemporaryFile& file, const SliceStack& stack) {
     write_parts(file.name(), file.path().string(), stack, slices);
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     refuse_to_write(file.name(), error.what());
   }
@@ -346,7 +348,7 @@ SliceStack read_slices(const fs::path& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    refuse(path, "its slices do not fit in memory");
+    throw;
   } catch (const std::exception& error) {
     refuse(path, "is damaged or cut short: " + one_line(error.what()));
   }

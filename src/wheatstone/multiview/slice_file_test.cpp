@@ -3,12 +3,16 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <new>
 #include <random>
 #include <string_view>
 
@@ -253,6 +257,29 @@ TEST(SliceFileDeathTest, LightThatIsNoNumberIsABrokenPromise) {
   SliceStack stack = some_slices();
   stack.slices[0].pixels(0, 0).g = nan;
   EXPECT_DEATH(write_slices(folder / "stack.exr", stack), "isnan");
+}
+#endif
+
+// The sanitizers need more addresses than the limit leaves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(SliceFile, LackOfMemoryIsNoFaultOfTheFile) {
+  const TemporaryFolder folder;
+  SliceStack stack = some_slices(1);
+  stack.slices.front().pixels = Image<LinearRgba>(4000, 1000, {1, 1, 1, 1});
+  write_slices(folder / "wide.exr", stack);
+  EXPECT_EQ(read_slices(folder / "wide.exr").slices.size(), 1u);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  // Less than the 64 MB of the slice.
+  const rlimit little{pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + (std::size_t{1} << 25),
+                      before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &little), 0);
+  EXPECT_THROW(read_slices(folder / "wide.exr"), std::bad_alloc);
+  EXPECT_THROW(write_slices(folder / "again.exr", stack), std::bad_alloc);
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "again.exr"));
 }
 #endif
 
