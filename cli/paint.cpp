@@ -23,6 +23,7 @@
 #include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/detail_map.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
@@ -74,6 +75,7 @@ ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
   ViewsOutput output{name, {arguments.style.style, arguments.matching.model}, arguments.results.format};
   output.inputs.insert(output.inputs.end(), arguments.files.begin(), arguments.files.end());
   output.inputs.emplace_back(arguments.depth.file);
+  output.inputs.emplace_back(arguments.detail_map);
   output.inputs.emplace_back(arguments.depth.model);
   for (const std::string& disparity : {arguments.disparity, arguments.right_disparity}) {
     output.inputs.emplace_back(disparity);
@@ -195,6 +197,10 @@ PaintPhotographOptions options_from(const Arguments& arguments, const Session& s
   PaintPhotographOptions options = arguments.painting;
   options.style = style_from(arguments.style, session.seed);
   options.matching = match_options_from(arguments.matching);
+  if (!arguments.detail_map.empty()) {
+    check_reads_detail(options.style);
+    options.detail = read_detail_map(arguments.detail_map);
+  }
   depth_placing_from(arguments);
   if (!arguments.display.name.empty()) views_options(arguments, find_display(arguments.display.name));
   return options;
@@ -393,6 +399,11 @@ Rows paint_rows(PaintArguments& a) {
           {printing, again, one_view, several}),
       row("--right-disparity", text(a.right_disparity), "Disparity of the right view, in the same form",
           {printing, again, one_view, several, no_disparity}),
+      row("--detail-map", text(a.detail_map),
+          "Picture that says how finely each place of the left photograph is painted, stretched over it: white is "
+          "fine, "
+          "mid-grey as --fineness says; without it, faces are finer than the rest",
+          {printing, again, several}),
       row("--zero-parallax", zero_parallax(a.painting.zero_parallax.disparity_px),
           "Disparity in pixels that lies on the screen plane, or 'nearest'", {printing, nearest}),
       row("--zero-parallax-at", zero_parallax_at(a.painting.zero_parallax.at),

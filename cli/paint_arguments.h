@@ -25,6 +25,7 @@ struct PaintArguments {
   ResultOptions results;
   std::string print_style;
   std::string disparity, right_disparity;
+  std::string detail_map;
   DepthArguments depth;
   PaintPhotographOptions painting;  ///< without the style, the matching and the disparities
   std::vector<DepthRegion> depth_mapping;

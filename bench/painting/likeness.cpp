@@ -162,12 +162,10 @@ std::vector<Photographed> subjects(const Options& options) {
 }
 
 Painting plan(const Photographed& photograph, const Style& style, const std::optional<StereoGeometry>& geometry) {
-  if (geometry) return plan_painting(photograph.pictures, *geometry, style);
   const Image<Rgb8>& picture = photograph.pictures.left;
-  const Image<float> disparity(picture.width(), picture.height());
-  const std::vector<View> views{{picture, disparity, {}, central_view}};
-  PaintingMemory nothing_before;
-  return plan_frame({.views = views}, style, {.goes_on = false}, nothing_before).painting;
+  const StereoGeometry flat{.left_disparity = Image<float>(picture.width(), picture.height())};
+  if (!geometry) return plan_painting({picture, {}}, flat, style);
+  return plan_painting(photograph.pictures, *geometry, style);
 }
 
 /// Of each stroke: radius, opacity, colour and disparity, and where its paint varies its number and the change of its

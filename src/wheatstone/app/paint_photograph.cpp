@@ -23,6 +23,10 @@ StereoGeometry given_geometry(const StereoPair& photographs, const PaintPhotogra
   return geometry_from_both(*options.left_disparity, *options.right_disparity);
 }
 
+ImageView<const std::uint8_t> detail_of(const PaintPhotographOptions& options) {
+  return options.detail ? options.detail->view() : ImageView<const std::uint8_t>();
+}
+
 }  // namespace
 
 float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometry) {
@@ -62,7 +66,8 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   result.confidence = found.confidence;
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
   shared_width(photographs.left.width(), result.zero_parallax_px);
-  result.painted = paint(photographs, result.geometry, options.style, progress, {options.depth_budget, options.device});
+  result.painted = paint(photographs, result.geometry, options.style, progress, {options.depth_budget, options.device},
+                         detail_of(options));
   return result;
 }
 
@@ -86,7 +91,8 @@ PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOpt
   const FoundGeometry found = find_geometry(photographs, painting, progress);
   if (painting.zero_parallax.disparity_px || painting.zero_parallax.at)
     views.zero_parallax_px = screen_disparity(painting.zero_parallax, found.geometry);
-  const Painting planned = plan_painting(photographs, found.geometry, painting.style, progress);
+  const Painting planned =
+      plan_painting(photographs, found.geometry, painting.style, progress, widest_views, detail_of(painting));
   return {draw_display_views(planned, views, progress, composition), found.confidence};
 }
 

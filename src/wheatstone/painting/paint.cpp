@@ -7,6 +7,7 @@
 
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/error.h"
+#include "wheatstone/painting/detail_map.h"
 #include "wheatstone/painting/naive_planning_internal.h"
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/still_scene.h"
@@ -78,22 +79,27 @@ void check_is_of_strokes(const Style& style) {
 }  // namespace
 
 Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                       const Progress& progress, ViewRange wanted) {
+                       const Progress& progress, ViewRange wanted, ImageView<const std::uint8_t> detail) {
   check_style(style);
   check_fits(photographs, geometry);
+  if (!detail.empty()) check_reads_detail(style);
   const bool apart = style.propagation == Propagation::independent || is_raster(style);
   if (apart && !photographs.right.empty()) return plan_eyes_apart(photographs, geometry, style, progress);
-  const std::vector<View> scene = make_still_scene(photographs, geometry, wanted);
+  std::vector<View> scene = make_still_scene(photographs, geometry, wanted);
+  if (style.marks == Marks::fitted_strokes) {
+    const ImageView<const Rgb8> left = photographs.left;
+    scene.front().detail = detail.empty() ? detail_of_faces(left) : stretched(detail, left.width(), left.height());
+  }
   PaintingMemory nothing_before;
   return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress).painting;
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                  const Progress& progress, const PaintDrawing& drawing) {
+                  const Progress& progress, const PaintDrawing& drawing, ImageView<const std::uint8_t> detail) {
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);
-    result.painting = plan_painting(photographs, geometry, style, progress);
+    result.painting = plan_painting(photographs, geometry, style, progress, widest_views, detail);
   }
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);

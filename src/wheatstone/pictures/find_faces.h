@@ -14,8 +14,8 @@ struct PixelBox {
 };
 
 /// Faces that look at the camera, as OpenCV's frontal cascade finds them (Viola & Jones 2001) in a copy of the picture
-/// that is 1200 pixels wide, where they are 40 pixels wide or more. Nothing where Debian's package opencv-data, which
+/// of this width, where they are 40 pixels wide or more. Nothing where Debian's package opencv-data, which
 /// holds the cascade, is not installed.
-std::optional<std::vector<PixelBox>> find_faces(ImageView<const Rgb8> picture);
+std::optional<std::vector<PixelBox>> find_faces(ImageView<const Rgb8> picture, int searched_width_px = 1200);
 
 }  // namespace wheatstone

@@ -7,14 +7,14 @@
 #include "wheatstone/pictures/faces_module_internal.h"
 
 extern "C" bool wheatstone_find_faces(const std::string& cascade, wheatstone::ImageView<const wheatstone::Rgb8> picture,
-                                      std::vector<wheatstone::PixelBox>& faces) {
+                                      int searched_width_px, std::vector<wheatstone::PixelBox>& faces) {
   cv::CascadeClassifier classifier;
   if (!classifier.load(cascade)) return false;
-  constexpr double searched_width_px = 1200, step = 1.1;
+  constexpr double step = 1.1;
   constexpr int least_neighbours = 6, least_side_px = 40;
   cv::Mat grey, searched;
   cv::cvtColor(wheatstone::as_mat(picture), grey, cv::COLOR_RGB2GRAY);
-  const double scale = searched_width_px / grey.cols;
+  const double scale = static_cast<double>(searched_width_px) / grey.cols;
   cv::resize(grey, searched, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
   std::vector<cv::Rect> found;
   classifier.detectMultiScale(searched, found, step, least_neighbours, 0, {least_side_px, least_side_px});

@@ -21,6 +21,9 @@ struct ViewFrame {
   friend bool operator==(const ViewFrame&, const ViewFrame&) = default;
 };
 
+/// Of View::detail: as finely as the style says.
+inline constexpr std::uint8_t even_detail = 128;
+
 /// One view of a scene: an eye's, the central one, or one beside the eyes; whole, or with a mask of what is wanted of
 /// it. Its images are of one size, in its own pixels. A scene is a list of views, the reference view first: it is
 /// whole, and its frame is the default one. Of the others, what the reference view does not show is wanted.
@@ -31,6 +34,7 @@ struct View {
   ViewPosition position = central_view;
   ViewFrame frame = {};
   bool continued = false;  ///< no photograph shows what is wanted of it: it lies behind whatever an eye sees
+  SharedImage<std::uint8_t> detail = {};  ///< how finely to paint, 0..255; empty: even_detail everywhere
 };
 
 /// The left eye as reference view, and what only the right one sees. Borrows its images.

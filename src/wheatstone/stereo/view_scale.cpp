@@ -106,6 +106,17 @@ struct Planes {
   Image<std::uint8_t> wanted;
 };
 
+/// Of each block of factor by factor pixels, the first; of a map that is smooth, that is enough.
+Image<std::uint8_t> every_nth(ImageView<const std::uint8_t> map, int factor, int width, int height) {
+  Image<std::uint8_t> smaller(width, height);
+  for (int y = 0; y < height; ++y) {
+    const auto from = map.row(factor * y);
+    const auto to = smaller.row(y);
+    for (int x = 0; x < width; ++x) to[x] = from[factor * x];
+  }
+  return smaller;
+}
+
 /// Makes one row of a smaller view. `known_factor` is the factor, or 0: loops of a known length are fast.
 template <int known_factor>
 void make_smaller_row(const View& view, int any_factor, const Mean& mean, int y, Planes& smaller) {
@@ -161,7 +172,9 @@ View smaller_view(const View& view, int factor) {
       make_smaller_row<0>(view, factor, mean, y, smaller);
     }
   });
-  return std::move(smaller).view_of(view, view.frame.scale * factor);
+  View made = std::move(smaller).view_of(view, view.frame.scale * factor);
+  if (!view.detail.empty()) made.detail = every_nth(view.detail, factor, width, height);
+  return made;
 }
 
 View larger_view(const View& view, int factor, int width, int height) {

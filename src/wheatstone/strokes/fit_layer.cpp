@@ -55,9 +55,57 @@ Anchor find_anchor(const LayerPlan& plan, const FitTile& tile, const Cell& cell)
 }
 
 /// A stroke covers several cells: where the error of one is small, none gains enough.
-bool may_gain(const LayerPlan& plan, const Anchor& anchor) {
+bool may_gain(const LayerPlan& plan, float error_of_cell) {
   constexpr float cells_of_stroke = 4;
-  return anchor.x >= 0 && cells_of_stroke * anchor.sum >= plan.least_gain;
+  return cells_of_stroke * error_of_cell >= plan.least_gain;
+}
+
+/// The row or column at which half a cell begins; in both passes, a cell is two halves wide.
+int place_of_half(const LayerPlan& plan, int half) {
+  return static_cast<int>(static_cast<float>(half) * cell_px(plan) / 2);
+}
+
+/// Whether some cell of a block may gain by a stroke if each pixel counts as much as it can: most blocks of the finer
+/// layers of a large picture need no closer look.
+bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
+  const Canvas& canvas = plan.canvas;
+  const auto half_at = [&](int place) { return static_cast<int>(2 * static_cast<float>(place) / cell_px(plan)); };
+  const int first_column = std::max(half_at(left) - 1, 0), first_row = std::max(half_at(top) - 1, 0);
+  const int x0 = place_of_half(plan, first_column),
+            x1 = std::min(left + size + 2 * static_cast<int>(cell_px(plan)), canvas.width);
+  const int y1 = std::min(top + size + 2 * static_cast<int>(cell_px(plan)), canvas.height);
+  std::vector<int> columns;  // first pixel of each half cell, from x0
+  for (int half = first_column; place_of_half(plan, half) < x1; ++half)
+    columns.push_back(place_of_half(plan, half) - x0);
+  columns.push_back(x1 - x0);
+  std::vector<float> errors(static_cast<std::size_t>(x1 - x0)), above(columns.size()), sums(columns.size());
+  const auto first = static_cast<std::size_t>(x0);
+  for (int row = first_row; place_of_half(plan, row) < y1; ++row) {
+    std::ranges::fill(sums, 0.f);
+    for (int y = place_of_half(plan, row); y < std::min(place_of_half(plan, row + 1), y1); ++y) {
+      const auto red = plan.reference.red.row(y).subspan(first), green = plan.reference.green.row(y).subspan(first),
+                 blue = plan.reference.blue.row(y).subspan(first);
+      const auto painted_red = canvas.red.row(y).subspan(first), painted_green = canvas.green.row(y).subspan(first),
+                 painted_blue = canvas.blue.row(y).subspan(first);
+      const auto covered = canvas.coverage.row(y).subspan(first);
+      for (std::size_t i = 0; i < errors.size(); ++i) {
+        // The planes are linear in sRGB.
+        const float difference =
+            squared(FitColour::of(red[i] - painted_red[i], green[i] - painted_green[i], blue[i] - painted_blue[i]));
+        errors[i] = covered[i] < 0.5f ? squared_error_of_bare : difference;
+      }
+      if (!plan.view.detail.empty()) {
+        const auto detail = plan.view.detail.row(y).subspan(first);
+        for (std::size_t i = 0; i < errors.size(); ++i) errors[i] *= std::max(detail_weight(detail[i]), 1.f);
+      }
+      for (std::size_t c = 0; c + 1 < columns.size(); ++c)
+        for (int x = columns[c]; x < columns[c + 1]; ++x) sums[c] += errors[static_cast<std::size_t>(x)];
+    }
+    for (std::size_t c = 0; c + 1 < columns.size(); ++c)
+      if (may_gain(plan, above[c] + above[c + 1] + sums[c] + sums[c + 1])) return true;
+    std::swap(above, sums);
+  }
+  return false;
 }
 
 /// The cells of one pass that begin in a block and may gain by a stroke, in an order of chance: no row of strokes
@@ -65,7 +113,7 @@ bool may_gain(const LayerPlan& plan, const Anchor& anchor) {
 std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int left, int top, int size, int pass) {
   const float cell = cell_px(plan), shift = static_cast<float>(pass) * cell / 2;
   const auto first = [&](int place) { return static_cast<int>(std::ceil((static_cast<float>(place) + shift) / cell)); };
-  const auto place = [&](int number) { return static_cast<int>(static_cast<float>(number) * cell - shift); };
+  const auto place = [&](int number) { return place_of_half(plan, 2 * number - pass); };
   std::vector<Cell> cells;
   const auto number_from = [&](int begin) { return begin == 0 ? 0 : first(begin); };
   for (int row = number_from(top); row < first(top + size); ++row) {
@@ -75,7 +123,7 @@ std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int
           std::min(place(column + 1) - tile.left, tile.width), std::min(place(row + 1) - tile.top, tile.height),
           hash_keys({plan.style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(pass),
                      static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)})};
-      if (may_gain(plan, find_anchor(plan, tile, in_tile))) cells.push_back(in_tile);
+      if (may_gain(plan, find_anchor(plan, tile, in_tile).sum)) cells.push_back(in_tile);
     }
   }
   std::ranges::sort(cells, {}, &Cell::random);
@@ -96,7 +144,7 @@ void add_stroke(const FittedStroke& fitted, const LayerPlan& plan, const FitTile
   settle_disparities(plan, fitted.radius_px, points);
   stroke.radius_px = fitted.radius_px;
   stroke.opacity = plan.style.opacity;
-  const auto begin = rgb_of(fitted.begin), end = rgb_of(fitted.end);
+  const auto begin = fitted.begin.rgb(), end = fitted.end.rgb();
   const Rgb8 first{level_of(begin[0]), level_of(begin[1]), level_of(begin[2])};
   const Rgb8 last{level_of(end[0]), level_of(end[1]), level_of(end[2])};
   const auto change = [](int from, int to) { return static_cast<std::int16_t>(to - from); };
@@ -114,7 +162,7 @@ void put_back(const FitTile& tile, Canvas& canvas) {
     for (int x = 0; x < tile.width; ++x) {
       const std::size_t pixel = tile.at(x, y);
       if (tile.coverage[pixel] <= 0) continue;
-      const auto [red, green, blue] = rgb_of(tile.painted[pixel]);
+      const auto [red, green, blue] = tile.painted[pixel].rgb();
       const int column = tile.left + x, row = tile.top + y;
       canvas.red(column, row) = red;
       canvas.green(column, row) = green;
@@ -137,15 +185,18 @@ bool has_seeds(const LayerPlan& plan, int left, int top, int size) {
 
 Layer plan_block(const LayerPlan& plan, int left, int top, int size, Canvas& canvas) {
   Layer layer{plan.radius_px, {}, {}};
-  if (!has_seeds(plan, left, top, size)) return layer;
   const int margin = static_cast<int>(std::ceil(fitted_reach_px(plan.radius_px)));
   FitTile tile(plan, canvas, left - margin, top - margin, left + size + margin, top + size + margin);
+  std::vector<std::uint8_t> tried_in_vain(tile.wanted.size());  // by pixel
   for (int pass = 0; pass < passes; ++pass) {
     for (const Cell& cell : cells_of_block(plan, tile, left, top, size, pass)) {
       const Anchor anchor = find_anchor(plan, tile, cell);
-      if (!may_gain(plan, anchor)) continue;
+      if (anchor.x < 0 || !may_gain(plan, anchor.sum)) continue;
+      std::uint8_t& in_vain = tried_in_vain[tile.at(anchor.x, anchor.y)];
+      if (in_vain != 0) continue;
       const auto fitted = fit_stroke(tile, plan, anchor.x, anchor.y, cell.random);
-      if (!fitted || fitted->gain < plan.least_gain) continue;
+      in_vain = !fitted;
+      if (!fitted) continue;
       paint_stroke(*fitted, plan, tile);
       add_stroke(*fitted, plan, tile, cell.random, layer);
     }
@@ -157,10 +208,16 @@ Layer plan_block(const LayerPlan& plan, int left, int top, int size, Canvas& can
 }  // namespace
 
 Layer fit_layer(const LayerPlan& plan) {
-  Canvas canvas = plan.canvas;
   const int size = block_px(plan);
-  const int columns = (canvas.width + size - 1) / size, rows = (canvas.height + size - 1) / size;
+  const int columns = (plan.canvas.width + size - 1) / size, rows = (plan.canvas.height + size - 1) / size;
   Layer layer{plan.radius_px, {}, {}};
+  std::vector<std::uint8_t> worth(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  tbb::parallel_for(0, columns * rows, [&](int i) {
+    const int left = i % columns * size, top = i / columns * size;
+    worth[i] = has_seeds(plan, left, top, size) && may_gain_in_block(plan, left, top, size);
+  });
+  if (std::ranges::count(worth, 0) == columns * rows) return layer;
+  Canvas canvas = plan.canvas;
   // Blocks of one wave do not touch the same pixels. A stroke depends on the picture within four blocks of this layer,
   // and as much for each coarser one.
   for (int wave = 0; wave < 4; ++wave) {
@@ -171,7 +228,7 @@ Layer fit_layer(const LayerPlan& plan) {
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
       const int column = first_column + 2 * (static_cast<int>(i) % wave_columns);
       const int row = first_row + 2 * (static_cast<int>(i) / wave_columns);
-      blocks[i] = plan_block(plan, column * size, row * size, size, canvas);
+      if (worth[row * columns + column] != 0) blocks[i] = plan_block(plan, column * size, row * size, size, canvas);
     });
     for (const Layer& block : blocks) append_strokes(block, layer);
   }

@@ -9,25 +9,10 @@
 namespace wheatstone {
 namespace {
 
-// Steps of the planes for one level of sRGB: a level of grey is 0.39 of L*.
-constexpr float luminance_step = 0.39f, red_step = 0.30f, blue_step = 0.24f;
-constexpr float red_share = 0.299f, green_share = 0.587f, blue_share = 0.114f;  // Rec. 601
-
-FitColour colour_of(float r, float g, float b) {
-  const float y = red_share * r + green_share * g + blue_share * b;
-  return {luminance_step * y, red_step * (r - y), blue_step * (b - y)};
-}
-
 FitColour operator+(const FitColour& a, const FitColour& b) {
   return {a.luminance + b.luminance, a.red + b.red, a.blue + b.blue};
 }
-FitColour operator-(const FitColour& a, const FitColour& b) {
-  return {a.luminance - b.luminance, a.red - b.red, a.blue - b.blue};
-}
 FitColour operator*(float f, const FitColour& a) { return {f * a.luminance, f * a.red, f * a.blue}; }
-float squared(const FitColour& a) { return a.luminance * a.luminance + a.red * a.red + a.blue * a.blue; }
-
-constexpr float squared_error_of_bare = 900;
 
 /// Local contrast of the wanted luminance against its brightness decides how much a pixel counts, so that dark detail
 /// does as well.
@@ -159,9 +144,10 @@ std::vector<PlanePoint> control_points(std::span<const PlanePoint> path) {
 /// The pixels of a stroke: the distance from its curve, and the share of its length, 0..1.
 class Footprint {
  public:
-  /// Of the spline through these control points. Calls `visit(pixel, distance, share)` for pixels nearer than `reach`.
+  /// Of the spline through these control points. Calls `visit(pixel, distance, share)` for pixels nearer than `reach`
+  /// in each row, or in every `row_step`th.
   template <class Visit>
-  void visit(const FitTile& tile, std::span<const PlanePoint> controls, float reach_px, Visit visit) {
+  void visit(const FitTile& tile, std::span<const PlanePoint> controls, float reach_px, int row_step, Visit visit) {
     flatten(controls);
     const auto [left, right] = std::ranges::minmax(chain_, {}, &Vertex::x);
     const auto [top, bottom] = std::ranges::minmax(chain_, {}, &Vertex::y);
@@ -173,13 +159,14 @@ class Footprint {
     squared_.resize(columns);
     along_.resize(columns);
     const float length = std::max(chain_.back().along, 1e-3f), squared_reach = reach_px * reach_px;
-    for (int y = y0; y < y1; ++y) {
+    for (int y = y0; y < y1; y += row_step) {
       const float py = static_cast<float>(y) + 0.5f;
-      std::ranges::fill(squared_, squared_reach);
+      const auto [begin, end] = reached(py, x0, x1, reach_px);
+      if (begin >= end) continue;
+      std::fill(squared_.begin() + begin, squared_.begin() + end, squared_reach);
       for (std::size_t s = 0; s + 1 < chain_.size(); ++s) lower_row(s, py, x0, x1, reach_px);
-      for (std::size_t i = 0; i < columns; ++i)
-        if (squared_[i] < squared_reach)
-          visit(tile.at(x0 + static_cast<int>(i), y), std::sqrt(squared_[i]), along_[i] / length);
+      for (int i = begin; i < end; ++i)
+        if (squared_[i] < squared_reach) visit(tile.at(x0 + i, y), std::sqrt(squared_[i]), along_[i] / length);
     }
   }
 
@@ -211,12 +198,33 @@ class Footprint {
     chain_.push_back({point.x, point.y, along});
   }
 
+  /// Columns of a row, from x0: [begin, end).
+  struct Columns {
+    int begin, end;
+  };
+
+  /// Where a row comes near a segment; end ≤ begin: nowhere.
+  Columns reached(std::size_t segment, float py, int x0, int x1, float reach_px) const {
+    const Vertex &a = chain_[segment], &b = chain_[segment + 1];
+    if (py < std::min(a.y, b.y) - reach_px || py > std::max(a.y, b.y) + reach_px) return {x1 - x0, 0};
+    return {std::max(static_cast<int>(std::min(a.x, b.x) - reach_px), x0) - x0,
+            std::min(static_cast<int>(std::max(a.x, b.x) + reach_px) + 1, x1) - x0};
+  }
+
+  /// Where it comes near any of them.
+  Columns reached(float py, int x0, int x1, float reach_px) const {
+    Columns all{x1 - x0, 0};
+    for (std::size_t s = 0; s + 1 < chain_.size(); ++s) {
+      const auto [begin, end] = reached(s, py, x0, x1, reach_px);
+      all = {std::min(all.begin, begin), std::max(all.end, end)};
+    }
+    return all;
+  }
+
   /// Lowers a row's squared distances to those of one segment.
   void lower_row(std::size_t segment, float py, int x0, int x1, float reach_px) {
+    const auto [begin, end] = reached(segment, py, x0, x1, reach_px);
     const Vertex &a = chain_[segment], &b = chain_[segment + 1];
-    if (py < std::min(a.y, b.y) - reach_px || py > std::max(a.y, b.y) + reach_px) return;
-    const int begin = std::max(static_cast<int>(std::min(a.x, b.x) - reach_px), x0) - x0;
-    const int end = std::min(static_cast<int>(std::max(a.x, b.x) + reach_px) + 1, x1) - x0;
     const float dx = b.x - a.x, dy = b.y - a.y, squared_length = dx * dx + dy * dy;
     const float inverse = squared_length > 0 ? 1 / squared_length : 0, length = b.along - a.along;
     const float first_x = static_cast<float>(x0) + 0.5f - a.x, y = py - a.y;
@@ -324,9 +332,14 @@ FitColour varied(std::uint64_t random) {
 
 }  // namespace
 
-std::array<float, 3> rgb_of(const FitColour& colour) {
-  const float y = colour.luminance / luminance_step, r = y + colour.red / red_step, b = y + colour.blue / blue_step;
-  return {r, (y - red_share * r - blue_share * b) / green_share, b};
+float detail_weight(std::uint8_t detail) {
+  static const auto weights = [] {
+    std::array<float, 256> all{};
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] = std::exp2(steps_of_fineness * ((static_cast<float>(i) - even_detail) / 255));
+    return all;
+  }();
+  return weights[detail];
 }
 
 FitTile::FitTile(const LayerPlan& plan, const Canvas& canvas, int left_, int top_, int right, int bottom)
@@ -346,41 +359,57 @@ FitTile::FitTile(const LayerPlan& plan, const Canvas& canvas, int left_, int top
     const auto covered = row(canvas.coverage), depth = row(plan.view.disparity);
     for (int x = 0; x < width; ++x) {
       const std::size_t pixel = at(x, y), i = static_cast<std::size_t>(x);
-      wanted[pixel] = colour_of(red[i], green[i], blue[i]);
-      painted[pixel] = colour_of(painted_red[i], painted_green[i], painted_blue[i]);
+      wanted[pixel] = FitColour::of(red[i], green[i], blue[i]);
+      painted[pixel] = FitColour::of(painted_red[i], painted_green[i], painted_blue[i]);
       coverage[pixel] = covered[i];
       disparity[pixel] = depth[i];
     }
   }
   weigh(*this);
-}
-
-float FitTile::error(std::size_t pixel) const {
-  return is_bare(pixel) ? squared_error_of_bare : weight[pixel] * squared(wanted[pixel] - painted[pixel]);
+  if (plan.view.detail.empty()) return;
+  for (int y = 0; y < height; ++y) {
+    const auto row = plan.view.detail.row(top + y).subspan(static_cast<std::size_t>(left));
+    for (int x = 0; x < width; ++x) weight[at(x, y)] *= detail_weight(row[static_cast<std::size_t>(x)]);
+  }
 }
 
 float fitted_reach_px(float radius_px) { return longest_px(radius_px) / 2 + radius_px + 2; }
 
-std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random) {
-  const Path path = trace_both_ways(tile, plan, x, y);
+namespace {
+
+/// The best stroke along a path: its length, as a number of length_shares, width, colour, and gain.
+struct PathFit {
+  std::size_t length = 0;
+  float radius_px = 0;
+  EvenChange colour;
+  float gain = 0;
+};
+
+/// The share of a path at one of its points.
+float share_of_path(const Path& path, std::size_t point) {
+  return path.points.size() > 1 ? static_cast<float>(point) / static_cast<float>(path.points.size() - 1) : 0;
+}
+
+std::size_t least_points(const Path& path) { return path.points.size() > 1 ? 2 : 1; }
+
+/// From every `row_step`th row of its pixels.
+PathFit fit_along(const Path& path, const FitTile& tile, const LayerPlan& plan, const FitColour& variation,
+                  int row_step) {
   const float radius = plan.radius_px;
-  const std::size_t least_points = path.points.size() > 1 ? 2 : 1;
-  const float of_stroke = tile.disparity[tile.at(x, y)];
+  const PlanePoint& middle = path.points[path.begun];
+  const float of_stroke = tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))];
 
   // Moments of the pixels by the narrowest stroke and the shortest part of the path that they belong to.
   std::array<std::array<Moments, width_shares.size()>, length_shares.size()> moments{};
   std::array<std::array<float, 2>, length_shares.size()> within{};  // shares of the path
-  const auto share_at = [&](std::size_t point) {
-    return path.points.size() > 1 ? static_cast<float>(point) / static_cast<float>(path.points.size() - 1) : 0;
-  };
   const float cap =
       0.6f * radius / (step_px(radius) * static_cast<float>(std::max<std::size_t>(path.points.size(), 2) - 1));
   for (std::size_t l = 0; l < length_shares.size(); ++l) {
-    const auto [first, end] = shortened(path, length_shares[l], least_points);
-    within[l] = {share_at(first) - cap, share_at(end - 1) + cap};
+    const auto [first, end] = shortened(path, length_shares[l], least_points(path));
+    within[l] = {share_of_path(path, first) - cap, share_of_path(path, end - 1) + cap};
   }
   thread_local Footprint footprint;
-  footprint.visit(tile, control_points(path.points), radius, [&](std::size_t pixel, float distance, float share) {
+  const auto add = [&](std::size_t pixel, float distance, float share) {
     const Side side = side_of(tile.disparity[pixel], of_stroke, plan.depth_threshold_px);
     if (side == Side::nearer) return;
     std::size_t l = 0, w = 0;
@@ -394,19 +423,15 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
     }
     bin.before += tile.error(pixel);
     bin.add(tile.weight[pixel], share, tile.wanted[pixel]);
-  });
+  };
+  footprint.visit(tile, control_points(path.points), radius, row_step, add);
   for (std::size_t l = 0; l < length_shares.size(); ++l) {
-    for (std::size_t w = 0; w < width_shares.size(); ++w) {
-      if (w > 0) moments[l][w].add(moments[l][w - 1]);
-    }
+    for (std::size_t w = 1; w < width_shares.size(); ++w) moments[l][w].add(moments[l][w - 1]);
     if (l > 0)
       for (std::size_t w = 0; w < width_shares.size(); ++w) moments[l][w].add(moments[l - 1][w]);
   }
 
-  const FitColour variation = varied(random);
-  FittedStroke best;
-  EvenChange best_colour;
-  std::size_t best_length = 0;
+  PathFit best;
   for (std::size_t l = 0; l < length_shares.size(); ++l) {
     for (std::size_t w = 0; w < width_shares.size(); ++w) {
       if (width_shares[w] * radius < narrowest_px && w + 1 < width_shares.size()) continue;
@@ -414,28 +439,42 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
       if (m.weight <= 0) continue;
       EvenChange colour = fit_colour(m);
       colour.begin = colour.begin + variation;
-      const float gain = m.before - error_left(m, colour);
-      if (gain <= best.gain) continue;
-      best.gain = gain;
-      best.radius_px = width_shares[w] * radius;
-      best_colour = colour;
-      best_length = l;
+      const float gain = static_cast<float>(row_step) * (m.before - error_left(m, colour));
+      if (gain > best.gain) best = {l, width_shares[w] * radius, colour, gain};
     }
   }
-  if (best.gain <= 0) return {};
-  const auto [first, end] = shortened(path, length_shares[best_length], least_points);
-  best.points = control_points(std::span(path.points).subspan(first, end - first));
-  const auto at = [&](std::size_t point) { return best_colour.begin + share_at(point) * best_colour.change; };
-  best.begin = at(first);
-  best.end = at(end - 1);
   return best;
+}
+
+/// Most strokes gain too little. Some rows of broad ones tell so, if they tell it clearly.
+bool is_hopeless(const Path& path, const FitTile& tile, const LayerPlan& plan, const FitColour& variation) {
+  constexpr float thinned_px = 2, clearly = 0.5f;
+  if (plan.radius_px < thinned_px) return false;
+  const int row_step = plan.radius_px < 2 * thinned_px ? 2 : 4;
+  return fit_along(path, tile, plan, variation, row_step).gain < clearly * plan.least_gain;
+}
+
+}  // namespace
+
+std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random) {
+  const Path path = trace_both_ways(tile, plan, x, y);
+  const FitColour variation = varied(random);
+  if (is_hopeless(path, tile, plan, variation)) return {};
+  const PathFit best = fit_along(path, tile, plan, variation, 1);
+  if (best.gain < plan.least_gain) return {};
+  const auto [first, end] = shortened(path, length_shares[best.length], least_points(path));
+  const auto colour_at = [&](std::size_t point) {
+    return best.colour.begin + share_of_path(path, point) * best.colour.change;
+  };
+  return FittedStroke{control_points(std::span(path.points).subspan(first, end - first)), best.radius_px,
+                      colour_at(first), colour_at(end - 1), best.gain};
 }
 
 void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile) {
   const PlanePoint& middle = stroke.points[stroke.points.size() / 2];
   const float of_stroke = tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))];
   thread_local Footprint footprint;
-  footprint.visit(tile, stroke.points, stroke.radius_px + 0.5f, [&](std::size_t pixel, float distance, float share) {
+  footprint.visit(tile, stroke.points, stroke.radius_px + 0.5f, 1, [&](std::size_t pixel, float distance, float share) {
     if (side_of(tile.disparity[pixel], of_stroke, plan.depth_threshold_px) == Side::nearer) return;
     const float cover = std::min(stroke.radius_px - distance + 0.5f, 1.f);
     const FitColour colour = stroke.begin + share * (stroke.end - stroke.begin);

@@ -14,7 +14,34 @@ namespace wheatstone {
 /// about CIE Lab's. They are linear in sRGB, as paint is.
 struct FitColour {
   float luminance = 0, red = 0, blue = 0;
+
+  // Steps of the planes for one level of sRGB: a level of grey is 0.39 of L*.
+  static constexpr float luminance_step = 0.39f, red_step = 0.30f, blue_step = 0.24f;
+  static constexpr float red_share = 0.299f, green_share = 0.587f, blue_share = 0.114f;  // Rec. 601
+
+  /// Of a colour in sRGB, 0..255.
+  static FitColour of(float r, float g, float b) {
+    const float y = red_share * r + green_share * g + blue_share * b;
+    return {luminance_step * y, red_step * (r - y), blue_step * (b - y)};
+  }
+  /// The colour in sRGB, 0..255, not rounded.
+  std::array<float, 3> rgb() const {
+    const float y = luminance / luminance_step, r = y + red / red_step, b = y + blue / blue_step;
+    return {r, (y - red_share * r - blue_share * b) / green_share, b};
+  }
 };
+
+inline float squared(const FitColour& a) { return a.luminance * a.luminance + a.red * a.red + a.blue * a.blue; }
+inline FitColour operator-(const FitColour& a, const FitColour& b) {
+  return {a.luminance - b.luminance, a.red - b.red, a.blue - b.blue};
+}
+
+/// How much more, or less, a difference counts where the view is to be painted more finely, or less: white is as a
+/// fineness that is 0.5 higher.
+float detail_weight(std::uint8_t detail);
+
+/// What a bare pixel counts as, in squared steps.
+inline constexpr float squared_error_of_bare = 900;
 
 /// A part of a layer's pictures, around a block of cells whose strokes are planned one after the other: `x`, `y` are
 /// counted from the picture's first pixel, everything else from the tile's.
@@ -22,7 +49,7 @@ struct FitTile {
   FitTile(const LayerPlan& plan, const Canvas& canvas, int left, int top, int right, int bottom);
 
   int left, top, width, height;
-  /// By pixel: what is wanted, what is painted, and how much a difference counts there, 0..1.
+  /// By pixel: what is wanted, what is painted, and how much a difference counts there: 0..1, times detail_weight.
   std::vector<FitColour> wanted, painted;
   std::vector<float> weight;
   std::vector<float> coverage;   ///< as the canvas's
@@ -35,7 +62,9 @@ struct FitTile {
     return x >= 0 && y >= 0 && x < static_cast<float>(width) && y < static_cast<float>(height);
   }
   /// By how much a pixel is wrong, in squared steps, weighted; more where nothing is painted.
-  float error(std::size_t pixel) const;
+  float error(std::size_t pixel) const {
+    return is_bare(pixel) ? squared_error_of_bare : weight[pixel] * squared(wanted[pixel] - painted[pixel]);
+  }
   bool is_bare(std::size_t pixel) const { return coverage[pixel] < 0.5f; }
 };
 
@@ -53,7 +82,7 @@ float fitted_reach_px(float radius_px);
 /// The stroke through a pixel of the tile that lowers the error most: it runs along the picture's lines both ways as
 /// long as its colour fits better than what is painted, and is as long, as wide and as coloured as fits best (after
 /// Shiraishi & Yamaguchi 2000, who take length, width and angle from moments, and Hertzmann 1998, sec. 2.2). None
-/// where there is no such stroke. `random` varies its colour.
+/// where it gains less than the plan asks for. `random` varies its colour.
 std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random);
 
 /// Paints it.
@@ -64,8 +93,5 @@ void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& ti
 /// passes; in each, the pixel that is most wrong begins a stroke. The picture is divided into blocks, which are planned
 /// in four waves, so that the result does not depend on threads. In drawing order.
 Layer fit_layer(const LayerPlan& plan);
-
-/// The colour in sRGB, 0..255, not rounded.
-std::array<float, 3> rgb_of(const FitColour& colour);
 
 }  // namespace wheatstone

@@ -42,7 +42,7 @@ std::vector<float> radii_of(const Style& style, int width) {
 
 /// Larger pictures show more detail than anybody looks at: a stroke has to do more in them.
 float least_gain_of(const Style& style, int width) {
-  constexpr float usual = 190, usual_width = 400, steps_of_fineness = 12;
+  constexpr float usual = 190, usual_width = 400;
   const float size = std::max(static_cast<float>(width) / usual_width, 1.f);
   return usual * std::exp2(steps_of_fineness * (0.5f - style.fineness)) * size;
 }

@@ -12,6 +12,9 @@
 
 namespace wheatstone {
 
+/// By so many powers of two, a stroke may gain less with a fineness of 1 than with one of 0.
+inline constexpr float steps_of_fineness = 12;
+
 /// A style's lengths in a view's pixels. The reference view is `width` pixels wide, and the view's pixels are `scale`
 /// of its pixels wide.
 struct ScaledStyle {
