@@ -41,15 +41,16 @@ CarriedDepth read_both(const StereoArguments& photograph, const DepthArguments& 
   return std::move(*found);
 }
 
-Rows rows_with(DepthArguments& a, const char* depth, const char* model, const Reason& no_depth) {
+Rows rows_with(DepthArguments& a, const char* depth, const char* model, const Reason& no_depth, Reason no_map = {}) {
   const Reason by_network =
       when([&a] { return !a.model.empty(); }, "with --depth-model; a network gives inverse depth");
+  if (!no_map) no_map = when([&a] { return !has_depth(a); }, "without --depth");
   return under(
       "One picture and its depth",
       {row("--depth", text(a.file), depth), row("--depth-model", text(a.model), model, {}, {}, {"--depth"}),
        row("--depth-is", choice(a.kind, depth_kinds),
            "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger",
-           {when([&a] { return !has_depth(a); }, "without --depth"), by_network}),
+           {std::move(no_map), by_network}),
        row("--strength", share(a.strength, {0.1, 30}, "3%"),
            "Disparity from the farthest point to the nearest, in % of the width; 3% is comfortable on any screen",
            {no_depth})});
@@ -57,13 +58,13 @@ Rows rows_with(DepthArguments& a, const char* depth, const char* model, const Re
 
 }  // namespace
 
-Rows depth_rows(DepthArguments& a, const Reason& no_depth) {
+Rows depth_rows(DepthArguments& a, const Reason& no_depth, Reason no_map) {
   return rows_with(
       a,
       "Depth of the one picture that is given: PNG with 8 or 16 bits, PFM or EXR. A picture's own depth (HEIC "
       "portraits, Google's depth maps) is used without it, and with --layout rgbd the depth beside the picture",
-      "Network (.onnx) that finds the depth of the one picture that is given, as MiDaS and Depth Anything do",
-      no_depth);
+      "Network (.onnx) that finds the depth of the one picture that is given, as MiDaS and Depth Anything do", no_depth,
+      std::move(no_map));
 }
 
 Rows film_depth_rows(DepthArguments& a) {

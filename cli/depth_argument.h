@@ -21,8 +21,9 @@ struct DepthArguments {
 /// The name for --layout of a picture with its depth beside it.
 inline constexpr auto depth_layout = "rgbd";
 
-/// --depth, --depth-model, --depth-is and --strength of one picture; `no_depth` says where the strength has no effect.
-Rows depth_rows(DepthArguments& arguments, const Reason& no_depth);
+/// --depth, --depth-model, --depth-is and --strength of one picture; `no_depth` says where the strength has no effect,
+/// and `no_map` where --depth-is has none, which needs --depth by default.
+Rows depth_rows(DepthArguments& arguments, const Reason& no_depth, Reason no_map = {});
 
 /// The same of the frames of a film of one eye.
 Rows film_depth_rows(DepthArguments& arguments);

@@ -13,13 +13,13 @@
 #include "device_option.h"
 #include "display_argument.h"
 #include "paint_arguments.h"
+#include "paint_several.h"
 #include "views_argument.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/unfinished_outputs.h"
 #include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/marks/style_parameters.h"
@@ -143,12 +143,6 @@ Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhoto
   return subject;
 }
 
-/// What is told of a photograph that was painted, and where that was written.
-struct Painted {
-  Report report;
-  std::string written;
-};
-
 Painted with_place(Report report, std::string written) {
   report.facts.push_back(only_text(fmt::format("written to       {}", written)));
   return {std::move(report), std::move(written)};
@@ -259,34 +253,17 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   return with_place(std::move(report), job.output);
 }
 
-/// Paints each photograph; one that fails does not stop the others.
-Report paint_all(const Arguments& arguments, const std::vector<PaintJob>& jobs, const PaintPhotographOptions& options,
-                 const Session& session) {
-  const MissingFolders made(arguments.folder);
-  if (!fs::is_directory(arguments.folder))
-    throw Error(ErrorKind::cannot_read_write, fmt::format("{}: is a file, expected a folder", arguments.folder));
-  Report report;
-  std::vector<std::string> places;
-  Json photographs = Json::array();
-  for (const PaintJob& job : jobs) {
-    try {
-      const Painted painted = paint_one(arguments, job, options, session);
-      photographs.push_back({{"file", job.left}, {"output", painted.written}, {"report", json_of(painted.report)}});
-      places.push_back(fmt::format("{}: written to {}", job.left, painted.written));
-    } catch (const Error& failure) {
-      if (failure.kind() == ErrorKind::interrupted) throw;
-      const int code = static_cast<int>(failure.kind());
-      report.exit_code = std::max(report.exit_code, code);
-      report.failures.emplace_back(failure.what());
-      photographs.push_back({{"file", job.left}, {"error", failure.what()}, {"exit_code", code}});
-    }
-  }
-  const std::size_t failed = report.failures.size(), painted = jobs.size() - failed;
-  report.facts = {{"painted", painted},
-                  {"failed", failed},
-                  {"photographs", photographs, lines({}, places)},
-                  only_text(fmt::format("{} of {} photographs painted", painted, jobs.size()))};
-  return report;
+/// The arguments of one photograph of those that are given.
+Arguments arguments_of(const Arguments& given, const PaintJob& job) {
+  Arguments of_one = given;
+  of_one.files = {job.left};
+  if (!job.depth.empty()) of_one.depth.file = job.depth;
+  of_one.depth.carried = job.right.empty() && finds_depth_in_file(of_one);
+  // A layout is that of files that hold both views.
+  if (!job.right.empty() || has_depth(of_one.depth)) of_one.photographs.layout.clear();
+  of_one.files = given.files;
+  of_one.files.insert(of_one.files.end(), {job.left, job.right, job.depth});
+  return of_one;
 }
 
 Report draw_for_display_again(const Arguments& arguments, const Session& session) {
@@ -322,18 +299,22 @@ Report run_paint(const Arguments& given, const Session& session) {
   }
   settle_device(arguments.painting.device, session);
   if (is_painting_file(arguments)) return draw_painting_again(arguments, session);
-  const std::vector<PaintJob> jobs = paint_jobs(arguments);
-  arguments.depth.carried = finds_depth_in_file(arguments);
-  if (has_depth(arguments.depth) && arguments.files.size() > 1)
+  const bool is_folder = is_photograph_folder(arguments);
+  if (has_depth(arguments.depth) && (is_folder || arguments.files.size() > 1))
     throw Error(
         ErrorKind::wrong_usage,
         fmt::format(
-            "{}: belongs to one picture, but {} files are given; where there are two views, --disparity gives that "
-            "of the left one",
-            option_of(arguments.depth), arguments.files.size()));
+            "{}: belongs to one picture, but {} given; where there are two views, --disparity gives that of the "
+            "left one",
+            option_of(arguments.depth),
+            is_folder ? "a folder is" : fmt::format("{} files are", arguments.files.size())));
   const PaintPhotographOptions options = options_from(arguments, session);
-  if (jobs.size() > 1) return paint_all(arguments, jobs, options, session);
-  return paint_one(arguments, jobs.front(), options, session).report;
+  const PaintList list = is_folder ? photographs_in_folder(arguments, session) : PaintList{paint_jobs(arguments)};
+  const PaintOne paint = [&](const PaintJob& job, const Session& of_one) {
+    return paint_one(arguments_of(arguments, job), job, options, of_one);
+  };
+  if (is_folder || list.jobs.size() > 1) return paint_all(arguments, list, paint, session);
+  return paint(list.jobs.front(), session).report;
 }
 
 constexpr double farthest_px = 65535;
@@ -383,16 +364,28 @@ Rows paint_rows(PaintArguments& a) {
     const std::string situation = a.disparity.empty() ? single_picture(a) : "with --disparity";
     return situation.empty() ? "" : situation + "; nothing is matched where the disparity is given";
   };
-  const Reason no_depth = when([&a] { return single_picture(a).empty(); }, "without --depth");
+  const Reason no_depth =
+      when([&a] { return single_picture(a).empty() && !is_photograph_folder(a); }, "without --depth");
+  const Reason no_map = when([&a] { return !has_depth(a.depth) && !is_photograph_folder(a); }, "without --depth");
+  const Reason no_folder =
+      when([&a] { return !is_photograph_folder(a); }, "on files; it works on a folder of photographs");
 
   const Rows basic{
       row("PHOTOGRAPHS", texts(a.files),
           "LEFT and RIGHT photograph; or files that hold both views each: MPO, JPS, side by side, one above the other; "
-          "or one picture with --depth; or one painting.wst, which is drawn again"),
+          "or one picture with --depth; or one folder of such photographs; or one painting.wst, which is drawn again"),
       row("-o,--output", output_name(a.folder), "Folder for the results", {printing}),
       row("--format", picture_format(a.results.format),
           "File format of the painted pictures; masks and disparities are PNG", {printing}),
       row("--print-style", text(a.print_style), "Print a style as a style file (.toml) and exit"),
+      row("--dry-run", flag(a.dry_run), "Show which files of a folder are photographs, and why; nothing is painted",
+          {printing, no_folder}),
+      row("--skip-existing", flag(a.skip_existing),
+          "Leave out photographs of a folder whose results are there, to continue a run",
+          {printing, no_folder, display}),
+      row("--pairs", text(a.pairs),
+          "Pairs of a folder that names do not tell: a file with LEFT, a tab and RIGHT a line, relative to it",
+          {printing, no_folder}),
       row("--disparity", text(a.disparity),
           "Disparity of the left view, which replaces matching: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = "
           "pixels",
@@ -443,7 +436,7 @@ Rows paint_rows(PaintArguments& a) {
   Rows style = under({}, style_rows(a.style), {again});
   style.front().unless.push_back(printing);
   return join({basic, display_view_rows(a.display, {printing}), drawing,
-               under({}, depth_rows(a.depth, no_depth), {printing, again}), style,
+               under({}, depth_rows(a.depth, no_depth, no_map), {printing, again}), style,
                under({}, match_rows(a.matching), {printing, again, known})});
 }
 
@@ -459,6 +452,7 @@ Command paint_command() {
                       "Examples:\n  wheatstone synth still -o still\n"
                       "  wheatstone paint still/left.png still/right.png --style impressionist --report -o painted\n"
                       "  wheatstone paint one.mpo two.mpo three.mpo -o painted\n"
+                      "  wheatstone paint photographs -o painted\n"
                       "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph\n"
                       "  wheatstone paint photo.jpg --depth depth.png -o painted");
 }

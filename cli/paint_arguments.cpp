@@ -2,32 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
+#include <filesystem>
 #include <map>
 
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
 #include "wheatstone/photograph/carried_depth.h"
+#include "wheatstone/photograph/find_layout.h"
 
 namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a file's name says that it holds both views.
-bool is_stereo_name(const std::string& file) {
-  constexpr std::array endings{".mpo", ".jps", ".pns"};
-  std::string ending = fs::path(file).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(endings, ending) != endings.end();
-}
-
 bool are_left_and_right(const PaintArguments& arguments) {
   const std::vector<std::string>& files = arguments.files;
   if (files.size() != 2 || !arguments.photographs.layout.empty()) return false;
-  const bool first = is_stereo_name(files[0]), second = is_stereo_name(files[1]);
+  const bool first = is_stereo_file_name(files[0]), second = is_stereo_file_name(files[1]);
   if (first != second)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("{} holds both views and {} is one picture, expected LEFT and RIGHT, or files that hold "
@@ -55,17 +46,22 @@ bool is_painting_file(const PaintArguments& arguments) {
   return arguments.files.size() == 1 && arguments.files.front().ends_with(".wst");
 }
 
+bool is_photograph_folder(const PaintArguments& arguments) {
+  std::error_code error;
+  return arguments.files.size() == 1 && fs::is_directory(arguments.files.front(), error);
+}
+
 bool are_several(const PaintArguments& arguments) {
-  return arguments.files.size() > 1 && !are_left_and_right(arguments);
+  return is_photograph_folder(arguments) || (arguments.files.size() > 1 && !are_left_and_right(arguments));
 }
 
 bool finds_depth_in_file(const PaintArguments& arguments) {
-  if (arguments.files.size() != 1 || has_depth(arguments.depth)) return false;
+  if (arguments.files.size() != 1 || is_photograph_folder(arguments) || has_depth(arguments.depth)) return false;
   if (arguments.photographs.layout == depth_layout) return true;
   // Whoever says where two views lie, or what disparity they have, is believed.
   for (const char* option : {"--layout", "--swap", "--disparity"})
     if (arguments.given(option)) return false;
-  return !is_stereo_name(arguments.files.front()) && carries_depth(arguments.files.front());
+  return !is_stereo_file_name(arguments.files.front()) && carries_depth(arguments.files.front());
 }
 
 std::vector<PaintJob> paint_jobs(const PaintArguments& arguments) {

@@ -22,6 +22,8 @@ struct PaintArguments {
   std::vector<std::string> files;
   StereoArguments photographs;  ///< how each is read; the files are those of one
   std::string folder = "painted";
+  std::string pairs;                            ///< of a folder: the table of pairs, if any
+  bool dry_run = false, skip_existing = false;  ///< of a folder
   ResultOptions results;
   std::string print_style;
   std::string disparity, right_disparity;
@@ -43,6 +45,9 @@ DepthPlacing depth_placing_from(const PaintArguments& arguments);
 /// Whether the one file that is given is a painting, which is drawn again.
 bool is_painting_file(const PaintArguments& arguments);
 
+/// Whether the one input is a folder of photographs.
+bool is_photograph_folder(const PaintArguments& arguments);
+
 /// Whether there are several photographs.
 bool are_several(const PaintArguments& arguments);
 
@@ -53,6 +58,8 @@ bool finds_depth_in_file(const PaintArguments& arguments);
 struct PaintJob {
   std::string left, right;  ///< right is empty where left holds both views, or is one picture with its depth
   std::string output;
+  std::string depth = {};  ///< depth map that was found for the one picture
+  std::string why = {};    ///< how the files were found to belong together; empty: they were given
 };
 
 /// Tells which files are photographs of their own. One file holds both views. Two files are LEFT and RIGHT, unless both

@@ -148,6 +148,12 @@ const std::map<std::string, Maker>& makers() {
       {"photo.jpg", left},
       {"depth.png", make_depth},
       {"still", make_still},
+      {"photographs",
+       [](const fs::path& path) {
+         fs::create_directory(path);
+         write_image(path / "tree_L.png", photographs().left);
+         write_image(path / "tree_R.png", photographs().right);
+       }},
       {"painted",
        [](const fs::path& path) {
          make_with_program({"paint", example_input("left.png"), example_input("right.png"), "-o", path});

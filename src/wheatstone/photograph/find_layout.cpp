@@ -1,6 +1,7 @@
 #include "wheatstone/photograph/find_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "wheatstone/matching/block_agreement.h"
 #include "wheatstone/matching/eye_order.h"
+#include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/stereo/packed_pair.h"
 
 namespace wheatstone {
@@ -55,6 +57,11 @@ StereoLayout with_likely_size(StereoLayout layout, int width, int height) {
 }
 
 }  // namespace
+
+bool is_stereo_file_name(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 3> endings{".mpo", ".jps", ".pns"};
+  return std::ranges::find(endings, ending_of(path)) != endings.end();
+}
 
 std::optional<StereoLayout> layout_from_name(const std::filesystem::path& path, int width, int height) {
   const std::vector<std::string> name = words_of(path.stem().string());

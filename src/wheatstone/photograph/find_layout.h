@@ -8,6 +8,9 @@
 
 namespace wheatstone {
 
+/// Whether a file's ending says that it holds both views: .mpo, .jps, .pns.
+bool is_stereo_file_name(const std::filesystem::path& path);
+
 /// What the last words of a file's name say, as in "tree_sbs.jpg", "tree_LRF_Full_SBS.png", "tree-half-ou.jpg"; none
 /// where they say nothing. Whether the halves are squeezed is decided by `width` and `height` where the name does not
 /// tell: "LR" means squeezed to some players and full size to others.

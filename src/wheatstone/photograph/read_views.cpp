@@ -19,6 +19,7 @@
 #include "wheatstone/pictures/heif_pictures_internal.h"
 #include "wheatstone/pictures/jpeg_end_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/packed_pair.h"
 
@@ -29,13 +30,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& path, std::string_view what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), what));
-}
-
-/// In small letters.
-std::string ending_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
 }
 
 std::string kind_of(std::string_view bytes, const fs::path& path) {
