@@ -19,6 +19,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # Wrong where several source files are compiled as one.
     target_compile_options(wheatstone_warnings INTERFACE -Wno-subobject-linkage)
   endif()
+elseif(CMAKE_UNITY_BUILD)
+  # For Clang a local name also hides those of the unnamed namespaces of other files.
+  target_compile_options(wheatstone_warnings INTERFACE -Wno-shadow)
 endif()
 
 # A test program is one entry of ctest: what its tests share, such as rendered scenes, is made once. The programs that

@@ -140,7 +140,7 @@ void measure_edge_distances(ImageView<const std::uint8_t> edges, float most_px, 
   constexpr int widest_vector = 64, no_edge = std::numeric_limits<std::int32_t>::max();
   const int width = edges.width(), reach = static_cast<int>(std::ceil(most_px));
   const int top = std::max(first_row - reach, 0), bottom = std::min(end_row + reach, edges.height());
-  const auto padded = static_cast<std::size_t>(width + 2 * (reach + widest_vector));
+  const auto padded = static_cast<std::size_t>(width) + 2 * static_cast<std::size_t>(reach + widest_vector);
   std::vector<std::uint8_t> row(padded), columns(padded * static_cast<std::size_t>(bottom - top));
   std::vector<std::uint8_t> has_edge(static_cast<std::size_t>(bottom - top));
   const auto columns_of = [&](int y) { return columns.data() + padded * static_cast<std::size_t>(y - top); };

@@ -17,7 +17,7 @@ FitColour operator*(float f, const FitColour& a) { return {f * a.luminance, f * 
 /// Local contrast of the wanted luminance against its brightness decides how much a pixel counts, so that dark detail
 /// does as well.
 void weigh(FitTile& tile) {
-  constexpr int reach = 3;
+  constexpr std::size_t reach = 3;
   constexpr float least_weight = 0.25f;
   // Sums over a window by running sums, rows then columns.
   const auto width = static_cast<std::size_t>(tile.width), height = static_cast<std::size_t>(tile.height);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <ranges>
 #include <vector>
 
 #include "wheatstone/marks/residual.h"
@@ -30,8 +29,9 @@ void drop_misplaced(ViewPosition home, std::span<const View> views, float depth_
     if (tracked.tracks[i].ends == 0) return;
     const Stroke& stroke = tracked.layer.strokes[i];
     is_misplaced[i] = std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
-      return std::ranges::any_of(std::views::iota(std::size_t{0}, views.size()),
-                                 [&](std::size_t number) { return shows_unlike(stroke, point, number); });
+      for (std::size_t number = 0; number < views.size(); ++number)
+        if (shows_unlike(stroke, point, number)) return true;
+      return false;
     });
   });
   keep_if(tracked, [&](std::size_t i) { return is_misplaced[i] == 0; });

@@ -284,7 +284,7 @@ class ViewPainter {
     Layer dots = dots_left_out(part_, view_), whole = dots;
     hand_back(view_.frame, whole);
     const float depth_threshold_px = at_->scaled.depth_threshold_px * static_cast<float>(view_.frame.scale);
-    const auto factor = static_cast<float>(view_.frame.scale / part_.frame.scale);
+    const auto factor = static_cast<float>(view_.frame.scale) / static_cast<float>(part_.frame.scale);
     std::erase_if(dots.strokes, [&](const Stroke& dot) {
       const ControlPoint& point = dots.points[dot.first_point];
       const bool is_photographed = !uncovered_.empty() && uncovered_(static_cast<int>(point.x * factor),
