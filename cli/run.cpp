@@ -26,8 +26,8 @@ namespace {
 
 /// Says on one line what went wrong, as an object too where JSON is asked for, and hands the exit code on. Of ranks
 /// that share the run, all end with what one of them says.
-int fail(const Session& session, Ranks::Failure own) {
-  auto [code, message] = session.ranks.fail(std::move(own));
+int fail(const Session& session, const Ranks::Failure& own) {
+  auto [code, message] = session.ranks.fail(own);
   message = one_line(std::move(message));
   run_is_over(!session.ranks.alone());
   fmt::print(session.errors, "wheatstone: {}\n", message);

@@ -176,7 +176,7 @@ FirstLook rectify_frame(const FrameTask& photographed, RotoscopeState& state, Ro
       begin_scene(state);
       result.scene_begins = true;
     }
-    state.rectification = std::move(scene.rectification);
+    state.rectification = scene.rectification;
   }
   if (!state.rectification.how) return frame;
   frame.eyes = rectified(eyes, state.rectification);

@@ -151,7 +151,8 @@ void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOpti
                 const Progress& progress) {
   Painting sized = scaled(painting, options.scale);
   if (options.zero_parallax_px) shared_width(width_of(sized), *options.zero_parallax_px);
-  sized = place_depth(std::move(sized), options.depth, width_of(sized));
+  const int width = width_of(sized);
+  sized = place_depth(std::move(sized), options.depth, width);
   const bool is_placed = !options.depth.regions.empty();
   if (!is_placed && is_flat(sized)) return draw_flat_again(sized, folder, options);
   report(progress, "drawing", 0);
