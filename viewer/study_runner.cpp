@@ -12,6 +12,7 @@
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/study/draw_graph.h"
 #include "wheatstone/study/trial_table.h"
 
@@ -77,10 +78,12 @@ StudyRunner::StudyRunner(const StudyFolder& folder, int subject, const StudyScre
     : folder_(folder), screen_(screen), head_{0, screen.viewing_distance_mm} {
   const StudyDesign& design = folder.design();
   check_subject(design, subject);
-  folder.make_stimuli(screen);
-  folder.add_participant(subject);
   conditions_ = conditions_of_group(design, group_of_subject(design, subject));
   trials_ = plan_trials(design, subject);
+  folder.make_stimuli(screen);
+  if (design.items.empty())
+    for (const PlannedTrial& trial : trials_) graph_of(trial);
+  folder.add_participant(subject);
   log_ = std::make_unique<TrialLog>(folder.trial_table(subject), trial_table_header(design));
   head_log_ = std::make_unique<TrialLog>(folder.head_path(subject), head_header);
   records_ = read_subject(folder, subject);
@@ -147,11 +150,21 @@ std::string StudyRunner::progress() const {
   return fmt::format("{}: {} of {} trials done", subject, counted(), all);
 }
 
-std::vector<std::filesystem::path> StudyRunner::stimulus() const {
+std::vector<std::filesystem::path> StudyRunner::stimulus(const PlannedTrial& trial) const {
   std::vector<std::filesystem::path> paths;
-  for (const std::string& file : stimulus_files(folder_.design(), planned().item, condition()))
+  const StudyCondition& condition = conditions_[static_cast<std::size_t>(trial.condition)];
+  for (const std::string& file : stimulus_files(folder_.design(), trial.item, condition))
     paths.push_back(folder_.stimuli() / file);
   return paths;
+}
+
+PathGraph StudyRunner::graph_of(const PlannedTrial& trial) const {
+  const std::string file = stimulus(trial).front().string();
+  PathGraph graph = graph_from_json(read_whole_file(file, most_bytes), file);
+  if (const bool expected = is_connected(folder_.design(), trial.item); graph.connected != expected)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: connected: is {}, expected {} as the design has it", file, graph.connected, expected));
+  return graph;
 }
 
 const StudyScene& StudyRunner::scene(const std::filesystem::path& path) {
@@ -164,11 +177,8 @@ const StudyScene& StudyRunner::scene(const std::filesystem::path& path) {
 
 StereoPair StudyRunner::draw() {
   const SimulatedDisplay& display = condition().shown.display;
-  const std::vector<std::filesystem::path> paths = stimulus();
-  if (folder_.design().items.empty()) {
-    const PathGraph graph = graph_from_json(read_whole_file(paths[0], most_bytes), paths[0].string());
-    return draw_for_eyes(graph, screen_, display, head_);
-  }
+  if (folder_.design().items.empty()) return draw_for_eyes(graph_of(planned()), screen_, display, head_);
+  const std::vector<std::filesystem::path> paths = stimulus(planned());
   if (StudyScene::is_named(paths[0])) {
     const StudyScene& shown = scene(paths[0]);
     const auto draw_eye = [&](const EyePlace& eye) {
@@ -176,16 +186,16 @@ StereoPair StudyRunner::draw() {
     };
     return draw_for_eyes(draw_eye, screen_, display, head_);
   }
-  StereoPair pair;
-  pair.left = in_the_middle(read_image(paths[0]), screen_);
-  const bool flat = paths.size() < 2 || display.monoscopic;
-  pair.right = flat ? pair.left : in_the_middle(read_image(paths[1]), screen_);
-  return pair;
+  const Image<Rgb8> left = read_image(paths[0]);
+  if (paths.size() < 2 || display.monoscopic) return {in_the_middle(left, screen_), in_the_middle(left, screen_)};
+  const Image<Rgb8> right = read_image(paths[1]);
+  check_same_size(paths[1].string() + ": the picture", right, "the left eye's", left);
+  return {in_the_middle(left, screen_), in_the_middle(right, screen_)};
 }
 
 bool StudyRunner::views_changed() {
   if (page_ != Page::trial) return false;
-  if (!folder_.design().items.empty() && !StudyScene::is_named(stimulus().front())) return false;
+  if (!folder_.design().items.empty() && !StudyScene::is_named(stimulus(planned()).front())) return false;
   const auto shown = shown_views(condition().shown.display, screen_, head_);
   const bool changed = shown[0].view != seen_[0].view || shown[1].view != seen_[1].view;
   seen_ = shown;

@@ -11,6 +11,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/stereo/stereo_pair.h"
+#include "wheatstone/study/path_graph.h"
 #include "wheatstone/study/simulated_display.h"
 #include "wheatstone/study/study_folder.h"
 #include "wheatstone/study/trial_plan.h"
@@ -69,8 +70,10 @@ class StudyRunner {
 
   const PlannedTrial& planned() const { return trials_[next_]; }
   const StudyCondition& condition() const { return conditions_[static_cast<std::size_t>(planned().condition)]; }
-  /// The files of the trial's stimulus.
-  std::vector<std::filesystem::path> stimulus() const;
+  /// The files of a trial's stimulus.
+  std::vector<std::filesystem::path> stimulus(const PlannedTrial& trial) const;
+  /// Throws Error{bad_input} where the file is no graph, or the answer is not the design's.
+  PathGraph graph_of(const PlannedTrial& trial) const;
   void check_answered() const;
   const StudyScene& scene(const std::filesystem::path& path);
   bool answer_trial(const std::string& name, double pressed_s, double noted_s);

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "wheatstone/marks/painting_file.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::viewer::study_runner_test {
 
@@ -206,6 +208,48 @@ TEST(StudySessionOfPaintings, EachEyeSeesItsViewAndTheHeadMovesBoth) {
   runner.key("3", 5, 5);
   const StereoPair other = runner.draw();
   EXPECT_NE(first_differs, other.left != other.right) << "one of the conditions is monoscopic";
+}
+
+TEST_F(StudySession, AStimulusThatIsDamagedOrAnothersIsRefusedBeforeTheSession) {
+  begin();
+  end();
+  const std::vector<PlannedTrial> trials = plan_trials(study().design(), 1);
+  const auto file_of = [&](const PlannedTrial& trial) {
+    const StudyCondition condition =
+        conditions_of_group(study().design(), 0)[static_cast<std::size_t>(trial.condition)];
+    return study().stimuli() / stimulus_files(study().design(), trial.item, condition).front();
+  };
+  const std::filesystem::path last = file_of(trials.back());
+  const bool answer = is_connected(study().design(), trials.back().item);
+  const auto other = std::ranges::find_if(
+      trials, [&](const PlannedTrial& trial) { return is_connected(study().design(), trial.item) != answer; });
+  ASSERT_NE(other, trials.end());
+  const std::string whole = bytes_of(last);
+  put_bytes(last, bytes_of(file_of(*other)));
+  expect_error(ErrorKind::bad_input, last.string() + ": connected: is " + (answer ? "false" : "true"),
+               [&] { begin(); });
+  put_bytes(last, whole.substr(0, whole.size() / 2));
+  expect_error(ErrorKind::bad_input, last.string() + ": is no path graph", [&] { begin(); });
+  put_bytes(last, whole);
+  EXPECT_NO_THROW(begin());
+}
+
+TEST(StudySessionOfPictures, EyesOfDifferentSizesAreRefused) {
+  const TemporaryFolder folder;
+  const StudyDesign design = parse_study_design(
+      "name = 'pairs'\ntask_label = 'comfort'\ntask = 'rating'\nsubjects = 2\nrepetitions = 1\n"
+      "[pictures]\nitems = ['a', 'b']\nleft = '{item}_left.png'\nright = '{item}_right.png'\n"
+      "[[factor]]\nname = 'views_per_10cm'\nlevels = [0, 8]\n",
+      "pairs.toml");
+  const StudyFolder study(folder / "data", design, false);
+  std::filesystem::create_directories(study.stimuli());
+  for (const char* name : {"a_left.png", "a_right.png", "b_left.png", "b_right.png"})
+    write_image(study.stimuli() / name, Image<Rgb8>(40, std::string_view(name).ends_with("left.png") ? 30 : 20));
+  StudyRunner runner(study, 0, small);
+  runner.shown(0);
+  runner.key("space", 1, 1);
+  expect_error(ErrorKind::bad_input, "_right.png: the picture is 40x20 pixels, expected the left eye's 40x30",
+               [&] { runner.draw(); });
 }
 
 TEST_F(StudySession, TheHeadsDistanceChangesTheViews) {
