@@ -56,6 +56,16 @@ void OrderedJobs::finish() {
   changed_.wait(lock, [this] { return jobs_.empty(); });
 }
 
+void OrderedJobs::finish(std::chrono::milliseconds most) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, most, [this] { return jobs_.empty(); });
+}
+
+bool OrderedJobs::is_busy() const {
+  const std::lock_guard lock(mutex_);
+  return !jobs_.empty();
+}
+
 void OrderedJobs::work(const std::stop_token& ends) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, ends, [this] { return !jobs_.empty(); })) {

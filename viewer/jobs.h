@@ -95,11 +95,14 @@ class OrderedJobs {
   void start(std::function<void()> job);
   /// Returns when all are done.
   void finish();
+  /// Returns when all are done, or after `most`.
+  void finish(std::chrono::milliseconds most);
+  bool is_busy() const;
 
  private:
   void work(const std::stop_token& ends);
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<std::function<void()>> jobs_;  ///< the first is being done
   std::jthread thread_;                     ///< last: it ends first

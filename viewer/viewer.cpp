@@ -319,7 +319,7 @@ void Viewer::stop() {
 }
 
 bool Viewer::is_working() const {
-  return making_.is_busy() || drawing_.is_busy() || (whole_film_ && !whole_film_->has_ended());
+  return making_.is_busy() || drawing_.is_busy() || saving_.is_busy() || (whole_film_ && !whole_film_->has_ended());
 }
 
 void Viewer::wait() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -84,6 +85,7 @@ class Viewer {
   std::optional<Error> take_failed_save() { return std::exchange(failed_save_, std::nullopt); }
   /// Returns when all files are written.
   void finish_saving() { saving_.finish(); }
+  void finish_saving(std::chrono::milliseconds most) { saving_.finish(most); }
   /// Asks the threads to leave what they do.
   void stop();
   /// A thread does something.

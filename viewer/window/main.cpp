@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <QApplication>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -78,7 +79,11 @@ void begin(Window& window, const ViewArguments& arguments) {
 void end_threads(Viewer& viewer, int exit_code) {
   constexpr int longest_ms = 100;
   viewer.stop();
-  viewer.finish_saving();
+  // A signal ends the window within a second.
+  if (exit_code == static_cast<int>(ErrorKind::interrupted))
+    viewer.finish_saving(std::chrono::milliseconds(500));
+  else
+    viewer.finish_saving();
   for (int waited_ms = 0; viewer.is_working(); ++waited_ms) {
     if (waited_ms == longest_ms) {
       std::fflush(stdout);
@@ -103,7 +108,14 @@ void choose_platform(const ViewArguments& arguments) {
 
 void write_bridge_calibration(const std::string& file) {
   constexpr unsigned longest_s = 30;  // the library was seen to need seven seconds
-  alarm(longest_s);
+  // The library may hang, and who waits for this program tells of signals.
+  cli::run_is_over();
+  std::signal(SIGALRM, [](int) {
+    constexpr std::string_view said = "wheatstone: Looking Glass Bridge does not answer\n";
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, said.data(), said.size());
+    ::_exit(static_cast<int>(ErrorKind::cannot_read_write));
+  });
+  ::alarm(longest_s);
   write_whole_file(file, calibration_text(calibration_from_bridge(bridge_library())));
 }
 

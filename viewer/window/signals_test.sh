@@ -95,6 +95,44 @@ sleep 0.5
 kill -KILL "$parent"
 expect_end 'the parent is killed' 137
 
+# While a process of the window's program waits for the library of Looking Glass Bridge, which hangs: a pipe into which
+# nobody writes stands for it.
+export HOME=$folder XDG_CACHE_HOME=$folder/cache
+mkdir -p .lgf/Bridge
+mkfifo libbridge_inproc.so
+echo '{"install_locations": [{"version": "2.10.0", "path": "'"$folder"'"}]}' >.lgf/Bridge/settings.json
+printf '%s\n' 'screen bridge' wait >bridge.txt
+for target in parent child group; do
+  start view still/left.png still/right.png --script bridge.txt
+  for _ in {1..250}; do
+    hanging=$(pgrep --parent "$child" || true)
+    [[ -n $hanging ]] && break
+    sleep 0.02
+  done
+  [[ -n $hanging ]] || fail 'the window does not ask for the calibration of Bridge'
+  sleep 0.2
+  case $target in
+    parent) kill -TERM "$parent" ;;
+    child) kill -TERM "$child" ;;
+    group) kill -TERM -- "-$parent" ;;
+  esac
+  expect_end "view that waits for Bridge, TERM to the $target" 5
+  [[ $(wc -l <err.txt) == 1 ]] || fail "view that waits for Bridge, TERM to the $target: it says $(cat err.txt)"
+  sleep 0.1
+  if is_running "$hanging"; then fail "view that waits for Bridge, TERM to the $target: a process stays"; fi
+done
+"$view" --bridge-calibration screen.json 2>err.txt &
+parent=$!
+for _ in {1..250}; do
+  # It watches SIGALRM (bit 13) once it has begun.
+  (((0x$(awk '/^SigCgt/ { print $2 }' "/proc/$parent/status" 2>/dev/null || echo 0) >> 13 & 1) == 1)) && break
+  sleep 0.02
+done
+kill -ALRM "$parent"
+code=0
+wait "$parent" || code=$?
+[[ $code == 4 && $(cat err.txt) == 'wheatstone: Looking Glass Bridge does not answer' ]] || fail "Bridge that hangs ends with $code: $(cat err.txt)"
+
 # Where no window can start, no folder is begun.
 code=0
 env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM "$wheatstone" study run small.toml -o unseen 2>err.txt || code=$?
