@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <pthread.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -79,8 +80,13 @@ std::shared_ptr<PyParticles> particles_at(const py::object& positions, const py:
   return particles;
 }
 
-/// The libraries behind some formats are for one thread at a time.
+/// The libraries behind some formats are for one thread at a time. A process is forked between two files, not within
+/// one: its child would never see the end.
 std::mutex reading;
+
+void fork_between_files() {
+  ::pthread_atfork([] { reading.lock(); }, [] { reading.unlock(); }, [] { reading.unlock(); });
+}
 
 std::shared_ptr<PyParticles> load_particles(const std::filesystem::path& path) {
   return result_of([path](const Progress& progress) {
@@ -210,6 +216,7 @@ void add_particles(py::module_& module) {
       .def_property_readonly("mass", [](const py::object& p) { return column_in(p, &Cloud::mass); })
       .def_property_readonly("smoothing_length",
                              [](const py::object& p) { return column_in(p, &Cloud::smoothing_length); });
+  fork_between_files();
   module.def("load_particles", &load_particles);
   module.def("holds_particles", [](const std::filesystem::path& path) {
     return result_of([path](const Progress& /*progress*/) {

@@ -2,36 +2,21 @@
 
 import concurrent.futures
 import html
-import os
-import pathlib
 import re
-import subprocess
-import tempfile
 import unittest
 
 import numpy as np
 import wheatstone
+from in_folder import PROGRAM, InFolder
 
-PROGRAM = os.environ["WHEATSTONE"]
 
-
-class Files(unittest.TestCase):
+class Files(InFolder):
     @classmethod
     def setUpClass(cls):
-        cls.kept = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.kept.name)
-        cls.still = wheatstone.still((96, 72))
+        super().setUpClass()
         cls.run_program("synth", "film", "--size", "96x72", "--frames", "3", "-o", "film")
         cls.film = f"{cls.folder}/film/left_%04d.png,{cls.folder}/film/right_%04d.png"
         cls.run_program("rotoscope", cls.film, "--style", "pointillist", "--codec", "ffv1", "-o", "painted.mkv")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.kept.cleanup()
-
-    @classmethod
-    def run_program(cls, *words):
-        subprocess.run([PROGRAM, *map(str, words), "--quiet"], check=True, cwd=cls.folder, stdout=subprocess.DEVNULL)
 
     def test_load_gives_what_a_file_holds(self):
         at = self.folder / "kinds"

@@ -1,18 +1,16 @@
 """Arguments that are refused, calls that Ctrl-C ends, and interpreters that exit while a film is painted. Run as
 test_wheatstone.py."""
 
-import os
-import pathlib
 import resource
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 import numpy as np
 import wheatstone
+from in_folder import InFolder
 
 NAN, INF = float("nan"), float("inf")
 POSITIONS = np.random.default_rng(1).normal(size=(500, 3))
@@ -36,21 +34,14 @@ def processor_seconds(run):
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-class Limits(unittest.TestCase):
+class Limits(InFolder):
     @classmethod
     def setUpClass(cls):
-        cls.kept = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.kept.name)
-        cls.still = wheatstone.still((96, 72))
+        super().setUpClass()
         cls.painting = cls.still.paint("pointillist")
         cls.painting.save(cls.folder / "painting.wst")
         cls.slices = wheatstone.Particles(POSITIONS).slices(size=(64, 36))
-        subprocess.run([os.environ["WHEATSTONE"], "synth", "film", "--size", "160x120", "--frames", "12", "-o",
-                        cls.folder / "film", "--quiet"], check=True, stdout=subprocess.DEVNULL)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.kept.cleanup()
+        cls.run_program("synth", "film", "--size", "160x120", "--frames", "12", "-o", "film")
 
     def assert_refused(self, name, call, *arguments, **options):
         """With one readable line that names the argument."""
@@ -187,6 +178,37 @@ class Limits(unittest.TestCase):
         run = start(code, self.folder)
         self.assertEqual((run.communicate(timeout=60)[1], run.returncode), ("", 7))
 
+    def test_threads_and_processes_get_the_same_results(self):
+        np.save(self.folder / "points.npy", POSITIONS)
+        (self.folder / "work.py").write_text(WORK)
+        run = subprocess.run([sys.executable, "work.py"], cwd=self.folder, capture_output=True, text=True, timeout=100)
+        self.assertEqual((run.stdout, run.stderr, run.returncode), ("threads\nfork\nforkserver\nspawn\n", "", 0))
+
+
+# What threads of one process make, and processes that are started while they work.
+WORK = """
+import concurrent.futures, hashlib, multiprocessing
+import numpy as np, wheatstone
+
+def work(seed):
+    still = wheatstone.still((96, 72), seed=seed % 3)
+    arrays = [still.paint("pointillist").views(3), wheatstone.load("points.npy").positions,
+              wheatstone.render("points.npy", views=2, size=(96, 54)),
+              wheatstone.match(still.left, still.right, "fast").left_disparity]
+    return hashlib.sha256(b"".join(array.tobytes() for array in arrays)).hexdigest()
+
+if __name__ == "__main__":
+    expected = [work(seed) for seed in range(3)] * 3
+    with concurrent.futures.ThreadPoolExecutor(4) as threads:
+        assert list(threads.map(work, range(9))) == expected
+        print("threads", flush=True)
+        for method in ["fork", "forkserver", "spawn"]:
+            beside = [threads.submit(work, seed) for seed in range(9)]
+            with multiprocessing.get_context(method).Pool(2) as pool:
+                assert pool.map(work, range(9)) == expected
+            assert [future.result() for future in beside] == expected
+            print(method, flush=True)
+"""
 
 if __name__ == "__main__":
     unittest.main()
