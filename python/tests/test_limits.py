@@ -1,6 +1,8 @@
 """Arguments that are refused, calls that Ctrl-C ends, and interpreters that exit while a film is painted. Run as
 test_wheatstone.py."""
 
+import os
+import pathlib
 import resource
 import signal
 import subprocess

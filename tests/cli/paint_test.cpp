@@ -109,13 +109,18 @@ TEST(PaintCommand, PaintsEveryKindOfMarksForADisplayAsItsPaintingIsDrawnForOne) 
   }
 }
 
+/// A pair and deep.pfm, with something near before what is far.
+void write_deep_pair(const TemporaryFolder& folder, float far = 4, float near = 4 + 0.12f * width) {
+  write_pair(folder);
+  Image<float> disparity(width, height, far);
+  for (int y = height / 4; y < height / 2; ++y)
+    for (int x = width / 4; x < width / 2; ++x) disparity(x, y) = near;
+  write_disparity(folder / "deep.pfm", disparity);
+}
+
 TEST(PaintCommand, IsComfortableToLookAtUnlessAllDepthIsWanted) {
   const TemporaryFolder folder;
-  write_pair(folder);
-  Image<float> disparity(width, height, 4);
-  for (int y = height / 4; y < height / 2; ++y)
-    for (int x = width / 4; x < width / 2; ++x) disparity(x, y) = 4 + 0.12f * width;
-  write_disparity(folder / "deep.pfm", disparity);
+  write_deep_pair(folder);
   const auto separation = [&](std::vector<std::string> more) {
     more.insert(more.end(), {"--disparity", "deep.pfm", "--json"});
     const ProgramResult result = run_program(paint_line(more), {.folder = folder / ""});
@@ -133,11 +138,7 @@ TEST(PaintCommand, IsComfortableToLookAtUnlessAllDepthIsWanted) {
 
 TEST(PaintCommand, TellsHowMuchDepthIsLeftAndWhatIsUnpainted) {
   const TemporaryFolder folder;
-  write_pair(folder);
-  Image<float> disparity(width, height, 4);
-  for (int y = height / 4; y < height / 2; ++y)
-    for (int x = width / 4; x < width / 2; ++x) disparity(x, y) = 4 + 0.12f * width;
-  write_disparity(folder / "deep.pfm", disparity);
+  write_deep_pair(folder);
   const auto told = [&](const std::string& budget) {
     const ProgramResult result =
         run_program(paint_line({"--disparity", "deep.pfm", "--depth-budget", budget}), {.folder = folder / ""});
@@ -155,11 +156,7 @@ TEST(PaintCommand, TellsHowMuchDepthIsLeftAndWhatIsUnpainted) {
 
 TEST(PaintCommand, PlacesDepthWhereItsMappingHasIt) {
   const TemporaryFolder folder;
-  write_pair(folder);
-  Image<float> disparity(width, height, 2);
-  for (int y = height / 4; y < height / 2; ++y)
-    for (int x = width / 4; x < width / 2; ++x) disparity(x, y) = 10;
-  write_disparity(folder / "deep.pfm", disparity);
+  write_deep_pair(folder, 2, 10);
   const auto run = [&](const std::vector<std::string>& line) {
     const ProgramResult result = run_program(line, {.folder = folder / ""});
     EXPECT_EQ(result.exit_code, 0) << result.errors;

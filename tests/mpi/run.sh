@@ -128,8 +128,7 @@ if [[ $2 == all ]]; then
       stop "$rank" TERM "${words[@]}"
       [[ $code == 5 ]] || complain "a run whose $rank rank is told to end ends with $code, expected 5"
     done
-    stop mpirun INT "${words[@]}"
-    stop mpirun TERM "${words[@]}"
+    for signal in INT TERM HUP; do stop mpirun "$signal" "${words[@]}"; done
   done
 fi
 echo "mpi: as one process"
