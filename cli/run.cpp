@@ -40,7 +40,7 @@ int fail(const Session& session, const Ranks::Failure& own) {
 }
 
 /// What CLI11 found, in the words of our other messages.
-std::string in_our_words(const CLI::App& program, const CLI::ParseError& error) {
+std::string in_our_words(const CLI::ParseError& error) {
   std::string found = error.what();
   const std::string option = found.substr(0, found.find(": "));
   if (dynamic_cast<const CLI::FileError*>(&error) != nullptr)
@@ -49,13 +49,6 @@ std::string in_our_words(const CLI::App& program, const CLI::ParseError& error) 
     if (found.find("At Most 1 ") != std::string::npos)
       return fmt::format("{}: is given {} times, expected once", option, found.substr(found.rfind(' ') + 1));
     if (found.ends_with(" missing")) return fmt::format("{}: is given without a value", option);
-  }
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && found == "A subcommand is required") {
-    std::vector<std::string> kinds;
-    for (const CLI::App* kind : program.get_subcommands().front()->get_subcommands({}))
-      kinds.push_back(kind->get_name());
-    return fmt::format("{}: its kind is missing, expected {}", program.get_subcommands().front()->get_name(),
-                       fmt::join(kinds, ", "));
   }
   return found;
 }
@@ -88,6 +81,25 @@ std::string command_like(const CLI::App& program, const std::string& word) {
   return alike;
 }
 
+constexpr std::string_view no_subcommand = "A subcommand is required";  ///< CLI11's words
+
+/// What is wrong where a command is missing below `above`, which is the program or a command that has kinds.
+std::string missing_command(const CLI::App& program, const CLI::App& above, const std::string& hint) {
+  const bool has_kinds = &above != &program;
+  const std::vector<std::string> words = program.remaining(true);
+  std::string expected;
+  for (const CLI::App* kind : above.get_subcommands({}))
+    expected += fmt::format("{}{}", expected.empty() ? "" : ", ", kind->get_name());
+  if (has_kinds && (words.empty() || words.front().starts_with('-')))
+    return fmt::format("{}: its kind is missing, expected {}; {}", above.get_name(), expected, hint);
+  if (words.empty()) return fmt::format("no command given; {}", hint);
+  const std::string no_such = has_kinds ? fmt::format("{} {}: no such kind", above.get_name(), words.front())
+                                        : fmt::format("{}: no such command", words.front());
+  if (const std::string alike = command_like(above, words.front()); !alike.empty())
+    return fmt::format("{}; did you mean '{}'? {}", no_such, alike, hint);
+  return has_kinds ? fmt::format("{}, expected {}; {}", no_such, expected, hint) : fmt::format("{}; {}", no_such, hint);
+}
+
 /// What is wrong with the line, and where to read on.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
   const auto commands = program.get_subcommands();
@@ -97,14 +109,9 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
   if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr) {
     return fmt::format("--config: unknown option '{}' in the file; {}", found.substr(found.rfind(' ') + 1), hint);
   }
-  if (commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-    const std::vector<std::string> words = program.remaining();
-    if (words.empty()) return fmt::format("no command given; {}", hint);
-    const std::string alike = command_like(program, words.front());
-    return alike.empty() ? fmt::format("{}: no such command; {}", words.front(), hint)
-                         : fmt::format("{}: no such command; did you mean '{}'? {}", words.front(), alike, hint);
-  }
-  return fmt::format("{}; {}", in_our_words(program, error), hint);
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && (commands.empty() || found == no_subcommand))
+    return missing_command(program, commands.empty() ? program : *commands.front(), hint);
+  return fmt::format("{}; {}", in_our_words(error), hint);
 }
 
 /// Says where the processor did what a graphics processor had begun.

@@ -133,8 +133,8 @@ TEST(Ending, WithoutMemoryIsExitCodeFour) {
   while (!starts()) least += mib;
   for (const std::size_t more : {0, 1, 2, 8, 32, 64, 100, 150, 200, 250, 300, 400}) {
     for (const std::vector<std::string>& line : Lines{{"--version"},
-                                                      {"match", "left.jpg", "right.jpg", "-o", "results"},
-                                                      {"paint", "left.jpg", "right.jpg", "-o", "results"}}) {
+                                                      {"match", "left.jpg", "right.jpg", "-o", "results", "--quiet"},
+                                                      {"paint", "left.jpg", "right.jpg", "-o", "results", "--quiet"}}) {
       const ProgramResult result = run_program(line, {.folder = folder / "", .most_addresses = least + more * mib});
       if (result.exit_code == 0) {
         std::filesystem::remove_all(folder / "results");
