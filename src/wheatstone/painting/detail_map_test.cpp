@@ -11,6 +11,7 @@
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/pictures/find_faces.h"
 #include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/view.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::detail_map_test {
