@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "wheatstone/random.h"
@@ -65,41 +66,44 @@ int place_of_half(const LayerPlan& plan, int half) {
   return static_cast<int>(static_cast<float>(half) * cell_px(plan) / 2);
 }
 
+/// What the errors of a row's pixels from `left` on are at most: those of pixels that count as much as they can.
+void most_errors(const LayerPlan& plan, int left, int y, std::span<float> errors) {
+  const auto row = [&](const auto& plane) { return plane.row(y).subspan(static_cast<std::size_t>(left)); };
+  const Canvas& canvas = plan.canvas;
+  const auto red = row(plan.reference.red), green = row(plan.reference.green), blue = row(plan.reference.blue);
+  const auto painted_red = row(canvas.red), painted_green = row(canvas.green), painted_blue = row(canvas.blue);
+  const auto covered = row(canvas.coverage);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    // The planes are linear in sRGB.
+    const float difference =
+        squared(FitColour::of(red[i] - painted_red[i], green[i] - painted_green[i], blue[i] - painted_blue[i]));
+    errors[i] = covered[i] < 0.5f ? squared_error_of_bare : difference;
+  }
+  if (plan.view.detail.empty()) return;
+  const auto detail = row(plan.view.detail);
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] *= std::max(detail_weight(detail[i]), 1.f);
+}
+
 /// Whether some cell of a block may gain by a stroke if each pixel counts as much as it can: most blocks of the finer
 /// layers of a large picture need no closer look.
 bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
-  const Canvas& canvas = plan.canvas;
-  const auto half_at = [&](int place) { return static_cast<int>(2 * static_cast<float>(place) / cell_px(plan)); };
-  const int first_column = std::max(half_at(left) - 1, 0), first_row = std::max(half_at(top) - 1, 0);
-  const int x0 = place_of_half(plan, first_column),
-            x1 = std::min(left + size + 2 * static_cast<int>(cell_px(plan)), canvas.width);
-  const int y1 = std::min(top + size + 2 * static_cast<int>(cell_px(plan)), canvas.height);
-  std::vector<int> columns;  // first pixel of each half cell, from x0
-  for (int half = first_column; place_of_half(plan, half) < x1; ++half)
-    columns.push_back(place_of_half(plan, half) - x0);
-  columns.push_back(x1 - x0);
-  std::vector<float> errors(static_cast<std::size_t>(x1 - x0)), above(columns.size()), sums(columns.size());
-  const auto first = static_cast<std::size_t>(x0);
-  for (int row = first_row; place_of_half(plan, row) < y1; ++row) {
+  const int reach = size + 2 * static_cast<int>(cell_px(plan));
+  const int right = std::min(left + reach, plan.canvas.width), bottom = std::min(top + reach, plan.canvas.height);
+  const auto half_before = [&](int place) {
+    return std::max(static_cast<int>(2 * static_cast<float>(place) / cell_px(plan)) - 1, 0);
+  };
+  const int first_column = half_before(left), first_row = half_before(top), x0 = place_of_half(plan, first_column);
+  std::vector<std::size_t> columns;  // first pixel of each half cell, from x0, and the end
+  for (int half = first_column; place_of_half(plan, half) < right; ++half)
+    columns.push_back(static_cast<std::size_t>(place_of_half(plan, half) - x0));
+  columns.push_back(static_cast<std::size_t>(right - x0));
+  std::vector<float> errors(columns.back()), above(columns.size()), sums(columns.size());
+  for (int row = first_row; place_of_half(plan, row) < bottom; ++row) {
     std::ranges::fill(sums, 0.f);
-    for (int y = place_of_half(plan, row); y < std::min(place_of_half(plan, row + 1), y1); ++y) {
-      const auto red = plan.reference.red.row(y).subspan(first), green = plan.reference.green.row(y).subspan(first),
-                 blue = plan.reference.blue.row(y).subspan(first);
-      const auto painted_red = canvas.red.row(y).subspan(first), painted_green = canvas.green.row(y).subspan(first),
-                 painted_blue = canvas.blue.row(y).subspan(first);
-      const auto covered = canvas.coverage.row(y).subspan(first);
-      for (std::size_t i = 0; i < errors.size(); ++i) {
-        // The planes are linear in sRGB.
-        const float difference =
-            squared(FitColour::of(red[i] - painted_red[i], green[i] - painted_green[i], blue[i] - painted_blue[i]));
-        errors[i] = covered[i] < 0.5f ? squared_error_of_bare : difference;
-      }
-      if (!plan.view.detail.empty()) {
-        const auto detail = plan.view.detail.row(y).subspan(first);
-        for (std::size_t i = 0; i < errors.size(); ++i) errors[i] *= std::max(detail_weight(detail[i]), 1.f);
-      }
+    for (int y = place_of_half(plan, row); y < std::min(place_of_half(plan, row + 1), bottom); ++y) {
+      most_errors(plan, x0, y, errors);
       for (std::size_t c = 0; c + 1 < columns.size(); ++c)
-        for (int x = columns[c]; x < columns[c + 1]; ++x) sums[c] += errors[static_cast<std::size_t>(x)];
+        for (std::size_t x = columns[c]; x < columns[c + 1]; ++x) sums[c] += errors[x];
     }
     for (std::size_t c = 0; c + 1 < columns.size(); ++c)
       if (may_gain(plan, above[c] + above[c + 1] + sums[c] + sums[c + 1])) return true;
