@@ -40,6 +40,7 @@ std::function<std::string()>& what_is_kept() {
 }
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
 bool json_wanted = false;
+bool tells_of_signals = true;
 sem_t noted;
 
 /// Who is told of a signal, and how long the run then has to end itself.
@@ -81,6 +82,7 @@ std::string last_words() {
   // A file may have been opened by its name in the moment of its removal.
   std::this_thread::sleep_for(5ms);
   remove_unfinished_outputs();
+  if (code == static_cast<int>(ErrorKind::interrupted) && !tells_of_signals) ::_exit(code);
   if (::isatty(STDERR_FILENO) != 0) put(STDERR_FILENO, "\r\033[K");  // the progress bar
   put(STDERR_FILENO, fmt::format("wheatstone: {}\n", words));
   if (json_wanted)
@@ -135,7 +137,8 @@ void end_in_one_line(bool json) {
   std::set_terminate(end_of_uncaught);
 }
 
-void watch_signals() {
+void watch_signals(bool says_so) {
+  tells_of_signals = says_so;
   ::sem_init(&noted, 0, 0);
   struct sigaction noting = {};
   noting.sa_handler = note;
@@ -161,6 +164,8 @@ void on_signal(std::function<void()> told, std::chrono::milliseconds most) {
 void throw_if_interrupted() {
   if (interrupted) throw Error(ErrorKind::interrupted, std::string(message));
 }
+
+void throw_interrupted() { throw Error(ErrorKind::interrupted, last_words()); }
 
 void tell_what_is_kept(std::function<std::string()> kept) {
   const auto hold = hold_outputs();

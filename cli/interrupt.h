@@ -9,8 +9,8 @@ namespace wheatstone::cli {
 /// From here on Ctrl-C, TERM and HUP are noted instead of ending the program at once. A run that reports progress ends
 /// itself soon after; one that is in a long call is ended 0.4 s later by another thread, which removes what is
 /// unfinished, says so and leaves with the exit code of an interrupted run. A closed pipe and a file beyond the user's
-/// limit become errors of the write instead of signals.
-void watch_signals();
+/// limit become errors of the write instead of signals. `says_so`: not where the program that started this one says it.
+void watch_signals(bool says_so = true);
 
 /// From here on `told` is called in another thread when a signal comes, or at once where one came already; the run then
 /// has this long to end itself, whatever it has finished. For a run that waits for another program, or for its user.
@@ -24,6 +24,9 @@ void end_in_one_line(bool json);
 
 /// Throws Error{interrupted} where a signal was noted.
 void throw_if_interrupted();
+
+/// Throws Error{interrupted} that says what the run leaves.
+[[noreturn]] void throw_interrupted();
 
 /// What a run that is ended says of what it leaves, instead of "nothing half-written is left"; asked when it ends.
 /// Empty: as usual.

@@ -15,6 +15,7 @@
 #include "paint_arguments.h"
 #include "paint_several.h"
 #include "views_argument.h"
+#include "wheatstone/app/detail_map.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/depth/display_presets.h"
@@ -23,7 +24,6 @@
 #include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/marks/style_parameters.h"
-#include "wheatstone/painting/detail_map.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {

@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "interrupt.h"
 #include "study_run_arguments.h"
 #include "wheatstone/study/study_folder.h"
 #include "window_program.h"
@@ -15,6 +16,7 @@ Report run_study_run(const StudyRunArguments& arguments, const Session& session)
   check_stimuli(arguments.folder, design);
   std::vector<std::string> words = words_of(arguments.given);
   words.insert(words.begin(), "study");
+  tell_what_is_kept([] { return std::string("run the session again to go on"); });
   return run_window_program(std::move(words), session);
 }
 

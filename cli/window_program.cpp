@@ -50,8 +50,9 @@ Report run_window_program(std::vector<std::string> words, const Session& session
   on_signal([&window] { window->signal(SIGTERM); }, patience);
   const int status = window->wait();
   on_signal({});
+  // The window's program leaves it to this one to say so.
+  if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ErrorKind::interrupted)) throw_interrupted();
   if (WIFEXITED(status)) return {.facts = {}, .exit_code = WEXITSTATUS(status)};
-  // It was told to end before it could say so itself.
   throw_if_interrupted();
   const std::string end = fmt::format("{}: ended by signal {}", window_program, WTERMSIG(status));
   constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP, SIGKILL};

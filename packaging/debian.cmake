@@ -44,6 +44,7 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 # With the modules that the library loads: the other packages depend on this one.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wheatstone)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "opencv-data")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "The program wheatstone paints stereo photographs and films so that both eyes
 see one painting, and renders particle data sets for stereo, lenticular and

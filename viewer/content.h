@@ -22,7 +22,8 @@ namespace wheatstone::viewer {
 /// A photograph that is painted from.
 struct Photograph {
   StereoPair pictures;
-  std::optional<StereoGeometry> geometry;  ///< once it was found
+  std::optional<StereoGeometry> geometry;     ///< once it was found
+  std::optional<Image<std::uint8_t>> detail;  ///< as detail_of_faces, once a style wanted it
 };
 
 /// A painting, and what it was painted from. Either may be missing: a painting that was read has no photograph, and a

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "wheatstone/app/detail_map.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/rotoscope_film.h"
@@ -32,6 +33,10 @@ Image<float> reduced_disparity(ImageView<const float> disparity, PictureSize siz
   return small;
 }
 
+ImageView<const std::uint8_t> detail_of(const Photograph& photograph, const Style& style) {
+  return reads_detail(style) && photograph.detail ? photograph.detail->view() : ImageView<const std::uint8_t>();
+}
+
 /// What stays the same when the picture is made smaller: lengths of a style count in pixels of a 640-pixel-wide one.
 Painting coarse_painting(const Photograph& photograph, const Style& style, const Progress& progress) {
   const Image<Rgb8>& left = photograph.pictures.left;
@@ -39,7 +44,7 @@ Painting coarse_painting(const Photograph& photograph, const Style& style, const
   const StereoPair pair{reduced(left, size), reduced(photograph.pictures.right, size)};
   const StereoGeometry geometry = geometry_from_both(reduced_disparity(photograph.geometry->left_disparity, size),
                                                      reduced_disparity(photograph.geometry->right_disparity, size));
-  Painting painting = plan_painting(pair, geometry, style, progress, ViewRange{});
+  Painting painting = plan_painting(pair, geometry, style, progress, ViewRange{}, detail_of(photograph, style));
   return placed(std::move(painting), {.width = left.width(),
                                       .height = left.height(),
                                       .scale = static_cast<double>(left.width()) / static_cast<double>(size.width)});
@@ -58,16 +63,20 @@ std::string time_left(double done, double seconds) {
 void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style, const Progress& progress,
                     const std::function<void(PaintedContent)>& deliver) {
   std::shared_ptr<const Photograph> known = photograph;
-  if (!known->geometry) {
+  const bool wants_detail = reads_detail(style) && !known->detail;
+  if (!known->geometry || wants_detail) {
     auto found = std::make_shared<Photograph>(*photograph);
-    found->geometry = find_geometry(photograph->pictures, {}, progress).geometry;
+    if (!found->geometry) found->geometry = find_geometry(found->pictures, {}, progress).geometry;
+    if (wants_detail) found->detail = detail_of_faces(found->pictures.left);
     known = std::move(found);
-    deliver({nullptr, known});
+    if (!photograph->geometry) deliver({nullptr, known});
   }
   const Image<Rgb8>& left = known->pictures.left;
   if (std::max(left.width(), left.height()) > 2 * coarse_px)
     deliver({std::make_shared<const Painting>(coarse_painting(*known, style, progress)), known});
-  deliver({std::make_shared<const Painting>(plan_painting(known->pictures, *known->geometry, style, progress)), known});
+  deliver({std::make_shared<const Painting>(plan_painting(known->pictures, *known->geometry, style, progress,
+                                                          widest_views, detail_of(*known, style))),
+           known});
 }
 
 std::string paint_whole_film(const WholeFilm& film, const Progress& progress) {

@@ -1,7 +1,11 @@
 #include "screens.h"
 
+#include <sys/wait.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -39,7 +43,11 @@ void write_calibration(const fs::path& file) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   fs::remove(file, error);
-  ChildProcess({"/proc/self/exe", "--bridge-calibration", file.string()}).wait();
+  const int status = ChildProcess({"/proc/self/exe", "--bridge-calibration", file.string()}).wait();
+  // Of a signal to the whole group, this program may not have heard yet.
+  constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP};
+  if (WIFSIGNALED(status) && std::ranges::find(ending_signals, WTERMSIG(status)) != ending_signals.end())
+    throw Error(ErrorKind::interrupted, "interrupted");
   if (!fs::exists(file, error))
     throw Error(ErrorKind::cannot_read_write,
                 "Looking Glass Bridge is not installed, or finds no Looking Glass display");

@@ -21,6 +21,7 @@
 
 #include "painting/subject.h"
 #include "stopwatch.h"
+#include "wheatstone/app/detail_map.h"
 #include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/error.h"
 #include "wheatstone/marks/style_parameters.h"
@@ -164,8 +165,9 @@ std::vector<Photographed> subjects(const Options& options) {
 Painting plan(const Photographed& photograph, const Style& style, const std::optional<StereoGeometry>& geometry) {
   const Image<Rgb8>& picture = photograph.pictures.left;
   const StereoGeometry flat{.left_disparity = Image<float>(picture.width(), picture.height())};
-  if (!geometry) return plan_painting({picture, {}}, flat, style);
-  return plan_painting(photograph.pictures, *geometry, style);
+  const Image<std::uint8_t> detail = reads_detail(style) ? detail_of_faces(picture) : Image<std::uint8_t>();
+  if (!geometry) return plan_painting({picture, {}}, flat, style, {}, widest_views, detail);
+  return plan_painting(photograph.pictures, *geometry, style, {}, widest_views, detail);
 }
 
 /// Of each stroke: radius, opacity, colour and disparity, and where its paint varies its number and the change of its

@@ -130,10 +130,7 @@ int run(const ViewArguments& arguments) {
   Window window({.opengl = opengl_use(arguments),
                  .stereo = arguments.stereo,
                  .with_dialogs = arguments.script.empty() && arguments.control.empty()});
-  const EndSignals end_signals([&window] {
-    fmt::print(stderr, "wheatstone: interrupted; nothing half-written is left\n");
-    window.end(static_cast<int>(ErrorKind::interrupted));
-  });
+  const EndSignals end_signals([&window] { window.end(static_cast<int>(ErrorKind::interrupted)); });
   window.resize(size);
   std::optional<KeptSettings> kept;
   if (arguments.script.empty() && arguments.control.empty()) {
@@ -204,7 +201,8 @@ int run_view(int argc, char** argv) {
 int main(int argc, char** argv) {
   wheatstone::cli::end_in_one_line(false);
   try {
-    wheatstone::cli::watch_signals();
+    constexpr bool says_so = false;  // the command that started it does
+    wheatstone::cli::watch_signals(says_so);
     cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     qInstallMessageHandler(wheatstone::viewer::on_message_of_qt);
@@ -212,7 +210,8 @@ int main(int argc, char** argv) {
     return is_study ? wheatstone::viewer::run_study(argc - 1, argv + 1) : wheatstone::viewer::run_view(argc, argv);
   } catch (...) {
     const wheatstone::Ranks::Failure failure = wheatstone::cli::failure_of(std::current_exception());
-    std::fprintf(stderr, "wheatstone: %s\n", wheatstone::cli::one_line(failure.message).c_str());
+    if (failure.exit_code != static_cast<int>(wheatstone::ErrorKind::interrupted))
+      std::fprintf(stderr, "wheatstone: %s\n", wheatstone::cli::one_line(failure.message).c_str());
     return failure.exit_code;
   }
 }

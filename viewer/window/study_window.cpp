@@ -117,10 +117,7 @@ int run_session(const StudyRunArguments& arguments) {
                               .viewing_distance_mm = static_cast<float>(arguments.distance_mm)});
   if (arguments.tracker_port >= 0)
     window.track(std::make_unique<HeadTracker>(static_cast<std::uint16_t>(arguments.tracker_port)));
-  const EndSignals end_signals([] {
-    fmt::print(stderr, "wheatstone: the session was broken off; run it again to go on\n");
-    QApplication::exit(static_cast<int>(ErrorKind::interrupted));
-  });
+  const EndSignals end_signals([] { QApplication::exit(static_cast<int>(ErrorKind::interrupted)); });
   window.resize(size);
   if (arguments.size.empty())
     window.showFullScreen();
@@ -246,7 +243,6 @@ bool StudyWindow::eventFilter(QObject* watched, QEvent* event) {
 void StudyWindow::keyPressEvent(QKeyEvent* event) {
   const double noted_s = now_s();
   if (event->key() == Qt::Key_Escape) {
-    fmt::print(stderr, "wheatstone: the session was broken off; run it again to go on\n");
     end(static_cast<int>(ErrorKind::interrupted));
   } else if (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right) {
     head_.x_mm += event->key() == Qt::Key_Left ? -step_of_key_mm : step_of_key_mm;

@@ -405,7 +405,8 @@ void Window::go_on_with_script() {
   try {
     if (!script_->go_on(viewer_)) return;
   } catch (const Error& error) {
-    fmt::print(stderr, "wheatstone: {}\n", error.what());
+    // The command that started the window tells of signals.
+    if (error.kind() != ErrorKind::interrupted) fmt::print(stderr, "wheatstone: {}\n", error.what());
     exit_code_ = static_cast<int>(error.kind());
   }
   script_timer_.stop();

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "wheatstone/app/detail_map.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/known_values.h"
+#include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
@@ -23,8 +25,10 @@ StereoGeometry given_geometry(const StereoPair& photographs, const PaintPhotogra
   return geometry_from_both(*options.left_disparity, *options.right_disparity);
 }
 
-ImageView<const std::uint8_t> detail_of(const PaintPhotographOptions& options) {
-  return options.detail ? options.detail->view() : ImageView<const std::uint8_t>();
+/// The map that is to be found where none was given.
+Image<std::uint8_t> found_detail(ImageView<const Rgb8> left, const PaintPhotographOptions& options) {
+  if (options.detail || !reads_detail(options.style)) return {};
+  return detail_of_faces(left);
 }
 
 }  // namespace
@@ -66,8 +70,9 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   result.confidence = found.confidence;
   result.zero_parallax_px = screen_disparity(options.zero_parallax, result.geometry);
   shared_width(photographs.left.width(), result.zero_parallax_px);
+  const Image<std::uint8_t> found_map = found_detail(photographs.left, options);
   result.painted = paint(photographs, result.geometry, options.style, progress, {options.depth_budget, options.device},
-                         detail_of(options));
+                         options.detail ? *options.detail : found_map);
   return result;
 }
 
@@ -91,8 +96,9 @@ PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOpt
   const FoundGeometry found = find_geometry(photographs, painting, progress);
   if (painting.zero_parallax.disparity_px || painting.zero_parallax.at)
     views.zero_parallax_px = screen_disparity(painting.zero_parallax, found.geometry);
-  const Painting planned =
-      plan_painting(photographs, found.geometry, painting.style, progress, widest_views, detail_of(painting));
+  const Image<std::uint8_t> found_map = found_detail(photographs.left, painting);
+  const Painting planned = plan_painting(photographs, found.geometry, painting.style, progress, widest_views,
+                                         painting.detail ? *painting.detail : found_map);
   return {draw_display_views(planned, views, progress, composition), found.confidence};
 }
 

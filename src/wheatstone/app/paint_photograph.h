@@ -26,7 +26,7 @@ struct PaintPhotographOptions {
   MatchOptions matching;
   std::optional<Image<float>> left_disparity;   ///< ready-made; none: the photographs are matched
   std::optional<Image<float>> right_disparity;  ///< only together with the left one
-  std::optional<Image<std::uint8_t>> detail;    ///< as plan_painting's; none: faces more than the rest
+  std::optional<Image<std::uint8_t>> detail;    ///< as plan_painting's; none: detail_of_faces
   ZeroParallax zero_parallax;
   Device device = Device::processor;                               ///< what draws the pictures
   std::optional<float> depth_budget = comfortable_parallax_share;  ///< of what is looked at, as PaintDrawing

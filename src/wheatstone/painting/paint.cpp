@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/error.h"
-#include "wheatstone/painting/detail_map.h"
+#include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/painting/naive_planning_internal.h"
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/still_scene.h"
@@ -76,7 +77,27 @@ void check_is_of_strokes(const Style& style) {
         fmt::format("style: {} cannot be painted for one view alone, expected brush strokes", name_of(style.marks)));
 }
 
+/// A map of any size that is stretched over a picture of this size.
+Image<std::uint8_t> stretched(ImageView<const std::uint8_t> map, int width, int height) {
+  Image<std::uint8_t> detail(width, height);
+  cv::Mat to = as_mat(detail);
+  cv::resize(as_mat(map), to, to.size(), 0, 0, cv::INTER_LINEAR);
+  return detail;
+}
+
 }  // namespace
+
+bool reads_detail(const Style& style) {
+  return style.marks == Marks::fitted_strokes && style.propagation == Propagation::strokes;
+}
+
+void check_reads_detail(const Style& style) {
+  if (!reads_detail(style))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("style {}: takes no detail map, expected marks = fitted-strokes and propagation = strokes, "
+                            "as oil has",
+                            style.name));
+}
 
 Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                        const Progress& progress, ViewRange wanted, ImageView<const std::uint8_t> detail) {
@@ -86,10 +107,7 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
   const bool apart = style.propagation == Propagation::independent || is_raster(style);
   if (apart && !photographs.right.empty()) return plan_eyes_apart(photographs, geometry, style, progress);
   std::vector<View> scene = make_still_scene(photographs, geometry, wanted);
-  if (style.marks == Marks::fitted_strokes) {
-    const ImageView<const Rgb8> left = photographs.left;
-    scene.front().detail = detail.empty() ? detail_of_faces(left) : stretched(detail, left.width(), left.height());
-  }
+  if (!detail.empty()) scene.front().detail = stretched(detail, photographs.left.width(), photographs.left.height());
   PaintingMemory nothing_before;
   return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress).painting;
 }

@@ -1,13 +1,8 @@
-#include "wheatstone/painting/detail_map.h"
-
-#include <fmt/format.h>
+#include "wheatstone/app/detail_map.h"
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
-#include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/pictures/find_faces.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/view.h"
@@ -60,21 +55,6 @@ Image<std::uint8_t> read_detail_map(const std::filesystem::path& file) {
   std::ranges::transform(picture.pixels(), map.pixels().begin(),
                          [](Rgb8 c) { return static_cast<std::uint8_t>((c.r + c.g + c.b) / 3); });
   return map;
-}
-
-void check_reads_detail(const Style& style) {
-  if (style.marks != Marks::fitted_strokes || style.propagation != Propagation::strokes)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("style {}: takes no detail map, expected marks = fitted-strokes and propagation = strokes, "
-                            "as oil has",
-                            style.name));
-}
-
-Image<std::uint8_t> stretched(ImageView<const std::uint8_t> map, int width, int height) {
-  Image<std::uint8_t> detail(width, height);
-  cv::Mat to = as_mat(detail);
-  cv::resize(as_mat(map), to, to.size(), 0, 0, cv::INTER_LINEAR);
-  return detail;
 }
 
 }  // namespace wheatstone

@@ -1,4 +1,4 @@
-#include "wheatstone/painting/detail_map.h"
+#include "wheatstone/app/detail_map.h"
 
 #include <gtest/gtest.h>
 
