@@ -14,4 +14,21 @@ struct Brush {
   friend bool operator==(const Brush&, const Brush&) = default;
 };
 
+/// The brush: a disc whose cover falls from 1 to 0 across a soft rim a tenth of its radius wide, but never less than a
+/// pixel, which is the antialiasing. Half cover lies at 0.95 R, the middle of the rim.
+struct BrushProfile {
+  explicit BrushProfile(float radius_px)
+      : rim_px(radius_px > 10 ? 0.1f * radius_px : 1.f),
+        middle_px(0.95f * radius_px),
+        reach_px(middle_px + rim_px / 2) {}
+  float rim_px;
+  float middle_px;
+  float reach_px;  ///< cover is 0 from here on
+
+  float cover(float distance_px) const {
+    const float c = (middle_px - distance_px) / rim_px + 0.5f;
+    return c < 0 ? 0 : c > 1 ? 1 : c;
+  }
+};
+
 }  // namespace wheatstone

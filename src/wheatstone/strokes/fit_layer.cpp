@@ -160,18 +160,25 @@ void add_stroke(const FittedStroke& fitted, const LayerPlan& plan, const FitTile
   layer.strokes.push_back(stroke);
 }
 
+PaintedPicture painted_picture(const Canvas& canvas) {
+  PaintedPicture picture(canvas.width, canvas.height);
+  tbb::parallel_for(0, canvas.height, [&](int y) {
+    const auto red = canvas.red.row(y), green = canvas.green.row(y), blue = canvas.blue.row(y);
+    const auto covered = canvas.coverage.row(y);
+    const auto to = picture.row(y);
+    for (std::size_t x = 0; x < to.size(); ++x) to[x] = PaintedPixel::of(red[x], green[x], blue[x], covered[x]);
+  });
+  return picture;
+}
+
 /// What a block has painted becomes part of the canvas.
-void put_back(const FitTile& tile, Canvas& canvas) {
+void put_back(const FitTile& tile, PaintedPicture& canvas) {
   for (int y = 0; y < tile.height; ++y) {
     for (int x = 0; x < tile.width; ++x) {
       const std::size_t pixel = tile.at(x, y);
       if (tile.coverage[pixel] <= 0) continue;
       const auto [red, green, blue] = tile.painted[pixel].rgb();
-      const int column = tile.left + x, row = tile.top + y;
-      canvas.red(column, row) = red;
-      canvas.green(column, row) = green;
-      canvas.blue(column, row) = blue;
-      canvas.coverage(column, row) = tile.coverage[pixel];
+      canvas(tile.left + x, tile.top + y) = PaintedPixel::of(red, green, blue, tile.coverage[pixel]);
     }
   }
 }
@@ -187,7 +194,7 @@ bool has_seeds(const LayerPlan& plan, int left, int top, int size) {
   return false;
 }
 
-Layer plan_block(const LayerPlan& plan, int left, int top, int size, Canvas& canvas) {
+Layer plan_block(const LayerPlan& plan, int left, int top, int size, PaintedPicture& canvas) {
   Layer layer{plan.radius_px, {}, {}};
   const int margin = static_cast<int>(std::ceil(fitted_reach_px(plan.radius_px)));
   FitTile tile(plan, canvas, left - margin, top - margin, left + size + margin, top + size + margin);
@@ -221,7 +228,7 @@ Layer fit_layer(const LayerPlan& plan) {
     worth[i] = has_seeds(plan, left, top, size) && may_gain_in_block(plan, left, top, size);
   });
   if (std::ranges::count(worth, 0) == columns * rows) return layer;
-  Canvas canvas = plan.canvas;
+  PaintedPicture canvas = painted_picture(plan.canvas);
   // Blocks of one wave do not touch the same pixels. A stroke depends on the picture within four blocks of this layer,
   // and as much for each coarser one.
   for (int wave = 0; wave < 4; ++wave) {

@@ -342,11 +342,11 @@ float detail_weight(std::uint8_t detail) {
   return weights[detail];
 }
 
-FitTile::FitTile(const LayerPlan& plan, const Canvas& canvas, int left_, int top_, int right, int bottom)
+FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_, int top_, int right, int bottom)
     : left(std::max(left_, 0)),
       top(std::max(top_, 0)),
-      width(std::min(right, canvas.width) - left),
-      height(std::min(bottom, canvas.height) - top),
+      width(std::min(right, canvas.width()) - left),
+      height(std::min(bottom, canvas.height()) - top),
       wanted(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       painted(wanted.size()),
       weight(wanted.size()),
@@ -355,13 +355,13 @@ FitTile::FitTile(const LayerPlan& plan, const Canvas& canvas, int left_, int top
   for (int y = 0; y < height; ++y) {
     const auto row = [&](const auto& plane) { return plane.row(top + y).subspan(static_cast<std::size_t>(left)); };
     const auto red = row(plan.reference.red), green = row(plan.reference.green), blue = row(plan.reference.blue);
-    const auto painted_red = row(canvas.red), painted_green = row(canvas.green), painted_blue = row(canvas.blue);
-    const auto covered = row(canvas.coverage), depth = row(plan.view.disparity);
+    const auto paint = row(canvas);
+    const auto depth = row(plan.view.disparity);
     for (int x = 0; x < width; ++x) {
       const std::size_t pixel = at(x, y), i = static_cast<std::size_t>(x);
       wanted[pixel] = FitColour::of(red[i], green[i], blue[i]);
-      painted[pixel] = FitColour::of(painted_red[i], painted_green[i], painted_blue[i]);
-      coverage[pixel] = covered[i];
+      painted[pixel] = paint[i].colour();
+      coverage[pixel] = paint[i].coverage();
       disparity[pixel] = depth[i];
     }
   }
@@ -474,9 +474,10 @@ void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& ti
   const PlanePoint& middle = stroke.points[stroke.points.size() / 2];
   const float of_stroke = tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))];
   thread_local Footprint footprint;
-  footprint.visit(tile, stroke.points, stroke.radius_px + 0.5f, 1, [&](std::size_t pixel, float distance, float share) {
+  const BrushProfile brush(stroke.radius_px);
+  footprint.visit(tile, stroke.points, brush.reach_px, 1, [&](std::size_t pixel, float distance, float share) {
     if (side_of(tile.disparity[pixel], of_stroke, plan.depth_threshold_px) == Side::nearer) return;
-    const float cover = std::min(stroke.radius_px - distance + 0.5f, 1.f);
+    const float cover = brush.cover(distance);
     const FitColour colour = stroke.begin + share * (stroke.end - stroke.begin);
     FitColour& painted = tile.painted[pixel];
     painted = tile.is_bare(pixel) ? colour : painted + cover * (colour - painted);

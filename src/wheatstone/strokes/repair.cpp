@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/drawing/rasterise_internal.h"
+#include "wheatstone/marks/brush.h"
 
 namespace wheatstone {
 namespace {
