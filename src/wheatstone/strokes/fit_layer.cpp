@@ -20,7 +20,7 @@ float cell_px(const LayerPlan& plan) { return std::max(1.3f * plan.radius_px, 1.
 
 /// Side of a block: strokes of blocks with one other between them do not meet.
 int block_px(const LayerPlan& plan) {
-  constexpr int least = 128;
+  constexpr int least = 256;
   return std::max(2 * static_cast<int>(std::ceil(fitted_reach_px(plan.radius_px))), least);
 }
 
@@ -43,7 +43,7 @@ Anchor find_anchor(const LayerPlan& plan, const FitTile& tile, const Cell& cell)
     for (int x = cell.left; x < cell.right; ++x) {
       if (!plan.seeds.empty() && plan.seeds(tile.left + x, tile.top + y) == 0) continue;
       const std::size_t pixel = tile.at(x, y);
-      const float error = tile.error(pixel);
+      const float error = tile.error[pixel];
       anchor.sum += error;
       const float chance = tile.is_bare(pixel) ? unit_float(hash_keys({cell.random, pixel})) : 0;
       if (error + chance <= most) continue;
@@ -57,7 +57,7 @@ Anchor find_anchor(const LayerPlan& plan, const FitTile& tile, const Cell& cell)
 
 /// A stroke covers several cells: where the error of one is small, none gains enough.
 bool may_gain(const LayerPlan& plan, float error_of_cell) {
-  constexpr float cells_of_stroke = 4;
+  constexpr float cells_of_stroke = 2.5f;
   return cells_of_stroke * error_of_cell >= plan.least_gain;
 }
 
@@ -81,7 +81,8 @@ void most_errors(const LayerPlan& plan, int left, int y, std::span<float> errors
   }
   if (plan.view.detail.empty()) return;
   const auto detail = row(plan.view.detail);
-  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] *= std::max(detail_weight(detail[i]), 1.f);
+  const std::array<float, 256>& of_detail = detail_weights();
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] *= std::max(of_detail[detail[i]], 1.f);
 }
 
 /// Whether some cell of a block may gain by a stroke if each pixel counts as much as it can: most blocks of the finer
@@ -171,18 +172,6 @@ PaintedPicture painted_picture(const Canvas& canvas) {
   return picture;
 }
 
-/// What a block has painted becomes part of the canvas.
-void put_back(const FitTile& tile, PaintedPicture& canvas) {
-  for (int y = 0; y < tile.height; ++y) {
-    for (int x = 0; x < tile.width; ++x) {
-      const std::size_t pixel = tile.at(x, y);
-      if (tile.coverage[pixel] <= 0) continue;
-      const auto [red, green, blue] = tile.painted[pixel].rgb();
-      canvas(tile.left + x, tile.top + y) = PaintedPixel::of(red, green, blue, tile.coverage[pixel]);
-    }
-  }
-}
-
 /// Whether a stroke may begin in a block.
 bool has_seeds(const LayerPlan& plan, int left, int top, int size) {
   if (plan.seeds.empty()) return true;
@@ -208,11 +197,10 @@ Layer plan_block(const LayerPlan& plan, int left, int top, int size, PaintedPict
       const auto fitted = fit_stroke(tile, plan, anchor.x, anchor.y, cell.random);
       in_vain = !fitted;
       if (!fitted) continue;
-      paint_stroke(*fitted, plan, tile);
+      paint_stroke(*fitted, plan, tile, canvas);
       add_stroke(*fitted, plan, tile, cell.random, layer);
     }
   }
-  if (!layer.strokes.empty()) put_back(tile, canvas);
   return layer;
 }
 

@@ -17,46 +17,38 @@ FitColour operator*(float f, const FitColour& a) { return {f * a.luminance, f * 
 /// Local contrast of the wanted luminance against its brightness decides how much a pixel counts, so that dark detail
 /// does as well.
 void weigh(FitTile& tile) {
-  constexpr std::size_t reach = 3;
+  constexpr int reach = 3;
   constexpr float least_weight = 0.25f;
-  // Sums over a window by running sums, rows then columns.
-  const auto width = static_cast<std::size_t>(tile.width), height = static_cast<std::size_t>(tile.height);
-  std::vector<float> sums(2 * width * height);
-  const auto run = [](std::size_t count, auto value, auto store) {
-    float sum = 0;
-    for (std::size_t i = 0; i < count + reach; ++i) {
-      if (i < count) sum += value(i);
-      if (i > 2 * reach) sum -= value(i - 2 * reach - 1);
-      if (i >= reach) store(i - reach, sum);
+  const auto width = static_cast<std::size_t>(tile.width);
+  // Sums of a window's rows, by column, with `reach` empty columns on both sides.
+  std::vector<float> values(width + 2 * reach), squares(width + 2 * reach);
+  const auto change = [&](int y, float sign) {
+    if (y < 0 || y >= tile.height) return;
+    const std::span row = tile.wanted.luminance().subspan(width * y, width);
+    for (std::size_t x = 0; x < width; ++x) {
+      values[x + reach] += sign * row[x];
+      squares[x + reach] += sign * row[x] * row[x];
     }
   };
-  float* const first = sums.data();
-  float* const second = first + width * height;
-  for (std::size_t y = 0; y < height; ++y) {
-    const FitColour* row = tile.wanted.data() + y * width;
-    run(
-        width, [&](std::size_t x) { return row[x].luminance; },
-        [&](std::size_t x, float s) { first[y * width + x] = s; });
-    run(
-        width, [&](std::size_t x) { return row[x].luminance * row[x].luminance; },
-        [&](std::size_t x, float s) { second[y * width + x] = s; });
-  }
-  std::vector<float> mean(height);
-  for (std::size_t x = 0; x < width; ++x) {
-    const auto in_window = [](std::size_t i, std::size_t count) {
-      return static_cast<float>(std::min(i + reach, count - 1) - (i > reach ? i - reach : 0) + 1);
-    };
-    const float columns = in_window(x, width);
-    run(
-        height, [&](std::size_t y) { return first[y * width + x]; },
-        [&](std::size_t y, float s) { mean[y] = s / (columns * in_window(y, height)); });
-    run(
-        height, [&](std::size_t y) { return second[y * width + x]; },
-        [&](std::size_t y, float s) {
-          const float variance = s / (columns * in_window(y, height)) - mean[y] * mean[y];
-          const float contrast = std::sqrt(std::max(variance, 0.f)) / (2.5f + 0.04f * mean[y]);
-          tile.weight[y * width + x] = least_weight + (1 - least_weight) * std::min(contrast, 1.f);
-        });
+  const auto in_window = [](int i, int count) { return std::min(i + reach, count - 1) - std::max(i - reach, 0) + 1; };
+  std::vector<float> share(width);  // of a pixel in the sum of its window's columns
+  for (int x = 0; x < tile.width; ++x) share[x] = 1 / static_cast<float>(in_window(x, tile.width));
+  for (int y = 0; y < reach; ++y) change(y, 1);
+  for (int y = 0; y < tile.height; ++y) {
+    change(y + reach, 1);
+    change(y - reach - 1, -1);
+    const float of_rows = 1 / static_cast<float>(in_window(y, tile.height));
+    float* const weight = tile.weight.data() + width * y;
+    for (std::size_t x = 0; x < width; ++x) {
+      float value = 0, square = 0;
+      for (std::size_t i = x; i <= x + 2 * reach; ++i) {
+        value += values[i];
+        square += squares[i];
+      }
+      const float mean = value * share[x] * of_rows, variance = square * share[x] * of_rows - mean * mean;
+      const float contrast = std::sqrt(std::max(variance, 0.f)) / (2.5f + 0.04f * mean);
+      weight[x] = least_weight + (1 - least_weight) * std::min(contrast, 1.f);
+    }
   }
 }
 
@@ -332,14 +324,14 @@ FitColour varied(std::uint64_t random) {
 
 }  // namespace
 
-float detail_weight(std::uint8_t detail) {
+const std::array<float, 256>& detail_weights() {
   static const auto weights = [] {
     std::array<float, 256> all{};
     for (std::size_t i = 0; i < all.size(); ++i)
       all[i] = std::exp2(steps_of_fineness * ((static_cast<float>(i) - even_detail) / 255));
     return all;
   }();
-  return weights[detail];
+  return weights;
 }
 
 FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_, int top_, int right, int bottom)
@@ -350,6 +342,7 @@ FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_,
       wanted(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       painted(wanted.size()),
       weight(wanted.size()),
+      error(wanted.size()),
       coverage(wanted.size()),
       disparity(wanted.size()) {
   for (int y = 0; y < height; ++y) {
@@ -359,18 +352,19 @@ FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_,
     const auto depth = row(plan.view.disparity);
     for (int x = 0; x < width; ++x) {
       const std::size_t pixel = at(x, y), i = static_cast<std::size_t>(x);
-      wanted[pixel] = FitColour::of(red[i], green[i], blue[i]);
-      painted[pixel] = paint[i].colour();
+      wanted.set(pixel, FitColour::of(red[i], green[i], blue[i]));
+      painted.set(pixel, paint[i].colour());
       coverage[pixel] = paint[i].coverage();
       disparity[pixel] = depth[i];
     }
   }
   weigh(*this);
-  if (plan.view.detail.empty()) return;
-  for (int y = 0; y < height; ++y) {
+  const std::array<float, 256>& of_detail = detail_weights();
+  for (int y = 0; y < height && !plan.view.detail.empty(); ++y) {
     const auto row = plan.view.detail.row(top + y).subspan(static_cast<std::size_t>(left));
-    for (int x = 0; x < width; ++x) weight[at(x, y)] *= detail_weight(row[static_cast<std::size_t>(x)]);
+    for (int x = 0; x < width; ++x) weight[at(x, y)] *= of_detail[row[static_cast<std::size_t>(x)]];
   }
+  for (std::size_t pixel = 0; pixel < error.size(); ++pixel) find_error(pixel);
 }
 
 float fitted_reach_px(float radius_px) { return longest_px(radius_px) / 2 + radius_px + 2; }
@@ -421,7 +415,7 @@ PathFit fit_along(const Path& path, const FitTile& tile, const LayerPlan& plan, 
       bin.before -= spill;
       return;
     }
-    bin.before += tile.error(pixel);
+    bin.before += tile.error[pixel];
     bin.add(tile.weight[pixel], share, tile.wanted[pixel]);
   };
   footprint.visit(tile, control_points(path.points), radius, row_step, add);
@@ -470,7 +464,7 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
                       colour_at(first), colour_at(end - 1), best.gain};
 }
 
-void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile) {
+void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile, PaintedPicture& canvas) {
   const PlanePoint& middle = stroke.points[stroke.points.size() / 2];
   const float of_stroke = tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))];
   thread_local Footprint footprint;
@@ -479,9 +473,14 @@ void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& ti
     if (side_of(tile.disparity[pixel], of_stroke, plan.depth_threshold_px) == Side::nearer) return;
     const float cover = brush.cover(distance);
     const FitColour colour = stroke.begin + share * (stroke.end - stroke.begin);
-    FitColour& painted = tile.painted[pixel];
-    painted = tile.is_bare(pixel) ? colour : painted + cover * (colour - painted);
+    const FitColour before = tile.painted[pixel];
+    const FitColour painted = tile.is_bare(pixel) ? colour : before + cover * (colour - before);
+    tile.painted.set(pixel, painted);
     tile.coverage[pixel] = std::max(tile.coverage[pixel], cover);
+    tile.find_error(pixel);
+    const int x = static_cast<int>(pixel % static_cast<std::size_t>(tile.width));
+    const int y = static_cast<int>(pixel / static_cast<std::size_t>(tile.width));
+    canvas(tile.left + x, tile.top + y) = PaintedPixel::of(painted, tile.coverage[pixel]);
   });
 }
 

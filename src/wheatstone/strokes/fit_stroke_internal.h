@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "wheatstone/marks/spline.h"
@@ -38,8 +39,8 @@ inline FitColour operator-(const FitColour& a, const FitColour& b) {
 }
 
 /// How much more, or less, a difference counts where the view is to be painted more finely, or less: white is as a
-/// fineness that is 0.5 higher.
-float detail_weight(std::uint8_t detail);
+/// fineness that is 0.5 higher. By View::detail.
+const std::array<float, 256>& detail_weights();
 
 /// What a bare pixel counts as, in squared steps.
 inline constexpr float squared_error_of_bare = 900;
@@ -49,6 +50,10 @@ struct PaintedPixel {
   static constexpr float steps = 256, coverage_steps = 65535;  ///< a level of 0..255 and the coverage are divided into
   std::uint16_t red, green, blue, covered;
 
+  static PaintedPixel of(const FitColour& colour, float coverage) {
+    const auto [r, g, b] = colour.rgb();
+    return of(r, g, b, coverage);
+  }
   static PaintedPixel of(float r, float g, float b, float coverage) {
     const auto in_steps = [](float level) {
       return static_cast<std::uint16_t>(std::clamp(level, 0.f, 255.f) * steps + 0.5f);
@@ -60,15 +65,34 @@ struct PaintedPixel {
 };
 using PaintedPicture = Image<PaintedPixel>;
 
+/// Colours by pixel, a plane for each of their parts.
+class FitColours {
+ public:
+  explicit FitColours(std::size_t count) : luminance_(count), red_(count), blue_(count) {}
+  std::size_t size() const { return luminance_.size(); }
+  std::span<const float> luminance() const { return luminance_; }
+  FitColour operator[](std::size_t pixel) const { return {luminance_[pixel], red_[pixel], blue_[pixel]}; }
+  void set(std::size_t pixel, const FitColour& colour) {
+    luminance_[pixel] = colour.luminance;
+    red_[pixel] = colour.red;
+    blue_[pixel] = colour.blue;
+  }
+
+ private:
+  std::vector<float> luminance_, red_, blue_;
+};
+
 /// A part of a layer's pictures, around a block of cells whose strokes are planned one after the other: `x`, `y` are
 /// counted from the picture's first pixel, everything else from the tile's.
 struct FitTile {
   FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left, int top, int right, int bottom);
 
   int left, top, width, height;
-  /// By pixel: what is wanted, what is painted, and how much a difference counts there: 0..1, times detail_weight.
-  std::vector<FitColour> wanted, painted;
+  /// By pixel: what is wanted, what is painted, and how much a difference counts there: 0..1, times detail_weights.
+  FitColours wanted, painted;
   std::vector<float> weight;
+  /// By how much each pixel is wrong, in squared steps, weighted; more where nothing is painted.
+  std::vector<float> error;
   std::vector<float> coverage;   ///< as the canvas's
   std::vector<float> disparity;  ///< pixels
 
@@ -78,9 +102,9 @@ struct FitTile {
   bool contains(float x, float y) const {
     return x >= 0 && y >= 0 && x < static_cast<float>(width) && y < static_cast<float>(height);
   }
-  /// By how much a pixel is wrong, in squared steps, weighted; more where nothing is painted.
-  float error(std::size_t pixel) const {
-    return is_bare(pixel) ? squared_error_of_bare : weight[pixel] * squared(wanted[pixel] - painted[pixel]);
+  /// From what is wanted and painted.
+  void find_error(std::size_t pixel) {
+    error[pixel] = is_bare(pixel) ? squared_error_of_bare : weight[pixel] * squared(wanted[pixel] - painted[pixel]);
   }
   bool is_bare(std::size_t pixel) const { return coverage[pixel] < 0.5f; }
 };
@@ -102,8 +126,8 @@ float fitted_reach_px(float radius_px);
 /// where it gains less than the plan asks for. `random` varies its colour.
 std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random);
 
-/// Paints it.
-void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile);
+/// Paints it, in the tile and on the canvas that it is a part of.
+void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile, PaintedPicture& canvas);
 
 /// Plans the strokes of one layer by fitting each to the picture, on a canvas that holds those before it. A stroke is
 /// kept if it lowers the squared difference between picture and canvas enough. Cells of 1.3 R are visited in two

@@ -21,9 +21,9 @@ Canvas canvas_of(const View& view, const Style& style) {
   return {view.colour.width(), view.colour.height(), style.canvas_colour};
 }
 
-/// Radii from the broadest brush down to the finest, each .62 of the one before.
+/// Radii from the broadest brush down to the finest, each .45 of the one before.
 std::vector<float> radii_between(float broadest_px, float finest_px) {
-  constexpr float ratio = 0.62f;
+  constexpr float ratio = 0.45f;
   std::vector<float> radii;
   for (float radius = broadest_px; radius > finest_px; radius *= ratio) radii.push_back(radius);
   radii.push_back(finest_px);
