@@ -317,7 +317,7 @@ Side side_of(float disparity, float of_stroke, float threshold) {
 }
 
 FitColour varied(std::uint64_t random) {
-  constexpr float steps = 1.4f;  // below what the eye sees as another colour, between neighbours
+  constexpr float steps = 0.8f;  // below what the eye sees as another colour, between neighbours
   const auto part = [&](std::uint64_t which) { return unit_float(hash_keys({random, which})) - 0.5f; };
   return {steps * part(1), 0.3f * steps * part(2), 0.3f * steps * part(3)};
 }
