@@ -57,7 +57,7 @@ Anchor find_anchor(const LayerPlan& plan, const FitTile& tile, const Cell& cell)
 
 /// A stroke covers several cells: where the error of one is small, none gains enough.
 bool may_gain(const LayerPlan& plan, float error_of_cell) {
-  constexpr float cells_of_stroke = 2.5f;
+  constexpr float cells_of_stroke = 3;
   return cells_of_stroke * error_of_cell >= plan.least_gain;
 }
 

@@ -56,6 +56,7 @@ void weigh(FitTile& tile) {
 struct Path {
   std::vector<PlanePoint> points;
   std::size_t begun = 0;
+  bool is_dab = false;  ///< it follows no line of the picture
 };
 
 float step_px(float radius_px) { return std::max(0.7f * radius_px, 1.f); }
@@ -120,7 +121,8 @@ Path trace_both_ways(const FitTile& tile, const LayerPlan& plan, int x, int y) {
   path.begun = path.points.size();
   path.points.push_back(begin);
   follow(tile, plan, begin, direction, path.points);
-  if (path.points.size() < 3) lengthen(tile, plan, direction, path);
+  path.is_dab = path.points.size() < 3;
+  if (path.is_dab) lengthen(tile, plan, direction, path);
   return path;
 }
 
@@ -455,7 +457,8 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
   const FitColour variation = varied(random);
   if (is_hopeless(path, tile, plan, variation)) return {};
   const PathFit best = fit_along(path, tile, plan, variation, 1);
-  if (best.gain < plan.least_gain) return {};
+  constexpr float of_dab = 2;  // a dab alone looks like a speck
+  if (best.gain < (path.is_dab ? of_dab : 1) * plan.least_gain) return {};
   const auto [first, end] = shortened(path, length_shares[best.length], least_points(path));
   const auto colour_at = [&](std::size_t point) {
     return best.colour.begin + share_of_path(path, point) * best.colour.change;
