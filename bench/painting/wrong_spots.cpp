@@ -28,7 +28,7 @@ struct Limit {
   std::string_view style;
   double spots_per_100000_px;
 };
-constexpr Limit limits[] = {{"impressionist", 5}, {"dual", 2}, {"posterise", 2}, {"diffusion", 1.5}};
+constexpr Limit limits[] = {{"oil", 5}, {"impressionist", 5}, {"dual", 2}, {"posterise", 2}, {"diffusion", 1.5}};
 constexpr double most_share = 0.002;
 
 void mark_wrong(ImageView<const Rgb8> painted, ImageView<const Rgb8> photograph, int first_row, Image<Rgb8>& drawing) {

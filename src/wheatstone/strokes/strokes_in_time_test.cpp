@@ -90,6 +90,27 @@ TEST(StrokesInTime, FlickerFarLessThanFrameByFrameAndPaintAsTruly) {
   EXPECT_LT(rms_from_source(carried()), 1.05 * rms_from_source(frame_by_frame()));
 }
 
+/// The left eye's pictures of the painted film, with other bristles in every frame.
+std::vector<PaintedFrame> with_new_bristles(const std::vector<PaintedFrame>& frames) {
+  std::vector<PaintedFrame> drawn;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    Painting painting = frames[i].painting;
+    for (Layer& layer : std::get<StrokePainting>(painting.marks).layers)
+      for (Stroke& stroke : layer.strokes) stroke.number += static_cast<std::uint32_t>(1'000'000 * i);
+    PaintedFrame frame;
+    frame.shown.views.push_back(draw(painting, left_eye).picture);
+    drawn.push_back(std::move(frame));
+  }
+  return drawn;
+}
+
+TEST(StrokesInTime, KeepTheirBristles) {
+  Style style = style_by_name("oil");
+  style.brush.streaks = 60;
+  const std::vector<PaintedFrame> frames = painted(style, false);
+  EXPECT_LT(temporal_error(frames), 0.7 * temporal_error(with_new_bristles(frames)));
+}
+
 TEST(StrokesInTime, SurviveLeaveNothingBareAndDoNotPop) {
   StrokeChanges sum;
   for (std::size_t i = 0; i < carried().size(); ++i) {

@@ -153,8 +153,8 @@ Layer dots_left_out(const View& part, const View& smaller) {
 
 namespace {
 
-/// What is on a smaller canvas, on one of another size; what the smaller picture left out at the border is as beside
-/// it.
+/// What is on a smaller canvas, on one of another size; what the smaller picture left out at the border is bare, in the
+/// colours beside it.
 Canvas larger_canvas(const Canvas& smaller, int factor, int width, int height) {
   Canvas canvas(width, height, {});
   const auto enlarge = [&](const Image<float>& from, Image<float>& to) {
@@ -165,6 +165,9 @@ Canvas larger_canvas(const Canvas& smaller, int factor, int width, int height) {
     cv::resize(small, large, large.size(), 0, 0, cv::INTER_LINEAR);
     for (int x = columns; x < width; ++x) all.col(columns - 1).copyTo(all.col(x));
     for (int y = rows; y < height; ++y) all.row(rows - 1).copyTo(all.row(y));
+    if (&to != &canvas.coverage) return;
+    all.colRange(columns, width).setTo(0);
+    all.rowRange(rows, height).setTo(0);
   };
   tbb::parallel_invoke([&] { enlarge(smaller.red, canvas.red); }, [&] { enlarge(smaller.green, canvas.green); },
                        [&] { enlarge(smaller.blue, canvas.blue); },
