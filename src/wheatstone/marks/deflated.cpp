@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <string>
 
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/marks/deflated.h"
 
 namespace wheatstone {
+
+std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes) {
+  const std::string stream = zlib_stream(bytes);
+  return {stream.begin(), stream.end()};
+}
 
 std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes, int level) {
   z_stream stream{};

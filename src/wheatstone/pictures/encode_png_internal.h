@@ -6,13 +6,8 @@
 
 namespace wheatstone {
 
-struct EncodedPng {
-  std::string bytes;
-  std::string complaint;  ///< why there are no bytes
-};
-
-/// A picture of one channel, grey, or three, with bytes or words, as a PNG. Its colours are said to be sRGB where the
-/// attribute oiio:ColorSpace says so.
-EncodedPng encode_png(const StoredPicture& picture, const PixelRows& rows);
+/// A picture of one channel, grey, or three, with bytes or words, as a PNG (PNG 1.2). Its colours are said to be sRGB
+/// where the attribute oiio:ColorSpace says so. Made in parallel; the same bytes on any number of threads.
+std::string encode_png(const StoredPicture& picture, const PixelRows& rows);
 
 }  // namespace wheatstone

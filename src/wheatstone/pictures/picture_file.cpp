@@ -69,11 +69,7 @@ std::unique_ptr<PictureWriter> picture_writer(const std::string& ending, std::ve
 
 std::string encode_picture(const std::filesystem::path& path, const StoredPicture& picture, const PixelRows& rows) {
   if (picture.width < 1 || picture.height < 1) fail_to_encode(path, "it has no pixels");
-  if (ending_of(path) == ".png") {
-    EncodedPng png = encode_png(picture, rows);
-    if (!png.complaint.empty()) fail_to_encode(path, png.complaint);
-    return std::move(png.bytes);
-  }
+  if (ending_of(path) == ".png") return encode_png(picture, rows);
   std::vector<unsigned char> bytes;
   const std::unique_ptr<PictureWriter> writer = picture_writer(ending_of(path), bytes);
   if (!writer->begin({&picture, 1}) || !writer->write(rows) || !writer->end())

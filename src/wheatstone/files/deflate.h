@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wheatstone {
+
+/// Some of the bytes that are deflated: borrowed, or made in `room`, which is empty.
+using PartOfBytes = std::function<std::span<const std::uint8_t>(std::size_t part, std::vector<std::uint8_t>& room)>;
+
+/// A zlib stream (RFC 1950) of bytes that come in `parts`, each of which is asked for once, from any thread. They are
+/// deflated by themselves and at once: the stream depends on how they are divided, not on threads. Parts of half a MiB
+/// and more cost nothing in size. Made for speed; zlib's best effort takes 50 times as long for a fifth less.
+std::string zlib_stream(std::size_t parts, const PartOfBytes& part_of);
+
+/// The same of bytes in memory.
+std::string zlib_stream(std::span<const std::uint8_t> bytes);
+
+}  // namespace wheatstone
