@@ -19,22 +19,40 @@ std::int64_t number(std::istream& file) {
   return static_cast<std::int32_t>(value);
 }
 
-/// Whether an attribute, whose name has been read, ends within the file; `file` stands behind it then.
-bool attribute_fits(std::istream& file, std::int64_t end) {
+constexpr std::string_view too_long = "its header is longer than the file";
+
+/// What is wrong with a list of channels that ends at `end`: a name, a kind of numbers, and twelve bytes for each.
+std::string_view channels_complaint(std::istream& file, std::int64_t end) {
+  constexpr std::int64_t kinds = 3, rest = 12;  // integers, halves and floats
+  std::string name;
+  while (file.tellg() < end && std::getline(file, name, '\0') && !name.empty()) {
+    const std::int64_t kind = number(file);
+    if (!file || kind < 0 || kind >= kinds) return "a channel's numbers are of an unknown kind";
+    file.seekg(rest, std::ios::cur);
+  }
+  return {};
+}
+
+/// What is wrong with an attribute whose name has been read; `file` stands behind it where nothing is.
+std::string_view attribute_complaint(std::istream& file, std::int64_t end) {
   std::string type;
   std::getline(file, type, '\0');
   const std::int64_t bytes = number(file);
-  if (!file || bytes < 0 || bytes > end - static_cast<std::int64_t>(file.tellg())) return false;
-  file.seekg(bytes, std::ios::cur);
-  return true;
+  const std::int64_t begin = file.tellg();
+  if (!file || bytes < 0 || bytes > end - begin) return too_long;
+  if (type == "chlist")
+    if (const std::string_view complaint = channels_complaint(file, begin + bytes); !complaint.empty())
+      return complaint;
+  file.seekg(begin + bytes);
+  return {};
 }
 
 }  // namespace
 
-bool exr_header_fits(std::istream& file) {
+std::string exr_header_complaint(std::istream& file) {
   std::array<char, 4> magic{};
   file.read(magic.data(), magic.size());
-  if (!file || std::string_view(magic.data(), magic.size()) != "\x76\x2f\x31\x01") return true;
+  if (!file || std::string_view(magic.data(), magic.size()) != "\x76\x2f\x31\x01") return {};
   constexpr std::int64_t several_parts = 0x1000;
   const bool has_several = (number(file) & several_parts) != 0;
   file.seekg(0, std::ios::end);
@@ -45,11 +63,13 @@ bool exr_header_fits(std::istream& file) {
   std::string name;
   bool begins = true;
   while (std::getline(file, name, '\0')) {
-    if (name.empty() && (begins || !has_several)) return true;
+    if (name.empty() && (begins || !has_several)) return {};
     begins = name.empty();
-    if (!begins && !attribute_fits(file, end)) return false;
+    if (begins) continue;
+    if (const std::string_view complaint = attribute_complaint(file, end); !complaint.empty())
+      return std::string(complaint);
   }
-  return false;
+  return std::string(too_long);
 }
 
 }  // namespace wheatstone

@@ -20,10 +20,11 @@ const std::string several_parts = "\x76\x2f\x31\x01\x02\x10\0\0"s;
 const std::string attribute = "owner\0string\0\x04\0\0\0name"s;
 const std::string endless = "owner\0string\0\xff\xff\xff\x7fname"s;
 
-bool fits(const std::string& bytes) {
+std::string complaint(const std::string& bytes) {
   std::istringstream file(bytes);
-  return exr_header_fits(file);
+  return exr_header_complaint(file);
 }
+bool fits(const std::string& bytes) { return complaint(bytes).empty(); }
 
 TEST(ExrHeader, FitsWhereAllAttributesAreThere) {
   EXPECT_TRUE(fits(one_part + attribute + attribute + "\0"s + "pixels"));
@@ -40,6 +41,14 @@ TEST(ExrHeader, DoesNotFitWhereAnAttributeIsLongerThanTheFile) {
 TEST(ExrHeader, DoesNotFitAFileThatIsCutShortWithinIt) {
   const std::string whole = several_parts + attribute + "\0"s + attribute + "\0\0"s;
   for (std::size_t bytes = 8; bytes < whole.size(); ++bytes) EXPECT_FALSE(fits(whole.substr(0, bytes))) << bytes;
+}
+
+TEST(ExrHeader, HasNoChannelOfAnUnknownKindOfNumbers) {
+  const std::string before = one_part + "channels\0chlist\0\x13\0\0\0R\0"s;
+  const std::string after = "\0\0\0\0\0\0\0\x01\0\0\0\x01\0\0\0\0"s + "\0pixels"s;
+  EXPECT_EQ(complaint(before + "\x02" + after), "");
+  EXPECT_EQ(complaint(before + "\x03" + after), "a channel's numbers are of an unknown kind");
+  EXPECT_EQ(complaint(before + "\xff" + after), "a channel's numbers are of an unknown kind");
 }
 
 TEST(ExrHeader, IsNotAskedOfOtherFiles) {

@@ -51,7 +51,7 @@ void StoredPicture::put(const std::string& name, PictureAttribute attribute) {
 OpenedPicture open_picture_file(const std::filesystem::path& path, StoredAlpha alpha) {
   check_plain_file(path, "a picture");
   std::ifstream file(path, std::ios::binary);
-  if (!exr_header_fits(file)) return {nullptr, "its header is longer than the file"};
+  if (std::string complaint = exr_header_complaint(file); !complaint.empty()) return {nullptr, std::move(complaint)};
   return module().open_file(path, alpha);
 }
 
