@@ -32,6 +32,12 @@ END
 # Whether a process is there and has not ended.
 is_running() { [[ -e /proc/$1/stat ]] && ! grep --quiet ') Z ' "/proc/$1/stat" 2>/dev/null; }
 
+# Whether a process is the window's program, and has a handler for this signal: the shell has, too, before it becomes it.
+watches() {
+  [[ $(readlink "/proc/$1/exe" 2>/dev/null) == *wheatstone-view* ]] &&
+    (((0x$(awk '/^SigCgt/ { print $2 }' "/proc/$1/status" 2>/dev/null || echo 0) >> $(($(kill -l "$2") - 1)) & 1) == 1))
+}
+
 # Starts a command in a process group of its own; sets parent and child, once the child has begun.
 start() {
   set -m
@@ -42,9 +48,7 @@ start() {
   child=
   for _ in {1..1000}; do
     child=$(pgrep --parent "$parent" || true)
-    # The window's program watches SIGHUP (bit 0) once it has begun.
-    [[ -n $child && $(readlink "/proc/$child/exe" 2>/dev/null) == *wheatstone-view* ]] &&
-      (((0x$(awk '/^SigCgt/ { print $2 }' "/proc/$child/status" 2>/dev/null || echo 0) & 1) == 1)) && break
+    [[ -n $child ]] && watches "$child" HUP && break
     is_running "$parent" || fail "$* ended: $(cat err.txt)"
     sleep 0.02
   done
@@ -123,9 +127,8 @@ for target in parent child group; do
 done
 "$view" --bridge-calibration screen.json 2>err.txt &
 parent=$!
-for _ in {1..250}; do
-  # It watches SIGALRM (bit 13) once it has begun.
-  (((0x$(awk '/^SigCgt/ { print $2 }' "/proc/$parent/status" 2>/dev/null || echo 0) >> 13 & 1) == 1)) && break
+for _ in {1..1000}; do
+  watches "$parent" ALRM && break
   sleep 0.02
 done
 kill -ALRM "$parent"
