@@ -17,7 +17,7 @@
 #include "wheatstone/photograph/xmp_internal.h"
 #include "wheatstone/pictures/heif_pictures.h"
 #include "wheatstone/pictures/heif_pictures_internal.h"
-#include "wheatstone/pictures/jpeg_end_internal.h"
+#include "wheatstone/pictures/jpeg_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/pictures/read_image.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "wheatstone/image/known_values.h"
-#include "wheatstone/pictures/jpeg_end_internal.h"
+#include "wheatstone/pictures/jpeg_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/png_reader_internal.h"
 #include "wheatstone/pictures/portable_float_map.h"

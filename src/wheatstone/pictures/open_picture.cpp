@@ -15,7 +15,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/pictures/embedded_profile_internal.h"
-#include "wheatstone/pictures/jpeg_end_internal.h"
+#include "wheatstone/pictures/jpeg_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/picture_module_internal.h"
 #include "wheatstone/pictures/plain_png_internal.h"
@@ -115,7 +115,9 @@ OpenPicture open_picture(const fs::path& path) {
     std::optional<std::string> plain = plain_png(open.bytes);
     if (!plain) refuse_damaged(path, "it ends too early, or its checksums are wrong");
     open.bytes = std::move(*plain);
-    take(path, open_picture_bytes("png", open.bytes, kept_alpha), open);
+    take(path, open_png_bytes(open.bytes, kept_alpha), open);
+  } else if (is_jpeg(open.bytes)) {
+    take(path, open_jpeg_bytes(open.bytes), open);
   } else {
     open.bytes = {};
     open.reader = opened_file(path);
@@ -128,7 +130,7 @@ OpenPicture open_png(std::string_view bytes, std::string_view colour_profile, co
   OpenPicture open;
   open.bytes = bytes;
   open.colour_profile = colour_profile;
-  take(path, open_picture_bytes("png", open.bytes, kept_alpha), open);
+  take(path, open_png_bytes(open.bytes, kept_alpha), open);
   check_opened(path, open);
   return open;
 }
@@ -137,7 +139,7 @@ OpenPicture open_jpeg(std::string_view bytes, const fs::path& path) {
   if (!is_jpeg(bytes) || !jpeg_is_whole(bytes)) refuse_damaged(path, "one of its pictures is no whole JPEG");
   OpenPicture open;
   open.bytes = bytes;
-  take(path, open_picture_bytes("jpeg", open.bytes, kept_alpha), open);
+  take(path, open_jpeg_bytes(open.bytes), open);
   check_opened(path, open);
   return open;
 }

@@ -98,8 +98,8 @@ void forget_complaints(const OIIO::ImageInput& input) {
 
 class Reader : public PictureReader {
  public:
-  Reader(std::unique_ptr<OIIO::Filesystem::IOMemReader> memory, std::unique_ptr<OIIO::ImageInput> input)
-      : memory_(std::move(memory)), input_(std::move(input)), picture_(picture_of(input_->spec())) {}
+  explicit Reader(std::unique_ptr<OIIO::ImageInput> input)
+      : input_(std::move(input)), picture_(picture_of(input_->spec())) {}
   ~Reader() override { forget_complaints(*input_); }
 
   std::string format() const override { return input_->format_name(); }
@@ -121,7 +121,6 @@ class Reader : public PictureReader {
   std::string complaint() override { return input_->geterror(); }
 
  private:
-  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;
   std::unique_ptr<OIIO::ImageInput> input_;
   StoredPicture picture_;
 };
@@ -136,19 +135,7 @@ OpenedPicture open_file(const std::filesystem::path& path, StoredAlpha alpha) {
   const OIIO::ImageSpec wish = wish_for(alpha);
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &wish);
   if (!input) return {nullptr, OIIO::geterror()};
-  return {std::make_unique<Reader>(nullptr, std::move(input)), {}};
-}
-
-OpenedPicture open_bytes(const std::string& format, std::string_view bytes, StoredAlpha alpha) {
-  auto memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(bytes.data()), bytes.size());
-  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-  if (!input) return {nullptr, OIIO::geterror()};
-  OIIO::ImageSpec found;
-  if (input->set_ioproxy(memory.get()) && input->open("", found, wish_for(alpha)))
-    return {std::make_unique<Reader>(std::move(memory), std::move(input)), {}};
-  OpenedPicture failed{nullptr, input->geterror()};
-  forget_complaints(*input);
-  return failed;
+  return {std::make_unique<Reader>(std::move(input)), {}};
 }
 
 class Writer : public PictureWriter {
@@ -207,6 +194,6 @@ std::unique_ptr<PictureWriter> writer(const std::string& ending, const std::file
 }  // namespace wheatstone
 
 extern "C" const wheatstone::PictureModule* wheatstone_picture_module() {
-  static constexpr wheatstone::PictureModule module{wheatstone::open_file, wheatstone::open_bytes, wheatstone::writer};
+  static constexpr wheatstone::PictureModule module{wheatstone::open_file, wheatstone::writer};
   return &module;
 }

@@ -12,8 +12,8 @@
 #include "wheatstone/files/plain_file.h"
 #include "wheatstone/pictures/encode_png_internal.h"
 #include "wheatstone/pictures/exr_header_internal.h"
+#include "wheatstone/pictures/jpeg_internal.h"
 #include "wheatstone/pictures/picture_module_internal.h"
-#include "wheatstone/pictures/png_reader_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -55,10 +55,6 @@ OpenedPicture open_picture_file(const std::filesystem::path& path, StoredAlpha a
   return module().open_file(path, alpha);
 }
 
-OpenedPicture open_picture_bytes(const std::string& format, std::string_view bytes, StoredAlpha alpha) {
-  return format == "png" ? open_png_bytes(bytes, alpha) : module().open_bytes(format, bytes, alpha);
-}
-
 std::unique_ptr<PictureWriter> picture_writer(const std::string& ending, const std::filesystem::path& path) {
   return writer_of(ending, path, nullptr);
 }
@@ -69,9 +65,16 @@ std::unique_ptr<PictureWriter> picture_writer(const std::string& ending, std::ve
 
 std::string encode_picture(const std::filesystem::path& path, const StoredPicture& picture, const PixelRows& rows) {
   if (picture.width < 1 || picture.height < 1) fail_to_encode(path, "it has no pixels");
-  if (ending_of(path) == ".png") return encode_png(picture, rows);
+  const std::string ending = ending_of(path);
+  if (ending == ".png") return encode_png(picture, rows);
+  if (ending == ".jpg" || ending == ".jpeg") {
+    constexpr int usual_quality = 95;
+    EncodedJpeg jpeg = encode_jpeg(picture, rows, picture.value_of("jpeg:quality", usual_quality));
+    if (!jpeg.complaint.empty()) fail_to_encode(path, jpeg.complaint);
+    return std::move(jpeg.bytes);
+  }
   std::vector<unsigned char> bytes;
-  const std::unique_ptr<PictureWriter> writer = picture_writer(ending_of(path), bytes);
+  const std::unique_ptr<PictureWriter> writer = picture_writer(ending, bytes);
   if (!writer->begin({&picture, 1}) || !writer->write(rows) || !writer->end())
     fail_to_encode(path, writer->complaint());
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -93,11 +93,6 @@ struct OpenedPicture {
 /// Opens a file in any format. Throws Error{cannot_read_write} where a part of the installation is missing.
 OpenedPicture open_picture_file(const std::filesystem::path& path, StoredAlpha alpha = StoredAlpha::multiplied);
 
-/// The same of bytes that outlive the reader, in this format: "png", "jpeg". A PNG is whole and has no other chunks
-/// than those of plain_png; it is read without OpenImageIO and the many libraries behind it.
-OpenedPicture open_picture_bytes(const std::string& format, std::string_view bytes,
-                                 StoredAlpha alpha = StoredAlpha::multiplied);
-
 /// Rows of pixels in memory, the channels of a pixel together: `kind` is of bytes, words or floats.
 struct PixelRows {
   const void* first = nullptr;

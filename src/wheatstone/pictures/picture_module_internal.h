@@ -4,11 +4,11 @@
 
 namespace wheatstone {
 
-/// What the module with OpenImageIO does: the functions of picture_file.h for all formats but PNG. It is apart because
-/// the libraries behind OpenImageIO take five times as long to load as all others, and most runs need none of them.
+/// What the module with OpenImageIO does: the functions of picture_file.h for all formats but PNG and JPEG. It is apart
+/// because the libraries behind OpenImageIO take five times as long to load as all others, and most runs need none of
+/// them.
 struct PictureModule {
   OpenedPicture (*open_file)(const std::filesystem::path& path, StoredAlpha alpha);
-  OpenedPicture (*open_bytes)(const std::string& format, std::string_view bytes, StoredAlpha alpha);
   /// To `bytes`, or where there are none to the file; none where there is no such format.
   std::unique_ptr<PictureWriter> (*writer)(const std::string& ending, const std::filesystem::path& path,
                                            std::vector<unsigned char>* bytes);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/pictures/jpeg_end_internal.h"
+#include "wheatstone/pictures/jpeg_internal.h"
 #include "wheatstone/pictures/open_picture_internal.h"
 #include "wheatstone/pictures/plain_png_internal.h"
 #include "wheatstone/pictures/png_reader_internal.h"
@@ -76,10 +76,10 @@ StoredChannel read_stored_channel(std::string_view bytes, const fs::path& path, 
     std::optional<std::string> whole = plain_png(bytes);
     if (!whole) refuse_damaged(path, "it ends too early, or its checksums are wrong");
     plain = std::move(*whole);
-    opened = open_picture_bytes("png", plain);
+    opened = open_png_bytes(plain, StoredAlpha::multiplied);
   } else if (is_jpeg(bytes)) {
     if (!jpeg_is_whole(bytes)) refuse_damaged(path, "it ends too early");
-    opened = open_picture_bytes("jpeg", bytes);
+    opened = open_jpeg_bytes(bytes);
   } else {
     opened = open_picture_file(path);
     if (!opened.reader) refuse_channel(path, fmt::format("is not {}, expected PNG, PFM or EXR", what));

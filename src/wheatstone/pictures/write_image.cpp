@@ -20,11 +20,6 @@ namespace fs = std::filesystem;
 StoredPicture described(const std::string& ending, int width, int height, int channels) {
   StoredPicture picture{width, height, channels};
   picture.put("oiio:ColorSpace", "sRGB");
-  if (ending == ".jpg" || ending == ".jpeg") {
-    picture.put("Compression", "jpeg:95");
-    // An anaglyph's colours change at every edge: halved chroma would give ghosts.
-    picture.put("jpeg:subsampling", "4:4:4");
-  }
   if (ending == ".tif" || ending == ".tiff") {
     // Otherwise the time of writing: the same picture is to be the same bytes.
     picture.put("DateTime", "1970:01:01 00:00:00");
@@ -57,7 +52,7 @@ bool is_picture_name(const fs::path& path) {
 
 std::string encode_jpeg(ImageView<const Rgb8> image, int quality) {
   StoredPicture picture = described(".jpg", image.width(), image.height(), 3);
-  picture.put("Compression", fmt::format("jpeg:{}", std::clamp(quality, 1, 100)));
+  picture.put("jpeg:quality", std::clamp(quality, 1, 100));
   return encode_picture("picture.jpg", picture, rows_of(image));
 }
 

@@ -1,10 +1,10 @@
-#include "wheatstone/pictures/jpeg_end_internal.h"
+#include "wheatstone/pictures/jpeg_internal.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace wheatstone::jpeg_end_test {
+namespace wheatstone::jpeg_test {
 
 // A thumbnail's end marker inside a segment, then a scan, then the real end marker.
 const std::string whole(
@@ -27,4 +27,4 @@ TEST(JpegEnd, IsMissingFromEveryPartOfAFile) {
 
 TEST(JpegEnd, IsNotAskedOfOtherFiles) { EXPECT_TRUE(jpeg_is_whole("\x89PNG\r\n")); }
 
-}  // namespace wheatstone::jpeg_end_test
+}  // namespace wheatstone::jpeg_test

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "wheatstone/pictures/picture_file.h"
+
+namespace wheatstone {
+
+bool is_jpeg(std::string_view bytes);
+
+/// False for a JPEG that ends before its pixels do: decoders fill the rest with grey and say nothing. True for
+/// everything that is not JPEG. ITU-T T.81, annex B.
+bool jpeg_is_whole(std::string_view bytes);
+
+/// Reads a JPEG with libjpeg alone; CMYK becomes RGB. `bytes` outlive the reader. Its attributes are Orientation and
+/// ICCProfile, where it has them.
+OpenedPicture open_jpeg_bytes(std::string_view bytes);
+
+struct EncodedJpeg {
+  std::string bytes;
+  std::string complaint;  ///< why there are no bytes: a side is longer than 65 500 pixels, for one
+};
+
+/// A picture of bytes with one channel, grey, or three as a JPEG whose colours are kept at full resolution: halved
+/// chroma would give an anaglyph ghosts. `quality` is 1..100.
+EncodedJpeg encode_jpeg(const StoredPicture& picture, const PixelRows& rows, int quality);
+
+}  // namespace wheatstone
