@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
+#include <span>
 
 #include "wheatstone/drawing/hidden_strokes.h"
 #include "wheatstone/drawing/prepared_painting_internal.h"
@@ -56,14 +56,10 @@ class LightBefore {
 
 }  // namespace
 
-std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& painting, ViewPosition view,
-                                                       const Hiding& hiding, float least_share) {
+void mark_visible(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding, float least_share,
+                  std::span<std::vector<std::uint8_t>> visible) {
   std::vector<SeenLayer> layers;
-  std::vector<std::vector<std::uint8_t>> visible;
-  for (const BandedLayer& layer : painting.layers) {
-    layers.emplace_back(layer.flat, view);
-    visible.emplace_back(layer.flat.strokes.size(), std::uint8_t{0});
-  }
+  for (const BandedLayer& layer : painting.layers) layers.emplace_back(layer.flat, view);
   const int bands = (painting.height + band_rows - 1) / band_rows;
   tbb::parallel_for(0, bands, [&](int i) {
     DistanceBand band(i * band_rows, painting.width, painting.height);
@@ -78,11 +74,13 @@ std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& pa
           if (!stroke.views.contains(view)) continue;
           const HiddenBelow* const below = hidden_below(stroke);
           if (below == nullptr) continue;
-          before.keep(layers[above], stroke, band, accumulator);
-          draw_stroke_under({layers[above], stroke, *below, painting.layers[above].brush}, band, accumulator);
           // A stroke that lies in several bands is marked by whichever sees it.
-          if (before.largest_share_taken(accumulator) > least_share)
-            std::atomic_ref(visible[above][strokes[nearer]]).store(1, std::memory_order_relaxed);
+          const std::atomic_ref is_visible(visible[above][strokes[nearer]]);
+          const bool is_known = is_visible.load(std::memory_order_relaxed) != 0;
+          if (!is_known) before.keep(layers[above], stroke, band, accumulator);
+          draw_stroke_under({layers[above], stroke, *below, painting.layers[above].brush}, band, accumulator);
+          if (!is_known && before.largest_share_taken(accumulator) > least_share)
+            is_visible.store(1, std::memory_order_relaxed);
         }
       }
     };
@@ -91,6 +89,13 @@ std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& pa
       look_at_strokes(
           [&](const FlatStroke& stroke) { return hiding.is_own(stroke.reference_view) ? nullptr : &hides.gaps; });
   });
+}
+
+std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& painting, ViewPosition view,
+                                                       const Hiding& hiding, float least_share) {
+  std::vector<std::vector<std::uint8_t>> visible;
+  for (const BandedLayer& layer : painting.layers) visible.emplace_back(layer.flat.strokes.size(), std::uint8_t{0});
+  mark_visible(painting, view, hiding, least_share, visible);
   return visible;
 }
 
@@ -106,9 +111,8 @@ StrokePainting without_hidden_strokes(const StrokePainting& painting, const Surf
     const SeenSurfaces seen = seen_surfaces(prepared_surfaces, view, {painting.width, 0, painting.height});
     for (std::size_t i = 0; i < painting.layers.size(); ++i) {
       std::swap(layers[i], of_one_layer.layers.front());
-      const auto visible = visible_strokes(of_one_layer, view, seen.hiding, least_share);
+      mark_visible(of_one_layer, view, seen.hiding, least_share, std::span(&shown[i], 1));
       std::swap(layers[i], of_one_layer.layers.front());
-      std::ranges::transform(shown[i], visible.front(), shown[i].begin(), std::bit_or<>());
     }
   }
   StrokePainting kept = painting;
