@@ -21,7 +21,8 @@ struct MatchCommandArguments {
 /// The names of all files that `write` writes.
 std::vector<std::string> result_names(bool rectified) {
   std::vector<std::string> names{"left_disparity.pfm",  "right_disparity.pfm", "left_disparity.png",
-                                 "right_disparity.png", "left_occlusion.png",  "right_occlusion.png"};
+                                 "right_disparity.png", "disparity.png",       "left_occlusion.png",
+                                 "right_occlusion.png"};
   if (rectified) names.insert(names.end(), {"left.png", "right.png"});
   return names;
 }
@@ -33,8 +34,9 @@ void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry&
   }
   write_disparity(output.file("left_disparity.pfm"), geometry.left_disparity);
   write_disparity(output.file("right_disparity.pfm"), geometry.right_disparity);
-  write_image(output.file("left_disparity.png"), disparity_picture(geometry.left_disparity));
-  write_image(output.file("right_disparity.png"), disparity_picture(geometry.right_disparity));
+  write_disparity(output.file("left_disparity.png"), geometry.left_disparity);
+  write_disparity(output.file("right_disparity.png"), geometry.right_disparity);
+  write_image(output.file("disparity.png"), disparity_picture(geometry.left_disparity));
   write_image(output.file("left_occlusion.png"), geometry.left_occlusion);
   write_image(output.file("right_occlusion.png"), geometry.right_occlusion);
   output.commit();
@@ -88,8 +90,8 @@ Rows match_command_rows(MatchCommandArguments& a) {
 Command match_command() {
   return make_command(
       "match", "Estimate disparity and occlusion of a stereo pair", match_command_rows, run_match,
-      R"(Writes left_disparity.pfm and right_disparity.pfm (pixels, each in its own view), pictures of them (near is red),
-and the occlusion masks (white: the other eye does not see it); where the pair was rectified also left.png and right.png,
+      R"(Writes left_disparity and right_disparity, each in its own view, as .pfm in pixels and as .png with 16 bits, which can
+be edited and given back with paint --disparity; disparity.png to look at (near is red); and the occlusion masks (white: the other eye does not see it); where the pair was rectified also left.png and right.png,
 the rectified pictures that they belong to.
 
 Example:

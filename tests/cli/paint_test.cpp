@@ -56,10 +56,10 @@ TEST(PaintCommand, WritesAPaintingAndItsReport) {
   EXPECT_EQ(report["width"], width);
   EXPECT_EQ(report["zero_parallax_px"], shift);
   EXPECT_LT(report["measures"]["painting"]["left_right_mean_absolute"], 10);
-  EXPECT_THAT(
-      files_in(folder / "painted"),
-      testing::IsSupersetOf({"left.png", "right.png", "side_by_side.png", "anaglyph.png", "painting.wst", "left.svg",
-                             "right.svg", "disparity.png", "left_occlusion.png", "report.json", "index.html"}));
+  EXPECT_THAT(files_in(folder / "painted"),
+              testing::IsSupersetOf({"left.png", "right.png", "side_by_side.png", "anaglyph.png", "painting.wst",
+                                     "left.svg", "right.svg", "disparity.png", "left_disparity.png",
+                                     "left_occlusion.png", "report.json", "index.html"}));
 }
 
 TEST(PaintCommand, PaintsWithOtherMarksThanStrokes) {

@@ -56,8 +56,8 @@ std::vector<std::string> result_names(const ResultOptions& options) {
     return names;
   }
   add_pictures({"left", "right", "side_by_side", "anaglyph"});
-  names.insert(names.end(), {"disparity.png", "left_disparity.pfm", "right_disparity.pfm", "left_occlusion.png",
-                             "right_occlusion.png", "painting.wst", "report.json"});
+  names.insert(names.end(), {"disparity.png", "left_disparity.pfm", "left_disparity.png", "right_disparity.pfm",
+                             "left_occlusion.png", "right_occlusion.png", "painting.wst", "report.json"});
   if (options.svg) names.insert(names.end(), {"left.svg", "right.svg"});
   if (options.photographs || options.html) add_pictures({"left_photograph", "right_photograph"});
   if (options.html) names.emplace_back("index.html");
@@ -87,6 +87,7 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
       {picture("anaglyph"), [&](const Path& path) { write_image(path, anaglyph(presented)); }},
       {"disparity.png", [&](const Path& path) { write_image(path, disparity_picture(geometry.left_disparity)); }},
       {"left_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
+      {"left_disparity.png", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
       {"right_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.right_disparity); }},
       {"left_occlusion.png", [&](const Path& path) { write_image(path, geometry.left_occlusion); }},
       {"right_occlusion.png", [&](const Path& path) { write_image(path, geometry.right_occlusion); }},

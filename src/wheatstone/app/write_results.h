@@ -24,7 +24,7 @@ std::vector<std::string> result_names(const ResultOptions& options = {});
 
 /// Writes a painted photograph into a folder and commits it: left.png and right.png in the
 /// photographs' own geometry; side_by_side.png and anaglyph.png for the nearer eyes, if any, with the zero-parallax
-/// plane on the screen; disparity.png, left_disparity.pfm, right_disparity.pfm, left_occlusion.png,
+/// plane on the screen; disparity.png, left_disparity.pfm and .png, right_disparity.pfm, left_occlusion.png,
 /// right_occlusion.png; painting.wst, report.json; and what the options ask for. Masks and the disparity's picture are
 /// PNG in any format. Of one picture without depth it
 /// writes painted.png, painting.wst, report.json and painted.svg. Returns the names written. Throws Error as the folder

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -10,7 +11,10 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/known_values.h"
+#include "wheatstone/pictures/encode_png_internal.h"
 #include "wheatstone/pictures/picture_file.h"
+#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/png_reader_internal.h"
 #include "wheatstone/pictures/portable_float_map.h"
 #include "wheatstone/pictures/stored_channel_internal.h"
 
@@ -23,14 +27,15 @@ constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 /// Disparities beyond this are somebody's way of saying unknown.
 constexpr float largest_disparity_px = 65535;
 
-[[noreturn]] void refuse_disparity(const std::filesystem::path& path, std::string_view complaint) {
-  throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), complaint));
-}
+/// How a PNG stores disparities in pixels: value / scale + offset.
+struct Steps {
+  float scale = kitti_scale, offset = 0;
+};
 
-void invalidate(Image<float>& disparity, float scale, bool zero_is_unknown) {
+void invalidate(Image<float>& disparity, Steps steps, bool zero_is_unknown) {
   for (float& value : disparity.pixels()) {
     const bool known = std::isfinite(value) && !(zero_is_unknown && value == 0);
-    value = known ? value / scale : unknown;
+    value = known ? value / steps.scale + steps.offset : unknown;
     if (std::abs(value) > largest_disparity_px) value = unknown;
   }
 }
@@ -41,19 +46,39 @@ void check_scale(const std::filesystem::path& path, std::optional<float> scale) 
                 fmt::format("{}: the scale is {}, expected a number above 0", path.string(), *scale));
 }
 
+/// As KITTI has them where all fit; else as fine as all fit.
+Steps steps_for(ImageView<const float> disparity) {
+  constexpr float most_steps = 65534;  // 0 is for what is unknown
+  float least = 0, largest = 0;
+  for (int y = 0; y < disparity.height(); ++y) {
+    for (const float d : disparity.row(y)) {
+      if (!std::isfinite(d)) continue;
+      least = std::min(least, d);
+      largest = std::max(largest, d);
+    }
+  }
+  if (least >= 0 && largest * kitti_scale <= most_steps) return {};
+  const float offset = std::floor(least) - 1;
+  return {std::min(most_steps / (largest - offset), kitti_scale), offset};
+}
+
+// The names of what a PNG's text says of its steps (PNG 1.2, sec. 4.2.3.1).
+constexpr std::string_view scale_key = "Disparity scale", offset_key = "Disparity offset";
+
 void write_png(const std::filesystem::path& path, ImageView<const float> disparity) {
+  const Steps steps = steps_for(disparity);
   std::vector<std::uint16_t> values;
   for (int y = 0; y < disparity.height(); ++y) {
     for (const float d : disparity.row(y)) {
-      if (std::isfinite(d) && (d < 0 || d * kitti_scale > 65535))
-        refuse_disparity(path,
-                         fmt::format("a disparity of {} does not fit a 16-bit PNG, expected 0 to 255; write .pfm", d));
       // A known 0 is written as the smallest step: 0 itself means unknown.
-      values.push_back(std::isfinite(d) ? static_cast<std::uint16_t>(std::max(std::lround(d * kitti_scale), 1L)) : 0);
+      const long value = std::isfinite(d) ? std::max(std::lround((d - steps.offset) * steps.scale), 1L) : 0;
+      values.push_back(static_cast<std::uint16_t>(value));
     }
   }
   StoredPicture picture{disparity.width(), disparity.height(), 1};
   picture.kind = words_kind;
+  picture.put(std::string(png_text) + std::string(scale_key), fmt::format("{}", steps.scale));
+  picture.put(std::string(png_text) + std::string(offset_key), fmt::format("{}", steps.offset));
   const PixelRows rows{values.data(), words_kind, 0, picture.height, picture.width * 2};
   write_whole_file(path, encode_picture(path, picture, rows));
 }
@@ -67,17 +92,40 @@ void write_exr(const std::filesystem::path& path, ImageView<const float> dispari
   write_whole_file(path, encode_picture(path, picture, rows_of(disparity)));
 }
 
+/// A number of a text; `otherwise` where it is none.
+float number_of(std::string_view text, float otherwise) {
+  float number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(number) ? number : otherwise;
+}
+
+/// What a PNG's text says of its values, else as usual.
+Steps steps_said_by(std::string_view bytes, float usual_scale) {
+  Steps steps{usual_scale, 0};
+  const auto chunks = is_png(bytes) ? png_chunks(bytes) : std::nullopt;
+  if (!chunks) return steps;
+  for (const PngChunk& chunk : *chunks) {
+    const std::size_t end = chunk.data.find('\0');
+    if (chunk.type != "tEXt" || end == std::string_view::npos) continue;
+    const std::string_view key = chunk.data.substr(0, end), text = chunk.data.substr(end + 1);
+    if (key == scale_key) steps.scale = number_of(text, usual_scale);
+    if (key == offset_key) steps.offset = number_of(text, 0);
+  }
+  if (steps.scale <= 0) steps.scale = usual_scale;
+  return steps;
+}
+
 Image<float> read_any_disparity(const std::filesystem::path& path, std::optional<float> scale) {
   const std::string bytes = read_whole_file(path, most_bytes);
   if (bytes.starts_with("Pf") || bytes.starts_with("PF")) {
     Image<float> disparity = decode_pfm(bytes, path.string());
-    invalidate(disparity, scale.value_or(1), false);
+    invalidate(disparity, {scale.value_or(1), 0}, false);
     return disparity;
   }
   StoredChannel stored = read_stored_channel(bytes, path, "a disparity map", GreyInColours::refused);
   const bool integer = stored.kind == bytes_kind || stored.kind == words_kind;
-  const float usual_scale = stored.kind == words_kind ? kitti_scale : 1.f;
-  invalidate(stored.values, scale.value_or(usual_scale), integer);
+  const Steps said = steps_said_by(bytes, stored.kind == words_kind ? kitti_scale : 1.f);
+  invalidate(stored.values, scale ? Steps{*scale, 0} : said, integer);
   return std::move(stored.values);
 }
 

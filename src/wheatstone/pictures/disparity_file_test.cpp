@@ -57,9 +57,18 @@ TEST_F(DisparityFile, ComesBackFromPngWithinItsStep) {
   expect_equal(read_disparity(in_folder("ramp.png")), ramp(1), 0.5f / 256);
 }
 
-TEST_F(DisparityFile, RefusesNegativeDisparityInPng) {
-  EXPECT_THROW(write_disparity(in_folder("negative.png"), ramp(-3)), Error);
-  EXPECT_FALSE(fs::exists(in_folder("negative.png")));
+TEST_F(DisparityFile, OfAnyRangeComesBackFromPngWithinItsStep) {
+  write_disparity(in_folder("negative.png"), ramp(-3));
+  expect_equal(read_disparity(in_folder("negative.png")), ramp(-3), 0.5f / 256);
+  Image<float> far(3, 1);
+  far(0, 0) = -2000;
+  far(1, 0) = 3000;
+  far(2, 0) = std::numeric_limits<float>::quiet_NaN();
+  write_disparity(in_folder("far.png"), far);
+  expect_equal(read_disparity(in_folder("far.png")), far, 0.05f);
+  // A scale that is given counts.
+  EXPECT_NEAR(read_disparity(in_folder("negative.png"), 256.f)(0, 0), 1 + ramp(-3)(0, 0) - std::floor(ramp(-3)(0, 0)),
+              2);
 }
 
 TEST_F(DisparityFile, ScalesEightBitPngAndTakesZeroForUnknown) {

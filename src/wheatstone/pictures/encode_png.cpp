@@ -117,6 +117,11 @@ std::string encode_png(const StoredPicture& picture, const PixelRows& rows) {
   header += {static_cast<char>(picture.kind.bits), picture.channels == 1 ? grey : colour, 0, 0, 0};
   append_chunk("IHDR", header, png);
   if (picture.value_of<std::string>("oiio:ColorSpace", {}) == "sRGB") append_srgb(png);
+  for (const auto& [name, attribute] : picture.attributes) {
+    const auto* const text = std::get_if<std::string>(&attribute);
+    if (text != nullptr && name.starts_with(png_text))
+      append_chunk("tEXt", name.substr(png_text.size()) + '\0' + *text, png);
+  }
   constexpr std::size_t longest_chunk = std::size_t{1} << 30;
   for (std::size_t at = 0; at < deflated.size(); at += longest_chunk)
     append_chunk("IDAT", std::string_view(deflated).substr(at, longest_chunk), png);

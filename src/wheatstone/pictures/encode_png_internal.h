@@ -1,10 +1,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "wheatstone/pictures/picture_file.h"
 
 namespace wheatstone {
+
+/// Attributes whose names begin so become texts of the PNG, by the rest of their names.
+inline constexpr std::string_view png_text = "png:text:";
 
 /// A picture of one channel, grey, or three, with bytes or words, as a PNG (PNG 1.2). Its colours are said to be sRGB
 /// where the attribute oiio:ColorSpace says so. Made in parallel; the same bytes on any number of threads.

@@ -48,7 +48,8 @@ StoredChannel first_channel(PictureReader& reader, const fs::path& path, std::st
   if (width < 1 || height < 1 || picture.depth > 1 || bytes > most_bytes)
     refuse_channel(path, fmt::format("is {}x{} pixels, which is not a valid size for {}", width, height, what));
   if (picture.channels >= 3 && colours == GreyInColours::refused)
-    refuse_channel(path, fmt::format("has {} channels, expected one", picture.channels));
+    refuse_channel(path, fmt::format("is a picture for looking at, with {} channels; expected {} with one channel",
+                                     picture.channels, what));
   StoredChannel stored{Image<float>(width, height), picture.kind};
   if (picture.channels >= 3) {
     read_grey(path, reader, what, stored.values);
