@@ -66,6 +66,11 @@ std::string colour_text(const RectifiedPair& pair, const RectifyArguments& argum
                      gain[0], gain[1], gain[2], gamma[0], gamma[1], gamma[2]);
 }
 
+std::string kept_text(const RectifiedPair& pair) {
+  if (!pair.rectification) return {};
+  return fmt::format(", {:.0f} % of the photographs' area", 100 * kept_area(*pair.rectification));
+}
+
 Report report_of(const RectifiedPair& pair, const RectifyArguments& arguments) {
   const int width = pair.pictures.left.width(), height = pair.pictures.left.height();
   Json colour, rectification;
@@ -76,8 +81,9 @@ Report report_of(const RectifiedPair& pair, const RectifyArguments& arguments) {
        {"measured_matches", pair.measured_matches, rows_text(pair)},
        {"vertical_disparity_before", json_of(pair.before, pair)},
        {"vertical_disparity_after", json_of(pair.after, pair)},
-       {"width", width, fmt::format("kept                  {}x{} pixels", width, height)},
+       {"width", width, fmt::format("kept                  {}x{} pixels{}", width, height, kept_text(pair))},
        {"height", height},
+       {"kept_area", pair.rectification ? Json(kept_area(*pair.rectification)) : Json()},
        {"shift_px", pair.shift_px, shift_text(pair)},
        {"colour", colour, colour_text(pair, arguments)},
        {"eyes_swapped", pair.eyes_swapped,

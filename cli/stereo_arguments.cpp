@@ -144,8 +144,8 @@ PreparedPair prepare_named_pair(StereoPair pair, const PreparePairOptions& optio
 
 void tell_of_rows(const PreparedPair& pair, const std::string& name, const Session& session) {
   if (const std::string note = rectified_note(pair); !note.empty()) remark(session, fmt::format("{}: {}", name, note));
-  if (const std::string warning = row_warning(pair); !warning.empty())
-    remark(session, fmt::format("warning: {}: {}", name, warning));
+  for (const std::string& warning : {row_warning(pair), area_warning(pair)})
+    if (!warning.empty()) remark(session, fmt::format("warning: {}: {}", name, warning));
 }
 
 void tell_of_match(const ReadPhotograph& photograph, const MatchConfidence& confidence, const Session& session) {

@@ -66,7 +66,7 @@ Opened opened_photograph(StereoPair pictures, const std::string& name, const Lis
     throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
   }
   Opened opened{.kind = "photograph"};
-  for (const std::string& note : {rectified_note(prepared), row_warning(prepared)})
+  for (const std::string& note : {rectified_note(prepared), row_warning(prepared), area_warning(prepared)})
     if (!note.empty()) opened.notes.push_back(note);
   if (prepared.eyes == EyeOrder::swapped) opened.notes.emplace_back("the eyes look swapped");
   auto photograph = std::make_shared<Photograph>();

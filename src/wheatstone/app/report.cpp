@@ -89,6 +89,7 @@ std::string preparation_json(const PreparedPair& pair) {
   Json facts{{"rectified", pair.rectification.has_value()},
              {"compared_features", pair.compared_features},
              {"row_difference", rows_json(pair.rows)},
+             {"kept_area", pair.rectification ? Json(kept_area(*pair.rectification)) : Json()},
              {"photographs_row_difference", rows_json(pair.photographed_rows)},
              {"rectification", nullptr},
              {"eyes_look_swapped", nullptr},

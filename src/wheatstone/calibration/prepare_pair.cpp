@@ -192,12 +192,25 @@ PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& opti
 
 std::string rectified_note(const PreparedPair& pair) {
   if (!pair.rectification) return {};
-  if (!pair.photographed_rows || !pair.rows) return "the pair was rectified";
+  const std::string kept =
+      fmt::format("{:.0f} % of the photographs' area is kept", 100 * kept_area(*pair.rectification));
+  if (!pair.photographed_rows || !pair.rows) return "the pair was rectified; " + kept;
   return fmt::format(
       "the pair was rectified: its rows differed by {:.1f} pixels (median; 95th percentile {:.1f}), now by {:.1f} "
-      "({:.1f})",
+      "({:.1f}); {}",
       pair.photographed_rows->median_px, pair.photographed_rows->percentile_95_px, pair.rows->median_px,
-      pair.rows->percentile_95_px);
+      pair.rows->percentile_95_px, kept);
+}
+
+std::string area_warning(const PreparedPair& pair) {
+  constexpr double most_lost = 0.1;
+  if (!pair.rectification) return {};
+  const double lost = 1 - kept_area(*pair.rectification);
+  if (lost <= most_lost) return {};
+  return fmt::format(
+      "rectifying cuts off {:.0f} % of the photographs' area: the cameras were turned, or moved forwards, against each "
+      "other; --rectify never keeps all, with rows that differ",
+      100 * lost);
 }
 
 std::string row_warning(const PreparedPair& pair) {

@@ -46,8 +46,12 @@ struct PreparedPair {
 PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& options = {},
                           const Progress& progress = {});
 
-/// One sentence that says from which row difference to which a pair was rectified; empty where it was not.
+/// One sentence that says from which row difference to which a pair was rectified, and how much of the photographs is
+/// kept; empty where it was not.
 std::string rectified_note(const PreparedPair& pair);
+
+/// One sentence that says how much of the photographs rectifying cuts off; empty where that is at most a tenth.
+std::string area_warning(const PreparedPair& pair);
 
 /// One sentence that names the row difference and what helps; empty where the rows fit or could not be compared.
 std::string row_warning(const PreparedPair& pair);

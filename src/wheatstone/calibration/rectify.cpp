@@ -279,4 +279,32 @@ RectifiedPair rectify(const StereoPair& photographs, const RectifyOptions& optio
   return result;
 }
 
+namespace {
+
+/// Of its photograph's area, what lies under the rectified picture: the sum of the quadrilaterals that the cells of a
+/// grid come from.
+double kept_area(const RectifyingMap& map, int width, int height) {
+  constexpr int cells = 24;
+  const auto place = [&](int column, int row) {
+    const double x = static_cast<double>(width) * column / cells, y = static_cast<double>(height) * row / cells;
+    return photograph_place(map, {x, y});
+  };
+  double area = 0;
+  for (int row = 0; row < cells; ++row) {
+    for (int column = 0; column < cells; ++column) {
+      const auto a = place(column, row), b = place(column + 1, row), c = place(column + 1, row + 1),
+                 d = place(column, row + 1);
+      area += std::abs((c.x - a.x) * (d.y - b.y) - (d.x - b.x) * (c.y - a.y)) / 2;
+    }
+  }
+  return area / (static_cast<double>(map.width) * map.height);
+}
+
+}  // namespace
+
+double kept_area(const Rectification& rectification) {
+  const auto [left, right, width, height] = rectification;
+  return std::min({kept_area(left, width, height), kept_area(right, width, height), 1.});
+}
+
 }  // namespace wheatstone

@@ -60,6 +60,9 @@ RectifiedPair rectify(const StereoPair& photographs, const RectifyOptions& optio
 RectifiedPair rectify(const StereoPair& photographs, const StereoCalibration& calibration,
                       const RectifyOptions& options = {}, const Progress& progress = {});
 
+/// How much of its photograph's area a rectified picture shows, 0..1; of the eye that loses more.
+double kept_area(const Rectification& rectification);
+
 /// Another pair of the same cameras, geometry only.
 StereoPair rectified(const StereoPair& photographs, const Rectification& how);
 

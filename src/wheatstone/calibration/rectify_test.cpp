@@ -255,4 +255,13 @@ TEST(CommonWindow, IsTheLargestRectangle) {
   EXPECT_EQ(largest_rectangle_within(mask), cv::Rect(0, 0, 80, 60));
 }
 
+TEST(KeptArea, IsWhatTheFrameShowsOfThePhotograph) {
+  Rectification all{{.width = 400, .height = 300}, {.width = 400, .height = 300}, 400, 300};
+  EXPECT_NEAR(kept_area(all), 1, 1e-6);
+  all.width = 200;  // half of it, without a turn
+  EXPECT_NEAR(kept_area(all), 0.5, 1e-6);
+  all.right.homography[0] = 2;  // the right eye's is drawn twice as wide: half of that is seen
+  EXPECT_NEAR(kept_area(all), 0.25, 1e-6);
+}
+
 }  // namespace wheatstone::rectify_test
