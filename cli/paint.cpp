@@ -271,8 +271,9 @@ Report draw_for_display_again(const Arguments& arguments, const Session& session
   const DisplayPreset& display = find_display(arguments.display.name);
   DisplayViewsOptions options = views_options(arguments, display);
   options.zero_parallax_px = arguments.painting.zero_parallax.disparity_px;
-  const DisplayViews views = draw_display_views(read_painting_for_views(arguments.files.front()), options,
-                                                session.progress, composition_for(display, options.views));
+  const DisplayViews views =
+      draw_display_views(sliced(read_painting_for_views(arguments.files.front()), arguments.slicing), options,
+                         session.progress, composition_for(display, options.views));
   return write_and_tell(arguments, display, arguments.folder, views, session).report;
 }
 
@@ -286,7 +287,7 @@ Report draw_painting_again(const Arguments& arguments, const Session& session) {
                               .depth = depth_placing_from(arguments),
                               .device = arguments.painting.device};
   OutputFolder folder(arguments.folder, output_of(arguments, arguments.folder).inputs);
-  draw_again(read_painting(arguments.files.front()), folder, options, session.progress);
+  draw_again(sliced(read_painting(arguments.files.front()), arguments.slicing), folder, options, session.progress);
   return {{{"folder", arguments.folder, fmt::format("written to       {}", arguments.folder)}}};
 }
 
@@ -338,6 +339,12 @@ Value zero_parallax_at(std::optional<std::pair<int, int>>& at) {
 std::string single_picture(const PaintArguments& a) {
   if (has_depth(a.depth)) return fmt::format("with {}", option_of(a.depth));
   return finds_depth_in_file(a) ? "on a picture that has its own depth" : "";
+}
+
+constexpr Choice<SliceKeeps> slice_sides[] = {{"back", SliceKeeps::back}, {"front", SliceKeeps::front}};
+
+std::vector<SliceDepth> slice_depths(const std::string& option, const std::string& words) {
+  return parse_slice_depths(words, option);
 }
 
 Rows paint_rows(PaintArguments& a) {
@@ -418,6 +425,15 @@ Rows paint_rows(PaintArguments& a) {
           "--depth-mapping"),
       row("--scale", number(a.scale, {0.01, 32}), "Scale factor of a painting.wst that is drawn again",
           {printing, photographs, display}),
+      row("--slice-layer", without_default(number(a.slicing.finest_layer, {0, 1000})),
+          "Number of the finest layer of strokes that a painting.wst shows, from the coarsest, 0",
+          {printing, photographs}),
+      row("--slice-depth", parsed(a.slicing.depths, slice_depths, "SHARE%|DISPARITYpx,..."),
+          "Plane that cuts the finest layer that is shown: its strokes before the plane are left out. A share of the "
+          "way from the nearest stroke to the farthest, or a disparity; further ones are of the coarser layers",
+          {printing, photographs}),
+      row("--slice-keep", choice(a.slicing.keeps, slice_sides), "Side of the plane whose strokes stay",
+          {printing, photographs}, "--slice-depth"),
       row("--display", text(a.display.name),
           "Paint the views of a display, as one quilt where the display takes one:" + display_names(), {printing}),
       row("--views", without_default(number(a.display.views, view_count_range)),

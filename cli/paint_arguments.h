@@ -13,6 +13,7 @@
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/marks/mapped_depth.h"
+#include "wheatstone/marks/slicing.h"
 
 namespace wheatstone::cli {
 
@@ -33,6 +34,7 @@ struct PaintArguments {
   std::vector<DepthRegion> depth_mapping;
   float distance_mm = 0, screen_width_mm = 0;  ///< of a depth mapping's viewer; 0: the display's, or a desk's
   double scale = 1;
+  Slicing slicing;  ///< of a painting that is drawn again
   DisplayArguments display;
   bool measure = false;
   MatchArguments matching;

@@ -100,13 +100,13 @@ void LayersApart::draw_layers(const std::shared_ptr<const Painting>& painting, c
   const EyePositions eyes = eye_positions(state);
   const double scale = std::min({static_cast<double>(size.width) / width_of(*painting),
                                  static_cast<double>(size.height) / height_of(*painting), 1.});
-  if (painting == painting_ && state.finest_layer == finest_layer_ && scale == scale_ && eyes.left == eyes_.left &&
+  if (painting == painting_ && state.slicing == slicing_ && scale == scale_ && eyes.left == eyes_.left &&
       eyes.right == eyes_.right)
     return;
-  const auto& strokes = std::get<StrokePainting>(painting->marks);
-  const std::size_t count = std::min(strokes.layers.size(), static_cast<std::size_t>(state.finest_layer) + 1);
+  const Painting shown = sliced(*painting, state.slicing);
+  const auto& strokes = std::get<StrokePainting>(shown.marks);
   layers_of_eyes_.assign(2, {});
-  for (std::size_t layer = 0; layer < count; ++layer) {
+  for (std::size_t layer = 0; layer < strokes.layers.size(); ++layer) {
     StrokePainting alone = strokes;
     alone.layers = {strokes.layers[layer]};
     std::vector<LayerPicture> pictures =
@@ -120,7 +120,7 @@ void LayersApart::draw_layers(const std::shared_ptr<const Painting>& painting, c
                   {Image<Rgb8>(width, height, strokes.canvas_colour), Image<std::uint8_t>(width, height, 255)});
   }
   painting_ = painting;
-  finest_layer_ = state.finest_layer;
+  slicing_ = state.slicing;
   scale_ = scale;
   eyes_ = eyes;
 }

@@ -29,7 +29,7 @@ class LayersApart {
   void draw_layers(const std::shared_ptr<const Painting>& painting, const ViewState& state, const PictureSize& size);
 
   std::shared_ptr<const Painting> painting_;
-  int finest_layer_ = 0;
+  Slicing slicing_;
   double scale_ = 0;
   EyePositions eyes_;
   std::vector<std::vector<LayerPicture>> layers_of_eyes_;

@@ -83,7 +83,7 @@ void reset(Viewer& viewer, const Words& /*words*/) {
   state.framed = as_new.framed;
   state.head = as_new.head;
   state.orbit = as_new.orbit;
-  state.finest_layer = as_new.finest_layer;
+  state.slicing = as_new.slicing;
   state.swap = false;
   state.comparison = as_new.comparison;
   viewer.show_comfortably();

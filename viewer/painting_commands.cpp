@@ -25,8 +25,36 @@ int layer_count(const Viewer& viewer) {
 void step_detail(Viewer& viewer, int by) {
   const int finest = layer_count(viewer) - 1;
   if (finest < 0) return;
-  int& layer = state_of(viewer).finest_layer;
+  int& layer = state_of(viewer).slicing.finest_layer;
   layer = std::clamp(std::min(layer, finest) + by, 0, finest);
+}
+
+constexpr float slice_step = 0.02f;  ///< of the way from the nearest stroke to the farthest
+
+void set_slice_depth(Viewer& viewer, const Words& words) {
+  state_of(viewer).slicing.depths =
+      words[0] == "off" ? std::vector<SliceDepth>() : parse_slice_depths(words[0], "slice-depth");
+}
+
+void set_slice_keep(Viewer& viewer, const Words& words) {
+  if (words[0] != "back" && words[0] != "front")
+    throw Error(ErrorKind::wrong_usage, fmt::format("'{}' is no side of a plane, expected back or front", words[0]));
+  state_of(viewer).slicing.keeps = words[0] == "back" ? SliceKeeps::back : SliceKeeps::front;
+}
+
+void toggle_slice(Viewer& viewer, const Words& /*words*/) {
+  constexpr SliceDepth middle{0.5f};
+  std::vector<SliceDepth>& depths = state_of(viewer).slicing.depths;
+  depths = depths.empty() ? std::vector{middle} : std::vector<SliceDepth>();
+}
+
+/// From where the finest layer's plane is; without one, from the nearest stroke.
+void step_slice(Viewer& viewer, float by) {
+  std::vector<SliceDepth>& depths = state_of(viewer).slicing.depths;
+  const float from = !depths.empty() && depths.front().is_share ? depths.front().value : 0;
+  depths.resize(std::max<std::size_t>(depths.size(), 1));
+  depths.front() = {std::clamp(from + by, 0.f, 1.f)};
+  viewer.tell("slicing plane at " + slice_depths_text(depths));
 }
 
 void set_style(Viewer& viewer, const Words& words) {
@@ -58,7 +86,16 @@ void compare(Viewer& viewer, const Words& words) {
 constexpr Command painting_table[] = {
     // name, arguments, menu, text, keys
     {"finest-layer", "NUMBER", "Painting", "Finest layer of strokes that is shown, from 0, the coarsest", "",
-     [](Viewer& v, const Words& w) { state_of(v).finest_layer = static_cast<int>(number_of(w[0], 0, 1000)); }},
+     [](Viewer& v, const Words& w) { state_of(v).slicing.finest_layer = static_cast<int>(number_of(w[0], 0, 1000)); }},
+    {"slice-depth", "SHARE%|DISPARITYpx,...|off", "Painting",
+     "Planes that cut the finest layer and those under it: strokes before a layer's plane are hidden", "",
+     set_slice_depth},
+    {"slice-keep", "back|front", "Painting", "Side of the plane whose strokes stay", "", set_slice_keep},
+    {"slice", "", "Painting", "Slice the finest layer, or show it whole", "X", toggle_slice},
+    {"slice-nearer", "", "Painting", "Move the slicing plane nearer", "{",
+     [](Viewer& v, const Words&) { step_slice(v, -slice_step); }},
+    {"slice-farther", "", "Painting", "Move the slicing plane farther", "}",
+     [](Viewer& v, const Words&) { step_slice(v, slice_step); }},
     {"less-detail", "", "Painting", "Less detail", "[", [](Viewer& v, const Words&) { step_detail(v, -1); }},
     {"more-detail", "", "Painting", "More detail", "]", [](Viewer& v, const Words&) { step_detail(v, 1); }},
     {"style", "NAME|FILE", "Painting", "Style", "", set_style},

@@ -140,7 +140,7 @@ void expect_consistent(const Session& session) {
                              state.framed.pan_y, static_cast<double>(state.orbit.zoom)})
     EXPECT_TRUE(std::isfinite(value));
   EXPECT_GE(state.adjustment.separation, 0);
-  EXPECT_GE(state.finest_layer, 0);
+  EXPECT_GE(state.slicing.finest_layer, 0);
   EXPECT_LE(session.done.size(), 200u);
   EXPECT_TRUE(session.items.empty() || session.item < session.items.size());
 }

@@ -73,10 +73,9 @@ const SliceStack& ViewDrawer::placed_slices(const SlicesContent& content, const 
   return placed_slices_->slices;
 }
 
-DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& painting, int finest_layer,
+DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& painting, const Slicing& slicing,
                                      const WantedPart& part, const std::vector<ViewPosition>& positions) {
-  if (!prepared_ || prepared_->painting != painting || prepared_->part != part ||
-      prepared_->finest_layer != finest_layer) {
+  if (!prepared_ || prepared_->painting != painting || prepared_->part != part || prepared_->slicing != slicing) {
     const bool as_it_is = part == WantedPart{1, 0, 0, width_of(*painting), height_of(*painting)};
     const Placement placement = as_it_is ? Placement{}
                                          : Placement{.width = part.width,
@@ -85,8 +84,8 @@ DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& pain
                                                      .left = part.left / part.scale,
                                                      .top = part.top / part.scale};
     prepared_.reset();
-    prepared_ = Prepared{painting, part, finest_layer,
-                         prepare(*painting, {.placement = placement, .finest_layer = finest_layer}, Device::automatic)};
+    prepared_ = Prepared{painting, part, slicing,
+                         prepare(*painting, {.placement = placement, .slicing = slicing}, Device::automatic)};
   }
   DrawnViews drawn{.positions = positions, .scale = part.scale, .left = part.left, .top = part.top};
   for (DrawnView& view : draw(prepared_->ready, positions)) drawn.pictures.push_back(std::move(view.picture));
@@ -121,11 +120,11 @@ const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& s
   Placing placing = placing_of(content, state);
   const bool good_enough = drawn_ && (effort == Effort::quick || !drawn_->views.preliminary);
   if (good_enough && drawn_->content == content && drawn_->part == part && drawn_->wanted == positions &&
-      drawn_->finest_layer == state.finest_layer && drawn_->placing == placing)
+      drawn_->slicing == state.slicing && drawn_->placing == placing)
     return drawn_->views;
   DrawnViews views;
   if (const auto* const painted = std::get_if<PaintedContent>(&content)) {
-    views = painted->painting ? draw_painting(painted->painting, state.finest_layer, part, positions)
+    views = painted->painting ? draw_painting(painted->painting, state.slicing, part, positions)
                               : photographs(*painted->photograph, part, positions);
   } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
     const std::vector<ImageView<const Rgb8>> lent(pictures->views->begin(), pictures->views->end());
@@ -141,7 +140,7 @@ const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& s
     // The state will say what was found.
     if (made.of_all) keep_brightness(placing.look, made.brightness);
   }
-  drawn_ = Drawn{content, part, state.finest_layer, std::move(placing), positions, std::move(views)};
+  drawn_ = Drawn{content, part, state.slicing, std::move(placing), positions, std::move(views)};
   return drawn_->views;
 }
 
@@ -152,7 +151,7 @@ const DrawnViews* ViewDrawer::photographed(const Content& content, const WantedP
   if (!photographed_ || photographed_->content != content || photographed_->part.scale != part.scale ||
       photographed_->wanted != positions) {
     DrawnViews views = photographs(*painted->photograph, part, positions);
-    photographed_ = Drawn{content, part, 0, Placing(), positions, std::move(views)};
+    photographed_ = Drawn{content, part, Slicing(), Placing(), positions, std::move(views)};
   }
   return &photographed_->views;
 }

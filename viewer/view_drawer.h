@@ -52,8 +52,8 @@ class ViewDrawer {
   const std::vector<Image<Rgb8>>& display_views(const Content& content, const ViewState& state);
 
  private:
-  DrawnViews draw_painting(const std::shared_ptr<const Painting>& painting, int finest_layer, const WantedPart& part,
-                           const std::vector<ViewPosition>& positions);
+  DrawnViews draw_painting(const std::shared_ptr<const Painting>& painting, const Slicing& slicing,
+                           const WantedPart& part, const std::vector<ViewPosition>& positions);
 
   /// The slices as deep as the state has them.
   const SliceStack& placed_slices(const SlicesContent& content, const ViewState& state);
@@ -71,13 +71,13 @@ class ViewDrawer {
   struct Prepared {
     std::shared_ptr<const Painting> painting;
     WantedPart part;
-    int finest_layer = 0;
+    Slicing slicing;
     PreparedPainting ready;
   };
   struct Drawn {
     Content content;
     WantedPart part;
-    int finest_layer = 0;
+    Slicing slicing;
     Placing placing;
     std::vector<ViewPosition> wanted;
     DrawnViews views;

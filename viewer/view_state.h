@@ -10,6 +10,7 @@
 #include "wheatstone/depth/camera.h"
 #include "wheatstone/depth/depth_regions.h"
 #include "wheatstone/marks/mapped_depth.h"
+#include "wheatstone/marks/slicing.h"
 #include "wheatstone/marks/style.h"
 
 namespace wheatstone::viewer {
@@ -100,7 +101,7 @@ struct ViewState {
   bool quantised = false;               ///< eyes see the nearest of the display's views, as under its lenses
   std::string display = "desk-stereo";  ///< a display preset
   std::string screen;                   ///< calibration or name of a lenticular screen; empty: the display's
-  int finest_layer = 1 << 20;           ///< of strokes, from the coarsest, 0, on
+  Slicing slicing;                      ///< of strokes
   float layers_apart_deg = 0;           ///< a look from so far to the side at the layers of detail; 0: from the front
   float crosstalk = 0;  ///< share, 0..1, of the light in each eye that comes from the neighbouring views
   std::vector<DepthRegion> depth_regions;   ///< where the scene's parts are to seem; none: as in the photographs

@@ -102,9 +102,31 @@ TEST_F(OpenPainting, IsShownAsItIsDrawn) {
   run("zero-parallax 0");
   EXPECT_EQ(picture(), draw(painting(), left_eye).picture);
   run("finest-layer 0");
-  EXPECT_EQ(picture(), draw(prepare(painting(), {.finest_layer = 0}), left_eye).picture);
+  EXPECT_EQ(picture(), draw(prepare(painting(), {.slicing = {.finest_layer = 0}}), left_eye).picture);
   run("more-detail");
   run("more-detail");
+  EXPECT_EQ(picture(), draw(painting(), left_eye).picture);
+}
+
+TEST_F(OpenPainting, IsSlicedByAPlaneThatMoves) {
+  run("separation 1");
+  run("mode left");
+  run("zero-parallax 0");
+  const auto sliced_at = [&](const char* depths, SliceKeeps keeps = SliceKeeps::back) {
+    const Slicing slicing{.depths = parse_slice_depths(depths, "depths"), .keeps = keeps};
+    return draw(prepare(painting(), {.slicing = slicing}), left_eye).picture;
+  };
+  run("slice");
+  EXPECT_EQ(picture(), sliced_at("50%"));
+  EXPECT_NE(picture(), draw(painting(), left_eye).picture);
+  run("slice-keep front");
+  EXPECT_EQ(picture(), sliced_at("50%", SliceKeeps::front));
+  run("slice-depth 20%,40%");
+  run("slice-keep back");
+  EXPECT_EQ(picture(), sliced_at("20%,40%"));
+  run("slice-farther");
+  EXPECT_EQ(picture(), sliced_at("22%,40%"));
+  run("slice");
   EXPECT_EQ(picture(), draw(painting(), left_eye).picture);
 }
 

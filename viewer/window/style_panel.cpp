@@ -172,7 +172,7 @@ void StylePanel::show(const Viewer& viewer) {
   if (layers > 0) {
     const QSignalBlocker quiet(layers_);
     layers_->setRange(0, layers - 1);
-    layers_->setValue(std::min(session.state.finest_layer, layers - 1));
+    layers_->setValue(std::min(session.state.slicing.finest_layer, layers - 1));
   }
   if (const int at = style_->findText(QString::fromStdString(style.name)); at >= 0 && at != style_->currentIndex()) {
     const QSignalBlocker quiet(style_);

@@ -19,13 +19,6 @@ namespace {
 
 bool is_as_planned(const Placement& placement) { return placement == Placement{}; }
 
-void leave_out_detail(const DrawOptions& options, Painting& painting) {
-  auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
-  if (strokes == nullptr) return;
-  const auto wanted = static_cast<std::size_t>(std::max(options.finest_layer, 0)) + 1;
-  if (strokes->layers.size() > wanted) strokes->layers.resize(wanted);
-}
-
 /// Hands a painting to the graphics processor, or not.
 void hand_over(PreparedPainting::Contents& contents, Device device) {
   constexpr int worthwhile = 1 << 16;  // pixels
@@ -75,11 +68,10 @@ int PreparedPainting::width() const { return contents_->width; }
 int PreparedPainting::height() const { return contents_->height; }
 
 PreparedPainting prepare(const Painting& painting, const DrawOptions& options, Device device) {
-  const DrawOptions everything;
-  if (is_as_planned(options.placement) && options.finest_layer == everything.finest_layer && options.relief)
-    return prepared(painting, device);
-  Painting part = is_as_planned(options.placement) ? painting : placed(painting, options.placement);
-  leave_out_detail(options, part);
+  const bool is_whole = options.slicing == Slicing();
+  if (is_as_planned(options.placement) && is_whole && options.relief) return prepared(painting, device);
+  Painting part = is_whole ? painting : sliced(painting, options.slicing);
+  if (!is_as_planned(options.placement)) part = placed(std::move(part), options.placement);
   if (!options.relief) part.relief = {};
   return prepared(part, device);
 }

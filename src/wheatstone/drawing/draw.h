@@ -8,6 +8,7 @@
 
 #include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
+#include "wheatstone/marks/slicing.h"
 
 namespace wheatstone {
 
@@ -21,8 +22,8 @@ struct DrawnView {
 /// What of a painting is drawn.
 struct DrawOptions {
   Placement placement;
-  int finest_layer = 1 << 20;  ///< number of the last layer of strokes that is drawn, from the coarsest, 0: less detail
-  bool relief = true;          ///< light the paint of a painting that has relief
+  Slicing slicing = {};  ///< of strokes
+  bool relief = true;    ///< light the paint of a painting that has relief
 };
 
 /// A painting made ready: all that no view changes. Strokes are flattened into segments, sorted into bands of rows, and

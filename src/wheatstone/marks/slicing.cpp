@@ -1,0 +1,93 @@
+#include "wheatstone/marks/slicing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "wheatstone/error.h"
+
+namespace wheatstone {
+namespace {
+
+float depth_of(const Layer& layer, const Stroke& stroke) {
+  double sum = 0;
+  for (const ControlPoint& point : layer.points_of(stroke)) sum += point.disparity;
+  return static_cast<float>(sum / std::max<std::uint32_t>(stroke.point_count, 1));
+}
+
+/// In pixels of the painting.
+float disparity_at(const SliceDepth& depth, std::span<const Layer> layers) {
+  if (!depth.is_share) return depth.value;
+  float nearest = -std::numeric_limits<float>::infinity(), farthest = std::numeric_limits<float>::infinity();
+  for (const Layer& layer : layers) {
+    for (const Stroke& stroke : layer.strokes) {
+      const float disparity = depth_of(layer, stroke);
+      nearest = std::max(nearest, disparity);
+      farthest = std::min(farthest, disparity);
+    }
+  }
+  return std::lerp(nearest, farthest, depth.value);
+}
+
+std::optional<SliceDepth> parsed_depth(std::string_view text) {
+  SliceDepth depth;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), depth.value);
+  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  constexpr float largest_disparity_px = 65535;
+  depth.is_share = unit == "%";
+  const bool fits = depth.is_share ? depth.value >= 0 && depth.value <= 100
+                                   : unit == "px" && std::abs(depth.value) <= largest_disparity_px;
+  if (error != std::errc() || !fits) return {};
+  if (depth.is_share) depth.value /= 100;
+  return depth;
+}
+
+}  // namespace
+
+std::vector<SliceDepth> parse_slice_depths(std::string_view text, std::string_view name) {
+  std::vector<SliceDepth> depths;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::optional<SliceDepth> depth = parsed_depth(text.substr(begin, end - begin));
+    if (!depth)
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("{}: is '{}', expected a share of the way from the nearest to the farthest, from 0% to "
+                              "100%, or a disparity, as 12px; or several of them, as 20%,40%",
+                              name, text));
+    depths.push_back(*depth);
+    begin = end + 1;
+  }
+  return depths;
+}
+
+std::string slice_depths_text(std::span<const SliceDepth> depths) {
+  std::string text;
+  for (const SliceDepth& depth : depths)
+    text += fmt::format("{}{:g}{}", text.empty() ? "" : ",", depth.is_share ? 100 * depth.value : depth.value,
+                        depth.is_share ? "%" : "px");
+  return text;
+}
+
+Painting sliced(Painting painting, const Slicing& slicing) {
+  auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
+  if (strokes == nullptr || strokes->layers.empty()) return painting;
+  std::vector<float> planes_px;
+  for (const SliceDepth& depth : slicing.depths) planes_px.push_back(disparity_at(depth, strokes->layers));
+  const auto last = static_cast<std::size_t>(std::max(slicing.finest_layer, 0));
+  if (last + 1 < strokes->layers.size()) strokes->layers.resize(last + 1);
+  for (std::size_t i = 0; i < std::min(planes_px.size(), strokes->layers.size()); ++i) {
+    Layer& layer = strokes->layers[strokes->layers.size() - 1 - i];
+    std::erase_if(layer.strokes, [&](const Stroke& stroke) {
+      const float disparity = depth_of(layer, stroke);
+      return slicing.keeps == SliceKeeps::back ? disparity > planes_px[i] : disparity < planes_px[i];
+    });
+  }
+  return painting;
+}
+
+}  // namespace wheatstone
