@@ -341,6 +341,18 @@ std::string single_picture(const PaintArguments& a) {
   return finds_depth_in_file(a) ? "on a picture that has its own depth" : "";
 }
 
+FolderPart folder_part(const std::string& option, const std::string& words) {
+  const std::size_t slash = words.find('/');
+  const std::string number = words.substr(0, slash);
+  if (slash == std::string::npos)
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected NUMBER/PARTS, as 3/16", option, words));
+  constexpr double most_parts = 1e6;
+  FolderPart part;
+  part.of = static_cast<int>(parse_integer(option, words.substr(slash + 1), {1, most_parts}));
+  part.number = static_cast<int>(parse_integer(option, number, {1, static_cast<double>(part.of)}));
+  return part;
+}
+
 constexpr Choice<SliceKeeps> slice_sides[] = {{"back", SliceKeeps::back}, {"front", SliceKeeps::front}};
 
 std::vector<SliceDepth> slice_depths(const std::string& option, const std::string& words) {
@@ -390,6 +402,13 @@ Rows paint_rows(PaintArguments& a) {
       row("--skip-existing", flag(a.skip_existing),
           "Leave out photographs of a folder whose results are there, to continue a run",
           {printing, no_folder, display}),
+      row("--contact-sheet", flag(a.contact_sheet),
+          "Also write contact_sheet.png, which shows the results of a folder, small, with their names",
+          {printing, no_folder, display}),
+      row("--part", parsed(a.part, folder_part, "NUMBER/PARTS"),
+          "Paint only this part of a folder's photographs, which are dealt out by name: 3/16 on the third of 16 "
+          "machines",
+          {printing, no_folder}),
       row("--pairs", text(a.pairs),
           "Pairs of a folder that names do not tell: a file with LEFT, a tab and RIGHT a line, relative to it",
           {printing, no_folder}),

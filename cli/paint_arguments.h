@@ -17,14 +17,20 @@
 
 namespace wheatstone::cli {
 
+/// Every `of`th of a folder's photographs, from the `number`th on: what one of several machines paints.
+struct FolderPart {
+  int number = 1, of = 1;
+};
+
 /// What `paint` is told.
 struct PaintArguments {
   Given given;
   std::vector<std::string> files;
   StereoArguments photographs;  ///< how each is read; the files are those of one
   std::string folder = "painted";
-  std::string pairs;                            ///< of a folder: the table of pairs, if any
-  bool dry_run = false, skip_existing = false;  ///< of a folder
+  std::string pairs;                                                   ///< of a folder: the table of pairs, if any
+  bool dry_run = false, skip_existing = false, contact_sheet = false;  ///< of a folder
+  FolderPart part;                                                     ///< of a folder
   ResultOptions results;
   std::string print_style;
   std::string disparity, right_disparity;

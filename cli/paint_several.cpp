@@ -7,8 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "wheatstone/app/contact_sheet.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -57,6 +59,27 @@ Json files_of(const PaintJob& job) {
   return files;
 }
 
+/// The painted picture of a job, of the left eye where there are two; none where it was not painted.
+std::optional<fs::path> result_of(const PaintJob& job, const std::string& format) {
+  for (const char* name : {"left", "painted"}) {
+    const fs::path file = fs::path(job.output) / fmt::format("{}.{}", name, format);
+    if (fs::exists(file)) return file;
+  }
+  return {};
+}
+
+/// Of all photographs whose results are there, those that were painted before among them.
+void write_contact_sheet(const PaintArguments& arguments, const PaintList& list, Report& report) {
+  std::vector<SheetEntry> entries;
+  for (const PaintJob& job : list.jobs)
+    if (const std::optional<fs::path> result = result_of(job, arguments.results.format))
+      entries.push_back({*result, fs::path(job.output).lexically_relative(arguments.folder).string()});
+  if (entries.empty()) return;
+  const std::string file = (fs::path(arguments.folder) / "contact_sheet.png").string();
+  write_image(file, contact_sheet(entries));
+  report.facts.push_back({"contact_sheet", file, fmt::format("contact sheet: {}", file)});
+}
+
 bool is_painted_already(const PaintJob& job) { return fs::exists(fs::path(job.output) / "report.json"); }
 
 }  // namespace
@@ -70,7 +93,9 @@ PaintList photographs_in_folder(const PaintArguments& arguments, const Session& 
   if (!arguments.pairs.empty()) options.pairs = read_pair_table(arguments.pairs);
   PhotographFolder found = find_photographs(folder, options, session.progress);
   PaintList list{{}, std::move(found.left_out)};
+  int number = 0;
   for (const FoundPhotograph& photograph : found.photographs) {
+    if (number++ % arguments.part.of != arguments.part.number - 1) continue;
     const std::string output = (fs::path(arguments.folder) / photograph.stem).string();
     refuse_output_within(folder, output);
     list.jobs.push_back(
@@ -148,6 +173,7 @@ Report paint_all(const PaintArguments& arguments, const PaintList& list, const P
     report.facts.push_back({"skipped", skipped});
     report.facts.push_back({"left_out", left_out});
   }
+  if (arguments.contact_sheet && !arguments.dry_run) write_contact_sheet(arguments, list, report);
   report.facts.push_back(only_text(summary));
   return report;
 }

@@ -88,6 +88,33 @@ TEST(PaintFolder, IsContinuedToTheSameResults) {
   EXPECT_EQ(bytes_of(folder / "out/a-mpo/left.png"), lost);
 }
 
+TEST(PaintFolder, IsPaintedInPartsWhichTogetherAreTheWhole) {
+  const TemporaryFolder folder;
+  write_photographs(folder / "photos");
+  std::size_t painted = 0;
+  for (const char* part : {"1/3", "2/3", "3/3"}) {
+    const nlohmann::json facts = nlohmann::json::parse(paint(folder, {"--part", part, "--json"}).output);
+    EXPECT_LE(facts["painted"], 2) << part;
+    painted += facts["painted"].get<std::size_t>();
+  }
+  EXPECT_EQ(painted, 4U);
+  for (const char* name : {"a-mpo", "a-pair", "c", "trip/b_sbs"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name / "left.png")) << name;
+  for (const char* wrong : {"0/3", "4/3", "3", "a/b", "1/0"})
+    EXPECT_EQ(paint(folder, {"--part", wrong}).exit_code, 2) << wrong;
+}
+
+TEST(PaintFolder, HasAContactSheetOfAllResults) {
+  const TemporaryFolder folder;
+  write_photographs(folder / "photos");
+  paint(folder, {"--part", "1/2"});
+  const ProgramResult result = paint(folder, {"--contact-sheet", "--skip-existing"});
+  EXPECT_THAT(result.output, HasSubstr("contact sheet: out/contact_sheet.png"));
+  const Image<Rgb8> sheet = read_image(folder / "out/contact_sheet.png");
+  EXPECT_EQ(sheet.width(), 2 * 332 + 12);  // four results
+  EXPECT_EQ(sheet.height(), 2 * 278 + 12);
+}
+
 TEST(PaintFolder, IsNotPaintedInADryRun) {
   const TemporaryFolder folder;
   write_photographs(folder / "photos");
