@@ -241,9 +241,12 @@ TEST(Photograph, ThatIsNotRectifiedIsPaintedRectified) {
   std::vector<std::string> line{"paint", "left.png", "low.png", "-o", "painted", "--json", "--rectify", "auto"};
   ProgramResult result = run_program(line, {.folder = folder / ""});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_THAT(result.errors, testing::Not(HasSubstr("warning")));
+  EXPECT_THAT(result.errors, testing::Not(HasSubstr("after rectification")));
   const auto pair = nlohmann::json::parse(result.output)["pair"];
   EXPECT_EQ(pair["rectified"], true);
+  // The right picture lies so low that a tenth of the rows has no partner.
+  EXPECT_NEAR(pair["kept_area"], 0.89, 0.02);
+  EXPECT_THAT(result.errors, HasSubstr("warning: left.png, low.png: rectifying cuts off 11 %"));
   EXPECT_TRUE(pair["warning"].is_null());
   EXPECT_LT(pair["row_difference"]["median_px"], 1);
   // What was painted stands beside the painting.

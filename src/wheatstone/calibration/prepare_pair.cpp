@@ -208,8 +208,7 @@ std::string area_warning(const PreparedPair& pair) {
   const double lost = 1 - kept_area(*pair.rectification);
   if (lost <= most_lost) return {};
   return fmt::format(
-      "rectifying cuts off {:.0f} % of the photographs' area: the cameras were turned, or moved forwards, against each "
-      "other; --rectify never keeps all, with rows that differ",
+      "rectifying cuts off {:.0f} % of the photographs' area; --rectify never keeps all of it, with rows that differ",
       100 * lost);
 }
 
