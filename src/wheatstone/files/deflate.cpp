@@ -51,7 +51,7 @@ std::string zlib_stream(std::size_t parts, const PartOfBytes& part_of) {
     const std::span<const std::uint8_t> bytes = parts > 0 ? part_of(i, room) : std::span<const std::uint8_t>();
     made[i] = {deflated_part(bytes, i + 1 == made.size()), adler32_z(1, bytes.data(), bytes.size()), bytes.size()};
   });
-  std::string stream("\x78\x5e", 2);  // a window of 32 KiB; fast
+  std::string stream{'\x78', '\x5e'};  // a window of 32 KiB; fast
   uLong checksum = 1;
   for (const Part& part : made) {
     stream += part.deflated;

@@ -79,7 +79,7 @@ void write_png(const std::filesystem::path& path, ImageView<const float> dispari
   picture.kind = words_kind;
   picture.put(std::string(png_text) + std::string(scale_key), fmt::format("{}", steps.scale));
   picture.put(std::string(png_text) + std::string(offset_key), fmt::format("{}", steps.offset));
-  const PixelRows rows{values.data(), words_kind, 0, picture.height, picture.width * 2};
+  const PixelRows rows{values.data(), words_kind, 0, picture.height, std::ptrdiff_t{2} * picture.width};
   write_whole_file(path, encode_picture(path, picture, rows));
 }
 

@@ -215,7 +215,7 @@ Layer fit_layer(const LayerPlan& plan) {
     const int left = i % columns * size, top = i / columns * size;
     worth[i] = has_seeds(plan, left, top, size) && may_gain_in_block(plan, left, top, size);
   });
-  if (std::ranges::count(worth, 0) == columns * rows) return layer;
+  if (std::ranges::none_of(worth, [](std::uint8_t block) { return block != 0; })) return layer;
   PaintedPicture canvas = painted_picture(plan.canvas);
   // Blocks of one wave do not touch the same pixels. A stroke depends on the picture within four blocks of this layer,
   // and as much for each coarser one.

@@ -18,10 +18,11 @@ FitColour operator*(float f, const FitColour& a) { return {f * a.luminance, f * 
 /// does as well.
 void weigh(FitTile& tile) {
   constexpr int reach = 3;
+  constexpr std::size_t side = 2 * reach + 1;
   constexpr float least_weight = 0.25f;
   const auto width = static_cast<std::size_t>(tile.width);
   // Sums of a window's rows, by column, with `reach` empty columns on both sides.
-  std::vector<float> values(width + 2 * reach), squares(width + 2 * reach);
+  std::vector<float> values(width + side - 1), squares(width + side - 1);
   const auto change = [&](int y, float sign) {
     if (y < 0 || y >= tile.height) return;
     const std::span row = tile.wanted.luminance().subspan(width * y, width);
@@ -41,7 +42,7 @@ void weigh(FitTile& tile) {
     float* const weight = tile.weight.data() + width * y;
     for (std::size_t x = 0; x < width; ++x) {
       float value = 0, square = 0;
-      for (std::size_t i = x; i <= x + 2 * reach; ++i) {
+      for (std::size_t i = x; i < x + side; ++i) {
         value += values[i];
         square += squares[i];
       }
