@@ -281,23 +281,22 @@ RectifiedPair rectify(const StereoPair& photographs, const RectifyOptions& optio
 
 namespace {
 
-/// Of its photograph's area, what lies under the rectified picture: the sum of the quadrilaterals that the cells of a
-/// grid come from.
+/// Of its photograph's area, what lies under the rectified picture: the area within the line that its frame comes from.
 double kept_area(const RectifyingMap& map, int width, int height) {
-  constexpr int cells = 24;
-  const auto place = [&](int column, int row) {
-    const double x = static_cast<double>(width) * column / cells, y = static_cast<double>(height) * row / cells;
-    return photograph_place(map, {x, y});
-  };
-  double area = 0;
-  for (int row = 0; row < cells; ++row) {
-    for (int column = 0; column < cells; ++column) {
-      const auto a = place(column, row), b = place(column + 1, row), c = place(column + 1, row + 1),
-                 d = place(column, row + 1);
-      area += std::abs((c.x - a.x) * (d.y - b.y) - (d.x - b.x) * (c.y - a.y)) / 2;
+  constexpr int steps = 24;  // on each side
+  const PicturePoint corners[]{{0, 0}, {1. * width, 0}, {1. * width, 1. * height}, {0, 1. * height}, {0, 0}};
+  double twice = 0;
+  PicturePoint last = photograph_place(map, corners[0]);
+  for (int side = 0; side < 4; ++side) {
+    for (int step = 1; step <= steps; ++step) {
+      const double share = static_cast<double>(step) / steps;
+      const PicturePoint next = photograph_place(map, {std::lerp(corners[side].x, corners[side + 1].x, share),
+                                                       std::lerp(corners[side].y, corners[side + 1].y, share)});
+      twice += last.x * next.y - next.x * last.y;
+      last = next;
     }
   }
-  return area / (static_cast<double>(map.width) * map.height);
+  return std::abs(twice) / 2 / (static_cast<double>(map.width) * map.height);
 }
 
 }  // namespace

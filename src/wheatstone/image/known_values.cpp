@@ -15,6 +15,18 @@ bool is_known_anywhere(ImageView<const float> values) {
   return false;
 }
 
+RangeWithZero range_with_zero(ImageView<const float> values) {
+  RangeWithZero range;
+  for (int y = 0; y < values.height(); ++y) {
+    for (const float value : values.row(y)) {
+      if (!std::isfinite(value)) continue;
+      range.least = std::min(range.least, value);
+      range.largest = std::max(range.largest, value);
+    }
+  }
+  return range;
+}
+
 void check_known_anywhere(ImageView<const float> values, std::string_view name) {
   if (!is_known_anywhere(values))
     throw Error(ErrorKind::bad_input,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/image/known_values.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/measures/consistency.h"
@@ -13,14 +14,7 @@ namespace {
 
 /// From nothing, or the truth's least, to its largest, in whole pixels; no farther than the picture is wide.
 DisparityRange range_of(ImageView<const float> disparity) {
-  float least = 0, largest = 0;
-  for (int y = 0; y < disparity.height(); ++y) {
-    for (const float d : disparity.row(y)) {
-      if (!std::isfinite(d)) continue;
-      least = std::min(least, d);
-      largest = std::max(largest, d);
-    }
-  }
+  const auto [least, largest] = range_with_zero(disparity);
   const auto width = static_cast<float>(disparity.width());
   return {static_cast<int>(std::floor(std::max(least, -width))), static_cast<int>(std::ceil(std::min(largest, width)))};
 }

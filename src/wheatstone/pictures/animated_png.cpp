@@ -1,24 +1,10 @@
-#include <zlib.h>
-
 #include <algorithm>
-#include <cstdint>
 
 #include "wheatstone/pictures/animated_png_internal.h"
 #include "wheatstone/pictures/png_chunks_internal.h"
 
 namespace wheatstone {
 namespace {
-
-void put_number(std::uint64_t number, std::string& bytes) {
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift);
-}
-
-void put_chunk(std::string_view type, std::string_view data, std::string& bytes) {
-  put_number(data.size(), bytes);
-  const std::size_t checked = bytes.size();
-  bytes.append(type).append(data);
-  put_number(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data() + checked), bytes.size() - checked), bytes);
-}
 
 /// A frame's control chunk, fcTL: its size and place, and whether it is blended with what was there.
 bool replaces_all(std::string_view control, std::string_view header) {
@@ -41,9 +27,9 @@ std::optional<std::vector<std::string>> frames_of_png(std::string_view bytes, in
   if (!chunks || chunks->front().type != "IHDR") return {};
   const std::string_view header = chunks->front().data;
   std::string begin(bytes.substr(0, png_signature_size));
-  put_chunk("IHDR", header, begin);
+  append_png_chunk("IHDR", header, begin);
   for (const PngChunk& chunk : *chunks)
-    if (chunk.type == "PLTE" || chunk.type == "tRNS") put_chunk(chunk.type, chunk.data, begin);
+    if (chunk.type == "PLTE" || chunk.type == "tRNS") append_png_chunk(chunk.type, chunk.data, begin);
 
   constexpr std::size_t number_size = 4;  // of a frame's data, before them
   std::vector<std::string> frames;
@@ -55,11 +41,11 @@ std::optional<std::vector<std::string>> frames_of_png(std::string_view bytes, in
     }
     // What stands before the first frame is shown only where frames are not.
     if (frames.empty()) continue;
-    if (chunk.type == "IDAT") put_chunk("IDAT", chunk.data, frames.back());
+    if (chunk.type == "IDAT") append_png_chunk("IDAT", chunk.data, frames.back());
     if (chunk.type == "fdAT")
-      put_chunk("IDAT", chunk.data.substr(std::min(number_size, chunk.data.size())), frames.back());
+      append_png_chunk("IDAT", chunk.data.substr(std::min(number_size, chunk.data.size())), frames.back());
   }
-  for (std::string& frame : frames) put_chunk("IEND", {}, frame);
+  for (std::string& frame : frames) append_png_chunk("IEND", {}, frame);
   return frames;
 }
 

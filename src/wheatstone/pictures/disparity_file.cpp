@@ -49,14 +49,7 @@ void check_scale(const std::filesystem::path& path, std::optional<float> scale) 
 /// As KITTI has them where all fit; else as fine as all fit.
 Steps steps_for(ImageView<const float> disparity) {
   constexpr float most_steps = 65534;  // 0 is for what is unknown
-  float least = 0, largest = 0;
-  for (int y = 0; y < disparity.height(); ++y) {
-    for (const float d : disparity.row(y)) {
-      if (!std::isfinite(d)) continue;
-      least = std::min(least, d);
-      largest = std::max(largest, d);
-    }
-  }
+  const auto [least, largest] = range_with_zero(disparity);
   if (least >= 0 && largest * kitti_scale <= most_steps) return {};
   const float offset = std::floor(least) - 1;
   return {std::min(most_steps / (largest - offset), kitti_scale), offset};

@@ -1,7 +1,5 @@
 #include "wheatstone/pictures/encode_png_internal.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,33 +9,20 @@
 #include <vector>
 
 #include "wheatstone/files/deflate.h"
+#include "wheatstone/pictures/png_chunks_internal.h"
 
 namespace wheatstone {
 namespace {
 
-void append_number(std::uint32_t number, std::string& to) {
-  for (const int shift : {24, 16, 8, 0}) to += static_cast<char>(number >> shift);
-}
-
-// PNG 1.2, sec. 3.2.
-void append_chunk(std::string_view type, std::string_view data, std::string& to) {
-  append_number(static_cast<std::uint32_t>(data.size()), to);
-  const std::size_t begin = to.size();
-  to += type;
-  to += data;
-  const auto* const checked = reinterpret_cast<const Bytef*>(to.data() + begin);
-  append_number(static_cast<std::uint32_t>(crc32_z(0, checked, to.size() - begin)), to);
-}
-
 /// sRGB with absolute colours, and what stands for it where a reader does not know it (PNG 1.2, sec. 4.2.2).
 void append_srgb(std::string& to) {
-  append_chunk("sRGB", "\x03", to);
+  append_png_chunk("sRGB", "\x03", to);
   std::string gamma, colours;
-  append_number(45455, gamma);
-  for (const std::uint32_t place : {31270U, 32900U, 64000U, 33000U, 30000U, 60000U, 15000U, 6000U})
-    append_number(place, colours);
-  append_chunk("gAMA", gamma, to);
-  append_chunk("cHRM", colours, to);
+  append_png_number(45455, gamma);
+  for (const std::size_t place : {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000})
+    append_png_number(place, colours);
+  append_png_chunk("gAMA", gamma, to);
+  append_png_chunk("cHRM", colours, to);
 }
 
 /// The bytes of a row as a PNG has them: the higher byte of a word first.
@@ -111,21 +96,21 @@ std::string encode_png(const StoredPicture& picture, const PixelRows& rows) {
 
   std::string png("\x89PNG\r\n\x1a\n", 8);
   std::string header;
-  append_number(static_cast<std::uint32_t>(picture.width), header);
-  append_number(static_cast<std::uint32_t>(picture.height), header);
+  append_png_number(static_cast<std::size_t>(picture.width), header);
+  append_png_number(static_cast<std::size_t>(picture.height), header);
   constexpr char grey = 0, colour = 2;
   header += {static_cast<char>(picture.kind.bits), picture.channels == 1 ? grey : colour, 0, 0, 0};
-  append_chunk("IHDR", header, png);
+  append_png_chunk("IHDR", header, png);
   if (picture.value_of<std::string>("oiio:ColorSpace", {}) == "sRGB") append_srgb(png);
   for (const auto& [name, attribute] : picture.attributes) {
     const auto* const text = std::get_if<std::string>(&attribute);
     if (text != nullptr && name.starts_with(png_text))
-      append_chunk("tEXt", name.substr(png_text.size()) + '\0' + *text, png);
+      append_png_chunk("tEXt", name.substr(png_text.size()) + '\0' + *text, png);
   }
   constexpr std::size_t longest_chunk = std::size_t{1} << 30;
   for (std::size_t at = 0; at < deflated.size(); at += longest_chunk)
-    append_chunk("IDAT", std::string_view(deflated).substr(at, longest_chunk), png);
-  append_chunk("IEND", {}, png);
+    append_png_chunk("IDAT", std::string_view(deflated).substr(at, longest_chunk), png);
+  append_png_chunk("IEND", {}, png);
   return png;
 }
 

@@ -26,4 +26,15 @@ std::optional<std::vector<PngChunk>> png_chunks(std::string_view bytes) {
   return {};
 }
 
+void append_png_number(std::size_t number, std::string& to) {
+  for (const int shift : {24, 16, 8, 0}) to += static_cast<char>(number >> shift);
+}
+
+void append_png_chunk(std::string_view type, std::string_view data, std::string& to) {
+  append_png_number(data.size(), to);
+  const std::size_t checked = to.size();
+  to.append(type).append(data);
+  append_png_number(crc32_z(0, reinterpret_cast<const Bytef*>(to.data() + checked), to.size() - checked), to);
+}
+
 }  // namespace wheatstone

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,5 +22,9 @@ std::optional<std::vector<PngChunk>> png_chunks(std::string_view bytes);
 
 /// The four bytes from `at` on, the highest first; they must be there.
 std::uint32_t png_number(std::string_view bytes, std::size_t at);
+
+/// Appends a number so, and a chunk with its length and checksum.
+void append_png_number(std::size_t number, std::string& to);
+void append_png_chunk(std::string_view type, std::string_view data, std::string& to);
 
 }  // namespace wheatstone
