@@ -14,6 +14,8 @@ export const bristlesRule = `
 uniform float bristle;  // width that one leaves; 0: strokes have no bristles
 uniform float streaks, ridge, dry;
 flat in uint seed;
+uniform bool hasPicture;           // the brush has one
+uniform sampler2D brushPicture;    // its cover, with the stroke's length along x
 
 struct Place {
   float distance;       // to the stroke's curve
@@ -40,11 +42,26 @@ float noise(uint which, float place) {
   return mix(lattice(which, int(cell)), lattice(which, int(cell) + 1), part * part * (3.0 - 2.0 * part));
 }
 
+// How much of a stroke's paint the brush's picture takes away, 0..1.
+float leftBare(Place place, float radius, float whole) {
+  float level = clamp(round(log2(32.0 / radius)), 0.0, 4.0);
+  float side = (seed & 1u) != 0u ? -0.5 : 0.5;
+  vec2 share = vec2((place.along + radius) / (whole + 2.0 * radius), 0.5 + side * place.across / radius);
+  return 1.0 - textureLod(brushPicture, share, level).r;
+}
+
 // Of a brush whose rim has this middle and width.
 Paint paintAt(Place place, float middle, float rim, float strokeLength) {
   float radius = middle / 0.95, whole = max(strokeLength, 1e-3);
   float share = clamp(place.along / whole, 0.0, 1.0);
-  if (bristle == 0.0) return Paint(clamp((middle - place.distance) / rim + 0.5, 0.0, 1.0), share, 0.0);
+  float left = 1.0, pictured = 0.0;
+  if (hasPicture && strokeLength > 2.0 * radius) {
+    // Of a thin stroke the picture would leave holes as fine as its pixels.
+    float shownOfPicture = clamp((radius - 1.0) / 2.0, 0.0, 1.0), bare = leftBare(place, radius, whole);
+    pictured = shownOfPicture * streaks * (0.25 - bare);
+    if (dry > 0.0) left = 1.0 - shownOfPicture * bare;
+  }
+  if (bristle == 0.0 && !hasPicture) return Paint(clamp((middle - place.distance) / rim + 0.5, 0.0, 1.0), share, 0.0);
 
   // A bundle of bristles leaves one streak of a wide brush. Streaks that are too fine for the pixels are filtered.
   float width = max(bristle, radius / 6.0);
@@ -67,6 +84,6 @@ Paint paintAt(Place place, float middle, float rim, float strokeLength) {
   float atRim = clamp(1.0 - inside / (1.2 * width), 0.0, 1.0);
   float beside = max(1.0 - 2.0 * beyond / radius, 0.0);
   float facing = place.across < 0.0 ? -place.facing : place.facing;
-  float tone = shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * beside * atRim * facing);
-  return Paint(clamp(cover, 0.0, 1.0), share, tone);
+  float tone = pictured + shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * beside * atRim * facing);
+  return Paint(left * clamp(cover, 0.0, 1.0), share, tone);
 }`;

@@ -47,7 +47,7 @@ export interface StrokesFacts extends Common {
   /** Of the strokes' colours, in levels of 256. */
   colourStep: number;
   /** Where strokes are not even discs along their curves: src/wheatstone/marks/brush.h. */
-  brush?: { bristle: number; streaks: number; ridge: number; dry: number };
+  brush?: { bristle: number; streaks: number; ridge: number; dry: number; hasPicture: boolean };
   /** Coarse to fine; the bytes of each are the part "layer-0" and so on. */
   layers: { radius: number }[];
 }

@@ -7,7 +7,7 @@ import { deleteTarget, drawTo, drawWholePicture, fillWithFloats, Gl, makeProgram
 import { gapRule, hidingRule, PlannedIn } from "./hiding";
 import { PicturesOnSurfaces } from "./layered";
 import { StrokesFacts } from "./manifest";
-import { Source, streamsOf } from "./parts";
+import { inflated, Source, streamsOf } from "./parts";
 import { Picture } from "./picture";
 import { Surfaces } from "./surfaces";
 
@@ -192,6 +192,17 @@ function textureOf(gl: Gl, values: Float32Array, texelsARow: number): WebGLTextu
   return texture;
 }
 
+/** The picture of a brush, as src/wheatstone/marks/brush_picture.h has it, and its reductions. */
+function brushTexture(gl: Gl, cover: Uint8Array): WebGLTexture {
+  const texture = makeTexture(gl, gl.LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_NEAREST);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAX_LEVEL, 4);
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.R8, 256, 64, 0, gl.RED, gl.UNSIGNED_BYTE, cover);
+  gl.generateMipmap(gl.TEXTURE_2D);
+  return texture;
+}
+
 /** Strokes in the device's memory. */
 class DeviceChains {
   readonly strokeCount: number;
@@ -228,6 +239,7 @@ export class StrokesPicture implements Picture {
   private readonly program: Program;
   private readonly finish: Program;
   private readonly seen: WebGLTexture;
+  private brushPicture: WebGLTexture | undefined;
   private seenView: number | undefined;
   surfaces: Surfaces | undefined;
   readonly detail: { readonly layers: number; shown: number };
@@ -253,6 +265,8 @@ export class StrokesPicture implements Picture {
   async load(changed: () => void): Promise<void> {
     const { source, facts } = this;
     const surfaces = (this.surfaces = await Surfaces.fromPhotographs(source, facts.surfaces));
+    if (facts.brush?.hasPicture)
+      this.brushPicture = brushTexture(this.gl, new Uint8Array(await inflated(await source.bytes("brush"))));
     await this.loadLayer(0, surfaces);
     changed();
     // The coarse strokes are seen before the rest is decoded.
@@ -351,17 +365,19 @@ export class StrokesPicture implements Picture {
     gl.uniform1f(program.at("view"), view);
     gl.uniform1f(program.at("orderStep"), 2 / (this.strokeCount + 2));
     gl.uniform4fv(program.at("plans[0]"), this.plans());
-    const brush = facts.brush ?? { bristle: 0, streaks: 0, ridge: 0, dry: 0 };
+    const brush = facts.brush ?? { bristle: 0, streaks: 0, ridge: 0, dry: 0, hasPicture: false };
     gl.uniform1f(program.at("bristle"), brush.bristle * scale);
     gl.uniform1f(program.at("streaks"), brush.streaks);
     gl.uniform1f(program.at("ridge"), brush.ridge);
+    gl.uniform1i(program.at("hasPicture"), this.brushPicture ? 1 : 0);
+    if (this.brushPicture) useTexture(gl, program, "brushPicture", 4, this.brushPicture);
     // Behind everything, what other views planned fills the gaps that the reference view's strokes leave.
     let order = 0;
     for (const gaps of [true, false]) {
       gl.uniform1i(program.at("fillsGaps"), gaps ? 1 : 0);
       shown.forEach((layer, i) => {
         const chains = gaps ? layer.beside : layer.all;
-        // The coarsest layer is the ground of the others: it does not run dry.
+        // The coarsest layer is the ground of the others: it leaves paint everywhere.
         gl.uniform1f(program.at("dry"), i === 0 ? 0 : brush.dry);
         chains.draw(program, order);
         order += chains.strokeCount;

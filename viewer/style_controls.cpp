@@ -11,12 +11,14 @@ constexpr std::array<std::string_view, 3> propagations{"strokes", "raster", "ind
 constexpr std::array<std::string_view, 2> orientations{"smooth", "gradient"};
 constexpr std::array<std::string_view, 2> filters{"median", "gaussian"};
 constexpr std::array<std::string_view, 2> backgrounds{"photograph", "colour"};
+constexpr std::array<std::string_view, 7> brushes{"none", "round", "flat", "filbert", "fan", "knife", "charcoal"};
 
 struct NamedChoice {
   std::string_view parameter;
   std::span<const std::string_view> names;
 };
-constexpr std::array<NamedChoice, 5> choices{{{"marks", marks},
+constexpr std::array<NamedChoice, 6> choices{{{"marks", marks},
+                                              {"brush", brushes},
                                               {"propagation", propagations},
                                               {"orientation", orientations},
                                               {"reference-filter", filters},

@@ -104,7 +104,7 @@ await test("strokes and modes are those of the command line, and no address is a
 });
 
 // With strong streaks and ridges, a mistake in any of the formulas of bristles costs many decibels.
-for (const [name, scale, ...options] of [["oil", "2"], ["strong-oil", "0.5", "--streaks", "80", "--ridge", "80"]]) {
+for (const [name, scale, ...options] of [["oil", "2"], ["strong-oil", "0.5", "--streaks", "80", "--ridge", "80"], ["fan", "2", "--brush", "fan", "--streaks", "40"]]) {
   await test(`bristles and changes of colour of ${name} are those of the command line`, async () => {
     paint(name, "--style", "oil", ...options);
     run("paint", `${name}/painting.wst`, "--scale", scale, "-o", `${name}-${scale}`);

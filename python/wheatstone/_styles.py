@@ -38,6 +38,7 @@ class Style:
     streaks: float | None = None
     ridge: float | None = None
     dry: float | None = None
+    brush: str | os.PathLike | None = None
     dual: bool | None = None
     texture: bool | None = None
     marks: str | None = None

@@ -3,19 +3,21 @@
 
 layout(binding = 0) uniform usamplerBuffer strokes_bristles;    // two texels a stroke
 layout(binding = 1) uniform usamplerBuffer places_of_segments;  // a texel each
+layout(binding = 2) uniform usamplerBuffer brush_picture;       // bytes of class BrushPicture, 16 a texel
 
 // As struct Bristles in painting_gpu_internal.h has them.
 struct Bristles {
   vec3 change;
   float length_px, radius_px, width_px, dry_px;
   uint seed;
+  bool has_picture;  // the brush's is stretched over the stroke
 };
 
 Bristles bristles_of(uint stroke) {
   vec4 colour = uintBitsToFloat(texelFetch(strokes_bristles, int(2 * stroke)));
   uvec4 brush = texelFetch(strokes_bristles, int(2 * stroke + 1));
   vec3 sizes = uintBitsToFloat(brush.xyz);
-  return Bristles(colour.rgb, colour.w, sizes.x, sizes.y, sizes.z, brush.w);
+  return Bristles(colour.rgb, colour.w, sizes.x, abs(sizes.y), sizes.z, brush.w, sizes.y < 0);
 }
 
 // A pixel of a stroke: distance to its curve, and as DistanceBand.
@@ -55,6 +57,29 @@ float noise(uint seed, uint which, float place) {
   return mix(lattice(seed, which, int(cell)), lattice(seed, which, int(cell) + 1), part * part * (3 - 2 * part));
 }
 
+#if PAINT == BRISTLES
+// How much of a stroke's paint the brush's picture takes away, 0..1.
+float left_bare(Bristles of, Place place) {
+  int level = clamp(int(round(log2(32 / of.radius_px))), 0, 4);
+  ivec2 size = ivec2(256, 64) >> level;
+  const int firsts[5] = int[](0, 16384, 20480, 21504, 21760);
+  float side = (of.seed & 1) != 0 ? -0.5 : 0.5;
+  vec2 share = vec2((place.along + of.radius_px) / (of.length_px + 2 * of.radius_px),
+                    0.5 + side * place.across / of.radius_px);
+  vec2 at = clamp(share * size - 0.5, vec2(0), vec2(size - 1));
+  ivec2 first = min(ivec2(at), size - 2);
+  vec2 part = at - first;
+  int byte = firsts[level] + first.y * size.x + first.x;
+  float levels[4];
+  for (int i = 0; i < 4; ++i) {
+    int here = byte + (i & 1) + (i >> 1) * size.x;
+    uint word = texelFetch(brush_picture, here >> 4)[here >> 2 & 3];
+    levels[i] = float(word >> 8 * (here & 3) & 255) / 255;
+  }
+  return 1 - mix(mix(levels[0], levels[1], part.x), mix(levels[2], levels[3], part.x), part.y);
+}
+#endif
+
 Paint paint_at(Bristles of, float middle_px, float rim_px, Place place) {
   float share = clamp(place.along / of.length_px, 0.0, 1.0);
 #if PAINT != BRISTLES
@@ -83,6 +108,14 @@ Paint paint_at(Bristles of, float middle_px, float rim_px, Place place) {
   float beside = max(1 - 2 * beyond / of.radius_px, 0);
   float to_rim = clamp(1 - inside / (1.2 * of.width_px), 0.0, 1.0);
   float facing = place.across < 0 ? -place.facing : place.facing;
-  return Paint(cover, share, shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * beside * to_rim * facing));
+  float tone = shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * beside * to_rim * facing);
+  if (of.has_picture) {
+    // Of a thin stroke the picture would leave holes as fine as its pixels.
+    float pictured = clamp((of.radius_px - 1) / 2, 0.0, 1.0);
+    float bare = left_bare(of, place);
+    tone += pictured * streaks * (0.25 - bare);
+    if (of.dry_px > 0) cover = min(cover, clamp(cover, 0.0, 1.0) * (1 - pictured * bare));
+  }
+  return Paint(cover, share, tone);
 #endif
 }

@@ -25,19 +25,25 @@ class Bristles {
 
   Bristles(const FlatStroke& stroke, const Brush& brush)
       : profile_(stroke.radius_px),
-        has_bristles_(brush.bristle_px > 0),
-        runs_dry_(brush.dry > 0 && stroke.length > 2 * stroke.radius_px),
+        has_bristles_(brush.varies()),
+        is_long_(stroke.length > 2 * stroke.radius_px),
         seed_(stroke.seed),
         radius_(stroke.radius_px),
         length_(std::max(stroke.length, 1e-3f)),
         // A bundle of bristles leaves one streak of a wide brush.
         width_(std::max(brush.bristle_px, stroke.radius_px / 6)),
-        dry_(brush.dry) {
+        dry_(is_long_ ? brush.dry : 0),
+        picture_(is_long_ && !brush.picture.empty() ? brush.picture.levels.data() : nullptr) {
     // Streaks that are too fine for the pixels of a view are filtered, so that they do not sparkle.
     shown_ = std::clamp((width_ - 0.6f) / 0.9f, 0.f, 1.f);
     streaks_ = shown_ * brush.streaks;
     ridge_ = shown_ * brush.ridge;
     ragged_ = shown_ * 0.12f;
+    if (picture_ == nullptr) return;
+    level_ = BrushPicture::sizes[static_cast<std::size_t>(brush_level(radius_))];
+    // Of a thin stroke the picture would leave holes as fine as its pixels.
+    pictured_ = std::clamp((radius_ - 1) / 2, 0.f, 1.f);
+    pictured_tone_ = pictured_ * brush.streaks;
   }
 
   /// Pixels of a stroke: distance to its curve, and as DistanceBand.
@@ -69,7 +75,7 @@ class Bristles {
     // Distance beyond the ends of the curve.
     const auto beyond =
         hn::Sqrt(hn::Max(hn::NegMulAdd(place.across, place.across, hn::Mul(place.distance, place.distance)), zero));
-    if (runs_dry_) {
+    if (dry_ > 0) {
       // Each bristle has paint for its own length.
       const auto run = hn::NegMulAdd(hn::Set(f, dry_ * length_), noise(2, lane), hn::Set(f, length_));
       cover = hn::Min(cover, hn::NegMulAdd(hn::Sub(place.along, run), hn::Set(f, 1 / (1.5f * width_)), one));
@@ -89,10 +95,47 @@ class Bristles {
     const auto to_rim = hn::Max(hn::NegMulAdd(inside, hn::Set(f, 1 / (1.2f * width_)), one), zero);
     const auto facing = hn::Mul(place.facing, hn::CopySign(one, place.across));
     tone = hn::MulAdd(hn::Mul(hn::Mul(hn::Set(f, ridge_), beside), hn::Min(to_rim, one)), facing, tone);
-    return {cover, share, tone};
+    return pictured({cover, share, tone}, place);
   }
 
  private:
+  /// The paint as the brush's picture leaves it: where the picture is dark, there is less of it, and it is darker.
+  HWY_INLINE Paint pictured(const Paint& paint, const Place& place) const {
+    if (picture_ == nullptr) return paint;
+    const Floats f;
+    const hn::RebindToSigned<Floats> integers;
+    const auto one = hn::Set(f, 1.f);
+    // Of a line of pixels: the first of the two between which a place from 0 to 1 lies, and how far it lies from there.
+    const auto between = [&](V share, int count, V& part) {
+      const auto most = hn::Set(f, static_cast<float>(count - 1));
+      const auto at = hn::Min(
+          hn::Max(hn::MulSub(share, hn::Set(f, static_cast<float>(count)), hn::Set(f, 0.5f)), hn::Zero(f)), most);
+      const auto first = hn::Min(hn::Floor(at), hn::Sub(most, one));
+      part = hn::Sub(at, first);
+      return hn::ConvertTo(integers, first);
+    };
+    const float whole = length_ + 2 * radius_, side = (seed_ & 1) != 0 ? -0.5f : 0.5f;
+    V part_x, part_y;
+    const auto column =
+        between(hn::Mul(hn::Add(place.along, hn::Set(f, radius_)), hn::Set(f, 1 / whole)), level_.columns, part_x);
+    const auto row =
+        between(hn::MulAdd(place.across, hn::Set(f, side / radius_), hn::Set(f, 0.5f)), level_.rows, part_y);
+    const auto* pixels = reinterpret_cast<const std::int32_t*>(picture_ + level_.first);
+    const auto at = hn::Add(hn::Mul(row, hn::Set(integers, level_.columns)), column);
+    const auto of_row = [&](auto from) {
+      const auto bytes = hn::GatherOffset(integers, pixels, from);
+      const auto level = [&](auto byte) { return hn::ConvertTo(f, hn::And(byte, hn::Set(integers, 255))); };
+      const auto left = level(bytes), right = level(hn::ShiftRight<8>(bytes));
+      return hn::MulAdd(part_x, hn::Sub(right, left), left);
+    };
+    const auto above = of_row(at), below = of_row(hn::Add(at, hn::Set(integers, level_.columns)));
+    const auto left_bare = hn::NegMulAdd(hn::MulAdd(part_y, hn::Sub(below, above), above), hn::Set(f, 1.f / 255), one);
+    const auto tone = hn::MulAdd(hn::Set(f, pictured_tone_), hn::Sub(hn::Set(f, 0.25f), left_bare), paint.tone);
+    if (dry_ == 0) return {paint.cover, paint.share, tone};
+    const auto shown = hn::NegMulAdd(hn::Set(f, pictured_), left_bare, one);
+    return {hn::Min(paint.cover, hn::Mul(hn::Min(hn::Max(paint.cover, hn::Zero(f)), one), shown)), paint.share, tone};
+  }
+
   /// Smooth noise 0..1 between lattice points a unit apart; `which` tells several apart.
   HWY_INLINE V noise(std::uint32_t which, V place) const {
     const Floats f;
@@ -117,9 +160,12 @@ class Bristles {
   }
 
   BrushProfile profile_;
-  bool has_bristles_, runs_dry_;
+  bool has_bristles_, is_long_;
   std::uint32_t seed_;
-  float radius_, length_, width_, dry_, shown_ = 0, streaks_ = 0, ridge_ = 0, ragged_ = 0;
+  float radius_, length_, width_, dry_;
+  const std::uint8_t* picture_;  ///< null: none
+  BrushPicture::Level level_{};
+  float pictured_ = 0, pictured_tone_ = 0, shown_ = 0, streaks_ = 0, ridge_ = 0, ragged_ = 0;
 };
 
 }  // namespace wheatstone::HWY_NAMESPACE

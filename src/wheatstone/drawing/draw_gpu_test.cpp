@@ -60,10 +60,11 @@ TEST_F(DrawGpu, DrawsBristlesAsTheProcessorDoes) {
   };
   Painting painting = painting_of(style_by_name("oil"));
   auto& strokes = std::get<StrokePainting>(painting.marks);
-  const Brush of_style = strokes.brush, coarse{.bristle_px = 3, .streaks = 40, .ridge = 0, .dry = 1};
+  const Brush of_style = strokes.brush, coarse{.bristle_px = 3, .streaks = 40, .ridge = 0, .dry = 1},
+              of_picture{.streaks = 40, .dry = 0.2f, .picture = read_brush("fan")};
   strokes.brush = {};
   const std::vector<Image<Rgb8>> even = pictures(painting, Device::processor);
-  for (const Brush& brush : {of_style, coarse}) {
+  for (const Brush& brush : {of_style, coarse, of_picture}) {
     strokes.brush = brush;
     const std::vector<Image<Rgb8>> expected = pictures(painting, Device::processor);
     EXPECT_LT(worst_psnr(even, expected), 40) << brush.streaks;

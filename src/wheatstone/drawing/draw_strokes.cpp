@@ -448,7 +448,7 @@ PreparedStrokes prepare_marks(const StrokePainting& painting) {
     layer.flat = flatten(painting.layers[i]);
     layer.bands = strokes_by_band(layer.flat, painting.height);
     layer.brush = painting.brush;
-    if (i == 0) layer.brush.dry = 0;
+    if (i == 0) layer.brush = ground_brush(painting.brush);
   });
   return prepared;
 }

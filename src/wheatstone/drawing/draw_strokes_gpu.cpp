@@ -53,7 +53,7 @@ enum class PaintInStrokes { even, changes, bristles };
 PaintInStrokes paint_of(const PreparedStrokes& painting) {
   PaintInStrokes paint = PaintInStrokes::even;
   for (const BandedLayer& layer : painting.layers) {
-    if (layer.brush.bristle_px > 0) return PaintInStrokes::bristles;
+    if (layer.brush.varies()) return PaintInStrokes::bristles;
     if (std::ranges::any_of(layer.flat.strokes, &FlatStroke::changes_colour)) paint = PaintInStrokes::changes;
   }
   return paint;
@@ -64,16 +64,25 @@ Brush brush_of(const PreparedStrokes& painting) {
   return painting.layers.empty() ? Brush{} : painting.layers.back().brush;
 }
 
+/// The bytes of its picture, and as many more as make whole texels.
+std::vector<std::uint8_t> picture_of(const PreparedStrokes& painting) {
+  constexpr std::size_t texel_bytes = 16;
+  std::vector<std::uint8_t> bytes = brush_of(painting).picture.levels;
+  bytes.resize((bytes.size() + texel_bytes - 1) / texel_bytes * texel_bytes);
+  return bytes;
+}
+
 /// As class Bristles in bristles_simd_internal.h has it.
 StrokesForGpu::Bristles bristles_for_gpu(const FlatStroke& stroke, const Brush& brush) {
-  const bool runs_dry = stroke.length > 2 * stroke.radius_px;
+  const bool is_long = stroke.length > 2 * stroke.radius_px;
+  const float width_px = std::max(brush.bristle_px, stroke.radius_px / 6);
   return {stroke.red_change,
           stroke.green_change,
           stroke.blue_change,
           std::max(stroke.length, 1e-3f),
           stroke.radius_px,
-          std::max(brush.bristle_px, stroke.radius_px / 6),
-          runs_dry ? brush.dry * stroke.length : 0,
+          is_long && !brush.picture.empty() ? -width_px : width_px,
+          is_long ? brush.dry * stroke.length : 0,
           stroke.seed};
 }
 
@@ -198,7 +207,8 @@ GpuStrokes::GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& 
       strokes_(std::span<const StrokesForGpu::Stroke>(flat_.strokes)),
       segments_(std::span<const Segment>(flat_.segments)),
       bristles_(std::span<const StrokesForGpu::Bristles>(flat_.bristles)),
-      places_(std::span<const StrokesForGpu::PlacesOfSegment>(flat_.places)) {
+      places_(std::span<const StrokesForGpu::PlacesOfSegment>(flat_.places)),
+      brush_picture_(std::span<const std::uint8_t>(picture_of(painting))) {
   if (relief.depth_px > 0) relief_.emplace(painting, surfaces, relief);
 }
 
@@ -245,7 +255,7 @@ GpuBuffer GpuStrokes::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes,
     draw_strokes_.run(
         {groups_a_band, groups_of(painting_.height, tile_px), count},
         {&of_work, &strokes_, &segments_, &cells_->cell_first, &cells_->in_cells, &planes, &behind_or_wanted, &pixels},
-        {&bristles_, &places_});
+        {&bristles_, &places_, &brush_picture_});
   };
   draw_pixels(only_wanted ? *views.wanted : behind);
   if (work.shows_behind == 0) {

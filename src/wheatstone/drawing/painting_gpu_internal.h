@@ -49,8 +49,8 @@ struct StrokesForGpu {
   /// What varies within a stroke, as bristles.glsl reads it: two texels.
   struct Bristles {
     float red_change, green_change, blue_change, length;
-    float radius_px, width_px;
-    float dry_px;  ///< before a stroke's end a bristle may run out of paint; 0: none does
+    float radius_px, width_px;  ///< of the stroke and of a bristle; below 0: as wide, and the brush has a picture
+    float dry_px;               ///< before a stroke's end a bristle may run out of paint; 0: none does
     std::uint32_t seed;
   };
   /// A segment's places along its stroke, in pixels: a texel.
@@ -135,7 +135,7 @@ class GpuStrokes {
   const PreparedStrokes& painting_;
   StrokesForGpu flat_;
   GpuProgram draw_strokes_, continue_paint_, want_rows_;
-  GpuBuffer strokes_, segments_, bristles_, places_;
+  GpuBuffer strokes_, segments_, bristles_, places_, brush_picture_;
   std::optional<CellsOnGpu> cells_;
   std::optional<GpuRelief> relief_;
 };

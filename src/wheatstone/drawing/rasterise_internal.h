@@ -227,7 +227,7 @@ struct StrokeInBand {
   const Brush& brush;
 
   /// Whether its paint is not the same everywhere.
-  bool varies() const { return brush.bristle_px > 0 || stroke.changes_colour(); }
+  bool varies() const { return brush.varies() || stroke.changes_colour(); }
 };
 
 /// Draws what is seen of a stroke under everything that was drawn before, with vectors of whatever width the processor

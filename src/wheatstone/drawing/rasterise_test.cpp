@@ -54,7 +54,7 @@ class PlainBristles {
   Paint at(const OnStroke& place) const {
     const BrushProfile profile(stroke_.radius_px);
     const float share = std::clamp(place.along / std::max(stroke_.length, 1e-3f), 0.f, 1.f);
-    if (brush_.bristle_px == 0) return {profile.cover(place.distance), share, 0};
+    if (!brush_.varies()) return {profile.cover(place.distance), share, 0};
     const float shown = std::clamp((width_ - 0.6f) / 0.9f, 0.f, 1.f), lane = place.across / width_;
     const float ragged = noise(1, place.along / (1.2f * stroke_.radius_px) + (place.across > 0 ? 40.f : 0.f));
     const float inside = profile.middle_px * (1 - 0.12f * shown * ragged) - place.distance;
@@ -70,10 +70,32 @@ class PlainBristles {
     tone += shown * brush_.ridge * std::max(1 - 2 * beyond / stroke_.radius_px, 0.f) *
             std::clamp(1 - inside / (1.2f * width_), 0.f, 1.f) *
             std::copysign(place.facing, place.facing * place.across);
-    return {std::clamp(cover, 0.f, 1.f), share, tone};
+    cover = std::clamp(cover, 0.f, 1.f);
+    if (brush_.picture.empty() || stroke_.length <= 2 * stroke_.radius_px) return {cover, share, tone};
+    const float pictured = std::clamp((stroke_.radius_px - 1) / 2, 0.f, 1.f), bare = 1 - of_picture(place);
+    if (brush_.dry > 0) cover *= 1 - pictured * bare;
+    return {cover, share, tone + pictured * brush_.streaks * (0.25f - bare)};
   }
 
  private:
+  /// The cover of the brush's picture, 0..1, between four pixels of the level for the stroke's width.
+  float of_picture(const OnStroke& place) const {
+    const auto& [columns, rows, first] = BrushPicture::sizes[static_cast<std::size_t>(brush_level(stroke_.radius_px))];
+    const float side = stroke_.seed % 2 == 1 ? -1.f : 1.f;
+    const float x = (place.along + stroke_.radius_px) / (stroke_.length + 2 * stroke_.radius_px);
+    const float y = (1 + side * place.across / stroke_.radius_px) / 2;
+    const auto pixel = [&](int column, int row) {
+      return static_cast<float>(brush_.picture.levels[first + static_cast<std::size_t>(row * columns + column)]) / 255;
+    };
+    const float column = std::clamp(x * static_cast<float>(columns) - 0.5f, 0.f, static_cast<float>(columns - 1));
+    const float row = std::clamp(y * static_cast<float>(rows) - 0.5f, 0.f, static_cast<float>(rows - 1));
+    const int left = static_cast<int>(column), top = static_cast<int>(row);
+    const int right = std::min(left + 1, columns - 1), bottom = std::min(top + 1, rows - 1);
+    return std::lerp(std::lerp(pixel(left, top), pixel(right, top), column - static_cast<float>(left)),
+                     std::lerp(pixel(left, bottom), pixel(right, bottom), column - static_cast<float>(left)),
+                     row - static_cast<float>(top));
+  }
+
   float noise(std::uint32_t which, float place) const {
     const float cell = std::floor(place), part = place - cell, weight = part * part * (3 - 2 * part);
     const auto lattice = [&](std::int32_t point) {
@@ -225,6 +247,19 @@ TEST(Bristles, AreThoseOfTheObviousWay) {
     const StrokePainting even = painting_of(width, height, 1);
     if (width > 16) {
       EXPECT_GE(mean_difference(drawn, draw_plainly(even, central_view)), 5);
+    }
+  }
+}
+
+TEST(Bristles, ThatAPictureTellsAreThoseOfTheObviousWay) {
+  StrokePainting painting = bristly_painting_of(97, 71);
+  const Image<Rgb8> without = draw(Painting{painting}, central_view).picture;
+  for (const float bristle_px : {1.4f, 0.f}) {
+    for (const float dry : {0.6f, 0.f}) {
+      painting.brush = {.bristle_px = bristle_px, .streaks = 30, .dry = dry, .picture = read_brush("fan")};
+      const Image<Rgb8> drawn = draw(Painting{painting}, central_view).picture;
+      EXPECT_LE(mean_difference(drawn, draw_plainly(painting, central_view)), 0.4) << bristle_px << ' ' << dry;
+      EXPECT_GE(mean_difference(drawn, without), 3) << bristle_px << ' ' << dry;
     }
   }
 }

@@ -1,18 +1,32 @@
 #pragma once
 
+#include "wheatstone/marks/brush_picture.h"
+
 namespace wheatstone {
 
-/// How a brush's bristles leave their paint. Without bristles a stroke is an even disc along its curve, as in the
+/// How a brush leaves its paint. Without bristles a stroke is an even disc along its curve, as in the
 /// papers. What a bristle leaves belongs to the stroke, by a hash of its number: it is the same in all views, and stays
 /// on the stroke from frame to frame.
 struct Brush {
-  float bristle_px =
-      0;              ///< width that a bristle leaves, in pixels of the painting; wide strokes have wider ones; 0: none
-  float streaks = 0;  ///< levels, of 255, by which the paint of a bristle may be lighter or darker
-  float ridge = 0;    ///< levels by which the paint at a stroke's rim is lighter or darker, lit from the upper left
-  float dry = 0;      ///< share of a stroke's length, 0..1, before whose end a bristle may run out of paint
+  float bristle_px = 0;  ///< width that a bristle leaves, in pixels of the painting; wide strokes have wider ones; 0:
+                         ///< none, or only those
+  float streaks = 0;     ///< levels, of 255, by which the paint of a bristle may be lighter or darker
+  float ridge = 0;       ///< levels by which the paint at a stroke's rim is lighter or darker, lit from the upper left
+  float dry = 0;         ///< share of a stroke's length, 0..1, before whose end a bristle may run out of paint
+  /// Stretched over strokes that are longer than wide; those of a radius below 3 px show less of it. Where it is dark,
+  /// the paint of a brush that runs dry leaves the ground bare, and is darker in the measure of the streaks.
+  BrushPicture picture = {};
+
+  /// Whether its paint is not the same everywhere in a stroke.
+  bool varies() const { return bristle_px > 0 || !picture.empty(); }
   friend bool operator==(const Brush&, const Brush&) = default;
 };
+
+/// The brush of a painting's coarsest layer, which is the ground of the others: it covers all of its strokes.
+inline Brush ground_brush(Brush brush) {
+  brush.dry = 0;
+  return brush;
+}
 
 /// The brush: a disc whose cover falls from 1 to 0 across a soft rim a tenth of its radius wide, but never less than a
 /// pixel, which is the antialiasing. Half cover lies at 0.95 R, the middle of the rim.

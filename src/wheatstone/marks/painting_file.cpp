@@ -63,6 +63,13 @@ flatbuffers::Offset<file::Layer> encode_layer(const Layer& layer, flatbuffers::F
                                  changing ? &changes : nullptr);
 }
 
+flatbuffers::Offset<file::Brush> encode_brush(const Brush& brush, flatbuffers::FlatBufferBuilder& builder) {
+  const auto& [bristle_px, streaks, ridge, dry, picture] = brush;
+  if (picture.empty()) return file::CreateBrush(builder, bristle_px, streaks, ridge, dry);
+  const std::vector<std::uint8_t> cover(picture.cover().begin(), picture.cover().end());
+  return file::CreateBrushDirect(builder, bristle_px, streaks, ridge, dry, &cover, picture.name.c_str());
+}
+
 flatbuffers::Offset<file::Regions> encode_regions(const RegionPainting& regions,
                                                   flatbuffers::FlatBufferBuilder& builder) {
   PointColumns points;
@@ -187,12 +194,19 @@ ColourChange decode_change(const file::ColourChange& from, const Checker& checke
 }
 
 Brush decode_brush(const file::Brush& from, const Checker& checker) {
-  const Brush brush{from.bristle_px(), from.streaks(), from.ridge(), from.dry()};
+  Brush brush{from.bristle_px(), from.streaks(), from.ridge(), from.dry()};
   checker.expect(brush.bristle_px >= 0 && brush.bristle_px <= static_cast<float>(largest_side_px),
                  "the brush's bristles are out of range");
   checker.expect(brush.streaks >= 0 && brush.streaks <= 255 && brush.ridge >= 0 && brush.ridge <= 255 &&
                      brush.dry >= 0 && brush.dry <= 1,
                  "the brush is out of range");
+  if (from.picture() == nullptr) return brush;
+  checker.expect(from.picture()->size() == BrushPicture::length * BrushPicture::width,
+                 fmt::format("the brush's picture has {} pixels, expected {}x{}", from.picture()->size(),
+                             BrushPicture::length, BrushPicture::width));
+  const auto* name = from.picture_name();
+  brush.picture =
+      brush_picture(name == nullptr ? "picture" : name->str(), {from.picture()->data(), from.picture()->size()});
   return brush;
 }
 
@@ -314,8 +328,7 @@ Painting decode_payload(const file::Painting& from, const Checker& checker) {
 void add_marks(const StrokePainting& painting, flatbuffers::FlatBufferBuilder& payload, MarksInFile& to) {
   to.canvas = painting.canvas_colour;
   to.canvas_shows = painting.canvas_shows;
-  const auto& [bristle_px, streaks, ridge, dry] = painting.brush;
-  if (painting.brush != Brush{}) to.brush = file::CreateBrush(payload, bristle_px, streaks, ridge, dry);
+  if (painting.brush != Brush{}) to.brush = encode_brush(painting.brush, payload);
   for (const Layer& layer : painting.layers) to.layers.push_back(encode_layer(layer, payload));
 }
 void add_marks(const RegionPainting& painting, flatbuffers::FlatBufferBuilder& payload, MarksInFile& to) {

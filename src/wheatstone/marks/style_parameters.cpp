@@ -60,6 +60,15 @@ constexpr std::array fitted_only{Marks::fitted_strokes};
 constexpr std::array regions_only{Marks::regions};
 constexpr std::array tiles_only{Marks::tiles};
 
+std::string toml_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') quoted += '\\';
+    quoted += letter;
+  }
+  return quoted + '"';
+}
+
 template <class Member>
 StyleParameter number(std::string_view name, std::string_view help, Member member,
                       std::span<const Marks> read_by = strokes_only) {
@@ -150,6 +159,9 @@ std::vector<StyleParameter> make_parameters() {
       brush("streaks", "Levels by which the paint of a bristle may be lighter or darker, 0..255", &Brush::streaks),
       brush("ridge", "Levels by which the paint at a stroke's rim is lit, 0..255", &Brush::ridge),
       brush("dry", "Share of a stroke's length before whose end a bristle may run out of paint, 0..1", &Brush::dry),
+      {"brush", "Brush: none, round, flat, filbert, fan, knife, charcoal, or a picture whose white covers", false,
+       [](const Style& style) { return toml_text(style.brush.picture.empty() ? "none" : style.brush.picture.name); },
+       [](Style& style, std::string_view text) { style.brush.picture = read_brush(std::string(text)); }, fitted_only},
       toggle("dual", "Strokes of two colours, side by side", &Style::dual, traced_only),
       toggle("texture", "Relief of the paint, lit from one side", &Style::texture),
       choice("marks", "Kind of marks: strokes, fitted-strokes, regions of few colours, tiles of a mosaic, or curves",

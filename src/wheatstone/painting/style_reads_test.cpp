@@ -35,6 +35,7 @@ const std::map<std::string_view, std::string_view>& other_values() {
       {"bristle", "40"},
       {"streaks", "60"},
       {"ridge", "60"},
+      {"brush", "fan"},
       {"dry", "0"},
       {"dual", "true"},
       {"texture", "true"},

@@ -9,6 +9,7 @@
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/drawing/hidden_strokes.h"
 #include "wheatstone/error.h"
+#include "wheatstone/marks/deflated.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/share/mark_parts_internal.h"
@@ -39,8 +40,14 @@ void add_marks(const StrokePainting& painting, const Rounding& rounding, Json& f
   facts["stepsAPixel"] = rounding.steps_a_px;
   facts["colourStep"] = rounding.colour_step;
   const bool vary = strokes_vary(painting);
-  const auto& [bristle_px, streaks, ridge, dry] = painting.brush;
-  if (vary) facts["brush"] = {{"bristle", bristle_px}, {"streaks", streaks}, {"ridge", ridge}, {"dry", dry}};
+  const auto& [bristle_px, streaks, ridge, dry, picture] = painting.brush;
+  if (vary)
+    facts["brush"] = {{"bristle", bristle_px},
+                      {"streaks", streaks},
+                      {"ridge", ridge},
+                      {"dry", dry},
+                      {"hasPicture", !picture.empty()}};
+  if (!picture.empty()) parts.push_back({"brush", deflated(picture.cover())});
   Json layers = Json::array();
   Plans plans;
   for (const Layer& layer : painting.layers) {

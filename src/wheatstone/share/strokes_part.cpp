@@ -49,7 +49,7 @@ std::size_t Plans::number_of(const Planned& planned) {
 
 bool strokes_vary(const StrokePainting& painting) {
   const auto changes = [](const Stroke& stroke) { return stroke.change != ColourChange{}; };
-  return painting.brush.bristle_px > 0 || std::ranges::any_of(painting.layers, [&](const Layer& layer) {
+  return painting.brush.varies() || std::ranges::any_of(painting.layers, [&](const Layer& layer) {
            return std::ranges::any_of(layer.strokes, changes);
          });
 }

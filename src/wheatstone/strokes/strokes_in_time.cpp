@@ -207,7 +207,9 @@ class ViewPainter {
   /// What the brush leaves bare counts for the strokes over it; its streaks are no error.
   Brush cover_of_brush(int layer) const {
     const Brush& brush = at_->scaled.brush;
-    return {.bristle_px = brush.bristle_px, .dry = layer > 0 ? brush.dry : 0};
+    Brush of_layer = layer > 0 ? brush : ground_brush(brush);
+    of_layer.streaks = of_layer.ridge = 0;
+    return of_layer;
   }
 
   Hiding hiding() const { return {.surface = at_->view.disparity, .tolerance_px = at_->scaled.depth_threshold_px}; }
