@@ -23,7 +23,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/marks/painting_file.h"
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {

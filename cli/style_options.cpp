@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 
 namespace wheatstone::cli {
 

@@ -15,8 +15,8 @@
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/marks/painting_file.h"
-#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/matching/match.h"
+#include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/write_image.h"
 

@@ -12,7 +12,7 @@
 #include "particle_film.h"
 #include "particle_scene.h"
 #include "style_controls.h"
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 
 namespace wheatstone::viewer {
 namespace {

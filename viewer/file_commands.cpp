@@ -10,7 +10,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::viewer {

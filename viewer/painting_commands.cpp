@@ -12,7 +12,7 @@
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 
 namespace wheatstone::viewer {
 namespace {

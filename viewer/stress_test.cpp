@@ -23,9 +23,9 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
-#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 

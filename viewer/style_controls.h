@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 
 namespace wheatstone::viewer {
 

@@ -11,7 +11,7 @@
 #include "cli/run_program.h"
 #include "cli/style_options.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"

@@ -61,7 +61,7 @@ TEST_F(DrawGpu, DrawsBristlesAsTheProcessorDoes) {
   Painting painting = painting_of(style_by_name("oil"));
   auto& strokes = std::get<StrokePainting>(painting.marks);
   const Brush of_style = strokes.brush, coarse{.bristle_px = 3, .streaks = 40, .ridge = 0, .dry = 1},
-              of_picture{.streaks = 40, .dry = 0.2f, .picture = read_brush("fan")};
+              of_picture{.streaks = 40, .dry = 0.2f, .picture = built_in_brush("fan")};
   strokes.brush = {};
   const std::vector<Image<Rgb8>> even = pictures(painting, Device::processor);
   for (const Brush& brush : {of_style, coarse, of_picture}) {

@@ -256,7 +256,7 @@ TEST(Bristles, ThatAPictureTellsAreThoseOfTheObviousWay) {
   const Image<Rgb8> without = draw(Painting{painting}, central_view).picture;
   for (const float bristle_px : {1.4f, 0.f}) {
     for (const float dry : {0.6f, 0.f}) {
-      painting.brush = {.bristle_px = bristle_px, .streaks = 30, .dry = dry, .picture = read_brush("fan")};
+      painting.brush = {.bristle_px = bristle_px, .streaks = 30, .dry = dry, .picture = built_in_brush("fan")};
       const Image<Rgb8> drawn = draw(Painting{painting}, central_view).picture;
       EXPECT_LE(mean_difference(drawn, draw_plainly(painting, central_view)), 0.4) << bristle_px << ' ' << dry;
       EXPECT_GE(mean_difference(drawn, without), 3) << bristle_px << ' ' << dry;

@@ -12,8 +12,8 @@
 #include "wheatstone/drawing/prepared_painting_internal.h"
 #include "wheatstone/drawing/seen_surface_internal.h"
 #include "wheatstone/drawing/visible_strokes_internal.h"
-#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/style_parameters.h"
 
 namespace wheatstone::svg_test {
 

@@ -44,8 +44,7 @@ BrushPicture brush_picture(std::string name, std::span<const std::uint8_t> cover
 /// The names of the built-in brushes.
 std::span<const std::string_view> brush_names();
 
-/// A built-in brush by its name, "none", or any picture by its path: its lightness is the cover, reduced or enlarged to
-/// length × width. Throws Error{wrong_usage} where it is neither, which lists the names, or where the picture is black.
-BrushPicture read_brush(const std::string& name_or_path);
+/// A built-in brush by its name; empty where there is none such.
+BrushPicture built_in_brush(std::string_view name);
 
 }  // namespace wheatstone

@@ -8,7 +8,8 @@
 
 #include "temporary_folder.h"
 #include "throws_error.h"
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/read_brush.h"
+#include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "wheatstone/error.h"
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 
 namespace wheatstone::style_test {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <string_view>
 
-#include "wheatstone/marks/style_parameters.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::style_reads_test {

@@ -79,6 +79,11 @@ void most_errors(const LayerPlan& plan, int left, int y, std::span<float> errors
         squared(FitColour::of(red[i] - painted_red[i], green[i] - painted_green[i], blue[i] - painted_blue[i]));
     errors[i] = covered[i] < 0.5f ? squared_error_of_bare : difference;
   }
+  if (weighs_outlines(plan)) {
+    const auto outline = row(plan.depth_edges);
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      if (outline[i] != 0) errors[i] *= weight_of_outline;
+  }
   if (plan.view.detail.empty()) return;
   const auto detail = row(plan.view.detail);
   const std::array<float, 256>& of_detail = detail_weights();

@@ -337,6 +337,11 @@ const std::array<float, 256>& detail_weights() {
   return weights;
 }
 
+bool weighs_outlines(const LayerPlan& plan) {
+  constexpr float fine_px = 6;
+  return !plan.depth_edges.empty() && plan.radius_px <= fine_px;
+}
+
 FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_, int top_, int right, int bottom)
     : left(std::max(left_, 0)),
       top(std::max(top_, 0)),
@@ -366,6 +371,11 @@ FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_,
   for (int y = 0; y < height && !plan.view.detail.empty(); ++y) {
     const auto row = plan.view.detail.row(top + y).subspan(static_cast<std::size_t>(left));
     for (int x = 0; x < width; ++x) weight[at(x, y)] *= of_detail[row[static_cast<std::size_t>(x)]];
+  }
+  for (int y = 0; y < height && weighs_outlines(plan); ++y) {
+    const auto row = plan.depth_edges.row(top + y).subspan(static_cast<std::size_t>(left));
+    for (int x = 0; x < width; ++x)
+      if (row[static_cast<std::size_t>(x)] != 0) weight[at(x, y)] *= weight_of_outline;
   }
   for (std::size_t pixel = 0; pixel < error.size(); ++pixel) find_error(pixel);
 }
@@ -413,11 +423,8 @@ PathFit fit_along(const Path& path, const FitTile& tile, const LayerPlan& plan, 
     while (l + 1 < length_shares.size() && (share < within[l][0] || share > within[l][1])) ++l;
     while (w + 1 < width_shares.size() && distance > width_shares[w] * radius) ++w;
     Moments& bin = moments[l][w];
-    constexpr float spill = 400;
-    if (side == Side::farther) {
-      bin.before -= spill;
-      return;
-    }
+    constexpr float spill = 60;
+    if (side == Side::farther) bin.before -= spill;
     bin.before += tile.error[pixel];
     bin.add(tile.weight[pixel], share, tile.wanted[pixel]);
   };

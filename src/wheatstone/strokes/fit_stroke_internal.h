@@ -42,6 +42,11 @@ inline FitColour operator-(const FitColour& a, const FitColour& b) {
 /// fineness that is 0.5 higher. By View::detail.
 const std::array<float, 256>& detail_weights();
 
+/// Pixels beside depth edges count so many times as much for fine strokes: there, broad paint of one surface would show
+/// as a rim of the other.
+inline constexpr float weight_of_outline = 2;
+bool weighs_outlines(const LayerPlan& plan);
+
 /// What a bare pixel counts as, in squared steps.
 inline constexpr float squared_error_of_bare = 900;
 

@@ -1,4 +1,4 @@
-#include "wheatstone/marks/style_parameters.h"
+#include "wheatstone/painting/style_parameters.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +13,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/colour_code.h"
+#include "wheatstone/painting/read_brush.h"
 
 namespace wheatstone {
 namespace {
