@@ -155,9 +155,20 @@ void rectify_if_it_helps(PreparedPair& prepared, const RectifyOptions& options, 
   }
 }
 
-/// Refuses what is no pair, and rectifies where that is wanted.
-void prepare_rows(StereoPair photographs, const PreparePairOptions& options, const Progress& progress,
-                  PreparedPair& prepared) {
+/// Disparities of matches, and as much again to either side: of what lies between, few are matched.
+DisparityRange disparities_around(std::span<const FeatureMatch> matches) {
+  constexpr double least_room_px = 16;
+  const auto [farthest, nearest] =
+      std::ranges::minmax(matches, {}, [](const FeatureMatch& match) { return match.left.x - match.right.x; });
+  const double least = farthest.left.x - farthest.right.x, largest = nearest.left.x - nearest.right.x;
+  const double room = std::max((largest - least) / 2, least_room_px);
+  return {static_cast<int>(std::floor(least - room)), static_cast<int>(std::ceil(largest + room))};
+}
+
+/// Refuses what is no pair, and rectifies where that is wanted. Returns within which disparities its matches lie, where
+/// they tell it.
+std::optional<DisparityRange> prepare_rows(StereoPair photographs, const PreparePairOptions& options,
+                                           const Progress& progress, PreparedPair& prepared) {
   const CommonFeatures common = common_features(photographs.left, photographs.right);
   if (common.convincing) {
     check_upright(common.inliers);
@@ -170,14 +181,16 @@ void prepare_rows(StereoPair photographs, const PreparePairOptions& options, con
   RectifyOptions rectifying{.keep_size = options.keep_size};
   if (options.rectify == RectifyPolicy::always) {
     take(rectify(prepared.pictures, rectifying, progress), prepared);
-    return;
+    return {};
   }
-  if (!common.convincing) return;
+  if (!common.convincing) return {};
   prepared.compared_features = static_cast<int>(common.inliers.size());
   prepared.rows = prepared.photographed_rows = vertical_disparity(common.inliers);
   rectifying.cameras_must_be_decided = false;
   if (options.rectify == RectifyPolicy::automatic && !rows_fit(*prepared.rows, prepared.tolerated))
     rectify_if_it_helps(prepared, rectifying, progress);
+  if (prepared.rectification) return {};
+  return disparities_around(common.inliers);
 }
 
 }  // namespace
@@ -185,8 +198,8 @@ void prepare_rows(StereoPair photographs, const PreparePairOptions& options, con
 PreparedPair prepare_pair(StereoPair photographs, const PreparePairOptions& options, const Progress& progress) {
   check_pictures(photographs);
   PreparedPair prepared;
-  prepare_rows(std::move(photographs), options, progress, prepared);
-  if (options.ask_eyes) prepared.eyes = eye_order(prepared.pictures);
+  const std::optional<DisparityRange> within = prepare_rows(std::move(photographs), options, progress, prepared);
+  if (options.ask_eyes) prepared.eyes = eye_order(prepared.pictures, within);
   return prepared;
 }
 

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "wheatstone/image/cielab.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/match_internal.h"
@@ -35,9 +36,14 @@ cv::Mat asked_copy(const Image<Rgb8>& picture, double scale) {
 }
 
 cv::Mat lab(const cv::Mat& rgb) {
-  cv::Mat values;
-  rgb.convertTo(values, CV_32FC3, 1.0 / 255);
-  cv::cvtColor(values, values, cv::COLOR_RGB2Lab);
+  cv::Mat values(rgb.size(), CV_32FC3);
+  for (int y = 0; y < rgb.rows; ++y) {
+    for (int x = 0; x < rgb.cols; ++x) {
+      const auto& colour = rgb.at<cv::Vec3b>(y, x);
+      const Cielab value = cielab_of({colour[0], colour[1], colour[2]});
+      values.at<cv::Vec3f>(y, x) = {value.lightness, value.a, value.b};
+    }
+  }
   return values;
 }
 
@@ -130,18 +136,24 @@ void vote(const CheckedView& view, Votes& votes) {
 
 }  // namespace
 
-EyeOrderEvidence eye_order_evidence(const StereoPair& pair) {
+EyeOrderEvidence eye_order_evidence(const StereoPair& pair, const std::optional<DisparityRange>& within) {
   const double scale = asked_scale(pair.left.width(), pair.left.height());
   cv::Mat left, right;
   tbb::parallel_invoke([&] { left = asked_copy(pair.left, scale); }, [&] { right = asked_copy(pair.right, scale); });
   constexpr int least_side_px = 32;
   if (left.cols < least_side_px || left.rows < least_side_px) return {};
-  const DisparityRange range{-left.cols / 4, left.cols / 4};
+  DisparityRange range{-left.cols / 4, left.cols / 4};
+  if (within)
+    range = {std::max(static_cast<int>(std::floor(within->least * scale)), range.least),
+             std::min(static_cast<int>(std::ceil(within->largest * scale)), range.largest)};
+  if (range.least >= range.largest) return {};
 
   Votes votes;
   Image<float> forth, back;
   tbb::parallel_invoke([&] { forth = match_plain_sgbm(left, right, range); },
-                       [&] { back = match_plain_sgbm(right, left, range); });
+                       [&] {
+                         back = match_plain_sgbm(right, left, {-range.largest, -range.least});
+                       });
   const cv::Mat left_colours = lab(left);
   vote({left_colours, confirmed(forth, back), frame_of(left_colours)}, votes);
   // The right view in a mirror is a left view.
@@ -155,10 +167,10 @@ EyeOrderEvidence eye_order_evidence(const StereoPair& pair) {
   return evidence;
 }
 
-EyeOrder eye_order(const StereoPair& pair) {
+EyeOrder eye_order(const StereoPair& pair, const std::optional<DisparityRange>& within) {
   constexpr int least_bands = 60;
   constexpr double clearly = 0.3;
-  const EyeOrderEvidence evidence = eye_order_evidence(pair);
+  const EyeOrderEvidence evidence = eye_order_evidence(pair, within);
   if (evidence.bands < least_bands || std::abs(evidence.for_order) < clearly) return EyeOrder::undecided;
   return evidence.for_order > 0 ? EyeOrder::as_given : EyeOrder::swapped;
 }

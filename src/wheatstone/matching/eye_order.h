@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "wheatstone/matching/match.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
@@ -11,8 +14,9 @@ struct EyeOrderEvidence {
 };
 
 /// What one eye alone sees lies behind what hides it from the other: it goes on like the surface that is then the
-/// farther one. With the eyes swapped near and far change places, but not what goes on like what.
-EyeOrderEvidence eye_order_evidence(const StereoPair& pair);
+/// farther one. With the eyes swapped near and far change places, but not what goes on like what. `within`: the
+/// disparities that are looked for, in pixels of the pair; none: a quarter of the width to either side.
+EyeOrderEvidence eye_order_evidence(const StereoPair& pair, const std::optional<DisparityRange>& within = {});
 
 /// Whose pictures those of a pair look like.
 enum class EyeOrder {
@@ -23,6 +27,6 @@ enum class EyeOrder {
 
 /// What the pair shows of the order of its pictures. The sign of the disparities alone tells nothing: converged cameras
 /// and mounted pairs have both. Pictures less than about a hundred pixels wide are mostly undecided.
-EyeOrder eye_order(const StereoPair& pair);
+EyeOrder eye_order(const StereoPair& pair, const std::optional<DisparityRange>& within = {});
 
 }  // namespace wheatstone

@@ -85,6 +85,16 @@ TEST(EyeOrder, IsSeenWhereSwappedAndNeverWhereNot) {
   }
 }
 
+TEST(EyeOrder, IsSeenWithinTheRangeOfThePairsDisparities) {
+  for (const NamedPair& pair : all_pairs()) {
+    SCOPED_TRACE(pair.name);
+    const std::optional<DisparityRange> range = find_disparity_range(pair.pair);
+    ASSERT_TRUE(range);
+    EXPECT_EQ(eye_order(pair.pair, range), EyeOrder::as_given);
+    EXPECT_EQ(eye_order(swapped(pair.pair), DisparityRange{-range->largest, -range->least}), EyeOrder::swapped);
+  }
+}
+
 /// A pair that has become `width` pixels wide.
 StereoPair narrowed(const StereoPair& pair, int width) {
   const PictureSize size{width, width * pair.left.height() / pair.left.width()};
