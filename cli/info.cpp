@@ -21,6 +21,7 @@
 #include "wheatstone/matching/eye_order.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/not_a_pair.h"
+#include "wheatstone/models/read_model.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/photograph/read_views.h"
@@ -162,6 +163,40 @@ Json facts_of_particles(const fs::path& path, const std::string& type) {
   return facts;
 }
 
+/// What a model has, of the materials that its triangles have.
+Json facts_of_model(const fs::path& path, const Session& session) {
+  const ReadModel read = read_model(path, {}, session.progress);
+  const Model& model = read.model;
+  Json facts = {{"kind", "model"}, {"format", read.format}};
+  facts["triangles"] = model.triangles.size();
+  facts["vertices"] = model.positions.size();
+  const ModelBounds bounds = bounds_of(model);
+  const auto [x, y, z] = bounds.size();
+  const auto [middle_x, middle_y, middle_z] = bounds.middle();
+  facts["size"] = fmt::format("{:.6g} x {:.6g} x {:.6g}", x, y, z);
+  facts["middle"] = fmt::format("{:.10g},{:.10g},{:.10g}", middle_x, middle_y, middle_z);
+  facts["normals"] = read.has_normals ? "of the file" : "made";
+  facts["vertex_colours"] = !model.colours.empty();
+  if (read.degenerate > 0) facts["triangles_without_area"] = read.degenerate;
+  facts["bytes"] = read.bytes;
+  std::vector<std::size_t> triangles(model.materials.size());
+  for (const std::uint32_t material : model.material_of) ++triangles[material];
+  Json materials = Json::array();
+  for (std::size_t m = 0; m < triangles.size(); ++m) {
+    if (triangles[m] == 0) continue;
+    const ModelMaterial& material = model.materials[m];
+    Json of_material = {{"name", material.name}, {"triangles", triangles[m]}};
+    if (material.texture >= 0) {
+      const Image<Rgb8>& texture = model.textures[static_cast<std::size_t>(material.texture)];
+      of_material["texture"] = fmt::format("{}x{}", texture.width(), texture.height());
+    }
+    materials.push_back(std::move(of_material));
+  }
+  facts["materials"] = std::move(materials);
+  if (!read.warnings.empty()) facts["note"] = fmt::format("{}", fmt::join(read.warnings, "; "));
+  return facts;
+}
+
 Json facts_of_slices(const fs::path& path) {
   const SliceStack stack = read_slices(path);
   Json facts = {{"kind", "slices"}, {"width", stack.width}, {"height", stack.height}};
@@ -268,7 +303,7 @@ struct InfoArguments {
   std::string type, layout, display;
 };
 
-enum class DescribedKind { devices, film, painting, particles, disparity, views, slices, quilt, picture };
+enum class DescribedKind { devices, film, painting, model, particles, disparity, views, slices, quilt, picture };
 
 DescribedKind described_kind_of(const InfoArguments& a) {
   if (a.devices) return DescribedKind::devices;
@@ -276,6 +311,7 @@ DescribedKind described_kind_of(const InfoArguments& a) {
   const fs::path path = a.file;
   if (is_film(path)) return DescribedKind::film;
   if (path.extension() == ".wst") return DescribedKind::painting;
+  if (is_named_as_model(path) || holds_model(path)) return DescribedKind::model;
   if (is_particles(path)) return DescribedKind::particles;
   if (a.scale) return DescribedKind::disparity;
   const ImageDescription picture = describe_image(path);
@@ -287,13 +323,13 @@ DescribedKind described_kind_of(const InfoArguments& a) {
 }
 
 std::string_view described_situation(DescribedKind kind) {
-  constexpr std::array<std::string_view, 9> words{"with --devices", "on a film",      "on a painting (.wst)",
-                                                  "on particles",   "on disparities", "on a multi-view OpenEXR",
-                                                  "on slices",      "on a quilt",     "on a picture"};
+  constexpr std::array<std::string_view, 10> words{
+      "with --devices",          "on a film", "on a painting (.wst)", "on a model",  "on particles", "on disparities",
+      "on a multi-view OpenEXR", "on slices", "on a quilt",           "on a picture"};
   return words[static_cast<std::size_t>(kind)];
 }
 
-Json facts_of(const InfoArguments& arguments) {
+Json facts_of(const InfoArguments& arguments, const Session& session) {
   const fs::path path = arguments.file;
   switch (described_kind_of(arguments)) {
     case DescribedKind::devices:
@@ -302,6 +338,8 @@ Json facts_of(const InfoArguments& arguments) {
       return facts_of_film(path);
     case DescribedKind::painting:
       return facts_of_painting(path);
+    case DescribedKind::model:
+      return facts_of_model(path, session);
     case DescribedKind::particles:
       return facts_of_particles(path, arguments.type);
     case DescribedKind::disparity:
@@ -345,10 +383,10 @@ std::string line_of(const std::string& name, const Json& value) {
   return text;
 }
 
-Report run_info(const InfoArguments& arguments, const Session& /*session*/) {
+Report run_info(const InfoArguments& arguments, const Session& session) {
   if (!arguments.display.empty()) find_display(arguments.display);
   Report report;
-  const Json facts = facts_of(arguments);
+  const Json facts = facts_of(arguments, session);
   for (const auto& [name, value] : facts.items()) report.facts.push_back({name, value, line_of(name, value)});
   return report;
 }
@@ -360,7 +398,7 @@ Rows info_rows(InfoArguments& a) {
   return {
       row("FILE", text(a.file),
           "Picture, disparity (.pfm, .exr, or any with --scale), film, numbered pictures (frame_%04d.png), painting "
-          "(.wst), particles or slices",
+          "(.wst), particles, model or slices",
           {when([&a] { return a.devices; }, "with --devices")}),
       row("--devices", flag(a.devices), "List what can compute: the values of --device"),
       row("--scale", number(a.scale, {1e-9, 1e9}), "Read the picture as disparities: value / SCALE pixels",
@@ -376,8 +414,8 @@ Rows info_rows(InfoArguments& a) {
 }  // namespace
 
 Command info_command() {
-  return make_command("info", "Describe a picture, disparity file, film, painting, particle file or slices", info_rows,
-                      run_info,
+  return make_command("info", "Describe a picture, disparity file, film, painting, particle file, model or slices",
+                      info_rows, run_info,
                       R"(Examples:
   wheatstone info left.png
   wheatstone info photograph.mpo --display desk-stereo

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace wheatstone {
+
+struct ModelFormat {
+  std::string_view name;    ///< for people
+  std::string_view ending;  ///< by which the importer knows it
+  bool y_up = false;        ///< by convention
+};
+
+/// The format of a file by its content, or else by its name; null where it is no model.
+const ModelFormat* format_of_model(const std::filesystem::path& path);
+
+}  // namespace wheatstone
