@@ -9,6 +9,7 @@
 #include "render_options.h"
 #include "slices_argument.h"
 #include "wheatstone/app/annotate.h"
+#include "wheatstone/app/render_model_file.h"
 #include "wheatstone/app/write_values.h"
 #include "wheatstone/display/compose.h"
 #include "wheatstone/display/lenticular.h"
@@ -33,6 +34,10 @@ void check_screen(const LenticularScreen& screen, int width, int height) {
 
 void write_interleaved(const RenderArguments& arguments, const RenderedParticles& result, const Progress& progress) {
   const LenticularScreen screen = find_lenticular(arguments.interleave);
+  if (!result.rendered.views.empty()) {
+    write_image(arguments.output, interleave(result.rendered.views, screen));
+    return;
+  }
   check_screen(screen, result.stack.width, result.stack.height);
   const int views = static_cast<int>(result.rig.positions.size());
   const InterleavedView interleaved = render_interleaved(
@@ -42,7 +47,9 @@ void write_interleaved(const RenderArguments& arguments, const RenderedParticles
 }
 
 ViewsOutput output_of(const RenderArguments& arguments) {
-  return {arguments.output, {arguments.file, arguments.interleave}, arguments.format};
+  return {arguments.output,
+          {arguments.file, arguments.interleave, arguments.options.model.choice.texture},
+          arguments.format};
 }
 
 /// Writes the views and says where.
@@ -107,7 +114,20 @@ std::string some(std::uint64_t count, const char* words) {
   return count > 0 ? fmt::format(fmt::runtime(words), count) : "";
 }
 
+Report report_of_model(const RenderedParticles& result, const std::string& written, const Session& session) {
+  return {{{"output", written},
+           {"format", result.format},
+           {"triangles", result.triangles},
+           {"degenerate", result.degenerate, some(result.degenerate, "left out: {} triangles without an area")},
+           {"views", result.rig.positions.size()},
+           {"method", name_of(result.rendered.method)},
+           {"warnings", result.warnings, lines("note: ", result.warnings)},
+           {"reason", result.rendered.reason, session.verbose ? fmt::format("method: {}", result.rendered.reason) : ""},
+           only_text(fmt::format("written to {}", written))}};
+}
+
 Report report_of(const RenderedParticles& result, const std::string& written, const Session& session) {
+  if (result.triangles > 0) return report_of_model(result, written, session);
   const RenderedViews& rendered = result.rendered;
   Report report{
       {{"output", written},
@@ -175,13 +195,16 @@ Report run_render(const RenderArguments& given, const Session& session) {
   options.rendering.ranks = session.ranks;
   check_output(arguments, options);
   const bool slices = reads_slices(arguments);
-  const bool only_first = slices && !session.ranks.first();  // slices are read and drawn in one place
+  const bool model = reads_model(arguments);
+  // Slices and models are read and drawn in one place.
+  const bool only_first = (slices || model) && !session.ranks.first();
   if (only_first) {
     session.ranks.meet();
     return {};
   }
-  RenderedParticles result = slices ? render_slice_file(arguments.file, arguments.given, options, session.progress)
-                                    : render_particles(arguments.file, options, session.progress);
+  RenderedParticles result = slices  ? render_slice_file(arguments.file, arguments.given, options, session.progress)
+                             : model ? render_model_file(arguments.file, options, session.progress)
+                                     : render_particles(arguments.file, options, session.progress);
   session.ranks.meet();
   if (!session.ranks.first()) return {};
   if (arguments.annotate) annotate(result, result.rendered.views);
@@ -191,7 +214,7 @@ Report run_render(const RenderArguments& given, const Session& session) {
 }  // namespace
 
 Command render_command() {
-  return make_command("render", "Render the views of a particle data set", render_rows, run_render,
+  return make_command("render", "Render the views of a particle data set or of a model", render_rows, run_render,
                       R"(Views are written as view_000.png, the leftmost, and so on.
 
 Examples:
@@ -199,6 +222,7 @@ Examples:
   wheatstone render universe.hdf5 --views 9 -o views
   wheatstone render universe.hdf5 --display looking-glass-portrait -o universe
   wheatstone render universe.hdf5 --save-slices slices.exr && wheatstone render slices.exr --views 45
+  wheatstone render model.glb --display looking-glass-portrait -o model
   wheatstone synth universe --particles 100000 --times 0.4,0.6,0.8 -o snap_%03d.hdf5
   wheatstone render snap_%03d.hdf5 --frames 24 --orbit 90 -o film.mp4)");
 }

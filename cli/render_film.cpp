@@ -15,6 +15,7 @@
 #include "slices_argument.h"
 #include "wheatstone/app/particle_frames.h"
 #include "wheatstone/app/render_film.h"
+#include "wheatstone/app/render_model_file.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
@@ -74,11 +75,17 @@ FrameSource frames_of_slices(const RenderArguments& arguments, const RenderParti
   };
 }
 
-FrameSource frames_of_particles(const RenderArguments& arguments, const RenderParticlesOptions& options, int& count,
-                                const Progress& progress) {
+/// Of particles or of a model.
+FrameSource frames_of_scene(const RenderArguments& arguments, const RenderParticlesOptions& options, int& count,
+                            const Progress& progress) {
   ParticleFramesOptions wanted{
       .particles = options, .count = arguments.film.frames, .orbit_deg = arguments.film.orbit_deg};
   if (!arguments.film.camera.empty()) wanted.path = read_camera_path(arguments.film.camera);
+  if (reads_model(arguments)) {
+    ModelFrames frames = frames_of_model(arguments.file, std::move(wanted), progress);
+    count = frames.count;
+    return std::move(frames.source);
+  }
   const auto frames = std::make_shared<ParticleFrames>(arguments.file, wanted, progress);
   count = frames->count();
   return [frames](int frame, const Progress& of_frame) { return frames->frame(frame, of_frame); };
@@ -89,12 +96,13 @@ Report report_of(const RenderArguments& arguments, const RenderedFilm& film, con
   std::string frames = fmt::format("rendered         {} frames", film.frames);
   if (film.resumed_frames > 0) frames += fmt::format(", the first {} by an earlier run", film.resumed_frames);
   if (film.skipped_frames > 0) frames += fmt::format(", of which {} were there", film.skipped_frames);
-  const bool tells_method = session.verbose && film.last.particles > 0;
+  const bool tells_method = session.verbose && (film.last.particles > 0 || film.last.triangles > 0);
   return {{{"output", arguments.output},
            {"frames", film.frames, frames},
            {"resumed_frames", film.resumed_frames},
            {"skipped_frames", film.skipped_frames},
            {"particles", film.last.particles},
+           {"triangles", film.last.triangles},
            {"views", film.last.rig.positions.size()},
            {"method", name_of(rendered.method)},
            {"reason", rendered.reason, tells_method ? fmt::format("method           {}", rendered.reason) : ""},
@@ -126,17 +134,19 @@ Report run_render_film(const RenderArguments& given, const Session& session) {
                          .made_from = {arguments.file},
                          .skip_existing = arguments.film.skip_existing};
   if (!arguments.film.camera.empty()) film.made_from.emplace_back(arguments.film.camera);
+  if (!options.model.choice.texture.empty()) film.made_from.emplace_back(options.model.choice.texture);
   choose_output(arguments, options, film);
   check_not_an_input(arguments.output, film.made_from);
   check_distinct_outputs(
       std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--save-slices", arguments.save_slices}}});
   film.writing.frame_rate = arguments.film.rate;
   film.ranks = session.ranks;
-  film.whole_frames = reads_slices(arguments) || arguments.film.distribute == Distribution::frames;
+  film.whole_frames =
+      reads_slices(arguments) || reads_model(arguments) || arguments.film.distribute == Distribution::frames;
   if (!film.whole_frames) options.rendering.ranks = session.ranks;
   const FrameSource source = reads_slices(arguments)
                                  ? frames_of_slices(arguments, options, film.frames)
-                                 : frames_of_particles(arguments, options, film.frames, session.progress);
+                                 : frames_of_scene(arguments, options, film.frames, session.progress);
   if (!arguments.film.frame_range.empty())
     film.only = parse_frame_range(arguments.film.frame_range, film.frames, "--frame-range");
   tell_what_film_keeps(arguments.output);

@@ -10,6 +10,7 @@
 #include "wheatstone/app/render_limits.h"
 #include "wheatstone/app/write_values.h"
 #include "wheatstone/depth/display_presets.h"
+#include "wheatstone/models/read_model.h"
 #include "wheatstone/video/frame_sequence.h"
 #include "write_views_output.h"
 
@@ -127,7 +128,24 @@ bool is_composed(const RenderArguments& a) {
 }
 
 Reason on_slices(const RenderArguments& a) {
-  return when([&a] { return reads_slices(a); }, "on slices (.exr); it works on particles");
+  return when([&a] { return reads_slices(a); }, "on slices (.exr); it works on particles and models");
+}
+
+Reason on_model(const RenderArguments& a) {
+  return when([&a] { return reads_model(a); }, "on a model of triangles; it works on particles");
+}
+
+/// Of an option that works on particles only.
+Reason beside_particles(const RenderArguments& a) {
+  return [&a] {
+    return reads_slices(a)  ? "on slices (.exr); it works on particles"
+           : reads_model(a) ? "on a model of triangles; it works on particles"
+                            : "";
+  };
+}
+
+Reason beside_models(const RenderArguments& a) {
+  return when([&a] { return !reads_model(a); }, "on what is no model; it works on models of triangles");
 }
 
 Reason on_film(const RenderArguments& a) {
@@ -177,7 +195,31 @@ Rows particle_rows(RenderArguments& a) {
            "Particles in a kernel, from which the density is estimated where the file has none"),
        row("--stream", flag(a.options.stream), "Read the file twice, in chunks: memory does not grow with the file"),
        row("--chunk", number(a.options.chunk, {1000, 1 << 30}), "Particles per chunk with --stream", {}, "--stream")},
-      {on_slices(a)});
+      {beside_particles(a)});
+}
+
+Value picture_file(std::filesystem::path& file) { return of_type("FILE", text(file)); }
+
+Rows model_rows(RenderArguments& a) {
+  ModelOptions& model = a.options.model;
+  constexpr static std::array<Choice<UpAxis>, 3> axes{
+      {{"auto", UpAxis::by_format}, {"y", UpAxis::y}, {"z", UpAxis::z}}};
+  constexpr static std::array<Choice<int>, 2> sample_counts{{{"4", 4}, {"8", 8}}};
+  const Reason others = beside_models(a);
+  return under(
+      "Models",
+      {row("--up", choice(model.choice.up, axes),
+           "Axis of the model that is up; auto: y in OBJ and glTF, z in PLY and STL", {others}),
+       row("--crease", number(model.choice.crease_deg, crease_range_deg),
+           "Where a model has no normals, triangles that meet at a larger angle, in degrees, have an edge "
+           "between them",
+           {others}),
+       row("--texture", picture_file(model.choice.texture), "Picture for a model that names none", {others}),
+       row("!--no-textures", flag(model.choice.textures), "Leave textures out", {others}, {}, {"--texture"}),
+       row("--background", parsed(model.background, parse_colour, "COLOUR", "#3a3e44"), "Colour around a model",
+           {others}),
+       row("--samples", choice(model.samples, sample_counts), "Samples of a pixel, against jagged edges", {others}),
+       row("--points", flag(a.points), "Draw the vertices of a PLY file as particles, without its faces")});
 }
 
 /// The thesis's appearance and that of mass have options of their own.
@@ -192,7 +234,7 @@ Rows look_rows(RenderArguments& a) {
   const Reason mass_by_size =
       when([&a] { return !is_thesis(a) && !is_sized_by_rank(a); },
            "with --look mass; it works with --look thesis, or with --size-rule denser-smaller or denser-larger");
-  const Reason slices = on_slices(a);
+  const Reason slices = beside_particles(a);
   return {
       row("--look", choice(appearance.look, looks),
           "What is shown: mass, whose column density is the brightness; or the light of Hassaine's thesis",
@@ -229,12 +271,13 @@ Rows look_rows(RenderArguments& a) {
 
 Rows colour_rows(RenderArguments& a) {
   Appearance& appearance = a.options.appearance;
-  const Reasons reasons{on_slices(a),
+  const Reasons reasons{beside_particles(a),
                         when([&a] { return !a.options.quantity.empty(); },
                              "with --quantity; the colours are those of --colours between --least and --most")};
   return {
       row("--colours", text(appearance.colour_map),
-          "Colour map: inferno, magma, plasma, viridis, cividis, turbo, twilight, hot, jet, bone", {on_slices(a)}),
+          "Colour map: inferno, magma, plasma, viridis, cividis, turbo, twilight, hot, jet, bone",
+          {beside_particles(a)}),
       row("--cold", parsed(appearance.cold, parse_colour), "Colour of the coldest particles", reasons, {},
           {"--colours"}),
       row("--hot", parsed(appearance.hot, parse_colour), "Colour of the hottest particles", reasons, {}, {"--colours"}),
@@ -247,9 +290,9 @@ Rows colour_rows(RenderArguments& a) {
 
 Rows light_rows(RenderArguments& a) {
   Appearance& appearance = a.options.appearance;
-  const Reason mass = with_look_mass(a), slices = on_slices(a);
+  const Reason mass = with_look_mass(a), slices = beside_particles(a);
   return {row("--exposure", number(a.options.rendering.exposure, exposure_range),
-              "Factor on the light before tone mapping; from the central view by default", {mass}),
+              "Factor on the light before tone mapping; from the central view by default", {mass, on_model(a)}),
           row("--blend", choice(appearance.blend, blends),
               "How particles that lie behind each other come together: their light is added, or the nearer ones also "
               "absorb light, so that they are in front",
@@ -258,8 +301,8 @@ Rows light_rows(RenderArguments& a) {
                     "with --opaque; it works on particles that are seen through")}),
           row("--shine", number(appearance.shine, shine_range),
               "Light of highlights on the surfaces of clumps, which move from view to view, as a multiple of the "
-              "particles' own",
-              {slices, with_thesis(a, "it works on particles that add their light"),
+              "particles' own; or on a model's surfaces, of the lamp's",
+              {on_slices(a), with_thesis(a, "it works on particles that add their light"),
                when([&a] { return !a.options.quantity.empty(); },
                     "with --quantity; it works on pictures, not on numbers")}),
           row("--opaque", flag(a.options.rendering.opaque),
@@ -276,12 +319,13 @@ Rows camera_rows(RenderArguments& a) {
                  "with --centre; the centre is what the views look at")}),
        row("--fit", parsed(a.options.fit, parse_fit, {}, "auto"),
            "What the views show and the depth is mapped to: all particles; the middle share of them along each axis, "
-           "as 99.9%; sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1; auto: all, but for a few that lie far out"),
+           "as 99.9%; sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1; auto: all, but for a few that lie far out",
+           {on_model(a)}),
        row("--azimuth", number(framing.azimuth_deg, {-360, 360}), "Direction that the camera looks from, in degrees"),
        row("--elevation", number(framing.elevation_deg, elevation_range),
            "Height of the camera above the horizon, in degrees"),
        row("--fov", number(framing.field_of_view_deg, field_of_view_range), "Horizontal field of view, in degrees"),
-       row("--zoom", number(framing.zoom, zoom_range), "Magnification: 2 shows half as much"),
+       row("--zoom", number(framing.zoom, zoom_range), "Magnification: 2 shows half as much; 1 by default on a model"),
        row("--projection", choice(framing.orthographic, projections),
            "Perspective, or orthographic: everything is as large as at the point that is looked at, and the views are "
            "sheared")},
@@ -309,7 +353,7 @@ Rows depth_mapping_rows(RenderArguments& a) {
           row("--focus", point_of_screen(a.focus),
               "Point X,Y of the screen around which there is more depth than elsewhere, as shares of its width and "
               "height from the upper left: 0.5,0.5 is the middle",
-              {without_planes(a)}),
+              {without_planes(a), on_model(a)}),
           row("--focus-radius", number(a.focus_radius, {0.001, 10}), "Radius of that area, as a share of the width", {},
               "--focus"),
           row("--focus-gain", number(a.focus_gain, {0, 10}), "Factor on the depth at that point", {}, "--focus"),
@@ -334,26 +378,31 @@ Rows method_rows(RenderArguments& a) {
       method_heading,
       {row("--annotate", flag(a.annotate),
            "Draw a scale bar, the colours with their limits and units, and the redshift into each view",
-           {slices, on_film(a), when([&a] { return !a.interleave.empty(); }, "with --interleave; it works on views")}),
+           {beside_particles(a), on_film(a),
+            when([&a] { return !a.interleave.empty(); }, "with --interleave; it works on views")}),
        row("--method", choice(rendering.method, methods), "Rendering method; --verbose tells which was used",
-           {slices, when([&a] { return makes_slices(a) && is_without_planes(a); },
+           {slices, when([&a] { return makes_slices(a) && is_without_planes(a) && !reads_model(a); },
                          "with --save-slices or --interleave; these render depth planes")}),
-       device_row(rendering.device, "What renders",
-                  {slices, when([&a] { return makes_slices(a); },
-                                "with --save-slices or --interleave; depth planes are rendered by the cpu")}),
+       device_row(
+           rendering.device, "What renders",
+           {slices, when([&a] { return reads_model(a); }, "on a model, which the cpu renders; it works on particles"),
+            when([&a] { return makes_slices(a); },
+                 "with --save-slices or --interleave; depth planes are rendered by the cpu")}),
        row("--filter", choice(rendering.filter, filters), "Depth-plane filter of the layered method",
-           {without_planes(a), when([&a] { return a.options.rendering.opaque && !makes_slices(a); },
-                                    "with --opaque; it works on particles that add their light")}),
+           {on_model(a), without_planes(a),
+            when([&a] { return a.options.rendering.opaque && !makes_slices(a); },
+                 "with --opaque; it works on particles that add their light")}),
        row("--planes", without_default(number(rendering.planes, {1, planes_range.most})),
-           "Number of depth planes; one per pixel of parallax by default", {slices, without_planes(a)}),
+           "Number of depth planes; one per pixel of parallax by default", {beside_particles(a), without_planes(a)}),
        row("--quilt", quilt_layout(a.quilt), "Write one quilt of COLUMNSxROWS views"),
        row("--interleave", text(a.interleave),
            "Write one picture for a lenticular screen: its name, or a calibration (.json)", {}, {}, {"--quilt"}),
        row("--values", output_name(a.values),
-           "Also write the views as numbers with their units: FILE.fits, .exr or .npy; of several views, FILE_000.fits "
-           "and so on",
+           "Also write the views as numbers with their units, of a model its depth: FILE.fits, .exr or .npy; of "
+           "several "
+           "views, FILE_000.fits and so on",
            {slices, on_film(a), with_look_thesis(a)}),
-       row("--save-slices", output_name(a.save_slices), "Also write the depth planes: FILE.exr"),
+       row("--save-slices", output_name(a.save_slices), "Also write the depth planes: FILE.exr", {on_model(a)}),
        row("--format", picture_format(a.format), "File format of the views or the quilt", {on_film(a)}, {},
            {"--interleave"})});
 }
@@ -390,14 +439,21 @@ Rows film_rows(RenderArguments& a) {
 Rows render_rows(RenderArguments& a) {
   const Rows basic{
       row("FILE", required(text(a.file)),
-          "GADGET snapshot (HDF5 or binary), any HDF5, PLY, LAS, NumPy (.npy, .npz), FITS or text; or slices (.exr)"),
+          "GADGET snapshot (HDF5 or binary), any HDF5, PLY, LAS, NumPy (.npy, .npz), FITS or text; model (OBJ, PLY "
+          "with faces, "
+          "STL, glTF); or slices (.exr)"),
       row("-o,--output", output_name(a.output), "Folder for the views; or the name of the quilt or picture")};
-  return join({basic, particle_rows(a), under("Appearance", join({look_rows(a), colour_rows(a), light_rows(a)})),
-               method_rows(a), view_rows(a), film_rows(a)});
+  return join({basic, particle_rows(a), model_rows(a),
+               under("Appearance", join({look_rows(a), colour_rows(a), light_rows(a)})), method_rows(a), view_rows(a),
+               film_rows(a)});
 }
 
 bool reads_slices(const RenderArguments& arguments) {
   return std::filesystem::path(arguments.file).extension() == ".exr";
+}
+
+bool reads_model(const RenderArguments& arguments) {
+  return !arguments.points && (is_named_as_model(arguments.file) || holds_model(arguments.file));
 }
 
 bool makes_film(const RenderArguments& arguments) {
@@ -455,6 +511,10 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments) {
   if (is_thesis(arguments)) options.appearance.look = Look::thesis;
   options.values = !arguments.values.empty();
   if (options.values) check_values_ending("--values", arguments.values);
+  if (reads_model(arguments)) {
+    if (!arguments.given("--zoom")) options.framing.zoom = Framing().zoom;
+    return options;
+  }
   options.slices = makes_slices(arguments);
   options.without_views = !arguments.interleave.empty();
   return options;

@@ -40,6 +40,7 @@ struct RenderArguments {
   std::optional<std::array<double, 2>> focus;  ///< shares of a view's width and height
   float focus_radius = 0.25f, focus_gain = 1.5f;
   bool annotate = false;
+  bool points = false;  ///< of a model, its vertices are drawn as particles
   std::string values, interleave, save_slices;
   std::optional<QuiltLayout> quilt;
   std::string format = "png";
@@ -51,6 +52,9 @@ Rows render_rows(RenderArguments& arguments);
 
 /// Whether depth planes are read in place of particles.
 bool reads_slices(const RenderArguments& arguments);
+
+/// Whether triangles are read in place of particles.
+bool reads_model(const RenderArguments& arguments);
 
 /// Whether a run makes a film: of a series, or with a camera that moves.
 bool makes_film(const RenderArguments& arguments);

@@ -12,6 +12,7 @@
 #include "scenes/checkerboard_picture.h"
 #include "scenes/stereograph_card.h"
 #include "scenes/test_photographs.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
@@ -93,6 +94,11 @@ void make_universe(const fs::path& path) {
   make_with_program({"synth", "universe", "--particles", "2000", "-o", path.string()});
 }
 
+/// A tetrahedron. Models are told by their content: this one is an OBJ file under any name.
+void make_model(const fs::path& path) {
+  write_whole_file(path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+}
+
 void make_multi_picture(const fs::path& path) {
   const StereoPair pair = detailed_photographs();
   write_mpo(path, std::array<ImageView<const Rgb8>, 2>{pair.left, pair.right});
@@ -169,6 +175,7 @@ const std::map<std::string, Maker>& makers() {
       {"painted.mp4", make_film},
       {"walk.mp4", [](const fs::path& path) { make_walk(path, false); }},
       {"depth.mp4", [](const fs::path& path) { make_walk(path, true); }},
+      {"model.glb", make_model},
       {"universe.hdf5", make_universe},
       {"gas.hdf5", make_universe},
       {"snapshot.hdf5", make_universe},

@@ -45,12 +45,19 @@ struct Reduction {
   std::string option, value;
 };
 const std::vector<Reduction> reductions{
-    {{"synth", "still"}, "", "--size", "144x108"},      {{"synth", "still"}, "", "--samples", "1"},
-    {{"synth", "film"}, "", "--size", "96x64"},         {{"synth", "film"}, "", "--frames", "3"},
-    {{"synth", "film"}, "", "--samples", "1"},          {{"synth", "film"}, "--cut", "--cut", "2"},
-    {{"synth", "universe"}, "", "--particles", "2000"}, {{"study", "stimuli"}, "", "--size", "160x120"},
-    {{"paint"}, "--display", "--size", "36x48"},        {{"rotoscope"}, "--display", "--size", "36x48"},
-    {{"render"}, ".hdf5", "--size", "48x36"},           {{"view"}, "", "--script", "tour.txt"},
+    {{"synth", "still"}, "", "--size", "144x108"},
+    {{"synth", "still"}, "", "--samples", "1"},
+    {{"synth", "film"}, "", "--size", "96x64"},
+    {{"synth", "film"}, "", "--frames", "3"},
+    {{"synth", "film"}, "", "--samples", "1"},
+    {{"synth", "film"}, "--cut", "--cut", "2"},
+    {{"synth", "universe"}, "", "--particles", "2000"},
+    {{"study", "stimuli"}, "", "--size", "160x120"},
+    {{"paint"}, "--display", "--size", "36x48"},
+    {{"rotoscope"}, "--display", "--size", "36x48"},
+    {{"render"}, ".hdf5", "--size", "48x36"},
+    {{"render"}, ".glb", "--size", "48x36"},
+    {{"view"}, "", "--script", "tour.txt"},
     {{"view"}, "--camera", "--script", "stop.txt"},
 };
 

@@ -56,7 +56,7 @@ void ParticleFrames::hold_brightness(const std::array<CloudStatistics, 2>& at_en
     return;
   const auto at = [&](std::size_t end) {
     const int number = end == 0 ? 0 : options_.count - 1;
-    return brightness_for(held(at_ends[end]), options_at(number, moment_of(number).key));
+    return brightness_for(held(at_ends[end]), options_of_frame(options_, number, moment_of(number).key));
   };
   const Brightness first = at(0);
   const Brightness last = options_.count > 1 ? at(1) : first;
@@ -80,29 +80,29 @@ CloudStatistics ParticleFrames::held(CloudStatistics of_frame) const {
 }
 
 ParticleFrames::Moment ParticleFrames::moment_of(int number) const {
-  Moment moment{.key = options_.path ? camera_at(*options_.path, share_of(number)) : CameraKey()};
+  Moment moment{.key = options_.path ? camera_at(*options_.path, share_of_frame(options_, number)) : CameraKey()};
   if (!series_) return moment;
   const std::vector<double>& times = series_->series().times;
-  moment.time = moment.key.time.value_or(std::lerp(times.front(), times.back(), share_of(number)));
+  moment.time = moment.key.time.value_or(std::lerp(times.front(), times.back(), share_of_frame(options_, number)));
   return moment;
 }
 
-double ParticleFrames::share_of(int number) const {
-  return options_.count > 1 ? static_cast<double>(number) / (options_.count - 1) : 0;
+double share_of_frame(const ParticleFramesOptions& film, int number) {
+  return film.count > 1 ? static_cast<double>(number) / (film.count - 1) : 0;
 }
 
-RenderParticlesOptions ParticleFrames::options_at(int number, const CameraKey& key) const {
-  RenderParticlesOptions options = options_.particles;
+RenderParticlesOptions options_of_frame(const ParticleFramesOptions& film, int number, const CameraKey& key) {
+  RenderParticlesOptions options = film.particles;
   Framing& framing = options.framing;
   turn_as(key, framing);
   if (key.centre) options.look_at = key.centre;
-  framing.azimuth_deg += options_.orbit_deg * static_cast<float>(number) / static_cast<float>(options_.count);
+  framing.azimuth_deg += film.orbit_deg * static_cast<float>(number) / static_cast<float>(film.count);
   return options;
 }
 
 RenderedParticles ParticleFrames::frame(int number, const Progress& progress) {
   const Moment moment = moment_of(number);
-  const RenderParticlesOptions options = options_at(number, moment.key);
+  const RenderParticlesOptions options = options_of_frame(options_, number, moment.key);
   if (!series_) return render_ready(still_, options, progress);
   return render_ready(particles_at(moment.time, progress), options, progress);
 }

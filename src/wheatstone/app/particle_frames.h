@@ -20,6 +20,12 @@ struct ParticleFramesOptions {
   std::optional<CameraPath> path;
 };
 
+/// The options of one of a film's frames, with its camera. `key` is the path's at that frame.
+RenderParticlesOptions options_of_frame(const ParticleFramesOptions& film, int number, const CameraKey& key);
+
+/// How far a frame is from the first, 0, to the last, 1.
+double share_of_frame(const ParticleFramesOptions& film, int number);
+
 /// The frames of a film of particles: of a snapshot around which the camera moves, or of a series of snapshots between
 /// which the particles move. What the views are framed by, colours and exposure are the same in all frames, and chosen
 /// for all snapshots.
@@ -47,9 +53,7 @@ class ParticleFrames {
   void survey(const std::string& input, const Progress& progress);
   void hold_brightness(const std::array<CloudStatistics, 2>& at_ends);
   Moment moment_of(int number) const;
-  RenderParticlesOptions options_at(int number, const CameraKey& key) const;
   CloudStatistics held(CloudStatistics of_frame) const;
-  double share_of(int number) const;
 
   ParticleFramesOptions options_;
   std::filesystem::path input_;

@@ -239,33 +239,49 @@ ViewingGeometry viewing_of(const RenderParticlesOptions& options) {
   return viewing;
 }
 
-Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options) {
+StagedCamera staged_camera(const std::array<float, 3>& centre, float radius, const std::array<double, 3>& origin,
+                           const RenderParticlesOptions& options) {
   Framing framing = options.framing;
   if (options.look_at) {
     framing.look_at.emplace();
     for (std::size_t axis = 0; axis < 3; ++axis)
-      (*framing.look_at)[axis] = static_cast<float>((*options.look_at)[axis] - statistics.origin[axis]);
+      (*framing.look_at)[axis] = static_cast<float>((*options.look_at)[axis] - origin[axis]);
   }
-  Scene scene;
-  scene.camera = camera_around(statistics.centre(), statistics.radius(), options.width, options.height, framing);
-  const auto depth_of = [&camera = scene.camera](const std::array<float, 3>& point) {
+  const Camera camera = camera_around(centre, radius, options.width, options.height, framing);
+  const auto depth_of = [&camera](const std::array<float, 3>& point) {
     float depth = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) depth += (point[axis] - camera.position[axis]) * camera.forward[axis];
     return depth;
   };
-  const float distance = depth_of(framing.look_at.value_or(statistics.centre())), radius = statistics.radius();
-  // A camera that looks at a point far from the particles may stand among them, or before them all.
-  const float depth = std::max(depth_of(statistics.centre()), distance * 0.01f);
+  const float distance = depth_of(framing.look_at.value_or(centre));
+  // A camera that looks at a point far from the scene may stand within it, or before all of it.
+  const float depth = std::max(depth_of(centre), distance * 0.01f);
   // In single precision, what is so far away has one depth.
   constexpr float farthest = 1e4f;
-  if (!(std::abs(depth_of(statistics.centre())) <= farthest * radius) || !(std::abs(distance) <= farthest * radius))
+  if (!(std::abs(depth_of(centre)) <= farthest * radius) || !(std::abs(distance) <= farthest * radius))
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("look-at: lies {} from the middle of the particles, expected at most {}, {} times their "
-                            "radius",
-                            std::abs(depth_of(statistics.centre()) - distance), farthest * radius, farthest));
-  scene.mapping = mapping_for(options.depth, options.width, std::max(depth - radius, depth * 0.01f), depth + radius);
+                fmt::format("look-at: lies {} from the middle of the scene, expected at most {}, {} times its radius",
+                            std::abs(depth_of(centre) - distance), farthest * radius, farthest));
+  return {camera, mapping_for(options.depth, options.width, std::max(depth - radius, depth * 0.01f), depth + radius),
+          distance};
+}
+
+std::vector<std::string> discomforts_of(const RenderParticlesOptions& options) {
+  const bool regions = !options.depth.regions.empty();
+  float nearest = regions ? options.depth.regions.front().behind_mm : -options.depth.near_mm;
+  float farthest = regions ? options.depth.regions.back().behind_mm : options.depth.far_mm;
+  for (const PerceivedDepth::Region& region : options.depth.regions) {
+    nearest = std::min(nearest, region.behind_mm);
+    farthest = std::max(farthest, region.behind_mm);
+  }
+  return discomforts(viewing_of(options), -nearest, farthest);
+}
+
+Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options) {
+  StagedCamera staged = staged_camera(statistics.centre(), statistics.radius(), statistics.origin, options);
+  Scene scene{.camera = staged.camera, .mapping = std::move(staged.mapping)};
   scene.splat_style = make_splat_style(options.appearance, statistics);
-  scene.splat_style.size_depth = distance;
+  scene.splat_style.size_depth = staged.distance;
   const ViewingGeometry& viewing = options.depth.viewing;
   scene.shine = {.strength = options.appearance.shine,
                  .turn = viewing.eye_separation_mm / viewing.viewing_distance_mm,
@@ -307,15 +323,7 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
   result.format = source.format;
   result.redshift = source.redshift;
   result.units = units_of(source, options, result.has_mass);
-  const ViewingGeometry viewing = viewing_of(options);
-  const bool regions = !options.depth.regions.empty();
-  float nearest = regions ? options.depth.regions.front().behind_mm : -options.depth.near_mm;
-  float farthest = regions ? options.depth.regions.back().behind_mm : options.depth.far_mm;
-  for (const PerceivedDepth::Region& region : options.depth.regions) {
-    nearest = std::min(nearest, region.behind_mm);
-    farthest = std::max(farthest, region.behind_mm);
-  }
-  for (std::string& warning : discomforts(viewing, -nearest, farthest)) result.warnings.push_back(std::move(warning));
+  for (std::string& warning : discomforts_of(options)) result.warnings.push_back(std::move(warning));
   return result;
 }
 

@@ -10,6 +10,8 @@
 #include "wheatstone/depth/depth_regions.h"
 #include "wheatstone/depth/view_position.h"
 #include "wheatstone/depth/viewing_geometry.h"
+#include "wheatstone/models/read_model.h"
+#include "wheatstone/multiview/model_scene.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/scene.h"
 #include "wheatstone/multiview/slice_stack.h"
@@ -35,6 +37,13 @@ struct PerceivedDepth {
   bool smooth = false;  ///< a monotone curve through the regions' ends instead of a corner at each
 };
 
+/// What is told of a model of triangles.
+struct ModelOptions {
+  ModelChoice choice;
+  Rgb8 background = ModelLook().background;
+  int samples = ModelLook().samples;  ///< a pixel: 4 or 8
+};
+
 struct RenderParticlesOptions {
   CloudChoice choice;
   Selection selection;
@@ -50,6 +59,7 @@ struct RenderParticlesOptions {
   float span = 1;                       ///< eye separations from the first view to the last
   std::vector<ViewPosition> positions;  ///< of the views, in place of `views` and `span`; empty: evenly spaced
   RenderOptions rendering;
+  ModelOptions model;
   /// What is shown in place of the usual picture: "column-density"; or a quantity, of which the mean along each line of
   /// sight is shown, weighted by mass: "temperature", "density", or the name of a dataset or column
   /// (CloudChoice::quantity), with or without "mean:" before it. Empty: the usual picture.
@@ -78,7 +88,7 @@ enum class DensitySource {
   grid,        ///< in which particles were counted that are not all held
 };
 
-/// What became of a file of particles.
+/// What became of a file of particles, of slices, or of a model.
 struct RenderedParticles {
   RenderedViews rendered;
   SliceStack stack;  ///< empty unless slices were made
@@ -90,6 +100,8 @@ struct RenderedParticles {
   float least = 0, most = 0;  ///< where the brightness of what is shown begins and ends
   std::optional<double> redshift;
   std::string format;
+  std::uint64_t triangles = 0;   ///< of a model
+  std::uint64_t degenerate = 0;  ///< triangles without an area, which were left out
   std::uint64_t particles = 0;   ///< drawn
   std::uint64_t dropped = 0;     ///< without a finite position
   std::uint64_t weightless = 0;  ///< left out: without a mass, or without what is to be shown
@@ -150,6 +162,21 @@ ViewingGeometry viewing_of(const RenderParticlesOptions& options);
 /// The scene as the central camera has it, of particles of which this is known. Throws Error{wrong_usage} for the
 /// options.
 Scene scene_of(const CloudStatistics& statistics, const RenderParticlesOptions& options);
+
+/// The central camera, and where depths go.
+struct StagedCamera {
+  Camera camera;
+  DepthMapping mapping;
+  float distance;  ///< depth of the point that is looked at
+};
+
+/// The same for anything within a sphere, whose centre is relative to an origin. Throws Error{wrong_usage} where the
+/// point that is looked at lies too far away.
+StagedCamera staged_camera(const std::array<float, 3>& centre, float radius, const std::array<double, 3>& origin,
+                           const RenderParticlesOptions& options);
+
+/// What of the depth of the options' views may strain the eyes, in words for people.
+std::vector<std::string> discomforts_of(const RenderParticlesOptions& options);
 
 /// How far before and behind the screen a scene is to seem where nobody says otherwise, in millimetres: as much of a
 /// screen's width as a desk's screen has with 10 cm either way.

@@ -13,6 +13,8 @@ namespace wheatstone {
 namespace {
 
 constexpr double farthest_coordinate = 1e18;
+/// What the importer gives to triangles of which the file names no material.
+constexpr std::string_view importers_material = "DefaultMaterial";
 
 class Assembler {
  public:
@@ -139,6 +141,7 @@ void assemble_model(const RawModel& raw, const std::filesystem::path& path, cons
   for (const RawMaterial& material : raw.materials) {
     ModelMaterial& made = model.materials.emplace_back();
     made.name = material.name;
+    if (made.name == importers_material) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       const float value = std::isfinite(material.colour[c]) ? std::clamp(material.colour[c], 0.f, 1.f) : 1.f;
       made.colour[c] = is_gltf ? value : linear_from_srgb(static_cast<std::uint8_t>(std::lround(255 * value)));

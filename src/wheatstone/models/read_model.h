@@ -18,7 +18,7 @@ enum class UpAxis { by_format, y, z };
 struct ModelChoice {
   UpAxis up = UpAxis::by_format;
   /// Where a file has no normals: triangles that meet at a larger angle have an edge between them.
-  float crease_deg = 40;
+  float crease_deg = 60;
   bool textures = true;           ///< false: leave them out
   std::filesystem::path texture;  ///< a picture for all that has places in a texture; empty: the file's own
 };

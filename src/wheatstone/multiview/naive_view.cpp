@@ -15,7 +15,7 @@ struct NaiveSplat {
   bool seen = false;
 };
 
-float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+float along_axis(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -41,11 +41,11 @@ NaiveSplat project(const Cloud& cloud, std::size_t i, const Scene& scene, ViewPo
   const std::array<float, 3> from_camera{cloud.x[i] - camera.position[0], cloud.y[i] - camera.position[1],
                                          cloud.z[i] - camera.position[2]};
   NaiveSplat splat;
-  const float depth = dot(from_camera, camera.forward);
+  const float depth = along_axis(from_camera, camera.forward);
   if (!(depth > camera.nearest_depth)) return splat;
   splat.seen = true;
-  splat.x = camera.centre_x_px + camera.focal_px * dot(from_camera, camera.right) / depth;
-  splat.y = camera.centre_y_px + camera.focal_px * dot(from_camera, camera.down) / depth;
+  splat.x = camera.centre_x_px + camera.focal_px * along_axis(from_camera, camera.right) / depth;
+  splat.y = camera.centre_y_px + camera.focal_px * along_axis(from_camera, camera.down) / depth;
   splat.x += (view - central_view) * parallax_px(scene.mapping, depth);
 
   // Hassaine 2010, sec. 4.2: a sigmoid of the density makes opacity and size.

@@ -1,0 +1,241 @@
+#include "wheatstone/multiview/model_shading_internal.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wheatstone {
+namespace {
+
+using Direction = std::array<float, 3>;
+
+float scalar_product(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Direction of_length_1(const Direction& v) {
+  const float length = std::sqrt(scalar_product(v, v));
+  return length > 0 ? Direction{v[0] / length, v[1] / length, v[2] / length} : Direction{0, 0, 1};
+}
+
+// Of a surface that faces its light; together 1, but for what the lamp adds where it shines along the line of sight.
+constexpr float light_all_around = 0.13f, light_of_camera = 0.25f, light_of_lamp = 0.72f;
+constexpr float highlight_exponent = 32;
+
+}  // namespace
+
+ModelShading::ModelShading(const Model& model, const ModelScene& scene)
+    : model_(model), scene_(scene), is_orthographic_(scene.camera.orthographic_depth > 0) {
+  textures_.reserve(model.textures.size());
+  for (const Image<Rgb8>& texture : model.textures) textures_.emplace_back(texture);
+  constexpr Direction lamp{-0.55f, -0.7f, -0.45f};  // right, down, forward
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    lamp_[axis] =
+        lamp[0] * scene.camera.right[axis] + lamp[1] * scene.camera.down[axis] + lamp[2] * scene.camera.forward[axis];
+  lamp_ = of_length_1(lamp_);
+}
+
+Direction ModelShading::to_camera(double x, double y) const {
+  const Camera& camera = scene_.camera;
+  Direction from{0, 0, 1};
+  if (!is_orthographic_) {
+    from[0] = (static_cast<float>(x) - camera.centre_x_px) / camera.focal_px;
+    from[1] = (static_cast<float>(y) - camera.centre_y_px) / camera.focal_px;
+  }
+  Direction to{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    to[axis] = -(from[0] * camera.right[axis] + from[1] * camera.down[axis] + camera.forward[axis]);
+  return of_length_1(to);
+}
+
+LinearColour ModelShading::lit(const Direction& normal, const Direction& to_camera, bool turned, float view,
+                               const LinearColour& colour) const {
+  Direction facing = of_length_1(normal);
+  if (turned)
+    for (float& part : facing) part = -part;
+  const float towards_lamp = scalar_product(facing, lamp_);
+  const float light = light_all_around + light_of_camera * std::max(scalar_product(facing, to_camera), 0.f) +
+                      light_of_lamp * std::max(towards_lamp, 0.f);
+  LinearColour lit_colour{colour[0] * light, colour[1] * light, colour[2] * light};
+  if (scene_.look.shine > 0 && towards_lamp > 0) {
+    Direction to_eye{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      to_eye[axis] = to_camera[axis] + view * scene_.look.turn * scene_.camera.right[axis];
+    Direction mirrored{};
+    for (std::size_t axis = 0; axis < 3; ++axis) mirrored[axis] = 2 * towards_lamp * facing[axis] - lamp_[axis];
+    const float highlight = scene_.look.shine * light_of_lamp *
+                            std::pow(std::max(scalar_product(mirrored, of_length_1(to_eye)), 0.f), highlight_exponent);
+    for (float& channel : lit_colour) channel += highlight;
+  }
+  return lit_colour;
+}
+
+ModelShading::Surface::Surface(const ModelShading& shading, const ScreenTriangles& triangles, std::uint32_t index,
+                               float view)
+    : shading_(&shading), view_(view) {
+  const Model& model = shading.model_;
+  const ScreenTriangle& screen = triangles.triangles[index];
+  const auto& vertices = model.triangles[screen.triangle];
+  const ModelMaterial& material = model.materials[model.material_of[screen.triangle]];
+  std::array<double, 3> x{}, y{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    x[k] = static_cast<double>(screen.x[k]) - static_cast<double>(view) * static_cast<double>(screen.disparity[k]);
+    y[k] = static_cast<double>(screen.y[k]);
+    weight_[k] = shading.is_orthographic_ ? 1 : 1 / static_cast<double>(screen.depth[k]);
+  }
+  disparity_ = screen.disparity;
+  depth_ = screen.depth;
+  const double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+  const double per_area = area != 0 ? 1 / area : 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+    across_[k] = (y[a] - y[b]) * per_area;
+    down_[k] = (x[b] - x[a]) * per_area;
+    begin_[k] = (x[a] * y[b] - x[b] * y[a]) * per_area;
+  }
+
+  // What the corners of a part have is mixed from those of the whole.
+  std::array<std::array<float, 3>, 3> share{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (screen.part < 0)
+      share[k][screen.corner[k]] = 1;
+    else
+      share[k] = triangles.parts[static_cast<std::size_t>(screen.part)][k];
+  }
+  const bool has_texture = material.texture >= 0 && !model.texture_places.empty();
+  if (has_texture) texture_ = &shading.textures_[static_cast<std::size_t>(material.texture)];
+  const std::array<float, 256>& linear = linear_codes();
+  for (std::size_t k = 0; k < 3; ++k) {
+    normal_[k] = {};
+    place_[k] = {};
+    colour_[k] = {};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t vertex = vertices[c];
+      const float part = share[k][c];
+      if (part == 0) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis) normal_[k][axis] += part * model.normals[vertex][axis];
+      if (has_texture)
+        for (std::size_t axis = 0; axis < 2; ++axis) place_[k][axis] += part * model.texture_places[vertex][axis];
+      const Rgb8 code = model.colours.empty() ? Rgb8{255, 255, 255} : model.colours[vertex];
+      colour_[k][0] += part * linear[code.r];
+      colour_[k][1] += part * linear[code.g];
+      colour_[k][2] += part * linear[code.b];
+    }
+    for (std::size_t c = 0; c < 3; ++c) colour_[k][c] *= material.colour[c];
+  }
+
+  // Which side is seen: that of the triangle itself decides, since normals between its corners turn away at outlines.
+  std::array<std::array<double, 3>, 2> edge{};
+  for (std::size_t e = 0; e < 2; ++e)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      edge[e][axis] = model.positions[vertices[e + 1]][axis] - model.positions[vertices[0]][axis];
+  std::array<double, 3> across_it{}, from_camera{};
+  double along_normals = 0, along_sight = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
+    across_it[axis] = edge[0][i] * edge[1][j] - edge[0][j] * edge[1][i];
+    from_camera[axis] = shading.is_orthographic_ ? static_cast<double>(shading.scene_.camera.forward[axis])
+                                                 : model.positions[vertices[0]][axis] - shading.scene_.origin[axis] -
+                                                       static_cast<double>(shading.scene_.camera.position[axis]);
+    for (std::size_t c = 0; c < 3; ++c)
+      along_normals += across_it[axis] * static_cast<double>(model.normals[vertices[c]][axis]);
+    along_sight += across_it[axis] * from_camera[axis];
+  }
+  turned_ = (along_normals > 0) == (along_sight > 0);
+}
+
+ModelShading::Surface::Point ModelShading::Surface::at(double x, double y) const {
+  std::array<double, 3> share{};
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    share[k] = std::clamp(begin_[k] + across_[k] * x + down_[k] * y, 0., 1.);
+    sum += share[k];
+  }
+  Point point{};
+  double weights = 0;
+  std::array<double, 3> weighted{};
+  double disparity = 0, depth = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    share[k] = sum > 0 ? share[k] / sum : 1. / 3;
+    weighted[k] = share[k] * weight_[k];
+    weights += weighted[k];
+    disparity += share[k] * static_cast<double>(disparity_[k]);
+  }
+  Direction normal{};
+  LinearColour colour{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double part = weighted[k] / weights;
+    depth += part * static_cast<double>(depth_[k]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      normal[axis] += static_cast<float>(part) * normal_[k][axis];
+      colour[axis] += static_cast<float>(part) * colour_[k][axis];
+    }
+  }
+  point.disparity = static_cast<float>(disparity);
+  point.depth = static_cast<float>(depth);
+  if (texture_ != nullptr) {
+    std::array<double, 2> place{}, by_x{}, by_y{};
+    double weights_by_x = 0, weights_by_y = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      weights_by_x += across_[k] * weight_[k];
+      weights_by_y += down_[k] * weight_[k];
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const auto of_corner = static_cast<double>(place_[k][axis]);
+        place[axis] += weighted[k] / weights * of_corner;
+        by_x[axis] += across_[k] * weight_[k] * of_corner;
+        by_y[axis] += down_[k] * weight_[k] * of_corner;
+      }
+    }
+    const std::array<double, 2> size{static_cast<double>(texture_->width()), static_cast<double>(texture_->height())};
+    double along_x = 0, along_y = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double dx = size[axis] * (by_x[axis] - place[axis] * weights_by_x) / weights;
+      const double dy = size[axis] * (by_y[axis] - place[axis] * weights_by_y) / weights;
+      along_x += dx * dx;
+      along_y += dy * dy;
+    }
+    const LinearColour of_texture = texture_->at(static_cast<float>(place[0]), static_cast<float>(place[1]),
+                                                 static_cast<float>(std::sqrt(std::max(along_x, along_y))));
+    for (std::size_t c = 0; c < 3; ++c) colour[c] *= of_texture[c];
+  }
+  const double in_centre = x + static_cast<double>(view_) * disparity;
+  point.colour = shading_->lit(normal, shading_->to_camera(in_centre, y), turned_, view_, colour);
+  return point;
+}
+
+bool ModelShading::is_small(const ScreenTriangle& triangle) const {
+  constexpr float small_px = 2;
+  const auto [left, right] = std::ranges::minmax(triangle.x);
+  return scene_.look.shine == 0 && right - left <= small_px && triangle.y[2] - triangle.y[0] <= small_px;
+}
+
+LinearColour ModelShading::colour_of_small(const ScreenTriangles& triangles, std::uint32_t index) const {
+  const Surface surface(*this, triangles, index, 0);
+  Direction normal{};
+  LinearColour colour{};
+  std::array<float, 2> place{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      normal[axis] += surface.normal_[k][axis];
+      colour[axis] += surface.colour_[k][axis] / 3;
+    }
+    for (std::size_t axis = 0; axis < 2; ++axis) place[axis] += surface.place_[k][axis] / 3;
+  }
+  const ScreenTriangle& screen = triangles.triangles[index];
+  if (surface.texture_ != nullptr) {
+    // As many of the texture's pixels as there are along its longest edge, by pixel of the view.
+    float texels = 0, pixels = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      texels = std::max(texels, std::hypot(static_cast<float>(surface.texture_->width()) *
+                                               (surface.place_[next][0] - surface.place_[k][0]),
+                                           static_cast<float>(surface.texture_->height()) *
+                                               (surface.place_[next][1] - surface.place_[k][1])));
+      pixels = std::max(pixels, std::hypot(screen.x[next] - screen.x[k], screen.y[next] - screen.y[k]));
+    }
+    const LinearColour of_texture = surface.texture_->at(place[0], place[1], texels / pixels);
+    for (std::size_t c = 0; c < 3; ++c) colour[c] *= of_texture[c];
+  }
+  const double x = static_cast<double>(screen.x[0] + screen.x[1] + screen.x[2]) / 3;
+  const double y = static_cast<double>(screen.y[0] + screen.y[1] + screen.y[2]) / 3;
+  return lit(normal, to_camera(x, y), surface.turned_, 0, colour);
+}
+
+}  // namespace wheatstone

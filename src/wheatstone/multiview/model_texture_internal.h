@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "wheatstone/image/image.h"
+
+namespace wheatstone {
+
+/// A texture and smaller ones, each half as large as the one before, down to one pixel (Williams 1983). It repeats.
+class ModelTexture {
+ public:
+  explicit ModelTexture(const Image<Rgb8>& picture);
+
+  int width() const { return levels_.front().width(); }
+  int height() const { return levels_.front().height(); }
+  /// Linear light at a place of which 0, 0 is the lower left corner and 1, 1 the upper right one, over so many pixels
+  /// of the texture across: interpolated in the two levels next to it.
+  std::array<float, 3> at(float u, float v, float pixels_across) const;
+
+ private:
+  std::array<float, 3> in_level(std::size_t level, float u, float v) const;
+  std::vector<Image<Rgb8>> levels_;
+};
+
+/// Linear light of all code values.
+const std::array<float, 256>& linear_codes();
+
+}  // namespace wheatstone
