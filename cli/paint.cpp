@@ -16,7 +16,9 @@
 #include "paint_several.h"
 #include "views_argument.h"
 #include "wheatstone/app/detail_map.h"
+#include "wheatstone/app/model_pictures.h"
 #include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/app/render_limits.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/quilt.h"
@@ -77,6 +79,7 @@ ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
   output.inputs.emplace_back(arguments.depth.file);
   output.inputs.emplace_back(arguments.detail_map);
   output.inputs.emplace_back(arguments.depth.model);
+  output.inputs.push_back(arguments.model.model.choice.texture);
   for (const std::string& disparity : {arguments.disparity, arguments.right_disparity}) {
     output.inputs.emplace_back(disparity);
     output.inputs.emplace_back(disparity.substr(0, disparity.rfind(':')));  // FILE:SCALE
@@ -124,9 +127,27 @@ struct Subject {
 
 bool is_single_picture(const Arguments& arguments) { return has_depth(arguments.depth) || arguments.depth.carried; }
 
+/// Renders what is to be painted, with its exact disparities and what only other views show.
+Subject read_model_subject(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions& options,
+                           const Session& session) {
+  RenderParticlesOptions seen = arguments.model;
+  seen.width = arguments.model_size.width;
+  seen.height = arguments.model_size.height;
+  const ReadyModel model = ready_model(job.left, seen, session.progress);
+  ModelPictures made = model_pictures(model, seen, widest_views, session.progress);
+  options.left_disparity = std::move(made.left_disparity);
+  options.right_disparity = std::move(made.right_disparity);
+  options.known = std::move(made.known);
+  Subject subject;
+  subject.photograph.pair.pictures = std::move(made.pictures);
+  subject.photograph.name = job.left;
+  return subject;
+}
+
 /// Reads what is to be painted; what is known of its geometry goes into the options.
 Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions& options,
                      const Session& session) {
+  if (is_model(job)) return read_model_subject(arguments, job, options, session);
   StereoArguments files = arguments.photographs;
   files.left = job.left;
   files.right = job.right;
@@ -219,7 +240,8 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   // What cannot be written is said before the work.
   const ViewsOutput output = output_of(arguments, job.output);
   ResultOptions results = arguments.results;
-  results.photographs = arguments.photographs.rectify != RectifyPolicy::never || is_single_picture(arguments);
+  results.photographs =
+      arguments.photographs.rectify != RectifyPolicy::never || is_single_picture(arguments) || is_model(job);
   std::optional<OutputFolder> folder;
   if (!arguments.display.name.empty()) {
     check_views_output(output);
@@ -231,7 +253,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
   const ReadPhotograph& photograph = subject.photograph;
   const StereoPair& pictures = photograph.pair.pictures;
   if (pictures.right.empty()) refuse_for_flat(arguments, photograph.name);
-  results.photographs = subject.strength || photograph.pair.rectification;
+  results.photographs = subject.strength || photograph.pair.rectification || is_model(job);
   if (!arguments.display.name.empty()) return paint_for_display(arguments, job, subject, options, session);
 
   const DepthPlacing placing = depth_placing_from(arguments);
@@ -244,7 +266,8 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
                                 session.progress);
   redraw_with_depth(placing, result);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
-  const PaintingReport told{result, options.style, subject.strength ? nullptr : &photograph.pair, measured,
+  const bool is_photograph = !subject.strength && !is_model(job);
+  const PaintingReport told{result, options.style, is_photograph ? &photograph.pair : nullptr, measured,
                             photograph.whole};
   write_results(*folder, pictures, told, results, session.progress);
   Report report;
@@ -337,6 +360,7 @@ Value zero_parallax_at(std::optional<std::pair<int, int>>& at) {
 
 /// "with --depth" where one picture has its depth from elsewhere, empty where there are two views.
 std::string single_picture(const PaintArguments& a) {
+  if (is_model_file(a)) return "on a model of triangles";
   if (has_depth(a.depth)) return fmt::format("with {}", option_of(a.depth));
   return finds_depth_in_file(a) ? "on a picture that has its own depth" : "";
 }
@@ -359,6 +383,35 @@ std::vector<SliceDepth> slice_depths(const std::string& option, const std::strin
   return parse_slice_depths(words, option);
 }
 
+Rows model_rows(PaintArguments& a, const Reason& printing) {
+  RenderParticlesOptions& seen = a.model;
+  constexpr static std::array<Choice<UpAxis>, 3> axes{
+      {{"auto", UpAxis::by_format}, {"y", UpAxis::y}, {"z", UpAxis::z}}};
+  seen.framing.zoom = Framing().zoom;
+  // About 3 % of the width from the nearest point to the farthest.
+  seen.depth.near_mm = 55;
+  seen.depth.far_mm = 60;
+  return under(
+      "Models",
+      {row("--azimuth", number(seen.framing.azimuth_deg, {-360, 360}),
+           "Direction that the camera looks from, in degrees"),
+       row("--elevation", number(seen.framing.elevation_deg, elevation_range),
+           "Height of the camera above the horizon, in degrees"),
+       row("--fov", number(seen.framing.field_of_view_deg, field_of_view_range),
+           "Horizontal field of view, in degrees"),
+       row("--zoom", number(seen.framing.zoom, zoom_range), "Magnification: 2 shows half as much"),
+       row("--picture-size", size(a.model_size, view_side_range), "Size of the painted pictures: WIDTHxHEIGHT"),
+       row("--up", choice(seen.model.choice.up, axes),
+           "Axis of the model that is up; auto: y in OBJ and glTF, z in PLY and STL"),
+       row("--crease", number(seen.model.choice.crease_deg, crease_range_deg),
+           "Where a model has no normals, triangles that meet at a larger angle, in degrees, have an edge between "
+           "them"),
+       row("--model-texture", of_type("FILE", text(seen.model.choice.texture)), "Picture for a model that names none"),
+       row("--model-background", parsed(seen.model.background, parse_colour, "COLOUR", "#3a3e44"),
+           "Colour around the model")},
+      {printing, when([&a] { return !is_model_file(a); }, "on what is no model; it works on models of triangles")});
+}
+
 Rows paint_rows(PaintArguments& a) {
   const Reason printing = when([&a] { return !a.print_style.empty(); }, "with --print-style; nothing is painted");
   const Reason again = when([&a] { return is_painting_file(a); }, "on a painting (.wst); it works on photographs");
@@ -372,6 +425,7 @@ Rows paint_rows(PaintArguments& a) {
       when([&a] { return a.disparity.empty(); }, "without --disparity, which is that of the left view");
   const Reason nearest = when([&a] { return !a.display.name.empty() && !a.painting.zero_parallax.disparity_px; },
                               "as 'nearest' with --display; it works with a disparity in pixels");
+  const Reason model = when([&a] { return is_model_file(a); }, "on a model of triangles; it works on photographs");
   const Reason given_depth = [&a] {
     return has_depth(a.depth) ? single_picture(a) + "; it works where one file holds two views" : "";
   };
@@ -392,7 +446,8 @@ Rows paint_rows(PaintArguments& a) {
   const Rows basic{
       row("PHOTOGRAPHS", texts(a.files),
           "LEFT and RIGHT photograph; or files that hold both views each: MPO, JPS, side by side, one above the other; "
-          "or one picture with --depth; or one folder of such photographs; or one painting.wst, which is drawn again"),
+          "or one picture with --depth; or one model of triangles (glTF, OBJ, PLY, STL); or one folder of such "
+          "photographs; or one painting.wst, which is drawn again"),
       row("-o,--output", output_name(a.folder), "Folder for the results", {printing}),
       row("--format", picture_format(a.results.format),
           "File format of the painted pictures; masks and disparities are PNG", {printing}),
@@ -464,21 +519,22 @@ Rows paint_rows(PaintArguments& a) {
           {printing, display}),
       row("--html", flag(a.results.html), "Also write index.html, which shows the pictures",
           {printing, again, display}),
-      layout_row(a.photographs.layout, {printing, again, given_depth}),
+      layout_row(a.photographs.layout, {printing, again, given_depth, model}),
       swap_row(a.photographs.swap, {printing, again, one_view}),
-      max_size_row(a.photographs.max_size, {printing, again, disparity}),
+      max_size_row(a.photographs.max_size, {printing, again, disparity, model}),
       rectify_row(a.photographs.rectify, {printing, again, one_view})};
   Rows style = under({}, style_rows(a.style), {again});
   style.front().unless.push_back(printing);
   return join({basic, display_view_rows(a.display, {printing}), drawing,
-               under({}, depth_rows(a.depth, no_depth, no_map), {printing, again}), style,
-               under({}, match_rows(a.matching), {printing, again, known})});
+               under({}, depth_rows(a.depth, no_depth, no_map), {printing, again, model}), style,
+               under({}, match_rows(a.matching), {printing, again, known}), model_rows(a, printing)});
 }
 
 }  // namespace
 
 Command paint_command() {
-  return make_command("paint", "Paint a stereo photograph, or one picture and its depth", paint_rows, run_paint,
+  return make_command("paint", "Paint a stereo photograph, one picture and its depth, or a model", paint_rows,
+                      run_paint,
                       "Writes left.png and right.png as the photographs lie, side_by_side.png and anaglyph.png for "
                       "viewing, painting.wst\n"
                       "(the marks), disparity, occlusion, and report.json; where the pair was rectified, or made of "
@@ -489,7 +545,8 @@ Command paint_command() {
                       "  wheatstone paint one.mpo two.mpo three.mpo -o painted\n"
                       "  wheatstone paint photographs -o painted\n"
                       "  wheatstone paint photograph.mpo --display looking-glass-portrait -o photograph\n"
-                      "  wheatstone paint photo.jpg --depth depth.png -o painted");
+                      "  wheatstone paint photo.jpg --depth depth.png -o painted\n"
+                      "  wheatstone paint model.glb --style oil --azimuth 60 -o painted");
 }
 
 }  // namespace wheatstone::cli

@@ -7,6 +7,7 @@
 
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
+#include "wheatstone/models/read_model.h"
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/photograph/find_layout.h"
 
@@ -46,6 +47,14 @@ bool is_painting_file(const PaintArguments& arguments) {
   return arguments.files.size() == 1 && arguments.files.front().ends_with(".wst");
 }
 
+bool is_model_file(const PaintArguments& arguments) {
+  return arguments.files.size() == 1 && is_model({.left = arguments.files.front()});
+}
+
+bool is_model(const PaintJob& job) {
+  return job.right.empty() && (is_named_as_model(job.left) || holds_model(job.left));
+}
+
 bool is_photograph_folder(const PaintArguments& arguments) {
   std::error_code error;
   return arguments.files.size() == 1 && fs::is_directory(arguments.files.front(), error);
@@ -56,7 +65,9 @@ bool are_several(const PaintArguments& arguments) {
 }
 
 bool finds_depth_in_file(const PaintArguments& arguments) {
-  if (arguments.files.size() != 1 || is_photograph_folder(arguments) || has_depth(arguments.depth)) return false;
+  if (arguments.files.size() != 1 || is_photograph_folder(arguments) || is_model_file(arguments) ||
+      has_depth(arguments.depth))
+    return false;
   if (arguments.photographs.layout == depth_layout) return true;
   // Whoever says where two views lie, or what disparity they have, is believed.
   for (const char* option : {"--layout", "--swap", "--disparity"})

@@ -11,6 +11,7 @@
 #include "stereo_arguments.h"
 #include "style_options.h"
 #include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/app/render_particles.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/marks/mapped_depth.h"
 #include "wheatstone/marks/slicing.h"
@@ -42,6 +43,8 @@ struct PaintArguments {
   double scale = 1;
   Slicing slicing;  ///< of a painting that is drawn again
   DisplayArguments display;
+  RenderParticlesOptions model;  ///< how a model of triangles is seen
+  Size model_size{1200, 900};    ///< of its pictures
   bool measure = false;
   MatchArguments matching;
   StyleArguments style;
@@ -52,6 +55,9 @@ DepthPlacing depth_placing_from(const PaintArguments& arguments);
 
 /// Whether the one file that is given is a painting, which is drawn again.
 bool is_painting_file(const PaintArguments& arguments);
+
+/// Whether the one file that is given is a model of triangles.
+bool is_model_file(const PaintArguments& arguments);
 
 /// Whether the one input is a folder of photographs.
 bool is_photograph_folder(const PaintArguments& arguments);
@@ -69,6 +75,9 @@ struct PaintJob {
   std::string depth = {};  ///< depth map that was found for the one picture
   std::string why = {};    ///< how the files were found to belong together; empty: they were given
 };
+
+/// Whether it is a model of triangles.
+bool is_model(const PaintJob& job);
 
 /// Tells which files are photographs of their own. One file holds both views. Two files are LEFT and RIGHT, unless both
 /// are named as stereo photographs (.mpo, .jps, .pns) or --layout says that each holds both views; three or more hold

@@ -72,7 +72,7 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
   shared_width(photographs.left.width(), result.zero_parallax_px);
   const Image<std::uint8_t> found_map = found_detail(photographs.left, options);
   result.painted = paint(photographs, result.geometry, options.style, progress, {options.depth_budget, options.device},
-                         options.detail ? *options.detail : found_map);
+                         options.detail ? *options.detail : found_map, options.known);
   return result;
 }
 
@@ -98,7 +98,7 @@ PaintedViews paint_views(const StereoPair& photographs, const PaintPhotographOpt
     views.zero_parallax_px = screen_disparity(painting.zero_parallax, found.geometry);
   const Image<std::uint8_t> found_map = found_detail(photographs.left, painting);
   const Painting planned = plan_painting(photographs, found.geometry, painting.style, progress, widest_views,
-                                         painting.detail ? *painting.detail : found_map);
+                                         painting.detail ? *painting.detail : found_map, painting.known);
   return {draw_display_views(planned, views, progress, composition), found.confidence};
 }
 

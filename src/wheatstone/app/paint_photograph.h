@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/depth/comfort.h"
@@ -26,6 +27,7 @@ struct PaintPhotographOptions {
   MatchOptions matching;
   std::optional<Image<float>> left_disparity;   ///< ready-made; none: the photographs are matched
   std::optional<Image<float>> right_disparity;  ///< only together with the left one
+  std::vector<View> known;                      ///< as plan_painting's, with both disparities
   std::optional<Image<std::uint8_t>> detail;    ///< as plan_painting's; none: detail_of_faces
   ZeroParallax zero_parallax;
   Device device = Device::processor;                               ///< what draws the pictures

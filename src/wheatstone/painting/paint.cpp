@@ -100,24 +100,27 @@ void check_reads_detail(const Style& style) {
 }
 
 Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                       const Progress& progress, ViewRange wanted, ImageView<const std::uint8_t> detail) {
+                       const Progress& progress, ViewRange wanted, ImageView<const std::uint8_t> detail,
+                       std::span<const View> known) {
   check_style(style);
   check_fits(photographs, geometry);
   if (!detail.empty()) check_reads_detail(style);
   const bool apart = style.propagation == Propagation::independent || is_raster(style);
   if (apart && !photographs.right.empty()) return plan_eyes_apart(photographs, geometry, style, progress);
-  std::vector<View> scene = make_still_scene(photographs, geometry, wanted);
+  std::vector<View> scene =
+      known.empty() ? make_still_scene(photographs, geometry, wanted) : make_known_scene(photographs, geometry, known);
   if (!detail.empty()) scene.front().detail = stretched(detail, photographs.left.width(), photographs.left.height());
   PaintingMemory nothing_before;
   return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress).painting;
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                  const Progress& progress, const PaintDrawing& drawing, ImageView<const std::uint8_t> detail) {
+                  const Progress& progress, const PaintDrawing& drawing, ImageView<const std::uint8_t> detail,
+                  std::span<const View> known) {
   PaintedPair result;
   {
     const Stopwatch watch(result.times.planning_s);
-    result.painting = plan_painting(photographs, geometry, style, progress, widest_views, detail);
+    result.painting = plan_painting(photographs, geometry, style, progress, widest_views, detail, known);
   }
   const Stopwatch watch(result.times.rasterising_s);
   report(progress, "drawing", 0);

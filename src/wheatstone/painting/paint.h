@@ -1,12 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "wheatstone/gpu/device.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
+#include "wheatstone/stereo/view.h"
 
 namespace wheatstone {
 
@@ -41,11 +43,12 @@ inline constexpr ViewRange widest_views{ViewPosition(-2.5f), ViewPosition(2.5f)}
 /// Plans the painting of a rectified pair, for any of the `wanted` views. The geometry must have the pair's size and no
 /// unknown disparity. Of each eye planned by itself, and of Propagation::raster, there are two views. `detail` says how
 /// finely each place of the left view is painted with fitted strokes (View::detail), stretched over it; empty: all
-/// evenly. Throws Error{wrong_usage} for a style that cannot be painted with, or not by a detail map,
-/// Error{bad_input} for a geometry that does not fit.
+/// evenly. `known` are views that show what the left one does not, with a mask of that, where all of the scene is known
+/// (make_known_scene); empty: they are found from the photographs. Throws Error{wrong_usage} for a style that cannot be
+/// painted with, or not by a detail map, Error{bad_input} for a geometry that does not fit.
 Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                        const Progress& progress = {}, ViewRange wanted = widest_views,
-                       ImageView<const std::uint8_t> detail = {});
+                       ImageView<const std::uint8_t> detail = {}, std::span<const View> known = {});
 
 /// Whether a detail map steers a style: its strokes are fitted and propagated.
 bool reads_detail(const Style& style);
@@ -55,7 +58,7 @@ void check_reads_detail(const Style& style);
 /// Paints a rectified pair so that its marks fuse. Takes and throws what plan_painting does.
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                   const Progress& progress = {}, const PaintDrawing& drawing = {},
-                  ImageView<const std::uint8_t> detail = {});
+                  ImageView<const std::uint8_t> detail = {}, std::span<const View> known = {});
 
 /// One eye, painted alone.
 struct PaintedView {

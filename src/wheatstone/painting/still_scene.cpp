@@ -90,6 +90,25 @@ std::vector<View> make_views_at(std::span<const ViewPosition> positions, std::sp
   return outer;
 }
 
+/// Whether another view shows the point that a view has at a pixel. Both are of the reference view's scale.
+bool shows_point(const View& other, const View& view, int x, int y) {
+  constexpr float one_surface_px = 1;
+  const float disparity = view.disparity(x, y);
+  const float place = static_cast<float>(x) + 0.5f - (other.position - view.position) * disparity;
+  // On steep surfaces a point lies between two pixels of different disparity.
+  const int column = floor_of(place), beside = place - std::floor(place) < 0.5f ? column - 1 : column + 1;
+  const auto is_near = [&](float one, float another) { return std::abs(one - another) <= one_surface_px; };
+  if (!other.disparity.contains(column, y)) return false;
+  const float here = other.disparity(column, y);
+  if (is_near(here, disparity)) return true;
+  if (!other.disparity.contains(beside, y)) return false;
+  const float next = other.disparity(beside, y);
+  // Between them only where they are one surface.
+  constexpr float steepest_px = 2;
+  return std::abs(here - next) <= steepest_px && disparity >= std::min(here, next) - one_surface_px &&
+         disparity <= std::max(here, next) + one_surface_px;
+}
+
 /// 255 for what only the right eye sees, and for gaps that the left eye's surfaces leave in its view: disparities of
 /// the two eyes, or of what is filled in, do not always fit together.
 Image<std::uint8_t> not_told_by_left(const StereoGeometryView& geometry) {
@@ -165,6 +184,30 @@ std::vector<View> make_still_scene(const StereoPairView& photographs, const Ster
   const std::vector<View> outer = make_views_at(positions, scene, depth_ends(geometry.left_disparity).middle_px());
   scene.insert(scene.end(), outer.begin(), outer.end());
   return scene;
+}
+
+std::vector<View> make_known_scene(const StereoPairView& pictures, const StereoGeometryView& geometry,
+                                   std::span<const View> others) {
+  std::vector<View> scene{{pictures.left, geometry.left_disparity, {}, left_eye}};
+  scene.insert(scene.end(), others.begin(), others.end());
+  return scene;
+}
+
+void want_what_others_do_not_show(std::span<View> views) {
+  for (std::size_t v = 1; v < views.size(); ++v) {
+    View& view = views[v];
+    Image<std::uint8_t> wanted(view.disparity.width(), view.disparity.height());
+    tbb::parallel_for(0, wanted.height(), [&](int y) {
+      for (int x = 0; x < wanted.width(); ++x)
+        wanted(x, y) =
+            std::ranges::any_of(views.first(v), [&](const View& before) { return shows_point(before, view, x, y); })
+                ? 0
+                : 255;
+    });
+    constexpr int least_px = 4;
+    remove_occlusion_specks(wanted, least_px);
+    view.wanted = std::move(wanted);
+  }
 }
 
 }  // namespace wheatstone

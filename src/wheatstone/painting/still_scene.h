@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "wheatstone/marks/view_range.h"
@@ -19,5 +20,14 @@ std::vector<View> make_outer_views(const StereoPairView& photographs, const Ster
 /// photographs and the left disparity.
 std::vector<View> make_still_scene(const StereoPairView& photographs, const StereoGeometryView& geometry,
                                    ViewRange wanted);
+
+/// The scene of pictures of which all is known, as those of a model: the left eye, and `others` with what they show
+/// beside it, in place of what make_still_scene finds. Borrows the pictures.
+std::vector<View> make_known_scene(const StereoPairView& pictures, const StereoGeometryView& geometry,
+                                   std::span<const View> others);
+
+/// Sets of each view but the first, which is whole, what is wanted of it: pixels whose point the views before it do not
+/// show, which is known because their disparities are exact. Specks are left out.
+void want_what_others_do_not_show(std::span<View> views);
 
 }  // namespace wheatstone
