@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "command.h"
 #include "stereo_arguments.h"
@@ -20,6 +21,7 @@ struct DepthArguments {
 
 /// The name for --layout of a picture with its depth beside it.
 inline constexpr auto depth_layout = "rgbd";
+inline constexpr std::string_view depth_layout_words = "; rgbd for a picture with its depth beside it";
 
 /// --depth, --depth-model, --depth-is and --strength of one picture; `no_depth` says where the strength has no effect,
 /// and `no_map` where --depth-is has none, which needs --depth by default.

@@ -24,6 +24,8 @@
 #include "wheatstone/models/read_model.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/photograph/carried_depth.h"
+#include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/disparity_file.h"
@@ -125,6 +127,10 @@ void put_depth(Json& facts, const StereoPair& pair, const std::string& display_n
 void put_views(Json& facts, const fs::path& path, const std::string& layout, const std::string& display) {
   const ReadViewsOptions options = layout.empty() ? ReadViewsOptions() : options_for_layout(layout);
   try {
+    if (layout.empty() && !is_stereo_file_name(path) && carries_depth(path)) {
+      facts["depth"] = find_carried_depth(path)->how;
+      return;
+    }
     const std::optional<ViewsFile> file = find_views(path, options);
     if (!file) return;
     facts["stereo"] = describe_views(*file);

@@ -519,7 +519,7 @@ Rows paint_rows(PaintArguments& a) {
           {printing, display}),
       row("--html", flag(a.results.html), "Also write index.html, which shows the pictures",
           {printing, again, display}),
-      layout_row(a.photographs.layout, {printing, again, given_depth, model}),
+      layout_row(a.photographs.layout, {printing, again, given_depth, model}, depth_layout_words),
       swap_row(a.photographs.swap, {printing, again, one_view}),
       max_size_row(a.photographs.max_size, {printing, again, disparity, model}),
       rectify_row(a.photographs.rectify, {printing, again, one_view})};

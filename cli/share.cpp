@@ -215,7 +215,9 @@ Rows share_rows(ShareArguments& a) {
       row("--disparity", text(a.disparity),
           "Disparity of the left photograph, which replaces matching, as of 'wheatstone paint'",
           {only({SharedKind::stereo_photograph})}),
-      row("--layout", text(a.views.layout), "Layout of one file that holds both views, as of 'wheatstone paint'",
+      row("--layout", text(a.views.layout),
+          "Layout of one file that holds both views, as of 'wheatstone paint'; rgbd for a picture with its depth "
+          "beside it",
           {only({SharedKind::film, SharedKind::picture_with_depth, SharedKind::stereo_photograph})}),
       row("--swap", flag(a.views.swap), "Swap the two views, or reverse the order of all",
           {only({SharedKind::views, SharedKind::stereo_photograph})}),

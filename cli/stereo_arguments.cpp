@@ -89,10 +89,10 @@ NamedPair read_two_files(const StereoArguments& arguments) {
 
 }  // namespace
 
-Row layout_row(std::string& layout, Reasons unless) {
+Row layout_row(std::string& layout, Reasons unless, std::string_view also) {
   return row("--layout", text(layout),
-             fmt::format("Layout of one file that holds both views: {}; detected by default",
-                         fmt::join(photograph_layout_names(), ", ")),
+             fmt::format("Layout of one file that holds both views: {}{}; detected by default",
+                         fmt::join(photograph_layout_names(), ", "), also),
              std::move(unless));
 }
 

@@ -21,8 +21,8 @@ struct StereoArguments {
   int max_size = 0;          ///< longer side of what is worked on, in pixels; 0: as large as it is
 };
 
-/// --layout, --swap, --max-size and --rectify.
-Row layout_row(std::string& layout, Reasons unless = {});
+/// --layout, --swap, --max-size and --rectify. `also` is said behind the names of the layouts.
+Row layout_row(std::string& layout, Reasons unless = {}, std::string_view also = {});
 Row swap_row(bool& swap, Reasons unless = {});
 Row max_size_row(int& longest_px, Reasons unless = {});
 Row rectify_row(RectifyPolicy& policy, Reasons unless = {});

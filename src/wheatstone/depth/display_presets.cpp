@@ -11,19 +11,24 @@
 namespace wheatstone {
 namespace {
 
-// Looking Glass: layouts as its makers recommend them, widths from resolution and pixels an inch, and the 40 degrees of
-// their software; a display's own calibration knows better. A view is as large as its place in the quilt.
-// The desk and the nine views are those of Hassaine 2010, sec. 5.6, whose 60 and 36 planes come out for 10 cm either
-// way at just these widths and distances; the 36 views are those of sec. 2.3.
-// The other displays with lenses are kinds of which several were sold; a monitor of 24 inches is assumed, seen from
-// 700 mm, where neighbouring views are half an eye separation apart.
-constexpr float wide = 16.f / 9;
-constexpr std::array<DisplayPreset, 15> presets{{
-    {"looking-glass-go", 66, 372, 682, 11, 6, 4092, 4092, 9.f / 16, 74.7f, 350, 40, "Looking Glass Go, 6 inch"},
+// Looking Glass: layouts as its makers recommend them (https://lfdocs.lookingglassfactory.com/keyconcepts/quilts; of
+// the 27 inch, which that page lacks, as VTK's vtkLookingGlassInterface has them), widths from resolution and pixels an
+// inch or from the diagonal, and the 40 degrees of their software; a display's own calibration knows better. A view is
+// as large as its place in the quilt. The desk and the nine views are those of Hassaine 2010, sec. 5.6, whose 60 and 36
+// planes come out for 10 cm either way at just these widths and distances; the 36 views are those of sec. 2.3. The
+// other displays with lenses are kinds of which several were sold; a monitor of 24 inches is assumed, seen from 700 mm,
+// where neighbouring views are half an eye separation apart.
+constexpr float wide = 16.f / 9, tall = 9.f / 16;
+constexpr std::array<DisplayPreset, 19> presets{{
+    {"looking-glass-go", 66, 372, 682, 11, 6, 4092, 4092, tall, 74.7f, 350, 40, "Looking Glass Go, 6 inch"},
     {"looking-glass-portrait", 48, 420, 560, 8, 6, 3360, 3360, 0.75f, 120.4f, 450, 40, "Looking Glass Portrait"},
     {"looking-glass-16", 49, 857, 857, 7, 7, 5999, 5999, wide, 344.7f, 700, 40, "Looking Glass 16 inch"},
+    {"looking-glass-16-portrait", 66, 545, 1000, 11, 6, 5995, 6000, tall, 193.9f, 700, 40, "the same, upright"},
     {"looking-glass-16-old", 45, 819, 455, 5, 9, 4096, 4096, wide, 344.7f, 700, 40, "the same, older quilts"},
+    {"looking-glass-27", 48, 960, 720, 8, 6, 7680, 4320, wide, 597.7f, 1000, 40, "Looking Glass 27 inch"},
+    {"looking-glass-27-portrait", 48, 640, 1080, 12, 4, 7680, 4320, tall, 336.2f, 1000, 40, "the same, upright"},
     {"looking-glass-32", 49, 1170, 1170, 7, 7, 8190, 8190, wide, 696.7f, 1200, 40, "Looking Glass 32 inch"},
+    {"looking-glass-32-portrait", 66, 744, 1364, 11, 6, 8184, 8184, tall, 391.9f, 1200, 40, "the same, upright"},
     {"looking-glass-32-old", 45, 1638, 910, 5, 9, 8192, 8192, wide, 696.7f, 1200, 40, "the same, older quilts"},
     {"looking-glass-65", 72, 1024, 910, 8, 9, 8192, 8192, wide, 1428, 2000, 40, "Looking Glass 65 inch"},
     {"desk-stereo", 2, 1280, 1024, 0, 0, 0, 0, 1.25f, 376, 750, 0, "19 inch, 1280x1024 for each eye"},

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/photograph/depth_beside_internal.h"
 #include "wheatstone/photograph/xmp_internal.h"
 #include "wheatstone/pictures/depth_file.h"
 #include "wheatstone/pictures/heif_pictures.h"
@@ -121,9 +122,9 @@ std::optional<CarriedDepth> find_carried_depth(const fs::path& path) {
     return CarriedDepth{read_image(path), std::move(found->depth), is_inverse ? DepthKind::inverse : DepthKind::metric,
                         "the depth image of its HEIC file"};
   }
-  if (!is_jpeg(bytes)) return {};
-  auto found = jpeg_depth(path, bytes);
-  if (!found) return {};
+  auto found = is_jpeg(bytes) ? jpeg_depth(path, bytes) : std::nullopt;
+  if (!found && may_be_animated(bytes)) return {};
+  if (!found) return find_depth_beside(path);
   // The map lies as the picture is stored.
   const int orientation = open_picture(path).reader->picture().value_of("Orientation", 1);
   return CarriedDepth{read_image(path), upright(std::move(found->first), orientation), found->second,
@@ -134,36 +135,14 @@ bool carries_depth(const fs::path& path) {
   try {
     const std::string bytes = read_picture_bytes(path);
     if (is_heif(bytes)) return read_heif_depth(path).has_value();
-    if (!is_jpeg(bytes)) return false;
-    const Xmp xmp = read_xmp(bytes, path);
-    return xmp_property(xmp, "GDepth:Data").has_value() || lists_depth(container_items(path, xmp));
+    if (is_jpeg(bytes)) {
+      const Xmp xmp = read_xmp(bytes, path);
+      if (xmp_property(xmp, "GDepth:Data") || lists_depth(container_items(path, xmp))) return true;
+    }
+    return !may_be_animated(bytes) && find_depth_beside(path).has_value();
   } catch (const Error&) {
     return false;
   }
-}
-
-CarriedDepth read_depth_beside(const fs::path& path) {
-  const Image<Rgb8> both = read_image(path);
-  const int width = both.width() / 2;
-  if (width < 1 || both.width() % 2 != 0)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is {} pixels wide, expected a picture and its depth of one width beside each other",
-                            path.string(), both.width()));
-  CarriedDepth read{Image<Rgb8>(width, both.height()), Image<float>(width, both.height()), DepthKind::inverse,
-                    "its right half"};
-  constexpr int grey_tolerance = 8;
-  for (int y = 0; y < both.height(); ++y)
-    for (int x = 0; x < width; ++x) {
-      read.picture(x, y) = both(x, y);
-      const Rgb8 level = both(x + width, y);
-      const auto [least, most] = std::minmax({level.r, level.g, level.b});
-      if (most - least > grey_tolerance)
-        throw Error(
-            ErrorKind::bad_input,
-            fmt::format("{}: its right half is in colour, expected the grey levels of a depth map", path.string()));
-      read.depth(x, y) = level.g;
-    }
-  return read;
 }
 
 }  // namespace wheatstone

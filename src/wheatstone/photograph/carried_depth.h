@@ -19,7 +19,9 @@ struct CarriedDepth {
 
 /// Reads a picture and the depth that its file carries; none where it has none:
 /// - HEIC: the depth image of the main picture;
-/// - JPEG: Google's depth map, within its XMP (GDepth) or behind the picture, as its XMP lists it (Dynamic Depth).
+/// - JPEG: Google's depth map, within its XMP (GDepth) or behind the picture, as its XMP lists it (Dynamic Depth);
+/// - any picture of colours whose right half is the grey depth of its left half: the halves' edges agree, and the right
+///   one is smoother, or the name ends in the word "rgbd".
 /// Throws Error{bad_input} where that depth is damaged.
 std::optional<CarriedDepth> find_carried_depth(const std::filesystem::path& path);
 

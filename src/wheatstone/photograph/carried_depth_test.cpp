@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <libheif/heif.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/heif_pictures.h"
+#include "scenes/test_photographs.h"
 #include "scenes/xmp_pictures.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
@@ -160,6 +162,40 @@ TEST(CarriedDepth, BesideThePictureIsItsRightHalf) {
                [&] { read_depth_beside(folder / "two.png"); });
   write_image(folder / "odd.png", Image<Rgb8>(2 * width + 1, height));
   expect_error(ErrorKind::bad_input, "odd.png: is 129 pixels wide", [&] { read_depth_beside(folder / "odd.png"); });
+}
+
+TEST(CarriedDepth, BesideAPhotographIsRecognised) {
+  const TemporaryFolder folder;
+  const SyntheticStill still = make_synthetic_still({.width = 240, .height = 180, .samples_a_side = 1});
+  const Image<Rgb8>& left = still.pictures.left;
+  Image<Rgb8> depth(240, 180), grey(240, 180);
+  for (int y = 0; y < 180; ++y)
+    for (int x = 0; x < 240; ++x) {
+      const auto level = static_cast<std::uint8_t>(std::clamp(4 * still.geometry.left_disparity(x, y), 0.f, 255.f));
+      depth(x, y) = {level, level, level};
+      grey(x, y) = {left(x, y).g, left(x, y).g, left(x, y).g};
+    }
+  for (const char* name : {"found.png", "found.jpg"}) {
+    write_image(folder / name, joined(left, depth, true));
+    ASSERT_TRUE(carries_depth(folder / name)) << name;
+    const std::optional<CarriedDepth> found = find_carried_depth(folder / name);
+    EXPECT_EQ(found->how, "its right half");
+    EXPECT_EQ(found->picture.width(), 240);
+    EXPECT_NEAR(found->depth(120, 90), depth(120, 90).g, 4);
+  }
+  // Neither two views, nor a photograph beside itself in grey, nor beside the depth of another.
+  Image<Rgb8> other(240, 180);
+  for (int y = 0; y < 180; ++y)
+    for (int x = 0; x < 240; ++x) other(x, y) = depth(239 - x, y);
+  write_image(folder / "views.png", joined(left, still.pictures.right, true));
+  write_image(folder / "copy.png", joined(left, grey, true));
+  write_image(folder / "other.png", joined(left, other, true));
+  for (const char* name : {"views.png", "copy.png", "other.png"}) EXPECT_FALSE(carries_depth(folder / name)) << name;
+  // The name is believed of a grey photograph.
+  write_image(folder / "old_rgbd.png", joined(grey, depth, true));
+  write_image(folder / "old.png", joined(grey, depth, true));
+  EXPECT_TRUE(carries_depth(folder / "old_rgbd.png"));
+  EXPECT_FALSE(carries_depth(folder / "old.png"));
 }
 
 TEST(ReadViews, OfAVrPhotographAreThePictureAndThatInItsXmp) {
