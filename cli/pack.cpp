@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,42 +8,68 @@
 #include "commands.h"
 #include "device_option.h"
 #include "packing.h"
+#include "print_options.h"
 #include "stereo_arguments.h"
 #include "views_argument.h"
 #include "wheatstone/display/arrange.h"
+#include "wheatstone/display/floating_window.h"
 #include "wheatstone/error.h"
+#include "wheatstone/matching/match.h"
+#include "wheatstone/photograph/photograph_notes.h"
 #include "wheatstone/stereo/reduced_pair.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
 
+/// Strips of a floating window: as they are typed, or none, which is "auto".
+using TypedWindow = std::optional<FloatingWindow>;
+
 struct PackArguments {
   ViewsArguments input;
   PackingArguments packing;
+  PrintArguments print;
   std::string output;
   float shift_px = 0;
-  int max_size = 0;                                   ///< longer side of what is matched; 0: as large as it is
-  std::optional<std::array<int, 2>> floating_window;  ///< widths of the strips, left and right
+  int max_size = 0;                            ///< longer side of what is matched; 0: as large as it is
+  std::optional<TypedWindow> floating_window;  ///< none: there is none
 };
 
-/// The views of which the packing needs all: shifted, and with the window where it is wanted.
-std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const PackArguments& arguments) {
+/// The strips that are typed, or those that the matched views need.
+FloatingWindow window_for(const StereoPair& pair, const TypedWindow& typed, const Session& session) {
+  if (!typed) {
+    const std::optional<MatchedPair> matched = match_if_any(pair, {}, session.progress);
+    const FloatingWindow window = matched ? floating_window_for(matched->geometry) : FloatingWindow{};
+    remark(session, fmt::format("floating window: {} pixels at the left edge, {} at the right", window.left_px,
+                                window.right_px));
+    return window;
+  }
+  const int width = pair.left.width();
+  if (typed->left_px + typed->right_px >= width)
+    throw Error(ErrorKind::wrong_usage, fmt::format("--floating-window: is '{},{}', which leaves nothing of {} pixels",
+                                                    typed->left_px, typed->right_px, width));
+  return *typed;
+}
+
+/// The views of which the packing needs all: a part of each, shifted, and with a window and a frame where these are
+/// wanted.
+std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const PackArguments& arguments,
+                                  const PrintFrame& frame, const Session& session) {
+  if (frame.crop)
+    for (Image<Rgb8>& view : views) view = cropped(view, *frame.crop);
   if (arguments.shift_px != 0) views = shifted_views(std::move(views), arguments.shift_px);
   if (arguments.floating_window) {
     if (views.size() != 2)
       throw Error(ErrorKind::wrong_usage,
                   fmt::format("--floating-window: is for two views, but there are {}", views.size()));
-    const auto [left, right] = *arguments.floating_window;
-    const int width = views[0].width();
-    if (left + right >= width)
-      throw Error(ErrorKind::wrong_usage,
-                  fmt::format("--floating-window: is '{},{}', which leaves nothing of {} pixels", left, right, width));
     StereoPair pair{std::move(views[0]), std::move(views[1])};
-    put_floating_window(pair, left, right);
+    const FloatingWindow window = window_for(pair, *arguments.floating_window, session);
+    put_floating_window(pair, window.left_px, window.right_px);
     views[0] = std::move(pair.left);
     views[1] = std::move(pair.right);
   }
+  if (frame.border || !frame.caption.empty())
+    for (Image<Rgb8>& view : views) view = with_border_and_caption(view, frame);
   return views;
 }
 
@@ -55,10 +80,17 @@ ViewsArguments input_of(const PackArguments& arguments, const Packing& packing, 
   settle_device(input.device, session);
   const int views = packing.format->views;
   const bool untouched = arguments.shift_px == 0 && !arguments.floating_window && !input.swap &&
+                         !has_print_frame(arguments.print.frame) && arguments.print.caption.empty() &&
                          (views == 0 || input.views == 0 || input.views == views);
   if (input.device != Device::processor && packing.format->composition && untouched)
     input.composition = packing.format->composition(packing);
   return input;
+}
+
+/// What the first file says of its photograph; nothing of files that are no pictures.
+PictureNotes notes_of(const PackArguments& arguments, const std::vector<std::filesystem::path>& files) {
+  if (files.empty() || files.front().extension() == ".wst" || files.front().extension() == ".exr") return {};
+  return read_photograph_notes(files.front(), arguments.print.keep_location);
 }
 
 /// Makes the views smaller where their longer side is above `longest_px`.
@@ -76,11 +108,17 @@ Report run_pack(const PackArguments& arguments, const Session& session) {
   ViewsOutput output{arguments.output, files_read(arguments.input), arguments.packing.format};
   output.inputs.emplace_back(arguments.packing.screen);
   check_views_output(output);
+  const std::string first = output.inputs.front().string();
+  output.notes = notes_of(arguments, output.inputs);
+  PrintFrame frame = print_frame_from(arguments.print, output.notes, first);
+  std::string caption;
+  if (sets_caption(packing)) caption.swap(frame.caption);
   ReadViews read = read_views_argument(input_of(arguments, packing, session), views_wanted(packing), session);
   if (arguments.max_size > 0 && !read.views.empty()) reduce(read.views, arguments.max_size);
-  const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), arguments);
+  const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), arguments, frame, session);
   report(session.progress, "packing", 0);
-  const std::string written = write_packed({packing, arguments.packing, views, read.composed, output, session});
+  const std::string written =
+      write_packed({packing, arguments.packing, views, caption, read.composed, output, session});
   const std::size_t count = views.empty() ? static_cast<std::size_t>(read.count) : views.size();
   const PictureSize size = views.empty() ? read.size : PictureSize{views.front().width(), views.front().height()};
   return {
@@ -94,22 +132,26 @@ Report run_pack(const PackArguments& arguments, const Session& session) {
 }
 
 Rows pack_rows(PackArguments& a) {
-  const auto parse_strips = [](const std::string& option, const std::string& words) {
-    const std::vector<int> strips = parse_integers(option, words, {',', 2, {0, 65535}, "LEFT,RIGHT"});
-    return std::array{strips[0], strips[1]};
+  const auto parse_strips = [](const std::string& option, const std::string& words) -> TypedWindow {
+    if (words == "auto") return std::nullopt;
+    const std::vector<int> strips = parse_integers(option, words, {',', 2, {0, 65535}, "LEFT,RIGHT or auto"});
+    return FloatingWindow{strips[0], strips[1]};
   };
   Row max_size = max_size_row(a.max_size, {unless_matched(a.packing, a.output)});
   max_size.help = "Match a reduced copy whose longer side has at most this many pixels";
-  return join({views_rows(a.input),
-               {views_device_row(a.input), row("-o,--output", required(output_name(a.output)),
-                                               "File; a folder for views; the stem of the file for a quilt")},
-               packing_rows(a.packing, a.output),
-               {row("--zero-parallax,--shift", number(a.shift_px, {-65535, 65535}),
-                    "Disparity in pixels, from each view to the next, that lies on the screen plane"),
-                max_size,
-                row("--floating-window", parsed(a.floating_window, parse_strips),
-                    "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right "
-                    "edge of the right view")}});
+  return join(
+      {views_rows(a.input),
+       {views_device_row(a.input), row("-o,--output", required(output_name(a.output)),
+                                       "File; a folder for views; the stem of the file for a quilt")},
+       packing_rows(a.packing, a.output),
+       {row("--zero-parallax,--shift", number(a.shift_px, {-65535, 65535}),
+            "Disparity in pixels, from each view to the next, that lies on the screen plane"),
+        max_size,
+        row("--floating-window", parsed(a.floating_window, parse_strips),
+            "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right "
+            "edge of the right view; auto: as wide as needed for the frame to cut nothing before the screen for "
+            "one eye only, found by matching")},
+       print_rows(a.print, {if_matched(a.packing, a.output)}, {if_card(a.packing, a.output)})});
 }
 
 }  // namespace
@@ -120,6 +162,8 @@ Command pack_command() {
   wheatstone pack photograph.mpo --to anaglyph -o anaglyph.png
   wheatstone pack left.png right.png --to top-bottom-half -o tv.jpg
   wheatstone pack left.png right.png -o photograph.mpo
+  wheatstone pack photograph.mpo --to anaglyph --floating-window auto --border 3% --caption {title} -o print.jpg
+  wheatstone pack photograph.mpo --caption {title} -o card.pdf
   wheatstone pack views --to lenticular --screen step-9 -o screen.png
   wheatstone pack views --to quilt --quilt 8x6 -o universe)");
 }

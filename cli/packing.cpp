@@ -17,8 +17,10 @@
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/multiview_exr.h"
+#include "wheatstone/display/stereo_card.h"
 #include "wheatstone/display/wiggle.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/disparity_file.h"
@@ -85,7 +87,7 @@ MatchedView matched_view(const PackingJob& job) {
 template <class Make>
 auto one_picture(Make make) {
   return [make](const PackingJob& job) {
-    write_image(job.output.name, make(job));
+    write_image(job.output.name, make(job), job.output.notes);
     return job.output.name;
   };
 }
@@ -124,11 +126,11 @@ void add_layouts(std::vector<PackingFormat>& formats) {
 void add_stereo_files(std::vector<PackingFormat>& formats) {
   formats.push_back({"mpo", "", ".mpo", 0, one_file([](const PackingJob& job) {
                        const std::vector<ImageView<const Rgb8>> views(job.views.begin(), job.views.end());
-                       write_mpo(job.output.name, views, job.arguments.quality);
+                       write_mpo(job.output.name, views, job.arguments.quality, job.output.notes);
                      })});
   formats.push_back({"jps", "", ".jps", 2, one_file([](const PackingJob& job) {
                        write_jps(job.output.name, job.views[0], job.views[1], StereoLayout::right_left,
-                                 job.arguments.quality);
+                                 job.arguments.quality, job.output.notes);
                      })});
   formats.push_back(
       {"exr", "", ".exr", 0, one_file([](const PackingJob& job) { write_multiview_exr(job.output.name, job.views); })});
@@ -165,6 +167,16 @@ void add_matched(std::vector<PackingFormat>& formats) {
                                    : std::numeric_limits<float>::quiet_NaN();
                        write_disparity(job.output.name, depth);
                      })});
+}
+
+/// A PDF, or a picture with the card's size in its notes.
+void write_card(const PackingJob& job) {
+  const StereoPair pair = pair_of(job.views);
+  const StereoCardOptions options{.caption = job.caption, .framing = job.arguments.framing, .dpi = job.arguments.dpi};
+  if (ending_of(job.output.name) == ".pdf") return write_whole_file(job.output.name, stereo_card_pdf(pair, options));
+  PictureNotes notes = job.output.notes;
+  notes.pixels_an_inch = options.dpi;
+  write_image(job.output.name, stereo_card_picture(pair, options), notes);
 }
 
 Reason only_with(const PackingArguments& a, const std::string& output, std::vector<std::string_view> formats,
@@ -218,6 +230,7 @@ std::span<const PackingFormat> packing_formats() {
     add_stereo_files(all);
     add_many_views(all);
     add_matched(all);
+    all.push_back({"card", "", ".pdf", 2, one_file(write_card)});
     return all;
   }();
   return formats;
@@ -228,9 +241,24 @@ Reason unless_matched(const PackingArguments& a, const std::string& output) {
                    "it works with disparity, depth and rgbd, which match the views");
 }
 
+Reason if_matched(const PackingArguments& a, const std::string& output) {
+  return [&a, &output, unless = unless_matched(a, output)] {
+    const std::string words =
+        fmt::format("with --to {}; it works where the views are shown", find_packing(a, output).name);
+    return unless().empty() ? words : "";
+  };
+}
+
+Reason if_card(const PackingArguments& a, const std::string& output) {
+  return when([&a, &output] { return sets_caption(find_packing(a, output)); }, "with --to card, which has a mount");
+}
+
 Rows packing_rows(PackingArguments& a, const std::string& output) {
   const auto only = [&a, &output](std::vector<std::string_view> formats, const char* where) {
     return only_with(a, output, std::move(formats), where);
+  };
+  const auto view_framing = [](const std::string& option, const std::string& words) {
+    return parse_view_framing(words, option);
   };
   const Reason named_by_ending = [&a, &output] {
     const Packing packing = find_packing(a, output);
@@ -241,7 +269,7 @@ Rows packing_rows(PackingArguments& a, const std::string& output) {
   return {
       row("--to", text(a.to),
           fmt::format("Output format: {}; or ffmpeg's names (arcd, sbsl, irl ...). Chosen by the ending of the output "
-                      "by default: .mpo, .jps, .gif, .exr, none for views",
+                      "by default: .mpo, .jps, .gif, .exr, .pdf for card, none for views",
                       all_names())),
       row("--screen", text(a.screen), "Lenticular screen: the name of a display with lenses, or a calibration (.json)",
           {only({"lenticular"}, "it works with lenticular")}),
@@ -257,7 +285,14 @@ Rows packing_rows(PackingArguments& a, const std::string& output) {
           "Depth times disparity: camera separation times focal length in pixels",
           {only({"depth"}, "it works with depth")}),
       row("--seconds", number(a.seconds, {0.05, 60}), "Period of a wiggle animation, in seconds",
-          {only({"wiggle"}, "it works with wiggle")})};
+          {only({"wiggle"}, "it works with wiggle")}),
+      row("--dpi", number(a.dpi, {30, 2400}), "Pixels an inch of a stereo card; of a PDF, at most",
+          {only({"card"}, "it works with card")}),
+      row("--framing", parsed(a.framing, view_framing, "fit|fill|X,Y,ZOOM", "fill"),
+          "How views are shown in windows of another shape: fit, whole; fill, cut off at two sides; or the place X,Y "
+          "of "
+          "the view, 0 to 1, that comes to the middle, ZOOM times as large as with fill",
+          {only({"card"}, "it works with card")})};
 }
 
 Packing find_packing(const PackingArguments& arguments, const std::string& output) {
@@ -279,9 +314,12 @@ Packing find_packing(const PackingArguments& arguments, const std::string& outpu
 
 void check_ending(const Packing& packing, const std::string& output) {
   const std::string_view name = packing.format->name;
-  const bool is_picture = !is_one_of(name, {"mpo", "jps", "views", "wiggle", "exr", "disparity", "depth"});
+  const bool is_picture = !is_one_of(name, {"mpo", "jps", "views", "wiggle", "exr", "disparity", "depth"}) &&
+                          !(name == "card" && ending_of(output) == ".pdf");
   if (is_picture && (fs::path(output).has_extension() || name != "quilt")) check_picture_ending("--output", output);
 }
+
+bool sets_caption(const Packing& packing) { return packing.format->name == "card"; }
 
 int views_wanted(const Packing& packing) {
   return packing.format->name == "quilt" ? packing.quilt->columns * packing.quilt->rows : packing.format->views;

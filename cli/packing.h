@@ -11,6 +11,7 @@
 #include "wheatstone/display/compose.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
+#include "wheatstone/display/view_framing.h"
 #include "wheatstone/image/image.h"
 #include "write_views_output.h"
 
@@ -27,6 +28,8 @@ struct PackingArguments {
   double seconds = 0.5;                              ///< of a wiggle, there and back
   RectifyPolicy rectify = RectifyPolicy::automatic;  ///< of views that are matched
   float depth_scale = 1;                             ///< of depth: camera separation times focal length in pixels
+  double dpi = 300;                                  ///< of a stereo card: pixels an inch
+  ViewFraming framing;                               ///< of views on a display or a card of another shape
 };
 
 struct PackingFormat;
@@ -45,6 +48,7 @@ struct PackingJob {
   const Packing& packing;
   const PackingArguments& arguments;
   std::span<const Image<Rgb8>> views;
+  const std::string& caption;   ///< of a format that sets it itself
   const Image<Rgb8>& composed;  ///< the format's picture, where it is made already; then there are no views
   const ViewsOutput& output;
   const Session& session;
@@ -75,8 +79,15 @@ Packing find_packing(const PackingArguments& arguments, const std::string& outpu
 /// Throws Error{wrong_usage} where the output has an ending that the packing cannot be written under.
 void check_ending(const Packing& packing, const std::string& output);
 
-/// A reason that holds for packings that do not match the views.
+/// A reason that holds for packings that do not match the views, and one for those that do.
 Reason unless_matched(const PackingArguments& arguments, const std::string& output);
+Reason if_matched(const PackingArguments& arguments, const std::string& output);
+
+/// A reason that holds for a stereo card, which has a mount.
+Reason if_card(const PackingArguments& arguments, const std::string& output);
+
+/// Whether the format sets the caption itself, instead of below each view.
+bool sets_caption(const Packing& packing);
 
 /// How many views the packing needs; 0: any number.
 int views_wanted(const Packing& packing);

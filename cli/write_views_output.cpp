@@ -64,7 +64,7 @@ std::string write_quilt(ImageView<const Rgb8> quilt, const QuiltLayout& layout, 
           : path.parent_path() / std::filesystem::path(quilt_name(path.filename().string(), layout, aspect))
                                      .replace_extension(output.format);
   check_not_an_input(file, output.inputs);
-  write_image(file, quilt);
+  write_image(file, quilt, output.notes);
   return file.string();
 }
 
@@ -72,7 +72,7 @@ std::string write_lenticular(ImageView<const Rgb8> picture, const ViewsOutput& o
   std::filesystem::path file = output.name;
   if (!file.has_extension()) file += "." + output.format;
   check_not_an_input(file, output.inputs);
-  write_image(file, picture);
+  write_image(file, picture, output.notes);
   return file.string();
 }
 
@@ -80,7 +80,7 @@ void write_view_folder(std::span<const Image<Rgb8>> views, const ViewsOutput& ou
   OutputFolder folder(output.name, output.inputs);
   for (std::size_t v = 0; v < views.size(); ++v) {
     report(progress, "writing", static_cast<double>(v) / static_cast<double>(views.size()));
-    write_image(folder.file(fmt::format("view_{:03}.{}", v, output.format)), views[v]);
+    write_image(folder.file(fmt::format("view_{:03}.{}", v, output.format)), views[v], output.notes);
   }
   folder.commit();
 }

@@ -8,6 +8,7 @@
 #include "options.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/image/image.h"
+#include "wheatstone/pictures/picture_notes.h"
 #include "wheatstone/progress.h"
 
 namespace wheatstone::cli {
@@ -20,6 +21,7 @@ struct ViewsOutput {
   std::string name;                           ///< of a file or a folder
   std::vector<std::filesystem::path> inputs;  ///< the files that the run reads
   std::string format = "png";                 ///< of pictures whose names are not typed in full
+  PictureNotes notes = {};                    ///< what the files say beside the pictures
 };
 
 /// Says before the work what writing would refuse: an output that is an input, or a folder whose views are inputs.

@@ -44,7 +44,7 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 # With the modules that the library loads: the other packages depend on this one.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wheatstone)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "opencv-data")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "opencv-data, fonts-dejavu-core")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "The program wheatstone paints stereo photographs and films so that both eyes
 see one painting, and renders particle data sets for stereo, lenticular and
@@ -74,7 +74,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwheatstone-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "wheatstone (= ${PROJECT_VERSION}), libopencv-dev, liblcms2-dev, libheif-dev, \
-libwebp-dev, libpng-dev, libjpeg-dev, libepoxy-dev, libtbb-dev, libhwy-dev, zlib1g-dev, libisal-dev, libhdf5-dev, libcfitsio-dev, libzip-dev, libnanoflann-dev, \
+libwebp-dev, libpng-dev, libjpeg-dev, libexif-dev, libfreetype-dev, libfontconfig-dev, libhpdf-dev, libepoxy-dev, libtbb-dev, libhwy-dev, zlib1g-dev, libisal-dev, libhdf5-dev, libcfitsio-dev, libzip-dev, libnanoflann-dev, \
 libfftw3-dev, libavformat-dev, libavcodec-dev, libavutil-dev, libswscale-dev, libtomlplusplus-dev, libfmt-dev, \
 libboost-dev, libeigen3-dev, nlohmann-json3-dev, libflatbuffers-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION

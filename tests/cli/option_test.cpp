@@ -265,8 +265,11 @@ TEST(Help, HasNoMarksOfTheParserInIt) {
   for (const Line& line : all_with_help()) {
     const ProgramResult help = run_program(with(line, {"--help"}));
     ASSERT_EQ(help.exit_code, 0);
+    std::string text = help.output;  // without what is meant to be typed so
+    for (const std::string typed : {"{title}", "{date}", "{stem}", "{style}"})
+      for (std::size_t at = text.find(typed); at != text.npos; at = text.find(typed)) text.erase(at, typed.size());
     for (const char* mark : {"{", "}", "ENUM", "TEXT:", "INT:", " INT", "UINT", "FLOAT", "NUMBER:", " in [", "->"})
-      EXPECT_THAT(help.output, testing::Not(testing::HasSubstr(mark))) << testing::PrintToString(line);
+      EXPECT_THAT(text, testing::Not(testing::HasSubstr(mark))) << testing::PrintToString(line);
   }
 }
 

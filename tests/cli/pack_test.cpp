@@ -111,6 +111,61 @@ TEST(PackCommand, MakesWhatScreensShow) {
   EXPECT_NEAR(read_disparity(folder / "depth.exr")(120, 90), 600 / disparity, 0.01 * 600 / disparity);
 }
 
+TEST(PackCommand, PutsBordersAndCaptionsAroundTheViews) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "left-right", "--crop", "1:1", "--border", "10,black",
+                  "--caption", "{title}, {date}", "-o", "print.png"});
+  const Image<Rgb8> print = read_image(folder / "print.png");
+  EXPECT_EQ(print.width(), 2 * 200);
+  EXPECT_GT(print.height(), 200);
+  EXPECT_EQ(print(10, 10), still().left(30, 0));
+  EXPECT_EQ(print(210, 10), still().right(30, 0));
+  const std::vector<std::string> pack{"pack", "left.png", "right.png", "--to", "left-right", "-o", "out.png"};
+  const auto refused = [&](std::vector<std::string> more, const std::string& part) {
+    more.insert(more.begin(), pack.begin(), pack.end());
+    expect_refused(folder, more, 2, part);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+  };
+  refused({"--crop", "300x10+0+0"}, "does not lie within the views of 240x180 pixels");
+  refused({"--caption", " "}, "--caption: is empty");
+  refused({"--caption", "by {author}"}, "--caption: has {author}, which stands for nothing, expected {title}, {date}");
+  refused({"--caption", "\xff"}, "--caption: is not UTF-8");
+  refused({"--border", "10,mauve"}, "expected a colour");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--to", "disparity", "--border", "3", "-o", "out.png"}, 2,
+                 "it works where the views are shown");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--border", "3", "-o", "card.pdf"}, 2, "which has a mount");
+}
+
+TEST(PackCommand, MakesStereoCards) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "--caption", "Grüße {title}", "-o", "card.pdf"});
+  EXPECT_TRUE(bytes_of(folder / "card.pdf").starts_with("%PDF-"));
+  run_in(folder,
+         {"pack", "left.png", "right.png", "--to", "card", "--dpi", "150", "--framing", "fit", "-o", "card.png"});
+  EXPECT_EQ(read_image(folder / "card.png").width(), 1051);
+  expect_refused(folder, {"pack", "left.png", "right.png", "--to", "anaglyph", "--dpi", "150", "-o", "a.png"}, 2,
+                 "it works with card");
+  expect_refused(folder, {"pack", "left.png", "right.png", "right.png", "-o", "card.pdf"}, 2, "takes two views");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--framing", "wide", "-o", "card.pdf"}, 2,
+                 "expected fit, fill");
+}
+
+TEST(PackCommand, ChoosesAFloatingWindow) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "views", "--floating-window", "auto", "-o", "window"});
+  const Image<Rgb8> left = read_image(folder / "window/view_000.png");
+  int strip = 0;
+  while (left(strip, 90) == Rgb8{}) ++strip;
+  EXPECT_GT(strip, 1);
+  EXPECT_LT(strip, 30);
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "views", "--shift", "30", "--floating-window", "auto", "-o",
+                  "deep"});
+  EXPECT_NE(read_image(folder / "deep/view_000.png")(0, 90), Rgb8{});
+}
+
 /// An output of the format, and what it needs besides the views.
 std::vector<std::string> pack_words(const cli::PackingFormat& format, std::string_view name) {
   std::vector<std::string> words{"pack", "left.png", "right.png", "--to", std::string(name), "-o"};

@@ -27,16 +27,17 @@ void check(const std::filesystem::path& path, std::span<const ImageView<const Rg
 
 }  // namespace
 
-void write_mpo(const std::filesystem::path& path, std::span<const ImageView<const Rgb8>> views, int quality) {
+void write_mpo(const std::filesystem::path& path, std::span<const ImageView<const Rgb8>> views, int quality,
+               const PictureNotes& notes) {
   check(path, views);
   std::vector<std::string> jpegs;
   jpegs.reserve(views.size());
-  for (const ImageView<const Rgb8>& view : views) jpegs.push_back(encode_jpeg(view, quality));
+  for (const ImageView<const Rgb8>& view : views) jpegs.push_back(with_notes(encode_jpeg(view, quality), notes));
   write_whole_file(path, join_multi_pictures(jpegs));
 }
 
 void write_jps(const std::filesystem::path& path, ImageView<const Rgb8> left, ImageView<const Rgb8> right,
-               StereoLayout layout, int quality) {
+               StereoLayout layout, int quality, const PictureNotes& notes) {
   const ImageView<const Rgb8> views[] = {left, right};
   check(path, views);
   const LayoutTraits& traits = traits_of(layout);
@@ -49,7 +50,8 @@ void write_jps(const std::filesystem::path& path, ImageView<const Rgb8> left, Im
       is_side_by_side(layout) ? JpsDescriptor::Arrangement::side_by_side : JpsDescriptor::Arrangement::over_under;
   (is_side_by_side(layout) ? descriptor.half_width : descriptor.half_height) = is_half_size(layout);
   descriptor.left_first = is_left_first(layout);
-  write_whole_file(path, with_jps_descriptor(encode_jpeg(put_together(left, right, layout), quality), descriptor));
+  const std::string jpeg = with_notes(encode_jpeg(put_together(left, right, layout), quality), notes);
+  write_whole_file(path, with_jps_descriptor(jpeg, descriptor));
 }
 
 }  // namespace wheatstone

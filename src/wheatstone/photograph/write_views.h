@@ -4,6 +4,7 @@
 #include <span>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/pictures/picture_notes.h"
 #include "wheatstone/stereo/stereo_layout.h"
 
 namespace wheatstone {
@@ -16,11 +17,12 @@ inline constexpr int stereo_jpeg_quality = 95;
 /// name first, as write_image. Throws Error: wrong_usage for fewer than two views or views of different sizes,
 /// cannot_read_write.
 void write_mpo(const std::filesystem::path& path, std::span<const ImageView<const Rgb8>> views,
-               int quality = stereo_jpeg_quality);
+               int quality = stereo_jpeg_quality, const PictureNotes& notes = {});
 
 /// Writes a pair as one JPEG with a JPS descriptor: cross-eyed as most JPS are, or in another layout. A half layout is
 /// squeezed to half the size. Throws as write_mpo.
 void write_jps(const std::filesystem::path& path, ImageView<const Rgb8> left, ImageView<const Rgb8> right,
-               StereoLayout layout = StereoLayout::right_left, int quality = stereo_jpeg_quality);
+               StereoLayout layout = StereoLayout::right_left, int quality = stereo_jpeg_quality,
+               const PictureNotes& notes = {});
 
 }  // namespace wheatstone

@@ -127,6 +127,22 @@ std::string heif_profile(std::string_view bytes) {
   return profile_of(Handle(found));
 }
 
+std::string heif_exif(std::string_view bytes) {
+  const Context context = open_context(bytes);
+  heif_image_handle* found = nullptr;
+  if (!context || heif_context_get_primary_image_handle(context.get(), &found).code != heif_error_Ok) return {};
+  const Handle handle(found);
+  heif_item_id id = 0;
+  if (heif_image_handle_get_list_of_metadata_block_IDs(handle.get(), "Exif", &id, 1) != 1) return {};
+  std::string exif(heif_image_handle_get_metadata_size(handle.get(), id), '\0');
+  constexpr std::size_t offset_bytes = 4;  // how far behind it the TIFF header begins (ISO/IEC 23008-12, annex A)
+  if (exif.size() < offset_bytes || heif_image_handle_get_metadata(handle.get(), id, exif.data()).code != heif_error_Ok)
+    return {};
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < offset_bytes; ++i) begin = begin << 8 | static_cast<std::uint8_t>(exif[i]);
+  return begin <= exif.size() - offset_bytes ? exif.substr(offset_bytes + begin) : std::string();
+}
+
 std::vector<Image<Rgb8>> read_heif_pictures(const fs::path& path) {
   const std::string bytes = read_picture_bytes(path);
   const Context context = open_context(bytes);

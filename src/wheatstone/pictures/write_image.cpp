@@ -29,13 +29,25 @@ StoredPicture described(const std::string& ending, int width, int height, int ch
   return picture;
 }
 
+/// What a TIFF says of itself; EXIF data of their own it cannot have (see above).
+void put_tiff_notes(StoredPicture& picture, const PictureNotes& notes) {
+  if (!notes.title.empty()) picture.put("ImageDescription", notes.title);
+  if (!notes.taken.empty()) picture.put("DateTime", notes.taken);
+  if (notes.pixels_an_inch <= 0) return;
+  picture.put("XResolution", static_cast<float>(notes.pixels_an_inch));
+  picture.put("YResolution", static_cast<float>(notes.pixels_an_inch));
+  picture.put("ResolutionUnit", std::string("in"));
+}
+
 template <class Pixel>
-void write_encoded(const fs::path& path, ImageView<const Pixel> image) {
+void write_encoded(const fs::path& path, ImageView<const Pixel> image, const PictureNotes& notes) {
   if (!is_picture_name(path))
     throw Error(ErrorKind::wrong_usage, fmt::format("{}: unknown picture format, expected a name that ends in {}",
                                                     path.string(), fmt::join(picture_endings(), ", ")));
-  const StoredPicture picture = described(ending_of(path), image.width(), image.height(), sizeof(Pixel));
-  write_whole_file(path, encode_picture(path, picture, rows_of(image)));
+  const std::string ending = ending_of(path);
+  StoredPicture picture = described(ending, image.width(), image.height(), sizeof(Pixel));
+  if (ending == ".tif" || ending == ".tiff") put_tiff_notes(picture, notes);
+  write_whole_file(path, with_notes(encode_picture(path, picture, rows_of(image)), notes));
 }
 
 }  // namespace
@@ -60,8 +72,10 @@ std::string encode_png(ImageView<const Rgb8> image) {
   return encode_picture("picture.png", described(".png", image.width(), image.height(), 3), rows_of(image));
 }
 
-void write_image(const fs::path& path, ImageView<const Rgb8> image) { write_encoded(path, image); }
+void write_image(const fs::path& path, ImageView<const Rgb8> image, const PictureNotes& notes) {
+  write_encoded(path, image, notes);
+}
 
-void write_image(const fs::path& path, ImageView<const std::uint8_t> image) { write_encoded(path, image); }
+void write_image(const fs::path& path, ImageView<const std::uint8_t> image) { write_encoded(path, image, {}); }
 
 }  // namespace wheatstone

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/pictures/picture_notes.h"
 
 namespace wheatstone {
 
@@ -17,8 +18,8 @@ bool is_picture_name(const std::filesystem::path& path);
 
 /// Writes a picture in the format of its file name (picture_endings), under a temporary name that becomes the real one
 /// when the file is whole. Throws Error{wrong_usage} for another ending, Error{cannot_read_write}; then nothing is left
-/// behind.
-void write_image(const std::filesystem::path& path, ImageView<const Rgb8> image);
+/// behind. JPEG and PNG take all notes, TIFF the title, the time and the pixels an inch, the others none.
+void write_image(const std::filesystem::path& path, ImageView<const Rgb8> image, const PictureNotes& notes = {});
 void write_image(const std::filesystem::path& path, ImageView<const std::uint8_t> image);
 
 /// The picture as a PNG. Throws Error{cannot_read_write}.

@@ -1,0 +1,88 @@
+#include "print_options.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "placeholders.h"
+#include "wheatstone/error.h"
+#include "wheatstone/files/utf8.h"
+
+namespace wheatstone::cli {
+namespace {
+
+Rgb8 parse_named_colour(const std::string& option, const std::string& words) {
+  constexpr std::array<std::pair<std::string_view, Rgb8>, 4> named{
+      {{"white", {255, 255, 255}}, {"black", {0, 0, 0}}, {"grey", {128, 128, 128}}, {"cream", {246, 240, 226}}}};
+  for (const auto& [name, colour] : named)
+    if (name == words) return colour;
+  return parse_colour(option, words);
+}
+
+/// "40", "3%" or either with a colour behind a comma.
+Border parse_border(const std::string& option, const std::string& words) {
+  const std::size_t comma = words.find(',');
+  const std::string width = words.substr(0, comma);
+  Border border;
+  border.is_share = width.ends_with('%');
+  constexpr double most_percent = 50, most_px = 16384;
+  border.width = border.is_share ? parse_share(option, width, {0, most_percent})
+                                 : static_cast<float>(parse_integer(option, width, {0, most_px}));
+  if (comma != std::string::npos) border.colour = parse_named_colour(option, words.substr(comma + 1));
+  return border;
+}
+
+std::string parse_caption(const std::string& option, const std::string& words) {
+  if (!is_utf8(words)) throw Error(ErrorKind::wrong_usage, option + ": is not UTF-8");
+  if (std::ranges::all_of(words, [](unsigned char c) { return c <= ' '; }))
+    throw Error(ErrorKind::wrong_usage, option + ": is empty, expected a text");
+  filled(option, words, {{"title", {}}, {"date", {}}});  // refused before anything is read
+  return words;
+}
+
+/// "2019:07:18 14:03:22" as "2019-07-18".
+std::string date_of(const std::string& taken) {
+  std::string date = taken.substr(0, 10);
+  std::ranges::replace(date, ':', '-');
+  return date;
+}
+
+}  // namespace
+
+Rows print_rows(PrintArguments& a, const Reasons& unless_framed, Reasons unless_bordered) {
+  unless_bordered.insert(unless_bordered.end(), unless_framed.begin(), unless_framed.end());
+  const auto crop = [](const std::string& option, const std::string& words) { return parse_crop(words, option); };
+  return under(
+      "Prints and shows",
+      {row("--crop", parsed(a.frame.crop, crop, "WIDTHxHEIGHT+X+Y"),
+           "Part of each view that is taken, in pixels; WIDTHxHEIGHT is the middle, and 4:3 the largest part of this "
+           "shape"),
+       row("--border", parsed(a.frame.border, parse_border, "WIDTH[,COLOUR]"),
+           "Border around each view, in pixels or in % of its longer side, white or as 40,black or 3%,F6F0E2",
+           std::move(unless_bordered)),
+       row("--caption", parsed(a.caption, parse_caption, "TEXT"),
+           "Text below each view; {title} stands for the title of the photograph, or else the name of its file, and "
+           "{date} for the day when it was taken",
+           unless_framed),
+       row("--keep-location", flag(a.keep_location),
+           "Also write where the photograph was taken into the files; what its camera noted of it else goes with it, "
+           "in "
+           "JPEG, MPO, JPS and PNG")});
+}
+
+PrintFrame print_frame_from(const PrintArguments& arguments, const PictureNotes& notes,
+                            const std::filesystem::path& file) {
+  PrintFrame frame = arguments.frame;
+  const std::string title = notes.title.empty() ? file.stem().string() : notes.title;
+  frame.caption = filled("--caption", arguments.caption, {{"title", title}, {"date", date_of(notes.taken)}});
+  if (notes.taken.empty() && arguments.caption.find("{date}") != std::string::npos) {
+    // "Apples, {date}" without a date is "Apples".
+    constexpr const char* separators = " ,;:-/|";
+    frame.caption.erase(0, frame.caption.find_first_not_of(separators));
+    frame.caption.erase(frame.caption.find_last_not_of(separators) + 1);
+  }
+  return frame;
+}
+
+}  // namespace wheatstone::cli
