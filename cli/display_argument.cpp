@@ -21,6 +21,7 @@ DisplayViewsOptions display_views_options(const DisplayPreset& display, const Di
   DisplayViewsOptions options = views_of_display(display);
   if (arguments.views > 0) options.views = arguments.views;
   options.span = arguments.span;
+  options.framing = arguments.framing;
   if (arguments.size) {
     options.width = arguments.size->width;
     options.height = arguments.size->height;
@@ -41,6 +42,18 @@ Rows display_view_rows(DisplayArguments& a, const Reasons& unless) {
           row("--span", without_default(number(a.span, {0.01, view_span_range.most})),
               "Distance from the first view to the last, in eye separations; chosen from the depth by default", unless,
               "--display")};
+}
+
+Row framing_row(ViewFraming& framing, std::string_view frame, Reasons unless) {
+  const auto parse = [](const std::string& option, const std::string& words) {
+    return parse_view_framing(words, option);
+  };
+  return row("--framing", parsed(framing, parse, "fit|fill|X,Y,ZOOM", "fill"),
+             fmt::format("How pictures of another shape are shown {}: fit, whole; fill, cut off at two sides; or the "
+                         "place X,Y, 0 to 1 from the upper left corner, that comes to the middle, ZOOM times as large "
+                         "as with fill",
+                         frame),
+             std::move(unless));
 }
 
 Rows film_display_rows(DisplayArguments& a, const Reasons& unless_display) {

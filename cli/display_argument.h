@@ -18,6 +18,7 @@ struct DisplayArguments {
   std::optional<Size> size;  ///< of a view; none: the display's own
   int views = 0;             ///< 0: the display's own
   float span = 0;            ///< 0: chosen from the depth
+  ViewFraming framing;       ///< of a picture of another shape
 };
 
 /// What the display wants, where the user does not say otherwise. Throws Error{wrong_usage}.
@@ -25,6 +26,9 @@ DisplayViewsOptions display_views_options(const DisplayPreset& display, const Di
 
 /// --size and --span, for a --display.
 Rows display_view_rows(DisplayArguments& arguments, const Reasons& unless = {});
+
+/// --framing of what is shown in a frame of another shape; `frame` says in which, as "on the display".
+Row framing_row(ViewFraming& framing, std::string_view frame, Reasons unless);
 
 /// The names of all displays, each with a space before it.
 std::string display_names(bool (*is_listed)(const DisplayPreset&) = [](const DisplayPreset&) { return true; });

@@ -7,10 +7,13 @@
 
 #include "commands.h"
 #include "device_option.h"
+#include "display_argument.h"
+#include "made_views.h"
 #include "packing.h"
 #include "print_options.h"
 #include "stereo_arguments.h"
 #include "views_argument.h"
+#include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/floating_window.h"
 #include "wheatstone/error.h"
@@ -26,7 +29,9 @@ namespace {
 using TypedWindow = std::optional<FloatingWindow>;
 
 struct PackArguments {
+  Given given;
   ViewsArguments input;
+  DepthArguments depth;  ///< of one picture
   PackingArguments packing;
   PrintArguments print;
   std::string output;
@@ -81,7 +86,7 @@ ViewsArguments input_of(const PackArguments& arguments, const Packing& packing, 
   const int views = packing.format->views;
   const bool untouched = arguments.shift_px == 0 && !arguments.floating_window && !input.swap &&
                          !has_print_frame(arguments.print.frame) && arguments.print.caption.empty() &&
-                         (views == 0 || input.views == 0 || input.views == views);
+                         !arguments.given("--framing") && (views == 0 || input.views == 0 || input.views == views);
   if (input.device != Device::processor && packing.format->composition && untouched)
     input.composition = packing.format->composition(packing);
   return input;
@@ -101,6 +106,16 @@ void reduce(std::vector<Image<Rgb8>>& views, int longest_px) {
   for (Image<Rgb8>& view : views) view = reduced(view, size);
 }
 
+/// Brings views that were made elsewhere to the shape of those that the display takes.
+void reframe(std::vector<Image<Rgb8>>& views, const PackArguments& arguments) {
+  const DisplayPreset& display = find_display(arguments.packing.display);
+  const int width = display.view_width_px, height = display.view_height_px;
+  const double stretch = static_cast<double>(width) / height / display.aspect;
+  for (Image<Rgb8>& view : views)
+    view = framed_view(view, width, height,
+                       shown_part(view.width(), view.height(), width, height, arguments.packing.framing, stretch));
+}
+
 Report run_pack(const PackArguments& arguments, const Session& session) {
   // What cannot be packed is said before anything is read.
   const Packing packing = find_packing(arguments.packing, arguments.output);
@@ -113,9 +128,17 @@ Report run_pack(const PackArguments& arguments, const Session& session) {
   PrintFrame frame = print_frame_from(arguments.print, output.notes, first);
   std::string caption;
   if (sets_caption(packing)) caption.swap(frame.caption);
-  ReadViews read = read_views_argument(input_of(arguments, packing, session), views_wanted(packing), session);
+  const bool are_made = makes_views(arguments.input, packing, arguments.packing, arguments.depth);
+  ReadViews read = are_made
+                       ? make_views({arguments.input, arguments.packing, arguments.depth, arguments.given,
+                                     arguments.shift_px, arguments.max_size},
+                                    packing, session)
+                       : read_views_argument(input_of(arguments, packing, session), views_wanted(packing), session);
   if (arguments.max_size > 0 && !read.views.empty()) reduce(read.views, arguments.max_size);
-  const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), arguments, frame, session);
+  if (arguments.given("--framing") && !arguments.packing.display.empty() && !are_made) reframe(read.views, arguments);
+  PackArguments rest = arguments;
+  if (are_made && read.views.size() != 2) rest.shift_px = 0;  // it is done
+  const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), rest, frame, session);
   report(session.progress, "packing", 0);
   const std::string written =
       write_packed({packing, arguments.packing, views, caption, read.composed, output, session});
@@ -137,10 +160,18 @@ Rows pack_rows(PackArguments& a) {
     const std::vector<int> strips = parse_integers(option, words, {',', 2, {0, 65535}, "LEFT,RIGHT or auto"});
     return FloatingWindow{strips[0], strips[1]};
   };
-  Row max_size = max_size_row(a.max_size, {unless_matched(a.packing, a.output)});
+  const auto are_made = [&a] { return makes_views(a.input, find_packing(a.packing, a.output), a.packing, a.depth); };
+  Row max_size = max_size_row(
+      a.max_size, {[are_made, unless = unless_matched(a.packing, a.output)] { return are_made() ? "" : unless(); }});
+  const Reason no_depth = when([&a] { return !has_own_depth(a.input, a.depth); }, "without --depth");
+  const Reason no_picture = when([&a] { return a.input.files.size() != 1 || !is_photograph(a.input); },
+                                 "on several views; it works on one picture");
+  const Reason no_frame =
+      when([&a] { return a.packing.display.empty() && !sets_caption(find_packing(a.packing, a.output)); },
+           "without --display; it works with --display and --to card");
   max_size.help = "Match a reduced copy whose longer side has at most this many pixels";
   return join(
-      {views_rows(a.input),
+      {views_rows(a.input, are_made),
        {views_device_row(a.input), row("-o,--output", required(output_name(a.output)),
                                        "File; a folder for views; the stem of the file for a quilt")},
        packing_rows(a.packing, a.output),
@@ -151,6 +182,8 @@ Rows pack_rows(PackArguments& a) {
             "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right "
             "edge of the right view; auto: as wide as needed for the frame to cut nothing before the screen for "
             "one eye only, found by matching")},
+       {framing_row(a.packing.framing, "on the display or the card", {no_frame})},
+       under({}, depth_rows(a.depth, no_depth), {no_picture}),
        print_rows(a.print, {if_matched(a.packing, a.output)}, {if_card(a.packing, a.output)})});
 }
 
@@ -164,6 +197,7 @@ Command pack_command() {
   wheatstone pack left.png right.png -o photograph.mpo
   wheatstone pack photograph.mpo --to anaglyph --floating-window auto --border 3% --caption {title} -o print.jpg
   wheatstone pack photograph.mpo --caption {title} -o card.pdf
+  wheatstone pack photo.jpg --depth depth.png --display looking-glass-portrait -o photo
   wheatstone pack views --to lenticular --screen step-9 -o screen.png
   wheatstone pack views --to quilt --quilt 8x6 -o universe)");
 }

@@ -257,9 +257,6 @@ Rows packing_rows(PackingArguments& a, const std::string& output) {
   const auto only = [&a, &output](std::vector<std::string_view> formats, const char* where) {
     return only_with(a, output, std::move(formats), where);
   };
-  const auto view_framing = [](const std::string& option, const std::string& words) {
-    return parse_view_framing(words, option);
-  };
   const Reason named_by_ending = [&a, &output] {
     const Packing packing = find_packing(a, output);
     const bool is_named =
@@ -287,11 +284,6 @@ Rows packing_rows(PackingArguments& a, const std::string& output) {
       row("--seconds", number(a.seconds, {0.05, 60}), "Period of a wiggle animation, in seconds",
           {only({"wiggle"}, "it works with wiggle")}),
       row("--dpi", number(a.dpi, {30, 2400}), "Pixels an inch of a stereo card; of a PDF, at most",
-          {only({"card"}, "it works with card")}),
-      row("--framing", parsed(a.framing, view_framing, "fit|fill|X,Y,ZOOM", "fill"),
-          "How views are shown in windows of another shape: fit, whole; fill, cut off at two sides; or the place X,Y "
-          "of "
-          "the view, 0 to 1, that comes to the middle, ZOOM times as large as with fill",
           {only({"card"}, "it works with card")})};
 }
 

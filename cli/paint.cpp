@@ -511,7 +511,9 @@ Rows paint_rows(PaintArguments& a) {
       row("--display", text(a.display.name),
           "Paint the views of a display, as one quilt where the display takes one:" + display_names(), {printing}),
       row("--views", without_default(number(a.display.views, view_count_range)),
-          "Number of views; the display's own by default", {printing}, "--display")};
+          "Number of views; the display's own by default", {printing}, "--display"),
+      framing_row(a.display.framing, "on the display",
+                  {printing, when([&a] { return a.display.name.empty(); }, "without --display")})};
   const Rows drawing{
       device_row(a.painting.device, "What draws the planned pictures", {printing}),
       row("--report", flag(a.measure), "Measure the consistency of the two painted views", {printing, again, display}),

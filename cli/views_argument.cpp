@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "depth_argument.h"
 #include "device_option.h"
 #include "display_argument.h"
 #include "wheatstone/app/display_views.h"
@@ -151,15 +152,26 @@ Painting read_painting_for_views(const std::string& file) {
   return painting;
 }
 
-Rows views_rows(ViewsArguments& a) {
-  const Reason made = only(a, {ViewsKind::film, ViewsKind::painting, ViewsKind::slices},
-                           "it works on a painting (.wst) or slices (.exr)");
+bool is_photograph(const ViewsArguments& arguments) {
+  const ViewsKind kind = kind_of(arguments);
+  return kind == ViewsKind::picture || (kind == ViewsKind::files && arguments.files.size() == 2);
+}
+
+Rows views_rows(ViewsArguments& a, const std::function<bool()>& makes_views) {
+  const Reason count = [&a, none = only(a, {ViewsKind::film, ViewsKind::painting, ViewsKind::slices},
+                                        "it works on a photograph, a painting (.wst) or slices (.exr)")] {
+    return is_photograph(a) ? "" : none();
+  };
+  const Reason made = [makes_views, none = only(a, {ViewsKind::film, ViewsKind::painting, ViewsKind::slices},
+                                                "it works where views are made")] {
+    return makes_views() ? "" : none();
+  };
   return {row("VIEWS", required(texts(a.files)),
               "Pictures from left to right; a folder of them; or one file: MPO, JPS, both views in one picture, "
               "multi-view OpenEXR, painting (.wst), slices (.exr)"),
           row("--layout", text(a.layout),
-              fmt::format("Layout of one picture that holds both views: {}; detected by default",
-                          fmt::join(photograph_layout_names(), ", ")),
+              fmt::format("Layout of one picture that holds both views: {}{}; detected by default",
+                          fmt::join(photograph_layout_names(), ", "), depth_layout_words),
               {only(a, {ViewsKind::film, ViewsKind::picture}, "it works on one picture that holds both views")}),
           row("--from-quilt", quilt_layout(a.quilt),
               "Read the picture as a quilt of COLUMNSxROWS views; by default where its name says so, as in "
@@ -167,9 +179,11 @@ Rows views_rows(ViewsArguments& a) {
               {only(a, {ViewsKind::film, ViewsKind::quilt}, "it works on one picture")}),
           row("--swap", flag(a.swap), "Reverse the order of the views: they are stored from right to left"),
           row("--views", without_default(number(a.views, view_count_range)),
-              "Number of views to make from a painting or from slices", {made}),
+              "Number of views to make from a photograph, a painting or slices", {count}),
           row("--span", number(a.span, view_span_range),
-              "Distance from the first view to the last, in eye separations, for a painting or slices", {made})};
+              "Distance from the first view to the last, in eye separations, where views are made; of a photograph "
+              "chosen from its depth by default",
+              {made})};
 }
 
 Row views_device_row(ViewsArguments& a) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,8 +28,12 @@ struct ViewsArguments {
   std::optional<DisplayComposition> composition = {};
 };
 
-/// The files, and --layout, --from-quilt, --swap, --views and --span.
-Rows views_rows(ViewsArguments& arguments);
+/// The files, and --layout, --from-quilt, --swap, --views and --span. `makes_views` says whether views are made of a
+/// photograph, too: then --span has an effect on it.
+Rows views_rows(ViewsArguments& arguments, const std::function<bool()>& makes_views);
+
+/// Whether the input is two files, or one picture, which may hold two views or have depth.
+bool is_photograph(const ViewsArguments& arguments);
 
 /// --device, with which paintings are drawn.
 Row views_device_row(ViewsArguments& arguments);

@@ -10,6 +10,7 @@
 #include "cli/run_program.h"
 #include "needs_gpu.h"
 #include "psnr.h"
+#include "wheatstone/display/quilt.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/disparity_file.h"
@@ -150,6 +151,34 @@ TEST(PackCommand, MakesStereoCards) {
   expect_refused(folder, {"pack", "left.png", "right.png", "right.png", "-o", "card.pdf"}, 2, "takes two views");
   expect_refused(folder, {"pack", "left.png", "right.png", "--framing", "wide", "-o", "card.pdf"}, 2,
                  "expected fit, fill");
+}
+
+TEST(PackCommand, MakesAQuiltOfAPhotographThatIsNotPainted) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "rgbd", "-o", "both.png"});
+  run_in(folder, {"pack", "both.png", "-o", "out", "--layout", "left-right"});
+  std::filesystem::rename(folder / "out/view_001.png", folder / "depth.png");
+  for (const std::vector<std::string>& photograph : std::vector<std::vector<std::string>>{
+           {"left.png", "--depth", "depth.png"}, {"both.png"}, {"left.png", "right.png"}}) {
+    std::vector<std::string> words{"pack", "--display", "looking-glass-portrait", "-o", "quilt"};
+    words.insert(words.begin() + 1, photograph.begin(), photograph.end());
+    run_in(folder, words);
+    const Image<Rgb8> quilt = read_image(folder / "quilt_qs8x6a0.75.png");
+    EXPECT_EQ(quilt.width(), 3360);
+    const std::vector<Image<Rgb8>> views = views_of_quilt(quilt, {8, 6});
+    EXPECT_LT(psnr(views[0], views[47]), psnr(views[23], views[24]));
+  }
+  run_in(folder, {"pack", "both.png", "--to", "anaglyph", "-o", "anaglyph.png"});
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "views", "--views", "3", "--span", "2", "-o", "three"});
+  EXPECT_EQ(files_in(folder / "three").size(), 3u);
+  run_in(folder, {"pack", "left.png", "right.png", "--display", "looking-glass-go", "--framing", "fit", "-o", "fit"});
+  EXPECT_EQ(read_image(folder / "fit_qs11x6a0.5625.png")(100, 20), Rgb8{});
+  expect_refused(folder, {"pack", "left.png", "right.png", "--to", "anaglyph", "--span", "2", "-o", "a.png"}, 2,
+                 "it works where views are made");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--depth", "depth.png", "-o", "a.mpo"}, 2, "one picture");
+  expect_refused(folder, {"pack", "left.png", "right.png", "--framing", "fit", "-o", "a.mpo"}, 2, "without --display");
+  expect_refused(folder, {"paint", "left.png", "right.png", "--framing", "fit", "-o", "a"}, 2, "without --display");
 }
 
 TEST(PackCommand, ChoosesAFloatingWindow) {

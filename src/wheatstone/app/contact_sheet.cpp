@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <vector>
 
+#include "wheatstone/display/lettering.h"
+#include "wheatstone/error.h"
+#include "wheatstone/files/utf8.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/pictures/read_image.h"
 
@@ -11,20 +16,38 @@ namespace wheatstone {
 namespace {
 
 constexpr int tile_width = 320, tile_height = 240, caption_height = 26, gap = 12;
-constexpr int caption_font = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double caption_letters = 0.45;
 
-/// The end of a caption that fits a tile: names of one folder begin alike. OpenCV's letters are those of ASCII.
-std::string fitting(std::string caption) {
-  for (char& letter : caption)
-    if (static_cast<unsigned char>(letter) > 126) letter = '?';
-  const auto width = [](const std::string& text) {
-    int below = 0;
-    return cv::getTextSize(text, caption_font, caption_letters, 1, &below).width;
-  };
-  if (width(caption) <= tile_width) return caption;
-  while (!caption.empty() && width("..." + caption) > tile_width) caption.erase(0, 1);
-  return "..." + caption;
+/// The end of a caption, as names of one folder begin alike, in UTF-8.
+std::string shortened(std::string_view caption) {
+  constexpr std::size_t most_characters = 44;
+  std::vector<std::string_view> characters;
+  while (!caption.empty()) {
+    const std::size_t bytes = utf8_character_bytes(caption);
+    characters.push_back(bytes == 0 ? "?" : caption.substr(0, bytes));
+    caption.remove_prefix(std::max<std::size_t>(bytes, 1));
+  }
+  std::string text;
+  const std::size_t left_out = characters.size() > most_characters ? characters.size() - most_characters : 0;
+  if (left_out > 0) text = "…";
+  for (std::size_t i = left_out; i < characters.size(); ++i) text += characters[i];
+  return text;
+}
+
+/// A caption below a tile; letters that no font of the machine has are question marks.
+void put_caption(const std::string& caption, cv::Point corner, Image<Rgb8>& sheet) {
+  constexpr int letter_px = 14;
+  std::string text = shortened(caption);
+  for (const bool is_last : {false, true}) {
+    try {
+      const Lettering set = set_text(text, letter_px, tile_width);
+      return lay_cover(set.cover, corner.x, corner.y + (caption_height - set.cover.height() / set.lines) / 2,
+                       {40, 40, 40}, sheet);
+    } catch (const Error&) {
+      if (is_last) return;  // no font at all
+      for (char& letter : text)
+        if (static_cast<unsigned char>(letter) > 126) letter = '?';
+    }
+  }
 }
 
 void put_picture(const Image<Rgb8>& picture, cv::Mat sheet, cv::Point corner) {
@@ -48,8 +71,7 @@ Image<Rgb8> contact_sheet(std::span<const SheetEntry> entries) {
   for (int i = 0; i < count; ++i) {
     const cv::Point corner(gap + i % columns * across, gap + i / columns * down);
     put_picture(read_image(entries[i].picture), as_mat(sheet), corner);
-    cv::putText(as_mat(sheet), fitting(entries[i].caption), {corner.x, corner.y + tile_height + 18}, caption_font,
-                caption_letters, {40, 40, 40}, 1, cv::LINE_AA);
+    put_caption(entries[i].caption, {corner.x, corner.y + tile_height}, sheet);
   }
   return sheet;
 }

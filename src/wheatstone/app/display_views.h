@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "wheatstone/depth/display_presets.h"
+#include "wheatstone/display/view_framing.h"
 #include "wheatstone/marks/mapped_depth.h"
 #include "wheatstone/painting/present.h"
 #include "wheatstone/progress.h"
@@ -10,7 +11,7 @@
 
 namespace wheatstone {
 
-/// The views of a painting that a display wants. The painting fills a view's picture, cropped at its middle.
+/// The views of a painting that a display wants. By default the painting fills a view's picture, cropped at its middle.
 struct DisplayViewsOptions {
   int views = 48;
   int width = 420, height = 560;  ///< of a view
@@ -19,6 +20,7 @@ struct DisplayViewsOptions {
   float widest_span = 4;
   float depth_share = 0.2f;
   Device device = Device::processor;      ///< what draws them
+  ViewFraming framing = {};               ///< of the part that both eyes show
   std::optional<float> zero_parallax_px;  ///< disparity on the screen plane; none: the middle of the scene's
   DepthPlacing depth =
       {};  ///< with regions they say what lies on the screen, and `span` is `widest_span` where it is 0
@@ -32,6 +34,7 @@ struct DisplayPlan {
   Presentation presentation;
   float span = 0;              ///< eye separations between the outermost views, as chosen
   float zero_parallax_px = 0;  ///< in pixels of the painting
+  CoveredPart covered;         ///< of each view; the rest is black
 };
 
 /// Chooses the screen plane and the span for a painting of this size whose disparities, in its pixels, have these ends.

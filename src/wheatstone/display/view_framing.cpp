@@ -38,9 +38,10 @@ ViewFraming parse_view_framing(std::string_view words, std::string_view option) 
 }
 
 ShownPart shown_part(double picture_width, double picture_height, double frame_width, double frame_height,
-                     const ViewFraming& framing) {
+                     const ViewFraming& framing, double stretch) {
+  frame_width /= stretch;  // in the screen's square pixels
   const double across = frame_width / picture_width, down = frame_height / picture_height;
-  ShownPart part;
+  ShownPart part{.stretch = stretch};
   part.scale = framing.whole ? std::min(across, down) : std::max(across, down) * framing.zoom;
   const auto begin = [&](double place, double picture, double frame) {
     const double shown = frame / part.scale;
@@ -55,7 +56,7 @@ ShownPart shown_part(double picture_width, double picture_height, double frame_w
 CoveredPart covered_part(double picture_width, double picture_height, int frame_width, int frame_height,
                          const ShownPart& part) {
   const auto column = [&](double x) {
-    return std::clamp(static_cast<int>(std::lround((x - part.left) * part.scale)), 0, frame_width);
+    return std::clamp(static_cast<int>(std::lround((x - part.left) * part.scale * part.stretch)), 0, frame_width);
   };
   const auto row = [&](double y) {
     return std::clamp(static_cast<int>(std::lround((y - part.top) * part.scale)), 0, frame_height);
@@ -78,13 +79,14 @@ void put_bars(const CoveredPart& covered, ImageView<Rgb8> frame) {
 Image<Rgb8> framed_view(ImageView<const Rgb8> picture, int frame_width, int frame_height, const ShownPart& part) {
   Image<Rgb8> frame(frame_width, frame_height);
   // Smaller pictures are made in two steps: by areas to about the size, then in parts of a pixel.
-  const int width = std::max(static_cast<int>(std::lround(picture.width() * std::min(part.scale, 1.))), 1);
+  const double across = part.scale * part.stretch;
+  const int width = std::max(static_cast<int>(std::lround(picture.width() * std::min(across, 1.))), 1);
   const int height = std::max(static_cast<int>(std::lround(picture.height() * std::min(part.scale, 1.))), 1);
   cv::Mat smaller = as_mat(picture);
   if (width < picture.width() || height < picture.height())
     cv::resize(as_mat(picture), smaller, cv::Size(width, height), 0, 0, cv::INTER_AREA);
   // Pixel centres lie half a pixel within.
-  const double step_x = static_cast<double>(width) / picture.width() / part.scale;
+  const double step_x = static_cast<double>(width) / picture.width() / across;
   const double step_y = static_cast<double>(height) / picture.height() / part.scale;
   const double left = part.left * static_cast<double>(width) / picture.width();
   const double top = part.top * static_cast<double>(height) / picture.height();

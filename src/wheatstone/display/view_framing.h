@@ -17,13 +17,14 @@ struct ViewFraming {
 /// Reads "fit", "fill" or "X,Y,ZOOM". Throws Error{wrong_usage} that begins with `option`.
 ViewFraming parse_view_framing(std::string_view words, std::string_view option);
 
-/// The part of a picture that a frame shows: a place (x, y) of the picture lies at ((x − left) · scale, (y − top) ·
-/// scale) in the frame. A frame that fills moves no further than to the picture's edge.
+/// The part of a picture that a frame shows: a place (x, y) of the picture lies at ((x − left) · scale · stretch,
+/// (y − top) · scale) in the frame. A frame that fills moves no further than to the picture's edge.
 struct ShownPart {
   double left = 0, top = 0, scale = 1;
+  double stretch = 1;  ///< of a frame whose pixels are not square: its screen shows them 1 / stretch times as wide
 };
 ShownPart shown_part(double picture_width, double picture_height, double frame_width, double frame_height,
-                     const ViewFraming& framing);
+                     const ViewFraming& framing, double stretch = 1);
 
 /// The pixels of the frame that the picture covers: columns left to right, rows top to bottom, ends not included.
 struct CoveredPart {
