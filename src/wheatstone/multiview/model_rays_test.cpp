@@ -121,7 +121,8 @@ TriangleBand drawn(const ScreenTriangles& triangles, double view) {
   TriangleBand band(width, 4);
   band.begin(0, height);
   for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
-    band.draw(triangles.triangles[t], static_cast<std::uint32_t>(t), view, false);
+    band.add(triangles.triangles[t], static_cast<std::uint32_t>(t), false);
+  band.show(static_cast<float>(view));
   return band;
 }
 
@@ -142,7 +143,8 @@ double share_of_other_samples(const Model& model, const ModelScene& scene, bool 
         const auto line = band.line(row, k);
         for (int column = 0; column < width; ++column) {
           ++samples;
-          const double x = column + sample_columns(4)[static_cast<std::size_t>(k)], y = row + (k + 0.5) / 4;
+          const double x = column + static_cast<double>(sample_columns(4)[static_cast<std::size_t>(k)]),
+                       y = row + (k + 0.5) / 4;
           const float depth = rays.depth(x, y, view);
           if (line[static_cast<std::size_t>(column)] == TriangleBand::nothing) {
             others += std::isinf(depth) ? 0 : 1;

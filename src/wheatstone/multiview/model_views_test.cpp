@@ -130,8 +130,9 @@ TriangleBand drawn(const ScreenTriangles& triangles, double view, bool backwards
   band.begin(0, height);
   for (std::size_t i = 0; i < triangles.triangles.size(); ++i) {
     const std::size_t t = backwards ? triangles.triangles.size() - 1 - i : i;
-    band.draw(triangles.triangles[t], static_cast<std::uint32_t>(t), view, false);
+    band.add(triangles.triangles[t], static_cast<std::uint32_t>(t), false);
   }
+  band.show(static_cast<float>(view));
   return band;
 }
 

@@ -101,8 +101,16 @@ class Resolver {
     linear_.resize(3 * static_cast<std::size_t>(width));
     for (int x = 0; x < width; ++x) {
       std::array<std::uint32_t, 8> shown{};
-      for (int k = 0; k < samples; ++k) shown[static_cast<std::size_t>(k)] = lines[static_cast<std::size_t>(k)][x];
-      const LinearColour colour = pixel(std::span(shown).first(static_cast<std::size_t>(samples)), x, row, pictures);
+      const auto at = static_cast<std::size_t>(x);
+      shown[0] = lines[0][at];
+      bool is_one = true;
+      for (std::size_t k = 1; k < static_cast<std::size_t>(samples); ++k) {
+        shown[k] = lines[k][at];
+        is_one = is_one && shown[k] == shown[0];
+      }
+      const LinearColour colour =
+          is_one ? colour_of(shown[0], x + 0.5, row + 0.5, true, {x, row}, pictures)
+                 : pixel(std::span(shown).first(static_cast<std::size_t>(samples)), x, row, pictures);
       std::ranges::copy(colour, linear_.begin() + 3 * x);
     }
     codes_.resize(linear_.size());
@@ -123,7 +131,7 @@ class Resolver {
       std::size_t count = 0;
       for (std::size_t other = k; other < shown.size(); ++other) {
         if (shown[other] != triangle) continue;
-        at_x += columns_[other];
+        at_x += static_cast<double>(columns_[other]);
         at_y += (static_cast<double>(other) + 0.5) / static_cast<double>(shown.size());
         ++count;
       }
@@ -164,7 +172,7 @@ class Resolver {
   const PreparedModel& prepared_;
   const ModelShading& shading_;
   float view_;
-  std::span<const double> columns_;
+  std::span<const float> columns_;
   LinearColour background_;
   std::optional<ModelShading::Surface> surface_;  ///< of the triangle that was looked at last
   std::uint32_t surface_of_ = 0;
@@ -184,29 +192,31 @@ class Renderer {
   /// Draws views first, … end − 1 from what is prepared for them.
   void draw(const PreparedModel& prepared, std::size_t first, std::size_t end) {
     const std::size_t bands = prepared.by_band.begin.size() - 1;
-    tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t band) {
-      for (std::size_t view = first; view < end; ++view) draw_band(prepared, static_cast<int>(band), view);
+    tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t number) {
+      draw_band(prepared, number, first, end);
       tell(static_cast<double>(end - first) / static_cast<double>(bands * rig_.positions.size()));
     });
   }
 
  private:
-  void draw_band(const PreparedModel& prepared, int number, std::size_t view) {
+  void draw_band(const PreparedModel& prepared, std::size_t number, std::size_t first, std::size_t end) {
     TriangleBand& band = bands_.local();
-    const int first_row = number * rows_of_band, end_row = std::min(first_row + rows_of_band, rig_.height);
+    const int first_row = static_cast<int>(number) * rows_of_band;
+    const int end_row = std::min(first_row + rows_of_band, rig_.height);
     band.begin(first_row, end_row);
-    const float position = rig_.positions[view].eye_separations();
     const bool is_orthographic = scene_.camera.orthographic_depth > 0;
     const TrianglesByBand& by = prepared.by_band;
-    const auto at = static_cast<std::size_t>(number);
-    for (std::size_t i = by.begin[at]; i < by.begin[at + 1]; ++i)
-      band.draw(prepared.screen.triangles[by.triangles[i]], by.triangles[i], static_cast<double>(position),
-                is_orthographic);
-    Resolver resolver(prepared, shading_, scene_.look, position);
+    for (std::size_t i = by.begin[number]; i < by.begin[number + 1]; ++i)
+      band.add(prepared.screen.triangles[by.triangles[i]], by.triangles[i], is_orthographic);
     const bool geometry = !result_.disparity.empty();
-    const ViewPictures pictures{&result_.views[view], geometry ? &result_.disparity[view] : nullptr,
-                                geometry ? &result_.depth[view] : nullptr};
-    for (int row = first_row; row < end_row; ++row) resolver.resolve_row(band, row, pictures);
+    for (std::size_t view = first; view < end; ++view) {
+      const float position = rig_.positions[view].eye_separations();
+      band.show(position);
+      Resolver resolver(prepared, shading_, scene_.look, position);
+      const ViewPictures pictures{&result_.views[view], geometry ? &result_.disparity[view] : nullptr,
+                                  geometry ? &result_.depth[view] : nullptr};
+      for (int row = first_row; row < end_row; ++row) resolver.resolve_row(band, row, pictures);
+    }
   }
 
   void tell(double more) {

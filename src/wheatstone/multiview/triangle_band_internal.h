@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,23 +10,29 @@ namespace wheatstone {
 
 /// Where the samples of a pixel are: sample k of `count` is at (k + ½) / count from the upper edge, and at this place
 /// from the left one. Rotated grids, as graphics processors have them.
-std::span<const double> sample_columns(int count);
+std::span<const float> sample_columns(int count);
 
-/// Which triangle the samples of some rows of a view show: one line of samples each, `samples` lines a row.
+/// Some rows of pixels, of which each has a line of samples for each sample of a pixel, and the triangles that cross
+/// these lines. A line crosses a triangle between two of its edges, whose places and disparities on the line are the
+/// same for all views: a view costs two products and what lies between them.
 class TriangleBand {
  public:
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
 
   TriangleBand(int width, int samples);
 
-  /// Forgets all, and begins rows first_row, … end_row − 1 of a view.
+  /// Forgets all, and begins rows first_row, … end_row − 1.
   void begin(int first_row, int end_row);
 
-  /// Draws a triangle as the view at a position has it. A sample belongs to it where it lies on its left edge or
-  /// between its edges, on rows from its upper corner to before its lower one: of triangles with a common edge it
-  /// belongs to one. The nearest is kept, and of equally near ones the one that was drawn first.
-  void draw(const ScreenTriangle& triangle, std::uint32_t index, double view, bool is_orthographic);
+  /// Adds a triangle. It crosses the lines from its upper corner to before its lower one.
+  void add(const ScreenTriangle& triangle, std::uint32_t index, bool is_orthographic);
 
+  /// Finds which triangle each sample of the view at a position shows: the nearest, and of equally near ones the one
+  /// that was added first. A sample that lies on a triangle's left edge belongs to it, one on its right edge does not:
+  /// of triangles with a common edge it belongs to one.
+  void show(float view);
+
+  /// The triangles that the samples of a line show.
   std::span<const std::uint32_t> line(int row, int sample) const {
     const auto line = static_cast<std::size_t>((row - first_row_) * samples_ + sample);
     return std::span(shown_).subspan(line * static_cast<std::size_t>(width_), static_cast<std::size_t>(width_));
@@ -36,10 +41,23 @@ class TriangleBand {
   int width() const { return width_; }
 
  private:
+  /// The crossings of one line: places of the two edges in the central view, and their disparities.
+  struct Line {
+    std::vector<float> x0, disparity0, x1, disparity1;
+    struct Filling {
+      float nearness0, nearness1;  ///< at the two edges
+      std::uint32_t triangle;
+    };
+    std::vector<Filling> filling;
+    void clear();
+  };
+  void show_line(const Line& line, float column, float view, std::span<float> nearest, std::span<std::uint32_t> shown);
+
   int width_, samples_;
-  std::span<const double> columns_;
+  std::span<const float> columns_;
   int first_row_ = 0, end_row_ = 0;
-  std::vector<float> nearness_;
+  std::vector<Line> lines_;
+  std::vector<float> nearest_;
   std::vector<std::uint32_t> shown_;
 };
 
