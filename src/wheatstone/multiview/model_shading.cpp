@@ -200,14 +200,33 @@ ModelShading::Surface::Point ModelShading::Surface::at(double x, double y) const
   return point;
 }
 
-bool ModelShading::is_small(const ScreenTriangle& triangle) const {
-  constexpr float small_px = 2;
+ModelShading::Fineness ModelShading::fineness(const ScreenTriangle& triangle) const {
+  constexpr float hardly_larger_px = 2, small_px = 8;
+  if (scene_.look.shine > 0) return Fineness::by_pixel;
   const auto [left, right] = std::ranges::minmax(triangle.x);
-  return scene_.look.shine == 0 && right - left <= small_px && triangle.y[2] - triangle.y[0] <= small_px;
+  const float size = std::max(right - left, triangle.y[2] - triangle.y[0]);
+  if (size <= hardly_larger_px) return Fineness::once;
+  const bool has_texture =
+      !model_.texture_places.empty() && model_.materials[model_.material_of[triangle.triangle]].texture >= 0;
+  return size <= small_px && !has_texture ? Fineness::by_corner : Fineness::by_pixel;
 }
 
-LinearColour ModelShading::colour_of_small(const ScreenTriangles& triangles, std::uint32_t index) const {
+std::array<LinearColour, 3> ModelShading::corner_colours(const ScreenTriangles& triangles, std::uint32_t index) const {
+  const ScreenTriangle& screen = triangles.triangles[index];
   const Surface surface(*this, triangles, index, 0);
+  std::array<LinearColour, 3> colours{};
+  if (fineness(screen) == Fineness::once) {
+    colours[0] = colour_at_once(screen, surface);
+    return colours;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Direction to = to_camera(static_cast<double>(screen.x[k]), static_cast<double>(screen.y[k]));
+    colours[k] = lit(surface.normal_[k], to, surface.turned_, 0, surface.colour_[k]);
+  }
+  return colours;
+}
+
+LinearColour ModelShading::colour_at_once(const ScreenTriangle& screen, const Surface& surface) const {
   Direction normal{};
   LinearColour colour{};
   std::array<float, 2> place{};
@@ -218,7 +237,6 @@ LinearColour ModelShading::colour_of_small(const ScreenTriangles& triangles, std
     }
     for (std::size_t axis = 0; axis < 2; ++axis) place[axis] += surface.place_[k][axis] / 3;
   }
-  const ScreenTriangle& screen = triangles.triangles[index];
   if (surface.texture_ != nullptr) {
     // As many of the texture's pixels as there are along its longest edge, by pixel of the view.
     float texels = 0, pixels = 1;

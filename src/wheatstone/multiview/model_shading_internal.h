@@ -45,16 +45,17 @@ class ModelShading {
     const ModelTexture* texture_ = nullptr;
   };
 
-  /// One colour for a triangle that is so small that it needs no more: at its middle, in the central view.
-  LinearColour colour_of_small(const ScreenTriangles& triangles, std::uint32_t index) const;
-  /// Whether it is: no view adds a highlight, and it is at most 2 pixels wide and high.
-  bool is_small(const ScreenTriangle& triangle) const;
+  /// How finely a triangle is lit: in each pixel; at its corners, and linear between them, where it is small and has no
+  /// texture; or once where it is hardly larger than a pixel. Highlights are different in each view, and lit by pixel.
+  enum class Fineness : std::uint8_t { by_pixel, by_corner, once };
+  Fineness fineness(const ScreenTriangle& triangle) const;
+
+  /// The colours at the corners of a triangle that is not lit by pixel, in the central view; the first of them is that
+  /// of all of it where it is lit once.
+  std::array<LinearColour, 3> corner_colours(const ScreenTriangles& triangles, std::uint32_t index) const;
 
  private:
-  struct Lit {
-    std::array<double, 3> direction;  ///< to the camera, in the model's axes, of length 1
-    float highlight;
-  };
+  LinearColour colour_at_once(const ScreenTriangle& screen, const Surface& surface) const;
   LinearColour lit(const std::array<float, 3>& normal, const std::array<float, 3>& to_camera, bool turned, float view,
                    const LinearColour& colour) const;
   std::array<float, 3> to_camera(double x, double y) const;

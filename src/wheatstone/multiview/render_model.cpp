@@ -59,7 +59,8 @@ TrianglesByBand triangles_by_band(const std::vector<ScreenTriangle>& triangles, 
 /// All that is the same in the views of a rig.
 struct PreparedModel {
   ScreenTriangles screen;
-  std::vector<LinearColour> of_small;  ///< NaN where a triangle is not small
+  std::vector<ModelShading::Fineness> fineness;             ///< of each triangle
+  std::vector<std::array<LinearColour, 3>> corner_colours;  ///< where it is not lit by pixel
   TrianglesByBand by_band;
 };
 
@@ -67,15 +68,45 @@ PreparedModel prepare(const Model& model, const ModelScene& scene, const DepthKn
                       const Rig& rig) {
   PreparedModel prepared{.screen = screen_triangles(model, scene, knots, rig)};
   const std::vector<ScreenTriangle>& triangles = prepared.screen.triangles;
-  prepared.of_small.resize(triangles.size());
+  prepared.fineness.resize(triangles.size());
+  prepared.corner_colours.resize(triangles.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 1024), [&](const auto& range) {
-    for (std::size_t t = range.begin(); t < range.end(); ++t)
-      prepared.of_small[t] = shading.is_small(triangles[t])
-                                 ? shading.colour_of_small(prepared.screen, static_cast<std::uint32_t>(t))
-                                 : LinearColour{std::numeric_limits<float>::quiet_NaN(), 0, 0};
+    for (std::size_t t = range.begin(); t < range.end(); ++t) {
+      prepared.fineness[t] = shading.fineness(triangles[t]);
+      if (prepared.fineness[t] != ModelShading::Fineness::by_pixel)
+        prepared.corner_colours[t] = shading.corner_colours(prepared.screen, static_cast<std::uint32_t>(t));
+    }
   });
   prepared.by_band = triangles_by_band(triangles, rig.height);
   return prepared;
+}
+
+/// The shares that the corners of a triangle have in a place of a view that lies in it, but for rounding.
+std::array<double, 3> shares_of_corners(const ScreenTriangle& triangle, double view, double x, double y) {
+  std::array<double, 3> from_x{}, from_y{};  // from the place to each corner
+  for (std::size_t k = 0; k < 3; ++k) {
+    from_x[k] = static_cast<double>(triangle.x[k]) - view * static_cast<double>(triangle.disparity[k]) - x;
+    from_y[k] = static_cast<double>(triangle.y[k]) - y;
+  }
+  std::array<double, 3> shares{};
+  double sum = 0;
+  const bool is_left =
+      (from_x[1] - from_x[0]) * (from_y[2] - from_y[0]) < (from_x[2] - from_x[0]) * (from_y[1] - from_y[0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+    const double area = from_x[a] * from_y[b] - from_x[b] * from_y[a];
+    shares[k] = std::max(is_left ? -area : area, 0.);
+    sum += shares[k];
+  }
+  for (double& share : shares) share = sum > 0 ? share / sum : 1. / 3;
+  return shares;
+}
+
+LinearColour between(const std::array<LinearColour, 3>& corners, const std::array<double, 3>& shares) {
+  LinearColour colour{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t c = 0; c < 3; ++c) colour[c] += static_cast<float>(shares[k]) * corners[k][c];
+  return colour;
 }
 
 /// The pictures of a view.
@@ -156,17 +187,24 @@ class Resolver {
       }
       return background_;
     }
-    const LinearColour& of_small = prepared_.of_small[triangle];
-    const bool is_small = !std::isnan(of_small[0]);
-    if (is_small && !tells_geometry) return of_small;
-    if (!surface_ || triangle != surface_of_) surface_.emplace(shading_, prepared_.screen, triangle, view_);
-    surface_of_ = triangle;
-    const ModelShading::Surface::Point point = surface_->at(x, y);
+    const ModelShading::Fineness fineness = prepared_.fineness[triangle];
+    const bool is_lit = fineness != ModelShading::Fineness::by_pixel;
+    ModelShading::Surface::Point point{};
+    if (!is_lit || tells_geometry) {
+      if (!surface_ || triangle != surface_of_) surface_.emplace(shading_, prepared_.screen, triangle, view_);
+      surface_of_ = triangle;
+      point = surface_->at(x, y);
+    }
     if (tells_geometry) {
       (*pictures.disparity)(pixel[0], pixel[1]) = point.disparity;
       (*pictures.depth)(pixel[0], pixel[1]) = point.depth;
     }
-    return is_small ? of_small : point.colour;
+    if (!is_lit) return point.colour;
+    const std::array<LinearColour, 3>& corners = prepared_.corner_colours[triangle];
+    return fineness == ModelShading::Fineness::once
+               ? corners[0]
+               : between(corners,
+                         shares_of_corners(prepared_.screen.triangles[triangle], static_cast<double>(view_), x, y));
   }
 
   const PreparedModel& prepared_;

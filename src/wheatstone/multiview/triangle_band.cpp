@@ -98,7 +98,7 @@ void TriangleBand::add(const ScreenTriangle& triangle, std::uint32_t index, bool
 void TriangleBand::show_line(const Line& line, float column, float view, std::span<float> nearest,
                              std::span<std::uint32_t> shown) {
   constexpr std::size_t at_once = 256;
-  std::array<int, at_once> at0, at1;
+  std::array<int, at_once> at0, at1, crossed;
   const std::size_t count = line.filling.size();
   for (std::size_t first = 0; first < count; first += at_once) {
     const std::size_t some = std::min(at_once, count - first);
@@ -109,8 +109,13 @@ void TriangleBand::show_line(const Line& line, float column, float view, std::sp
       at0[i] = ceiling(x0[i] - view * disparity0[i] - column);
       at1[i] = ceiling(x1[i] - view * disparity1[i] - column);
     }
+    std::size_t crossings = 0;
     for (std::size_t i = 0; i < some; ++i) {
-      if (at0[i] == at1[i]) continue;
+      crossed[crossings] = static_cast<int>(i);
+      crossings += at0[i] != at1[i] ? 1 : 0;
+    }
+    for (std::size_t n = 0; n < crossings; ++n) {
+      const auto i = static_cast<std::size_t>(crossed[n]);
       float left = x0[i] - view * disparity0[i], right = x1[i] - view * disparity1[i];
       const Line::Filling& filling = line.filling[first + i];
       float near_left = filling.nearness0, near_right = filling.nearness1;
@@ -126,10 +131,10 @@ void TriangleBand::show_line(const Line& line, float column, float view, std::sp
       const float start = is_narrow ? (near_left + near_right) / 2 : near_left + (column - left) * by_x;
       for (int c = begin; c < end; ++c) {
         const float near = start + static_cast<float>(c) * by_x;
-        if (near > nearest[static_cast<std::size_t>(c)]) {
-          nearest[static_cast<std::size_t>(c)] = near;
-          shown[static_cast<std::size_t>(c)] = filling.triangle;
-        }
+        const auto at = static_cast<std::size_t>(c);
+        const bool is_nearest = near > nearest[at];
+        nearest[at] = is_nearest ? near : nearest[at];
+        shown[at] = is_nearest ? filling.triangle : shown[at];
       }
     }
   }
