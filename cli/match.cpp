@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "match_options.h"
+#include "photograph_run.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/report.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct MatchCommandArguments {
   StereoArguments photographs;
+  FolderArguments walk;  ///< of a folder
   std::string folder = "matched";
   MatchArguments matching;
 };
@@ -42,7 +44,7 @@ void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry&
   output.commit();
 }
 
-Report run_match(const MatchCommandArguments& arguments, const Session& session) {
+PhotographResult match_one(const MatchCommandArguments& arguments, const Session& session) {
   // What cannot be written is said before the work.
   const StereoArguments& photographs = arguments.photographs;
   OutputFolder folder(arguments.folder, {photographs.left, photographs.right, arguments.matching.model});
@@ -75,11 +77,37 @@ Report run_match(const MatchCommandArguments& arguments, const Session& session)
                              {{"width", read.whole.width}, {"height", read.whole.height}},
                              fmt::format("reduced                  from {}x{} to {}x{} pixels", read.whole.width,
                                          read.whole.height, pair.pictures.left.width(), pair.pictures.left.height())});
-  return report;
+  return {std::move(report), arguments.folder};
+}
+
+/// The same of each photograph in a folder.
+Report match_folder(const MatchCommandArguments& arguments, const Session& session) {
+  const std::string& folder = arguments.photographs.left;
+  const PhotographWork work{.input = folder,
+                            .output = arguments.folder,
+                            .folder = arguments.walk,
+                            .done = "matched",
+                            .max_size = arguments.photographs.max_size,
+                            .work =
+                                [&](const PhotographJob& job, const Session& of_one) {
+                                  MatchCommandArguments one = arguments;
+                                  one.photographs = photograph_of(arguments.photographs, job);
+                                  one.folder = job.output;
+                                  return match_one(one, of_one);
+                                },
+                            .is_done = [](const PhotographJob& job) { return is_folder(job.output); }};
+  const FolderOutput output{.folder = arguments.folder, .ending = {}, .placeholders = {}};
+  return work_on_all(work, pairs_in_folder(folder, arguments.photographs, arguments.walk, output, session), session);
+}
+
+Report run_match(const MatchCommandArguments& arguments, const Session& session) {
+  if (is_folder(arguments.photographs.left)) return match_folder(arguments, session);
+  return match_one(arguments, session).report;
 }
 
 Rows match_command_rows(MatchCommandArguments& a) {
   return join({pair_rows(a.photographs),
+               pair_folder_rows(a.walk, a.photographs, "matched"),
                {row("-o,--output", output_name(a.folder), "Folder for the results"), layout_row(a.photographs.layout),
                 swap_row(a.photographs.swap), max_size_row(a.photographs.max_size), rectify_row(a.photographs.rectify)},
                match_rows(a.matching)});
@@ -98,7 +126,8 @@ they belong to.
 Example:
   wheatstone synth still -o still
   wheatstone match still/left.png still/right.png -o matched
-  wheatstone match photograph.mpo -o matched)");
+  wheatstone match photograph.mpo -o matched
+  wheatstone match photographs -o matched)");
 }
 
 }  // namespace wheatstone::cli

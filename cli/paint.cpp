@@ -13,7 +13,7 @@
 #include "device_option.h"
 #include "display_argument.h"
 #include "paint_arguments.h"
-#include "paint_several.h"
+#include "photograph_run.h"
 #include "views_argument.h"
 #include "wheatstone/app/detail_map.h"
 #include "wheatstone/app/model_pictures.h"
@@ -128,7 +128,7 @@ struct Subject {
 bool is_single_picture(const Arguments& arguments) { return has_depth(arguments.depth) || arguments.depth.carried; }
 
 /// Renders what is to be painted, with its exact disparities and what only other views show.
-Subject read_model_subject(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions& options,
+Subject read_model_subject(const Arguments& arguments, const PhotographJob& job, PaintPhotographOptions& options,
                            const Session& session) {
   RenderParticlesOptions seen = arguments.model;
   seen.width = arguments.model_size.width;
@@ -145,7 +145,7 @@ Subject read_model_subject(const Arguments& arguments, const PaintJob& job, Pain
 }
 
 /// Reads what is to be painted; what is known of its geometry goes into the options.
-Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions& options,
+Subject read_subject(const Arguments& arguments, const PhotographJob& job, PaintPhotographOptions& options,
                      const Session& session) {
   if (is_model(job)) return read_model_subject(arguments, job, options, session);
   StereoArguments files = arguments.photographs;
@@ -164,14 +164,14 @@ Subject read_subject(const Arguments& arguments, const PaintJob& job, PaintPhoto
   return subject;
 }
 
-Painted with_place(Report report, std::string written) {
+PhotographResult with_place(Report report, std::string written) {
   report.facts.push_back(only_text(fmt::format("written to       {}", written)));
   return {std::move(report), std::move(written)};
 }
 
 /// Writes the views of a display.
-Painted write_and_tell(const Arguments& arguments, const DisplayPreset& display, const std::string& output,
-                       const DisplayViews& drawn, const Session& session) {
+PhotographResult write_and_tell(const Arguments& arguments, const DisplayPreset& display, const std::string& output,
+                                const DisplayViews& drawn, const Session& session) {
   const std::string written = write_views(display, output_of(arguments, output), drawn, session.progress);
   const DisplayPlan& plan = drawn.plan;
   const Placement& placement = plan.presentation.placement;
@@ -190,15 +190,15 @@ Painted write_and_tell(const Arguments& arguments, const DisplayPreset& display,
   return with_place(std::move(report), written);
 }
 
-Painted paint_for_display(const Arguments& arguments, const PaintJob& job, const Subject& subject,
-                          const PaintPhotographOptions& painting, const Session& session) {
+PhotographResult paint_for_display(const Arguments& arguments, const PhotographJob& job, const Subject& subject,
+                                   const PaintPhotographOptions& painting, const Session& session) {
   const ReadPhotograph& photograph = subject.photograph;
   const DisplayPreset& display = find_display(arguments.display.name);
   const DisplayViewsOptions options = views_options(arguments, display);
   const PaintedViews result = paint_views(photograph.pair.pictures, painting, options, session.progress,
                                           composition_for(display, options.views));
   if (result.confidence) tell_of_match(photograph, *result.confidence, session);
-  Painted painted = write_and_tell(arguments, display, job.output, result.views, session);
+  PhotographResult painted = write_and_tell(arguments, display, job.output, result.views, session);
   std::vector<Fact>& facts = painted.report.facts;
   facts.push_back({subject.strength ? "depth" : "pair", subject.told()});
   if (result.confidence) facts.push_back({"confidence", Json::parse(confidence_json(*result.confidence))});
@@ -234,8 +234,8 @@ void refuse_for_flat(const Arguments& arguments, const std::string& picture) {
   if (arguments.painting.zero_parallax.disparity_px) refuse({"--zero-parallax"});
 }
 
-Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotographOptions options,
-                  const Session& session) {
+PhotographResult paint_one(const Arguments& arguments, const PhotographJob& job, PaintPhotographOptions options,
+                           const Session& session) {
   keep_freed_memory();
   // What cannot be written is said before the work.
   const ViewsOutput output = output_of(arguments, job.output);
@@ -277,7 +277,7 @@ Painted paint_one(const Arguments& arguments, const PaintJob& job, PaintPhotogra
 }
 
 /// The arguments of one photograph of those that are given.
-Arguments arguments_of(const Arguments& given, const PaintJob& job) {
+Arguments arguments_of(const Arguments& given, const PhotographJob& job) {
   Arguments of_one = given;
   of_one.files = {job.left};
   if (!job.depth.empty()) of_one.depth.file = job.depth;
@@ -287,6 +287,21 @@ Arguments arguments_of(const Arguments& given, const PaintJob& job) {
   of_one.files = given.files;
   of_one.files.insert(of_one.files.end(), {job.left, job.right, job.depth});
   return of_one;
+}
+
+/// The painted picture of a job, of the left eye where there are two; none where it was not painted.
+std::optional<fs::path> painted_picture(const PhotographJob& job, const std::string& format) {
+  for (const char* name : {"left", "painted"}) {
+    const fs::path file = fs::path(job.output) / fmt::format("{}.{}", name, format);
+    if (fs::exists(file)) return file;
+  }
+  return {};
+}
+
+PhotographList photographs_to_paint(const Arguments& arguments, const Session& session) {
+  const std::string style = fs::path(arguments.style.style).stem().string();
+  return photographs_in_folder(arguments.files.front(), arguments.photographs, arguments.walk,
+                               {.folder = arguments.folder, .ending = {}, .placeholders = {{"style", style}}}, session);
 }
 
 Report draw_for_display_again(const Arguments& arguments, const Session& session) {
@@ -333,12 +348,22 @@ Report run_paint(const Arguments& given, const Session& session) {
             option_of(arguments.depth),
             is_folder ? "a folder is" : fmt::format("{} files are", arguments.files.size())));
   const PaintPhotographOptions options = options_from(arguments, session);
-  const PaintList list = is_folder ? photographs_in_folder(arguments, session) : PaintList{paint_jobs(arguments)};
-  const PaintOne paint = [&](const PaintJob& job, const Session& of_one) {
+  PhotographWork work{
+      .input = is_folder ? arguments.files.front() : "",
+      .output = arguments.folder,
+      .folder = arguments.walk,
+      .done = "painted",
+      .max_size = arguments.photographs.max_size,
+      .work = {},
+      .is_done = [](const PhotographJob& job) { return fs::exists(fs::path(job.output) / "report.json"); },
+      .shown = [&](const PhotographJob& job) { return painted_picture(job, arguments.results.format); }};
+  work.work = [&](const PhotographJob& job, const Session& of_one) {
     return paint_one(arguments_of(arguments, job), job, options, of_one);
   };
-  if (is_folder || list.jobs.size() > 1) return paint_all(arguments, list, paint, session);
-  return paint(list.jobs.front(), session).report;
+  if (is_folder) return work_on_all(work, photographs_to_paint(arguments, session), session);
+  const std::vector<PhotographJob> jobs = paint_jobs(arguments);
+  if (jobs.size() > 1) return work_on_all(work, {jobs}, session);
+  return work.work(jobs.front(), session).report;
 }
 
 constexpr double farthest_px = 65535;
@@ -363,18 +388,6 @@ std::string single_picture(const PaintArguments& a) {
   if (is_model_file(a)) return "on a model of triangles";
   if (has_depth(a.depth)) return fmt::format("with {}", option_of(a.depth));
   return finds_depth_in_file(a) ? "on a picture that has its own depth" : "";
-}
-
-FolderPart folder_part(const std::string& option, const std::string& words) {
-  const std::size_t slash = words.find('/');
-  const std::string number = words.substr(0, slash);
-  if (slash == std::string::npos)
-    throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected NUMBER/PARTS, as 3/16", option, words));
-  constexpr double most_parts = 1e6;
-  FolderPart part;
-  part.of = static_cast<int>(parse_integer(option, words.substr(slash + 1), {1, most_parts}));
-  part.number = static_cast<int>(parse_integer(option, number, {1, static_cast<double>(part.of)}));
-  return part;
 }
 
 constexpr Choice<SliceKeeps> slice_sides[] = {{"back", SliceKeeps::back}, {"front", SliceKeeps::front}};
@@ -440,8 +453,11 @@ Rows paint_rows(PaintArguments& a) {
   const Reason no_depth =
       when([&a] { return single_picture(a).empty() && !is_photograph_folder(a); }, "without --depth");
   const Reason no_map = when([&a] { return !has_depth(a.depth) && !is_photograph_folder(a); }, "without --depth");
-  const Reason no_folder =
-      when([&a] { return !is_photograph_folder(a); }, "on files; it works on a folder of photographs");
+  const auto on_folder = [&a] { return is_photograph_folder(a); };
+  Rows walk = folder_rows(a.walk, on_folder, "painted", "; {style}, the name of the style", {printing});
+  for (Row& option : walk)
+    if (option.names == "--skip-existing") option.unless.push_back(display);
+  walk.push_back(contact_sheet_row(a.walk, on_folder, {printing, display}));
 
   const Rows basic{
       row("PHOTOGRAPHS", texts(a.files),
@@ -452,21 +468,6 @@ Rows paint_rows(PaintArguments& a) {
       row("--format", picture_format(a.results.format),
           "File format of the painted pictures; masks and disparities are PNG", {printing}),
       row("--print-style", text(a.print_style), "Print a style as a style file (.toml) and exit"),
-      row("--dry-run", flag(a.dry_run), "Show which files of a folder are photographs, and why; nothing is painted",
-          {printing, no_folder}),
-      row("--skip-existing", flag(a.skip_existing),
-          "Leave out photographs of a folder whose results are there, to continue a run",
-          {printing, no_folder, display}),
-      row("--contact-sheet", flag(a.contact_sheet),
-          "Also write contact_sheet.png, which shows the results of a folder, small, with their names",
-          {printing, no_folder, display}),
-      row("--part", parsed(a.part, folder_part, "NUMBER/PARTS"),
-          "Paint only this part of a folder's photographs, which are dealt out by name: 3/16 on the third of 16 "
-          "machines",
-          {printing, no_folder}),
-      row("--pairs", text(a.pairs),
-          "Pairs of a folder that names do not tell: a file with LEFT, a tab and RIGHT a line, relative to it",
-          {printing, no_folder}),
       row("--disparity", text(a.disparity),
           "Disparity of the left view, which replaces matching: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = "
           "pixels",
@@ -527,7 +528,7 @@ Rows paint_rows(PaintArguments& a) {
       rectify_row(a.photographs.rectify, {printing, again, one_view})};
   Rows style = under({}, style_rows(a.style), {again});
   style.front().unless.push_back(printing);
-  return join({basic, display_view_rows(a.display, {printing}), drawing,
+  return join({basic, walk, display_view_rows(a.display, {printing}), drawing,
                under({}, depth_rows(a.depth, no_depth, no_map), {printing, again, model}), style,
                under({}, match_rows(a.matching), {printing, again, known}), model_rows(a, printing)});
 }

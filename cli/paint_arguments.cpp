@@ -51,13 +51,12 @@ bool is_model_file(const PaintArguments& arguments) {
   return arguments.files.size() == 1 && is_model({.left = arguments.files.front()});
 }
 
-bool is_model(const PaintJob& job) {
+bool is_model(const PhotographJob& job) {
   return job.right.empty() && (is_named_as_model(job.left) || holds_model(job.left));
 }
 
 bool is_photograph_folder(const PaintArguments& arguments) {
-  std::error_code error;
-  return arguments.files.size() == 1 && fs::is_directory(arguments.files.front(), error);
+  return arguments.files.size() == 1 && is_folder(arguments.files.front());
 }
 
 bool are_several(const PaintArguments& arguments) {
@@ -75,14 +74,14 @@ bool finds_depth_in_file(const PaintArguments& arguments) {
   return !is_stereo_file_name(arguments.files.front()) && carries_depth(arguments.files.front());
 }
 
-std::vector<PaintJob> paint_jobs(const PaintArguments& arguments) {
+std::vector<PhotographJob> paint_jobs(const PaintArguments& arguments) {
   const std::vector<std::string>& files = arguments.files;
   if (files.empty())
     throw Error(ErrorKind::wrong_usage,
                 "paint: no photographs, expected two files, LEFT and RIGHT, or one with both views");
   if (are_left_and_right(arguments)) return {{files[0], files[1], arguments.folder}};
   if (files.size() == 1) return {{files[0], {}, arguments.folder}};
-  std::vector<PaintJob> jobs;
+  std::vector<PhotographJob> jobs;
   std::map<std::string, std::string> file_of;
   for (const std::string& file : files) {
     const std::string stem = fs::path(file).stem().string();

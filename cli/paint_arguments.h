@@ -8,6 +8,7 @@
 #include "display_argument.h"
 #include "match_options.h"
 #include "options.h"
+#include "photograph_folder.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
 #include "wheatstone/app/paint_photograph.h"
@@ -18,20 +19,13 @@
 
 namespace wheatstone::cli {
 
-/// Every `of`th of a folder's photographs, from the `number`th on: what one of several machines paints.
-struct FolderPart {
-  int number = 1, of = 1;
-};
-
 /// What `paint` is told.
 struct PaintArguments {
   Given given;
   std::vector<std::string> files;
   StereoArguments photographs;  ///< how each is read; the files are those of one
   std::string folder = "painted";
-  std::string pairs;                                                   ///< of a folder: the table of pairs, if any
-  bool dry_run = false, skip_existing = false, contact_sheet = false;  ///< of a folder
-  FolderPart part;                                                     ///< of a folder
+  FolderArguments walk;  ///< of a folder
   ResultOptions results;
   std::string print_style;
   std::string disparity, right_disparity;
@@ -68,21 +62,13 @@ bool are_several(const PaintArguments& arguments);
 /// Whether the one file that is given is one picture that has its own depth, which is painted.
 bool finds_depth_in_file(const PaintArguments& arguments);
 
-/// One photograph and where its painting goes.
-struct PaintJob {
-  std::string left, right;  ///< right is empty where left holds both views, or is one picture with its depth
-  std::string output;
-  std::string depth = {};  ///< depth map that was found for the one picture
-  std::string why = {};    ///< how the files were found to belong together; empty: they were given
-};
-
 /// Whether it is a model of triangles.
-bool is_model(const PaintJob& job);
+bool is_model(const PhotographJob& job);
 
 /// Tells which files are photographs of their own. One file holds both views. Two files are LEFT and RIGHT, unless both
 /// are named as stereo photographs (.mpo, .jps, .pns) or --layout says that each holds both views; three or more hold
 /// both views each. Several are painted into folders named for them inside the output.
 /// Throws Error{wrong_usage} where that is ambiguous, or two would get one folder.
-std::vector<PaintJob> paint_jobs(const PaintArguments& arguments);
+std::vector<PhotographJob> paint_jobs(const PaintArguments& arguments);
 
 }  // namespace wheatstone::cli

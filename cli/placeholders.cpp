@@ -9,7 +9,7 @@
 
 namespace wheatstone::cli {
 
-std::string filled(const std::string& option, std::string_view words, std::initializer_list<Placeholder> placeholders) {
+std::string filled(const std::string& option, std::string_view words, std::span<const Placeholder> placeholders) {
   std::string text;
   while (!words.empty()) {
     const std::size_t begin = std::min(words.find('{'), words.size());
@@ -18,7 +18,7 @@ std::string filled(const std::string& option, std::string_view words, std::initi
     const std::size_t end = words.find('}');
     if (words.empty() || end == std::string_view::npos) break;
     const std::string_view name = words.substr(1, end - 1);
-    const auto* const found = std::ranges::find(placeholders, name, &Placeholder::name);
+    const auto found = std::ranges::find(placeholders, name, &Placeholder::name);
     const bool is_name =
         !name.empty() && std::ranges::all_of(name, [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; });
     if (found != placeholders.end()) {

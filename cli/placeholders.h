@@ -1,6 +1,6 @@
 #pragma once
 
-#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,6 +14,6 @@ struct Placeholder {
 
 /// The words with each {name} replaced. Other braces stay as they are. Throws Error{wrong_usage} that begins with
 /// `option` and lists the names where the words have a {name} that there is not.
-std::string filled(const std::string& option, std::string_view words, std::initializer_list<Placeholder> placeholders);
+std::string filled(const std::string& option, std::string_view words, std::span<const Placeholder> placeholders);
 
 }  // namespace wheatstone::cli

@@ -37,7 +37,7 @@ std::string parse_caption(const std::string& option, const std::string& words) {
   if (!is_utf8(words)) throw Error(ErrorKind::wrong_usage, option + ": is not UTF-8");
   if (std::ranges::all_of(words, [](unsigned char c) { return c <= ' '; }))
     throw Error(ErrorKind::wrong_usage, option + ": is empty, expected a text");
-  filled(option, words, {{"title", {}}, {"date", {}}});  // refused before anything is read
+  filled(option, words, std::array<Placeholder, 2>{{{"title", {}}, {"date", {}}}});  // refused before anything is read
   return words;
 }
 
@@ -75,7 +75,8 @@ PrintFrame print_frame_from(const PrintArguments& arguments, const PictureNotes&
                             const std::filesystem::path& file) {
   PrintFrame frame = arguments.frame;
   const std::string title = notes.title.empty() ? file.stem().string() : notes.title;
-  frame.caption = filled("--caption", arguments.caption, {{"title", title}, {"date", date_of(notes.taken)}});
+  frame.caption = filled("--caption", arguments.caption,
+                         std::array<Placeholder, 2>{{{"title", title}, {"date", date_of(notes.taken)}}});
   if (notes.taken.empty() && arguments.caption.find("{date}") != std::string::npos) {
     // "Apples, {date}" without a date is "Apples".
     constexpr const char* separators = " ,;:-/|";

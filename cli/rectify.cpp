@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "photograph_run.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/app/report.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct RectifyArguments {
   StereoArguments photographs;
+  FolderArguments walk;  ///< of a folder
   std::string folder = "rectified";
   std::string format = "png";
   std::string calibration;
@@ -94,7 +96,7 @@ Report report_of(const RectifiedPair& pair, const RectifyArguments& arguments) {
        only_text(fmt::format("written to            {}", arguments.folder))}};
 }
 
-Report run_rectify(const RectifyArguments& arguments, const Session& session) {
+PhotographResult rectify_one(const RectifyArguments& arguments, const Session& session) {
   // Before the work, so that what cannot be written is known at once.
   OutputFolder folder(arguments.folder,
                       {arguments.photographs.left, arguments.photographs.right, arguments.calibration});
@@ -104,11 +106,39 @@ Report run_rectify(const RectifyArguments& arguments, const Session& session) {
   write_image(left, pair.pictures.left);
   write_image(right, pair.pictures.right);
   folder.commit();
-  return report_of(pair, arguments);
+  return {report_of(pair, arguments), arguments.folder};
+}
+
+/// The same of each photograph in a folder.
+Report rectify_folder(const RectifyArguments& arguments, const Session& session) {
+  const std::string& folder = arguments.photographs.left;
+  const PhotographWork work{.input = folder,
+                            .output = arguments.folder,
+                            .folder = arguments.walk,
+                            .done = "rectified",
+                            .work =
+                                [&](const PhotographJob& job, const Session& of_one) {
+                                  RectifyArguments one = arguments;
+                                  one.photographs = photograph_of(arguments.photographs, job);
+                                  one.folder = job.output;
+                                  return rectify_one(one, of_one);
+                                },
+                            .is_done = [](const PhotographJob& job) { return is_folder(job.output); },
+                            .shown = [&](const PhotographJob& job) -> std::optional<std::filesystem::path> {
+                              return std::filesystem::path(job.output) / fmt::format("left.{}", arguments.format);
+                            }};
+  const FolderOutput output{.folder = arguments.folder, .ending = {}, .placeholders = {}};
+  return work_on_all(work, pairs_in_folder(folder, arguments.photographs, arguments.walk, output, session), session);
+}
+
+Report run_rectify(const RectifyArguments& arguments, const Session& session) {
+  if (is_folder(arguments.photographs.left)) return rectify_folder(arguments, session);
+  return rectify_one(arguments, session).report;
 }
 
 Rows rectify_rows(RectifyArguments& a) {
   return join({pair_rows(a.photographs),
+               pair_folder_rows(a.walk, a.photographs, "rectified"),
                {layout_row(a.photographs.layout), swap_row(a.photographs.swap),
                 row("-o,--output", output_name(a.folder), "Folder for left.png and right.png"),
                 row("--format", picture_format(a.format), "File format of the rectified pictures"),
@@ -131,6 +161,7 @@ how much.
 Examples:
   wheatstone rectify left.jpg right.jpg -o rectified
   wheatstone rectify photograph.mpo -o rectified
+  wheatstone rectify photographs -o rectified
   wheatstone paint rectified/left.png rectified/right.png -o painted)");
 }
 

@@ -16,6 +16,7 @@
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/common_part.h"
 #include "wheatstone/stereo/fitting_pair.h"
 
 namespace wheatstone::cli {
@@ -81,8 +82,17 @@ PictureSize reduce(StereoPair& pair, int longest_px) {
 NamedPair read_two_files(const StereoArguments& arguments) {
   if (!arguments.layout.empty())
     throw Error(ErrorKind::wrong_usage, "--layout is for one file that holds both views, but two files are given");
-  NamedPair read{
-      read_pair(arguments.left, arguments.right), fmt::format("{}, {}", arguments.left, arguments.right), {}};
+  StereoPair pair{read_image(arguments.left), read_image(arguments.right)};
+  std::string framed;
+  const ImageSize left{pair.left.width(), pair.left.height()}, right{pair.right.width(), pair.right.height()};
+  if (differ_by_few(left, right)) {
+    frame_common_part(pair);
+    framed = fmt::format("{}, {}: {}x{} and {}x{} pixels, framed to the common {}x{}", arguments.left, arguments.right,
+                         left.width, left.height, right.width, right.height, pair.left.width(), pair.left.height());
+  }
+  check_sizes(pair, arguments.left, arguments.right);
+  NamedPair read{std::move(pair), fmt::format("{}, {}", arguments.left, arguments.right), {}};
+  read.framed = std::move(framed);
   if (arguments.swap) std::swap(read.pictures.left, read.pictures.right);
   return read;
 }
@@ -112,9 +122,11 @@ Row rectify_row(RectifyPolicy& policy, Reasons unless) {
 }
 
 Rows pair_rows(StereoArguments& arguments) {
-  return {row("LEFT", required(text(arguments.left)),
-              "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other"),
-          row("RIGHT", text(arguments.right), "Right photograph, of the same size")};
+  return {
+      row("LEFT", required(text(arguments.left)),
+          "Left photograph; or one file with both views: MPO, JPS, side by side, one above the other; or a folder of "
+          "photographs"),
+      row("RIGHT", text(arguments.right), "Right photograph, of the same size")};
 }
 
 Image<float> read_disparity_argument(const std::string& argument) {
@@ -164,7 +176,8 @@ NamedPair read_named_pair(const StereoArguments& arguments) {
 }
 
 void tell_of_layout(const NamedPair& pair, const Session& session) {
-  if (!pair.note.empty()) remark(session, pair.note);
+  for (const std::string& line : {pair.note, pair.framed})
+    if (!line.empty()) remark(session, line);
 }
 
 ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session) {

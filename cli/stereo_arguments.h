@@ -53,6 +53,7 @@ struct NamedPair {
   std::string name;  ///< for messages: of both files, or of one and how it was understood
   std::string note;  ///< a line that says how one file was understood; empty: two files
   bool eyes_known_from_picture = false;
+  std::string framed = {};  ///< a line that says that two files were framed to their common part; empty: they were not
 };
 
 /// Reads photographs from two files or one. Throws Error: bad_input, wrong_usage.

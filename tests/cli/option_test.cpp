@@ -266,7 +266,7 @@ TEST(Help, HasNoMarksOfTheParserInIt) {
     const ProgramResult help = run_program(with(line, {"--help"}));
     ASSERT_EQ(help.exit_code, 0);
     std::string text = help.output;  // without what is meant to be typed so
-    for (const std::string typed : {"{title}", "{date}", "{stem}", "{style}"})
+    for (const std::string typed : {"{title}", "{date}", "{stem}", "{name}", "{style}", "{to}"})
       for (std::size_t at = text.find(typed); at != text.npos; at = text.find(typed)) text.erase(at, typed.size());
     for (const char* mark : {"{", "}", "ENUM", "TEXT:", "INT:", " INT", "UINT", "FLOAT", "NUMBER:", " in [", "->"})
       EXPECT_THAT(text, testing::Not(testing::HasSubstr(mark))) << testing::PrintToString(line);

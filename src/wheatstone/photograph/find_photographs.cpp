@@ -13,8 +13,10 @@
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/pairs_by_name_internal.h"
+#include "wheatstone/photograph/pairs_by_time_internal.h"
 #include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/picture_file.h"
+#include "wheatstone/stereo/common_part.h"
 
 namespace wheatstone {
 namespace {
@@ -61,8 +63,9 @@ LeftOutFile left_out_for(const fs::path& file, const Error& error) {
   return {file, message.starts_with(name) ? message.substr(name.size()) : message, error.kind()};
 }
 
-/// Why two pictures make no pair, as their headers tell; empty where they make one.
-std::vector<LeftOutFile> wrong_with_pair(const FoundPhotograph& pair) {
+/// Why two pictures make no pair, as their headers tell; empty where they make one. What there is to say of their sizes
+/// is added to its reason.
+std::vector<LeftOutFile> wrong_with_pair(FoundPhotograph& pair) {
   std::vector<LeftOutFile> wrong;
   std::vector<std::pair<int, int>> sizes;
   for (const auto& [file, other] : {std::pair(pair.left, pair.right), std::pair(pair.right, pair.left)}) {
@@ -81,6 +84,11 @@ std::vector<LeftOutFile> wrong_with_pair(const FoundPhotograph& pair) {
                      {}});
   }
   if (sizes.size() < 2 || sizes[0] == sizes[1]) return wrong;
+  if (differ_by_few({sizes[0].first, sizes[0].second}, {sizes[1].first, sizes[1].second})) {
+    pair.why += fmt::format("; {}x{} and {}x{} pixels, framed to the common part", sizes[0].first, sizes[0].second,
+                            sizes[1].first, sizes[1].second);
+    return wrong;
+  }
   for (const std::size_t i : {0U, 1U})
     wrong.push_back({i == 0 ? pair.left : pair.right,
                      fmt::format("doubtful partner: {} has {}x{} pixels, this picture {}x{}",
@@ -169,6 +177,7 @@ PhotographFolder find_photographs(const fs::path& folder, const FindPhotographsO
     if (wrong.empty()) found.photographs.push_back(std::move(photograph));
     std::ranges::move(wrong, std::back_inserter(found.left_out));
   }
+  std::vector<fs::path> alone;
   for (const fs::path& name : named.rest) {
     const fs::path file = folder / name;
     tell(file);
@@ -176,16 +185,43 @@ PhotographFolder find_photographs(const fs::path& folder, const FindPhotographsO
       if (std::string how = how_by_itself(file, options.views); !how.empty())
         found.photographs.push_back({stem_without_eye(name), file, {}, {}, std::move(how)});
       else
-        found.left_out.push_back({file, "one view: it has no second view and no depth", {}});
+        alone.push_back(file);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::interrupted) throw;
       found.left_out.push_back(left_out_for(file, error));
     }
   }
+  PairsByTime timed = pairs_by_time(alone, progress);
+  std::ranges::move(timed.left_out, std::back_inserter(found.left_out));
+  for (FoundPhotograph& pair : timed.photographs) {
+    pair.stem = stem_without_eye(within(folder, pair.left));
+    found.photographs.push_back(std::move(pair));
+  }
   std::ranges::sort(found.photographs, {}, &FoundPhotograph::left);
   std::ranges::sort(found.left_out, {}, &LeftOutFile::file);
   make_stems_unique(found.photographs);
   return found;
+}
+
+bool holds_photographs(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::vector<LeftOutFile> left_out;
+  list_pictures(folder, {}, files, left_out);
+  std::ranges::sort(files);
+  const auto says_so = [](const fs::path& file) {
+    constexpr int any = 100;  // pixels a side: the name is asked for a layout, not whether it is squeezed
+    return file.has_parent_path() || is_stereo_file_name(file) || is_depth_name(file) ||
+           layout_from_name(file, any, any).has_value();
+  };
+  if (std::ranges::any_of(files, says_so)) return true;
+  constexpr std::size_t pair = 2;
+  if (files.size() > pair && !pairs_by_name(files).photographs.empty()) return true;
+  if (files.empty() || files.front().filename().string().starts_with("view_")) return false;
+  try {
+    return !how_by_itself(folder / files.front(), {}).empty();
+  } catch (const Error&) {
+    return false;  // who reads the views tells it
+  }
 }
 
 }  // namespace wheatstone

@@ -43,13 +43,20 @@ struct FindPhotographsOptions {
 /// - two pictures of the same name in the folders left/ and right/, or L/ and R/;
 /// - a picture and its depth map, which has its name and "_depth" or "-depth";
 /// - a file that holds both views, as find_views sees it, or its own depth, as find_carried_depth.
-/// A pair has pictures of one size. What is not surely a photograph is left out with its reason: a picture whose
-/// partner is missing, several candidates for one partner, pictures that differ in size, names of maps ("disp_left"),
-/// one view. Files are pictures by their endings. Hidden files and folders, links to folders, and folders that hold a
-/// painting of Wheatstone are not looked into.
-/// Throws Error: bad_input where there is no picture, cannot_read_write where the folder cannot be read.
+/// - two pictures of one view that were taken at the same time, where they show themselves that they are a pair, and
+/// whose eye's each is (pairs_by_time).
+/// A pair has pictures of one size, but for a few rows or columns (differ_by_few). What is not surely a photograph is
+/// left out with its reason: a picture whose partner is missing, several candidates for one partner, pictures that
+/// differ in size, names of maps ("disp_left"), one view. Files are pictures by their endings. Hidden files and
+/// folders, links to folders, and folders that hold a painting of Wheatstone are not looked into. Throws Error:
+/// bad_input where there is no picture, cannot_read_write where the folder cannot be read.
 PhotographFolder find_photographs(const std::filesystem::path& folder, const FindPhotographsOptions& options = {},
                                   const Progress& progress = {});
+
+/// Whether a folder holds photographs, rather than the views of one: a file name says that it holds two views or depth,
+/// or there are pictures in folders below it, or a pair among more than two pictures, or the first picture holds two
+/// views or its own depth. Names that begin with "view_" are of views.
+bool holds_photographs(const std::filesystem::path& folder);
 
 /// Reads a table of pairs: LEFT, a tab and RIGHT a line, relative to the table's folder. Empty lines have no meaning.
 /// The stems are empty. Throws Error{bad_input} that names the table and the line.
