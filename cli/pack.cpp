@@ -10,6 +10,7 @@
 #include "display_argument.h"
 #include "made_views.h"
 #include "packing.h"
+#include "photograph_run.h"
 #include "print_options.h"
 #include "stereo_arguments.h"
 #include "views_argument.h"
@@ -18,18 +19,23 @@
 #include "wheatstone/display/floating_window.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/match.h"
+#include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/photograph_notes.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/reduced_pair.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Strips of a floating window: as they are typed, or none, which is "auto".
 using TypedWindow = std::optional<FloatingWindow>;
 
 struct PackArguments {
   Given given;
+  FolderArguments walk;  ///< of a folder of photographs
   ViewsArguments input;
   DepthArguments depth;  ///< of one picture
   PackingArguments packing;
@@ -93,7 +99,7 @@ ViewsArguments input_of(const PackArguments& arguments, const Packing& packing, 
 }
 
 /// What the first file says of its photograph; nothing of files that are no pictures.
-PictureNotes notes_of(const PackArguments& arguments, const std::vector<std::filesystem::path>& files) {
+PictureNotes notes_of(const PackArguments& arguments, const std::vector<fs::path>& files) {
   if (files.empty() || files.front().extension() == ".wst" || files.front().extension() == ".exr") return {};
   return read_photograph_notes(files.front(), arguments.print.keep_location);
 }
@@ -116,12 +122,13 @@ void reframe(std::vector<Image<Rgb8>>& views, const PackArguments& arguments) {
                        shown_part(view.width(), view.height(), width, height, arguments.packing.framing, stretch));
 }
 
-Report run_pack(const PackArguments& arguments, const Session& session) {
+PhotographResult pack_one(const PackArguments& arguments, const Session& session) {
   // What cannot be packed is said before anything is read.
   const Packing packing = find_packing(arguments.packing, arguments.output);
   check_ending(packing, arguments.output);
   ViewsOutput output{arguments.output, files_read(arguments.input), arguments.packing.format};
   output.inputs.emplace_back(arguments.packing.screen);
+  output.inputs.emplace_back(arguments.depth.file);
   check_views_output(output);
   const std::string first = output.inputs.front().string();
   output.notes = notes_of(arguments, output.inputs);
@@ -144,7 +151,7 @@ Report run_pack(const PackArguments& arguments, const Session& session) {
       write_packed({packing, arguments.packing, views, caption, read.composed, output, session});
   const std::size_t count = views.empty() ? static_cast<std::size_t>(read.count) : views.size();
   const PictureSize size = views.empty() ? read.size : PictureSize{views.front().width(), views.front().height()};
-  return {
+  Report told{
       {{"views", count,
         session.verbose ? fmt::format("{} views of {}x{} pixels, {}", count, size.width, size.height, read.how) : ""},
        {"output", written, fmt::format("written to {}", written)},
@@ -152,6 +159,62 @@ Report run_pack(const PackArguments& arguments, const Session& session) {
        {"width", size.width},
        {"height", size.height},
        {"input", read.how}}};
+  return {std::move(told), written};
+}
+
+/// The packed file of a job, or its folder of views; none where it was not packed. A quilt's name says its layout.
+std::optional<fs::path> packed_file(const PhotographJob& job, const Packing& packing) {
+  const fs::path file = job.output;
+  std::error_code error;
+  if (packing.format->name != "quilt") return fs::exists(file, error) ? std::optional(file) : std::nullopt;
+  const std::string begin = file.filename().string() + "_qs";
+  for (const fs::directory_entry& entry : fs::directory_iterator(file.parent_path(), error))
+    if (entry.path().filename().string().starts_with(begin)) return entry.path();
+  return {};
+}
+
+/// The picture of a packed file for the contact sheet.
+std::optional<fs::path> shown_of(const PhotographJob& job, const Packing& packing, const std::string& format) {
+  std::optional<fs::path> file = packed_file(job, packing);
+  if (file && packing.format->name == "views") file = *file / fmt::format("view_000.{}", format);
+  return file && (is_picture_name(*file) || is_stereo_file_name(*file)) ? file : std::nullopt;
+}
+
+/// Packs each photograph in a folder.
+Report pack_folder(const PackArguments& arguments, const Session& session) {
+  const Packing packing = find_packing(arguments.packing, arguments.output);
+  const StereoArguments photographs{
+      .left = {}, .right = {}, .layout = arguments.input.layout, .swap = arguments.input.swap};
+  PhotographWork work{
+      .input = arguments.input.files.front(),
+      .output = arguments.output,
+      .folder = arguments.walk,
+      .done = "packed",
+      .max_size = arguments.max_size,
+      .work = {},
+      .is_done = [&](const PhotographJob& job) { return packed_file(job, packing).has_value(); },
+      .shown = [&](const PhotographJob& job) { return shown_of(job, packing, arguments.packing.format); }};
+  work.work = [&](const PhotographJob& job, const Session& of_one) {
+    PackArguments one = arguments;
+    one.input.files = {job.left};
+    if (!job.right.empty()) one.input.files.push_back(job.right);
+    if (!job.right.empty() || !job.depth.empty()) one.input.layout.clear();
+    one.depth.file = job.depth;
+    one.output = job.output;
+    one.packing.to = packing.name;  // whatever the ending says
+    if (one.input.files.size() > 1 && one.input.swap) std::swap(one.input.files[0], one.input.files[1]);
+    if (one.input.files.size() > 1) one.input.swap = false;
+    return pack_one(one, of_one);
+  };
+  const FolderOutput output{.folder = arguments.output,
+                            .ending = ending_for(packing, arguments.packing, arguments.given("--format")),
+                            .placeholders = {{"to", packing.name}}};
+  return work_on_all(work, photographs_in_folder(work.input, photographs, arguments.walk, output, session), session);
+}
+
+Report run_pack(const PackArguments& arguments, const Session& session) {
+  if (is_photograph_folder(arguments.input)) return pack_folder(arguments, session);
+  return pack_one(arguments, session).report;
 }
 
 Rows pack_rows(PackArguments& a) {
@@ -164,16 +227,21 @@ Rows pack_rows(PackArguments& a) {
   Row max_size = max_size_row(
       a.max_size, {[are_made, unless = unless_matched(a.packing, a.output)] { return are_made() ? "" : unless(); }});
   const Reason no_depth = when([&a] { return !has_own_depth(a.input, a.depth); }, "without --depth");
-  const Reason no_picture = when([&a] { return a.input.files.size() != 1 || !is_photograph(a.input); },
-                                 "on several views; it works on one picture");
+  const Reason no_picture =
+      when([&a] { return a.input.files.size() != 1 || !is_photograph(a.input) || is_photograph_folder(a.input); },
+           "on several views; it works on one picture");
   const Reason no_frame =
       when([&a] { return a.packing.display.empty() && !sets_caption(find_packing(a.packing, a.output)); },
            "without --display; it works with --display and --to card");
+  const auto on_folder = [&a] { return is_photograph_folder(a.input); };
+  Rows walk = folder_rows(a.walk, on_folder, "packed", "; {to}, the format");
+  walk.push_back(contact_sheet_row(a.walk, on_folder));
   max_size.help = "Match a reduced copy whose longer side has at most this many pixels";
   return join(
       {views_rows(a.input, are_made),
-       {views_device_row(a.input), row("-o,--output", required(output_name(a.output)),
-                                       "File; a folder for views; the stem of the file for a quilt")},
+       {views_device_row(a.input),
+        row("-o,--output", required(output_name(a.output)),
+            "File; a folder for views, or for the results of a folder; the stem of the file for a quilt")},
        packing_rows(a.packing, a.output),
        {row("--zero-parallax,--shift", number(a.shift_px, {-65535, 65535}),
             "Disparity in pixels, from each view to the next, that lies on the screen plane"),
@@ -183,6 +251,7 @@ Rows pack_rows(PackArguments& a) {
             "edge of the right view; auto: as wide as needed for the frame to cut nothing before the screen for "
             "one eye only, found by matching")},
        {framing_row(a.packing.framing, "on the display or the card", {no_frame})},
+       walk,
        under({}, depth_rows(a.depth, no_depth), {no_picture}),
        print_rows(a.print, {if_matched(a.packing, a.output)}, {if_card(a.packing, a.output)})});
 }
@@ -199,7 +268,8 @@ Command pack_command() {
   wheatstone pack photograph.mpo --caption {title} -o card.pdf
   wheatstone pack photo.jpg --depth depth.png --display looking-glass-portrait -o photo
   wheatstone pack views --to lenticular --screen step-9 -o screen.png
-  wheatstone pack views --to quilt --quilt 8x6 -o universe)");
+  wheatstone pack views --to quilt --quilt 8x6 -o universe
+  wheatstone pack photographs --to anaglyph --format jpg -o anaglyphs)");
 }
 
 }  // namespace wheatstone::cli

@@ -259,8 +259,8 @@ Rows packing_rows(PackingArguments& a, const std::string& output) {
   };
   const Reason named_by_ending = [&a, &output] {
     const Packing packing = find_packing(a, output);
-    const bool is_named =
-        packing.format->name == "views" || (packing.format->name == "quilt" && !fs::path(output).has_extension());
+    const bool is_picture = !is_one_of(packing.format->name, {"mpo", "jps", "wiggle", "exr", "disparity", "depth"});
+    const bool is_named = packing.format->name == "views" || (is_picture && !fs::path(output).has_extension());
     return is_named ? "" : fmt::format("with --to {}; the ending of the output says the format", packing.name);
   };
   return {
@@ -302,6 +302,14 @@ Packing find_packing(const PackingArguments& arguments, const std::string& outpu
   if (packing.format->name == "quilt" && !packing.quilt)
     throw Error(ErrorKind::wrong_usage, "--to quilt: needs --quilt COLUMNSxROWS, or --display NAME");
   return packing;
+}
+
+std::string ending_for(const Packing& packing, const PackingArguments& arguments, bool format_is_given) {
+  const std::string_view name = packing.format->name;
+  if (is_one_of(name, {"views", "quilt"})) return {};
+  if (is_one_of(name, {"disparity", "depth"})) return ".pfm";
+  const bool is_fixed = !packing.format->ending.empty() && !(name == "card" && format_is_given);
+  return is_fixed ? std::string(packing.format->ending) : "." + arguments.format;
 }
 
 void check_ending(const Packing& packing, const std::string& output) {

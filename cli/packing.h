@@ -76,6 +76,10 @@ Rows packing_rows(PackingArguments& arguments, const std::string& output);
 /// What was asked for, by name or by the output's ending. Throws Error{wrong_usage} that lists what there is.
 Packing find_packing(const PackingArguments& arguments, const std::string& output);
 
+/// The ending of the packed file of one of several photographs, as ".mpo"; empty where views get a folder, and a quilt
+/// its own name. `format_is_given`: --format decides where it can.
+std::string ending_for(const Packing& packing, const PackingArguments& arguments, bool format_is_given);
+
 /// Throws Error{wrong_usage} where the output has an ending that the packing cannot be written under.
 void check_ending(const Packing& packing, const std::string& output);
 

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "depth_argument.h"
 #include "display_argument.h"
+#include "photograph_run.h"
 #include "stereo_arguments.h"
 #include "views_argument.h"
 #include "wheatstone/app/paint_photograph.h"
@@ -22,12 +23,17 @@
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/photograph/carried_depth.h"
+#include "wheatstone/photograph/photograph_notes.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/share/gallery_page.h"
 #include "wheatstone/share/page.h"
 #include "wheatstone/share/share_film.h"
 #include "wheatstone/share/share_painting.h"
 #include "wheatstone/share/share_photograph.h"
 #include "wheatstone/share/share_slices.h"
 #include "wheatstone/share/share_views.h"
+#include "wheatstone/stereo/reduced_pair.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/film_files.h"
 
@@ -37,6 +43,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ShareArguments {
+  Given given;
+  FolderArguments walk;  ///< of a folder of photographs
   ViewsArguments views;  ///< the files, as all kinds have them
   DepthArguments depth;
   std::string disparity;
@@ -45,6 +53,7 @@ struct ShareArguments {
   std::string element;    ///< file for the element's code; empty: it is not wanted
   std::string max_size;   ///< of the page; empty: what is usual for its kind
   std::string subtitles;  ///< of a film, in a WebVTT file; empty: none
+  std::string thumbnail;  ///< small picture beside the page, for a gallery; empty: none
 };
 
 std::vector<fs::path> files_that_are_read(const ShareArguments& arguments) {
@@ -101,12 +110,13 @@ SharedPicture share_stereo_photograph(const ShareArguments& arguments, const Ses
   return share_photograph(read.pair.pictures, found.geometry, arguments.words.title);
 }
 
-enum class SharedKind { painting, film, quilt_film, slices, views, picture_with_depth, stereo_photograph };
+enum class SharedKind { photographs, painting, film, quilt_film, slices, views, picture_with_depth, stereo_photograph };
 
 SharedKind shared_kind_of(const ShareArguments& arguments) {
   const ViewsArguments& views = arguments.views;
   const std::string& first = views.files.front();
   const bool is_one = views.files.size() == 1;
+  if (is_one && is_photograph_folder(views)) return SharedKind::photographs;
   if (is_one && first.ends_with(".wst")) return SharedKind::painting;
   if (is_one && is_film(first))
     return views.quilt || quilt_of_name(fs::path(first).filename().string()) ? SharedKind::quilt_film
@@ -118,7 +128,8 @@ SharedKind shared_kind_of(const ShareArguments& arguments) {
 }
 
 std::string_view shared_situation(SharedKind kind) {
-  constexpr std::array<std::string_view, 7> words{"on a painting (.wst)",
+  constexpr std::array<std::string_view, 8> words{"on a folder of photographs",
+                                                  "on a painting (.wst)",
                                                   "on a film",
                                                   "on a film of quilts",
                                                   "on slices",
@@ -166,13 +177,22 @@ SharedPicture share(const ShareArguments& arguments, const Session& session) {
       return share_views(read_views_argument(arguments.views, 0, session).views, title);
     case SharedKind::picture_with_depth:
       return share_picture_with_depth(arguments, session);
+    case SharedKind::photographs:  // a page each
     case SharedKind::stereo_photograph:
       break;
   }
   return share_stereo_photograph(arguments, session);
 }
 
-Report run_share(const ShareArguments& given, const Session& session) {
+/// The picture that stands for a page, small.
+void write_thumbnail(const std::string& file, const SharedPicture& picture) {
+  constexpr int longest_px = 480, quality = 85;
+  const Image<Rgb8> still = decode_jpeg(picture.still_jpeg, file);
+  write_whole_file(file,
+                   encode_jpeg(reduced(still, reduced_size({still.width(), still.height()}, longest_px)), quality));
+}
+
+Report share_one(const ShareArguments& given, const Session& session) {
   ShareArguments arguments = given;
   most_bytes(arguments);  // refused before anything is read
   const std::vector<fs::path> inputs = files_that_are_read(arguments);
@@ -184,6 +204,7 @@ Report run_share(const ShareArguments& given, const Session& session) {
   const SharedPicture picture = share(arguments, session);
   refuse_too_large(arguments, picture);
   const std::string page = html_page(picture, arguments.words);
+  if (!arguments.thumbnail.empty()) write_thumbnail(arguments.thumbnail, picture);
   write_whole_file(arguments.output, page);
   if (!arguments.element.empty()) write_whole_file(arguments.element, page_element_code());
   Report report{
@@ -195,6 +216,56 @@ Report run_share(const ShareArguments& given, const Session& session) {
   return report;
 }
 
+std::string thumbnail_of(const PhotographJob& job) { return fs::path(job.output).replace_extension(".jpg").string(); }
+
+/// A page of each photograph in a folder, and a gallery that leads to them.
+Report share_folder(const ShareArguments& arguments, const Session& session) {
+  const std::string& folder = arguments.views.files.front();
+  const std::string place = arguments.given("--output") ? arguments.output : "gallery";
+  const StereoArguments photographs{
+      .left = {}, .right = {}, .layout = arguments.views.layout, .swap = arguments.views.swap};
+  const PhotographWork work{
+      .input = folder,
+      .output = place,
+      .folder = arguments.walk,
+      .done = "shared",
+      .work = [&](const PhotographJob& job, const Session& of_one) -> PhotographResult {
+        ShareArguments one = arguments;
+        one.views.files = {job.left};
+        if (!job.right.empty()) one.views.files.push_back(job.right);
+        if (!job.right.empty() || !job.depth.empty()) one.views.layout.clear();
+        one.depth.file = job.depth;
+        one.output = job.output;
+        one.thumbnail = thumbnail_of(job);
+        one.words = {.title = read_photograph_notes(job.left).title, .description = {}, .caption = {}};
+        if (one.words.title.empty()) one.words.title = fs::path(job.output).stem().string();
+        return {share_one(one, of_one), job.output};
+      },
+      .is_done = [](const PhotographJob& job) { return fs::exists(job.output) && fs::exists(thumbnail_of(job)); },
+      .shown = [](const PhotographJob& job) -> std::optional<fs::path> {
+        const std::string file = thumbnail_of(job);
+        return fs::exists(file) ? std::optional<fs::path>(file) : std::nullopt;
+      }};
+  const FolderOutput output{.folder = place, .ending = ".html", .placeholders = {}};
+  PhotographList list = photographs_in_folder(folder, photographs, arguments.walk, output, session);
+  const std::string gallery = (fs::path(place) / "index.html").string();
+  for (PhotographJob& job : list.jobs)
+    if (job.output == gallery) job.output = (fs::path(place) / "index-photograph.html").string();
+  Report report = work_on_all(work, list, session);
+  const std::vector<GalleryEntry> entries = gallery_entries(place);
+  if (arguments.walk.dry_run || entries.empty()) return report;
+  PageWords words = arguments.words;
+  if (words.title.empty()) words.title = fs::canonical(folder).filename().string();
+  write_whole_file(gallery, gallery_page(entries, words));
+  report.facts.push_back({"gallery", gallery, fmt::format("gallery: {}", gallery)});
+  return report;
+}
+
+Report run_share(const ShareArguments& arguments, const Session& session) {
+  if (shared_kind_of(arguments) == SharedKind::photographs) return share_folder(arguments, session);
+  return share_one(arguments, session);
+}
+
 Rows share_rows(ShareArguments& a) {
   const auto only = [&a](std::vector<SharedKind> kinds) {
     return only_on<SharedKind>([&a] { return shared_kind_of(a); }, std::move(kinds), shared_situation,
@@ -203,8 +274,10 @@ Rows share_rows(ShareArguments& a) {
   const Rows page{
       row("FILE", required(texts(a.views.files)),
           "Painting (.wst); LEFT and RIGHT photograph, or one file that holds both; one picture with its depth; views "
-          "from left to right, a folder of them or a quilt; slices (.exr); film of both eyes or of quilts"),
-      row("-o,--output", output_name(a.output), "Page: one HTML file, which needs nothing else"),
+          "from left to right, a folder of them or a quilt; slices (.exr); film of both eyes or of quilts; a folder of "
+          "photographs"),
+      row("-o,--output", output_name(a.output),
+          "Page: one HTML file, which needs nothing else; of a folder, the folder of the pages, 'gallery' by default"),
       row("--title", text(a.words.title), "Title of the page; the name of the file by default"),
       row("--caption", text(a.words.caption), "Text below the picture"),
       row("--description", text(a.words.description),
@@ -218,9 +291,10 @@ Rows share_rows(ShareArguments& a) {
       row("--layout", text(a.views.layout),
           "Layout of one file that holds both views, as of 'wheatstone paint'; rgbd for a picture with its depth "
           "beside it",
-          {only({SharedKind::film, SharedKind::picture_with_depth, SharedKind::stereo_photograph})}),
+          {only({SharedKind::film, SharedKind::photographs, SharedKind::picture_with_depth,
+                 SharedKind::stereo_photograph})}),
       row("--swap", flag(a.views.swap), "Swap the two views, or reverse the order of all",
-          {only({SharedKind::views, SharedKind::stereo_photograph})}),
+          {only({SharedKind::views, SharedKind::photographs, SharedKind::stereo_photograph})}),
       row("--from-quilt", quilt_layout(a.views.quilt), "Read the picture as a quilt of COLUMNSxROWS views",
           {only({SharedKind::quilt_film, SharedKind::views})}),
       row("--max-size", of_type("SIZE", text(a.max_size)),
@@ -230,7 +304,10 @@ Rows share_rows(ShareArguments& a) {
       row("--subtitles", text(a.subtitles), "Subtitles of a film: a WebVTT file (.vtt)",
           {only({SharedKind::film, SharedKind::quilt_film})})};
   const Reason no_depth = when([&a] { return shared_kind_of(a) != SharedKind::picture_with_depth; }, "without --depth");
-  return join({page, under({}, depth_rows(a.depth, no_depth), {only({SharedKind::picture_with_depth})})});
+  const auto on_folder = [&a] { return shared_kind_of(a) == SharedKind::photographs; };
+  Rows walk = folder_rows(a.walk, on_folder, "shared");
+  walk.push_back(contact_sheet_row(a.walk, on_folder));
+  return join({page, walk, under({}, depth_rows(a.depth, no_depth), {only({SharedKind::picture_with_depth})})});
 }
 
 }  // namespace
@@ -243,7 +320,8 @@ Command share_command() {
   wheatstone share painted.mp4 -o page.html
   wheatstone share slices.exr -o page.html --max-size 4MB
   wheatstone share left.png right.png -o page.html
-  wheatstone share photo.jpg --depth depth.png -o page.html)");
+  wheatstone share photo.jpg --depth depth.png -o page.html
+  wheatstone share photographs -o gallery)");
 }
 
 }  // namespace wheatstone::cli

@@ -12,6 +12,7 @@
 #include "depth_argument.h"
 #include "device_option.h"
 #include "display_argument.h"
+#include "stereo_arguments.h"
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/multiview_exr.h"
@@ -21,6 +22,7 @@
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/painting/two_eyes.h"
+#include "wheatstone/photograph/find_photographs.h"
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
@@ -54,6 +56,17 @@ ReadViews read_pictures(const std::vector<std::string>& files, const Progress& p
                                                     last.height(), first.width(), first.height(), files.front()));
   }
   return read;
+}
+
+/// The same; two that differ by a few rows are framed to their common part, as photographs are.
+ReadViews read_files(const std::vector<std::string>& files, const Session& session) {
+  if (files.size() != 2) return read_pictures(files, session.progress);
+  NamedPair read = read_named_pair({.left = files[0], .right = files[1]});
+  tell_of_layout(read, session);
+  ReadViews views{{}, "a file each"};
+  views.views.push_back(std::move(read.pictures.left));
+  views.views.push_back(std::move(read.pictures.right));
+  return views;
 }
 
 int count_of(const ViewsArguments& arguments, int wanted) {
@@ -116,12 +129,12 @@ ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::stri
   return {std::move(found->views), std::move(how)};
 }
 
-enum class ViewsKind { files, folder, film, quilt, painting, slices, multiview_exr, picture };
+enum class ViewsKind { files, folder, photographs, film, quilt, painting, slices, multiview_exr, picture };
 
 ViewsKind kind_of(const ViewsArguments& arguments) {
   if (arguments.files.size() != 1) return ViewsKind::files;
   const std::string& file = arguments.files.front();
-  if (fs::is_directory(file)) return ViewsKind::folder;
+  if (fs::is_directory(file)) return holds_photographs(file) ? ViewsKind::photographs : ViewsKind::folder;
   if (is_film(file)) return ViewsKind::film;
   if (quilt_layout_of(arguments, file)) return ViewsKind::quilt;
   if (file.ends_with(".wst")) return ViewsKind::painting;
@@ -130,9 +143,9 @@ ViewsKind kind_of(const ViewsArguments& arguments) {
 }
 
 std::string_view views_situation(ViewsKind kind) {
-  constexpr std::array<std::string_view, 8> words{
-      "on several files", "on a folder of views",    "on a film",  "on a quilt", "on a painting (.wst)",
-      "on slices (.exr)", "on a multi-view OpenEXR", "on pictures"};
+  constexpr std::array<std::string_view, 9> words{
+      "on several files",     "on a folder of views", "on a folder of photographs", "on a film",  "on a quilt",
+      "on a painting (.wst)", "on slices (.exr)",     "on a multi-view OpenEXR",    "on pictures"};
   return words[static_cast<std::size_t>(kind)];
 }
 
@@ -154,8 +167,11 @@ Painting read_painting_for_views(const std::string& file) {
 
 bool is_photograph(const ViewsArguments& arguments) {
   const ViewsKind kind = kind_of(arguments);
-  return kind == ViewsKind::picture || (kind == ViewsKind::files && arguments.files.size() == 2);
+  return kind == ViewsKind::picture || kind == ViewsKind::photographs ||
+         (kind == ViewsKind::files && arguments.files.size() == 2);
 }
+
+bool is_photograph_folder(const ViewsArguments& arguments) { return kind_of(arguments) == ViewsKind::photographs; }
 
 Rows views_rows(ViewsArguments& a, const std::function<bool()>& makes_views) {
   const Reason count = [&a, none = only(a, {ViewsKind::film, ViewsKind::painting, ViewsKind::slices},
@@ -167,12 +183,14 @@ Rows views_rows(ViewsArguments& a, const std::function<bool()>& makes_views) {
     return makes_views() ? "" : none();
   };
   return {row("VIEWS", required(texts(a.files)),
-              "Pictures from left to right; a folder of them; or one file: MPO, JPS, both views in one picture, "
+              "Pictures from left to right; a folder of them, or of photographs; or one file: MPO, JPS, both views in "
+              "one picture, "
               "multi-view OpenEXR, painting (.wst), slices (.exr)"),
           row("--layout", text(a.layout),
               fmt::format("Layout of one picture that holds both views: {}{}; detected by default",
                           fmt::join(photograph_layout_names(), ", "), depth_layout_words),
-              {only(a, {ViewsKind::film, ViewsKind::picture}, "it works on one picture that holds both views")}),
+              {only(a, {ViewsKind::film, ViewsKind::picture, ViewsKind::photographs},
+                    "it works on one picture that holds both views")}),
           row("--from-quilt", quilt_layout(a.quilt),
               "Read the picture as a quilt of COLUMNSxROWS views; by default where its name says so, as in "
               "gas_qs8x6a0.75.png",
@@ -203,8 +221,9 @@ ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const
   const auto read = [&]() -> ReadViews {
     switch (kind_of(arguments)) {
       case ViewsKind::files:
-        return read_pictures(arguments.files, progress);
+        return read_files(arguments.files, session);
       case ViewsKind::folder:
+      case ViewsKind::photographs:
         return read_pictures(pictures_in(file), progress);
       case ViewsKind::film:
         throw Error(

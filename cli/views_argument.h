@@ -32,8 +32,11 @@ struct ViewsArguments {
 /// photograph, too: then --span has an effect on it.
 Rows views_rows(ViewsArguments& arguments, const std::function<bool()>& makes_views);
 
-/// Whether the input is two files, or one picture, which may hold two views or have depth.
+/// Whether the input is two files, or one picture, which may hold two views or have depth; or a folder of such.
 bool is_photograph(const ViewsArguments& arguments);
+
+/// Whether it is a folder of photographs.
+bool is_photograph_folder(const ViewsArguments& arguments);
 
 /// --device, with which paintings are drawn.
 Row views_device_row(ViewsArguments& arguments);
