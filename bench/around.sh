@@ -8,7 +8,7 @@
 # DATA holds stereo/teddy and stereo/motorcycle; without it they are left out.
 set -euo pipefail
 wheatstone=$(realpath "$1")
-data=${2:-}
+data=${2:+$(realpath --quiet "$2" || true)}
 work=$(mktemp --directory)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -16,7 +16,7 @@ cd "$work"
 # "cpu wall megabytes" of the best of three runs.
 best_of() {
   for _ in 1 2 3; do
-    /usr/bin/time --format '%U %S %e %M' --output=one "$@" >/dev/null 2>&1 || { echo "around: failed: $*" >&2; exit 1; }
+    /usr/bin/time --format '%U %S %e %M' --output=one "$@" >/dev/null 2>&1 || { echo "around: failed: $*" >&2; kill $$; }
     tail -1 one
   done | awk '{ cpu = $1 + $2; if (NR == 1 || cpu < least) { least = cpu; wall = $3; kb = $4 } }
               END { printf "%.2f %.2f %.0f", least, wall, kb / 1024 }'
@@ -64,7 +64,7 @@ row "paint 1920x1080" "$wheatstone" paint hd/left.png hd/right.png -o out
 row "paint 12 megapixels" "$wheatstone" paint large/left.png large/right.png -o out
 row "  as JPEG" "$wheatstone" paint large/left.png large/right.png --format jpg -o out
 row "quilt of 48 views" "$wheatstone" paint painted_hd/painting.wst --display looking-glass-portrait -o out
-row "nine views of 1920x1080" "$wheatstone" paint painted_hd/painting.wst --views 9 -o out
+row "nine views of 1920x1080" "$wheatstone" pack painted_hd/painting.wst --views 9 -o out
 row "nine views of a million particles" "$wheatstone" render universe.hdf5 --views 9 -o out
 row "share 2 megapixels" "$wheatstone" share painted_hd/painting.wst -o out.html
 row "share 12 megapixels" "$wheatstone" share painted_large/painting.wst -o out.html

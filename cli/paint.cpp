@@ -140,6 +140,7 @@ Subject read_model_subject(const Arguments& arguments, const PhotographJob& job,
   options.known = std::move(made.known);
   Subject subject;
   subject.photograph.pair.pictures = std::move(made.pictures);
+  subject.photograph.pair.eyes = EyeOrder::as_given;
   subject.photograph.name = job.left;
   return subject;
 }

@@ -57,14 +57,23 @@ ImageView<const Rgb8> picture_in(const py::object& given, const std::string& nam
   return {reinterpret_cast<const Rgb8*>(array.data()), width, static_cast<int>(array.shape(0)), width};
 }
 
-ImageView<const float> disparities_in(const py::object& given, const std::string& name) {
-  const std::string expected = "an array of float32 and shape (height, width), without gaps in memory";
+template <class Number>
+ImageView<const Number> plane_in(const py::object& given, const std::string& name, const std::string& numbers) {
+  const std::string expected = "an array of " + numbers + " and shape (height, width), without gaps in memory";
   refuse_mask_and_nothing(given, name, expected);
-  if (!py::isinstance<Array<float>>(given)) refuse(given, name, expected);
-  const auto array = py::cast<Array<float>>(given);
-  if (array.ndim() != 2) refuse(given, name, expected);
+  if (!py::isinstance<Array<Number>>(given)) refuse(given, name, expected);
+  const auto array = py::cast<Array<Number>>(given);
+  if (array.ndim() != 2 || array.size() == 0) refuse(given, name, expected);
   const auto width = static_cast<int>(array.shape(1));
   return {array.data(), width, static_cast<int>(array.shape(0)), width};
+}
+
+ImageView<const float> disparities_in(const py::object& given, const std::string& name) {
+  return plane_in<float>(given, name, "float32");
+}
+
+ImageView<const std::uint8_t> levels_in(const py::object& given, const std::string& name) {
+  return plane_in<std::uint8_t>(given, name, "uint8");
 }
 
 py::array real_numbers(const py::object& given, const std::string& name, const std::string& expected) {

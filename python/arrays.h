@@ -23,6 +23,9 @@ ImageView<const Rgb8> picture_in(const pybind11::object& array, const std::strin
 /// The same for disparities, height × width numbers of single precision.
 ImageView<const float> disparities_in(const pybind11::object& array, const std::string& name);
 
+/// And for levels, height × width bytes.
+ImageView<const std::uint8_t> levels_in(const pybind11::object& array, const std::string& name);
+
 /// Two pictures, copied.
 StereoPair pair_in(const pybind11::object& left, const pybind11::object& right);
 

@@ -57,10 +57,12 @@ std::unique_ptr<PyPainting> painting_of(PaintedPair painted) {
 }
 
 std::unique_ptr<PyPainting> paint_pictures(const py::object& left, const py::object& right, const Style& style,
-                                           const std::string& quality, const py::object& disparity) {
+                                           const std::string& quality, const py::object& disparity,
+                                           const py::object& detail) {
   PaintPhotographOptions options{.style = style, .matching = matching_for(quality), .depth_budget = {}};
   StereoPair photographs = pair_in(left, right);
   if (!disparity.is_none()) options.left_disparity = copy_of(disparities_in(disparity, "disparity"));
+  if (!detail.is_none()) options.detail = copy_of(levels_in(detail, "detail"));
   return painting_of(
       result_of([photographs = std::move(photographs), options = std::move(options)](const Progress& progress) {
         return paint_photograph(photographs, options, progress).painted;

@@ -123,6 +123,19 @@ class Package(unittest.TestCase):
         with self.assertRaises(FileNotFoundError):
             wheatstone.load("/nowhere/painting.wst")
 
+    def test_a_detail_map_makes_a_painting_finer(self):
+        still = wheatstone.still((160, 120))
+        paint = lambda style, level: wheatstone.paint(
+            still.left, still.right, style, disparity=still.disparity, detail=np.full((3, 4), level, np.uint8))
+        unlike = lambda level: np.abs(paint("oil", level).left.astype(int) - still.left).mean()
+        coarse, even, fine = unlike(90), unlike(128), unlike(170)
+        self.assertGreater(coarse, even)
+        self.assertGreater(even, fine)
+        with self.assertRaisesRegex(ValueError, "takes no detail map"):
+            paint("impressionist", 128)
+        with self.assertRaisesRegex(ValueError, "detail: .*expected an array of uint8"):
+            wheatstone.paint(still.left, still.right, detail=np.zeros((3, 4), np.float32))
+
     def test_other_threads_run_while_it_paints(self):
         beats = []
         done = threading.Event()

@@ -46,8 +46,8 @@ class Photograph(Shown):
     def match(self, quality="good"):
         return match(self.left, self.right, quality)
 
-    def paint(self, style="oil", *, quality="good"):
-        return paint(self.left, self.right, style, quality=quality, disparity=self.disparity)
+    def paint(self, style="oil", *, quality="good", detail=None):
+        return paint(self.left, self.right, style, quality=quality, disparity=self.disparity, detail=detail)
 
     def _page(self, words):
         return _wheatstone.page_of_photograph(self.left, self.right, self.disparity, words)
@@ -128,13 +128,15 @@ def rectify(left, right, *, calibration=None, match_colour=True, keep_size=False
         _arguments.flag("match_colour", match_colour), _arguments.flag("keep_size", keep_size)))
 
 
-def paint(left, right, style="oil", *, quality="good", disparity=None):
+def paint(left, right, style="oil", *, quality="good", disparity=None, detail=None):
     """Paints a rectified pair so that the marks of both eyes fuse.
 
     `style` is a Style, the name of a preset or a style file. `disparity` is that of the left picture, where it is known.
+    `detail` says how finely each place of the left picture is painted, as an array of uint8 of any size that is
+    stretched over it: 255 is finest, 128 as the style says; without it, faces are finer than the rest.
     """
     return Painting(_wheatstone.paint(left, right, _styles.made(style), _arguments.text("quality", quality),
-                                      disparity))
+                                      disparity, detail))
 
 
 def still(size=(640, 480), *, seed=1):
