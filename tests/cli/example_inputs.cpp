@@ -157,8 +157,9 @@ const std::map<std::string, Maker>& makers() {
       {"photographs",
        [](const fs::path& path) {
          fs::create_directory(path);
-         write_image(path / "tree_L.png", photographs().left);
-         write_image(path / "tree_R.png", photographs().right);
+         write_image(path / "tree_L.png", detailed_photographs().left);
+         write_image(path / "tree_R.png", detailed_photographs().right);
+         make_multi_picture(path / "house.mpo");
        }},
       {"painted",
        [](const fs::path& path) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenes/exif_data.h"
 #include "scenes/test_photographs.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
@@ -113,6 +114,63 @@ TEST(FoundPhotographs, AreThoseThatFilesHold) {
   }
   EXPECT_THAT(left_out, ElementsAre("b_L.png", "b_R.png", "empty.jpg", "one.png", "painted"));
   EXPECT_THAT(found.left_out.front().reason, testing::HasSubstr("b_R.png has 80x60 pixels, this picture 96x72"));
+}
+
+TEST(FoundPhotographs, ArePairsByTheirTimeWhereTheyShowIt) {
+  const TemporaryFolder folder;
+  const StereoPair still = still_for_test(), other = still_for_test(480, 360, 3);
+  const auto put = [&](const char* name, const Image<Rgb8>& picture, const char* taken) {
+    write_image(folder / name, picture, {.title = {}, .taken = {}, .exif = exif_data("", taken)});
+  };
+  put("DSC1.jpg", still.right, "2020:05:01 10:00:00");  // the camera on the right is named first
+  put("P7.jpg", still.left, "2020:05:01 10:00:01");
+  put("DSC2.jpg", still.left, "2020:05:01 11:00:00");  // another scene
+  put("P8.jpg", shared_pair("teddy").value_or(other).left, "2020:05:01 11:00:01");
+  put("DSC3.jpg", still.left, "2020:05:01 12:00:00");  // twice the same picture
+  put("P9.jpg", still.left, "2020:05:01 12:00:00");
+  for (const char* name : {"b1.jpg", "b2.jpg", "b3.jpg"}) put(name, still.left, "2020:05:01 13:00:00");
+  put("late.jpg", still.left, "2020:05:01 14:00:00");
+  put("later.jpg", still.right, "2020:05:01 14:00:03");
+  const PhotographFolder found = find_photographs(folder / "");
+  ASSERT_EQ(found.photographs.size(), 1U);
+  EXPECT_EQ(found.photographs[0].left.filename(), "P7.jpg");
+  EXPECT_EQ(found.photographs[0].right.filename(), "DSC1.jpg");
+  EXPECT_EQ(found.photographs[0].why, "pair with DSC1.jpg, by their time and what they show");
+  EXPECT_EQ(found.left_out.size(), 9U);
+  for (const LeftOutFile& file : found.left_out) EXPECT_FALSE(file.error) << file.file;
+}
+
+TEST(FoundPhotographs, MayDifferByAFewRows) {
+  const TemporaryFolder folder;
+  const StereoPair still = still_for_test(240, 180);
+  write_image(folder / "a_L.png", still.left);
+  Image<Rgb8> right(240, 177);
+  for (int y = 0; y < 177; ++y) std::ranges::copy(still.right.row(y + 2), right.row(y).begin());
+  write_image(folder / "a_R.png", right);
+  const PhotographFolder found = find_photographs(folder / "");
+  ASSERT_EQ(found.photographs.size(), 1U);
+  EXPECT_THAT(found.photographs[0].why, testing::HasSubstr("240x180 and 240x177 pixels, framed to the common part"));
+}
+
+TEST(Folders, HoldPhotographsOrTheViewsOfOne) {
+  const StereoPair still = still_for_test(96, 72);
+  const auto holds = [&](const std::vector<std::pair<std::string, Image<Rgb8>>>& pictures) {
+    const TemporaryFolder folder;
+    for (const auto& [name, picture] : pictures) {
+      fs::create_directories((folder / name).parent_path());
+      write_image(folder / name, picture);
+    }
+    return holds_photographs(folder / "");
+  };
+  const Image<Rgb8> both = joined(still.left, still.right, true);
+  EXPECT_FALSE(holds({{"left.png", still.left}, {"right.png", still.right}}));
+  EXPECT_FALSE(holds({{"view_000.png", still.left}, {"view_001.png", still.right}}));
+  EXPECT_FALSE(holds({{"1.png", still.left}, {"2.png", still.right}, {"3.png", still.right}}));
+  EXPECT_TRUE(holds({{"a_L.png", still.left}, {"a_R.png", still.right}, {"b.png", still.right}}));
+  EXPECT_TRUE(holds({{"one.png", both}, {"two.png", both}}));
+  EXPECT_TRUE(holds({{"a_sbs.png", both}}));
+  EXPECT_TRUE(holds({{"below/a.png", still.left}}));
+  EXPECT_FALSE(holds({}));
 }
 
 TEST(FoundPhotographs, NeedAFolderWithPictures) {

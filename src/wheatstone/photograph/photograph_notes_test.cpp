@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/exif_data.h"
 #include "scenes/xmp_pictures.h"
 #include "temporary_folder.h"
 #include "wheatstone/photograph/write_views.h"
@@ -15,50 +16,6 @@
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::photograph_notes_test {
-
-std::string little(std::size_t number, int bytes) {
-  std::string text;
-  for (int i = 0; i < bytes; ++i) text += static_cast<char>(number >> (8 * i) & 0xff);
-  return text;
-}
-
-struct Entry {
-  int tag, type;  // 2: ASCII, 3: short, 4: long, 7: bytes
-  std::string value;
-};
-
-/// A directory at this place of a TIFF, with its values behind it.
-std::string directory(std::size_t at, const std::vector<Entry>& entries) {
-  std::string head = little(entries.size(), 2), values;
-  const std::size_t values_at = at + 2 + 12 * entries.size() + 4;
-  for (const Entry& entry : entries) {
-    const std::size_t unit = entry.type == 3 ? 2 : entry.type == 4 ? 4 : 1;
-    head += little(entry.tag, 2) + little(entry.type, 2) + little(entry.value.size() / unit, 4);
-    if (entry.value.size() <= 4) {
-      head += entry.value + std::string(4 - entry.value.size(), '\0');
-    } else {
-      head += little(values_at + values.size(), 4);
-      values += entry.value + std::string(entry.value.size() % 2, '\0');
-    }
-  }
-  return head + little(0, 4) + values;
-}
-
-/// EXIF data with a title, a time, an orientation and a place.
-std::string exif_data(const std::string& title) {
-  constexpr std::size_t first = 8, exif_at = 400, place_at = 600;
-  std::string tiff = "II*" + std::string(1, '\0') + little(first, 4);
-  tiff += directory(first, {{0x10e, 2, title + '\0'},
-                            {0x10f, 2, std::string("Maker\0", 6)},
-                            {0x112, 3, little(1, 2)},
-                            {0x8769, 4, little(exif_at, 4)},
-                            {0x8825, 4, little(place_at, 4)}});
-  tiff.resize(exif_at);
-  tiff +=
-      directory(exif_at, {{0x9003, 2, std::string("2019:07:18 14:03:22\0", 20)}, {0x927c, 7, std::string(40, 'm')}});
-  tiff.resize(place_at);
-  return tiff + directory(place_at, {{1, 2, std::string("N\0", 2)}, {0x1d, 2, std::string("2019:07:18\0", 11)}});
-}
 
 std::string photograph(const std::string& title) {
   return with_notes(encode_jpeg(Image<Rgb8>(64, 48, {90, 120, 60}), 95), {.exif = exif_data(title)});
