@@ -124,7 +124,7 @@ PhotographList photographs_in_folder(const std::string& folder, const StereoArgu
 PhotographList pairs_in_folder(const std::string& folder, const StereoArguments& photographs,
                                const FolderArguments& arguments, const FolderOutput& output, const Session& session) {
   if (!photographs.right.empty())
-    throw Error(ErrorKind::wrong_usage,
+    throw Error(ErrorKind::bad_input,
                 fmt::format("{}: is a folder, beside which no other photograph is expected, but {} is given", folder,
                             photographs.right));
   PhotographList list = photographs_in_folder(folder, photographs, arguments, output, session);

@@ -61,6 +61,7 @@ ReadViews read_pictures(const std::vector<std::string>& files, const Progress& p
 /// The same; two that differ by a few rows are framed to their common part, as photographs are.
 ReadViews read_files(const std::vector<std::string>& files, const Session& session) {
   if (files.size() != 2) return read_pictures(files, session.progress);
+  report(session.progress, "reading", 0);
   NamedPair read = read_named_pair({.left = files[0], .right = files[1]});
   tell_of_layout(read, session);
   ReadViews views{{}, "a file each"};

@@ -133,7 +133,7 @@ class Package(unittest.TestCase):
         self.assertGreater(even, fine)
         with self.assertRaisesRegex(ValueError, "takes no detail map"):
             paint("impressionist", 128)
-        with self.assertRaisesRegex(ValueError, "detail: .*expected an array of uint8"):
+        with self.assertRaisesRegex(ValueError, "detail is an array of float32.*expected an array of uint8"):
             wheatstone.paint(still.left, still.right, detail=np.zeros((3, 4), np.float32))
 
     def test_other_threads_run_while_it_paints(self):

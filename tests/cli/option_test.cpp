@@ -179,8 +179,7 @@ std::vector<WithoutEffect> options_without_effect() {
       {with(match, {"--matcher", "dp"}), {{"--block", "5"}}},
       {match, {{"--model", "net.onnx", "--matcher", "bm"}}},
       {with(pack_two, {"-o", "out.mpo"}),
-       {{"--views", "3"},
-        {"--span", "2"},
+       {{"--span", "2"},
         {"--seconds", "1"},
         {"--depth-scale", "2"},
         {"--rectify", "never"},
@@ -189,11 +188,12 @@ std::vector<WithoutEffect> options_without_effect() {
       {with(pack_two, {"-o", "out.gif"}), {{"--quality", "50"}}},
       {with(pack_two, {"--to", "anaglyph", "-o", "out.png"}), {{"--quality", "50"}, {"--quilt", "2x1"}}},
       {with(pack_two, {"--to", "quilt", "--quilt", "2x1", "-o", "out.png"}), {{"--format", "jpg"}}},
-      {{"pack", "both.png", "-o", "out.mpo"}, {{"--views", "3"}, {"--span", "2"}}},
+      {{"pack", "both.png", "-o", "out.mpo"}, {{"--span", "2"}}},
+      {{"pack", "left.png", "right.png", "left.png", "-o", "out.mpo"}, {{"--views", "3"}, {"--span", "2"}}},
       {{"pack", "some.wst", "-o", "out"}, {{"--layout", "sbs"}}},
       {with(again, {"--display", "looking-glass-go"}),
        {{"--scale", "2"}, {"--svg"}, {"--zero-parallax", "nearest"}, {"--texture"}}},
-      {{"pack", ".", "-o", "out.mpo"}, {{"--layout", "sbs"}, {"--views", "2"}}},
+      {{"pack", "views", "-o", "out.mpo"}, {{"--layout", "sbs"}, {"--views", "2"}}},
       {{"render", "slices.exr", "-o", "out"},
        {{"--type", "gas"},
         {"--subsample", "2"},
@@ -239,6 +239,9 @@ TEST(OptionsWithoutEffect, AreRefused) {
   const TemporaryFolder folder;
   write_inputs(folder);
   put_bytes(folder / "some.wst", "");
+  std::filesystem::create_directory(folder / "views");
+  for (const char* view : {"views/view_000.png", "views/view_001.png", "views/view_002.png"})
+    std::filesystem::copy_file(folder / "left.png", folder / view);
   for (const WithoutEffect& known : options_without_effect()) {
     for (const Line& option : known.options) {
       const std::set<std::string> before = files_in(folder / "");
