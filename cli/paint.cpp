@@ -26,6 +26,7 @@
 #include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/style_parameters.h"
+#include "wheatstone/photograph/photograph_notes.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
@@ -75,6 +76,7 @@ void add_summary(Report& report, const PaintingReport& told, std::optional<float
 /// Where the results of one photograph go, and all that is read.
 ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
   ViewsOutput output{name, {arguments.style.style, arguments.matching.model}, arguments.results.format};
+  output.notes = arguments.results.notes;
   output.inputs.insert(output.inputs.end(), arguments.files.begin(), arguments.files.end());
   output.inputs.emplace_back(arguments.depth.file);
   output.inputs.emplace_back(arguments.detail_map);
@@ -285,24 +287,10 @@ Arguments arguments_of(const Arguments& given, const PhotographJob& job) {
   of_one.depth.carried = job.right.empty() && finds_depth_in_file(of_one);
   // A layout is that of files that hold both views.
   if (!job.right.empty() || has_depth(of_one.depth)) of_one.photographs.layout.clear();
+  of_one.results.notes = read_photograph_notes(job.left, given.keep_location);
   of_one.files = given.files;
   of_one.files.insert(of_one.files.end(), {job.left, job.right, job.depth});
   return of_one;
-}
-
-/// The painted picture of a job, of the left eye where there are two; none where it was not painted.
-std::optional<fs::path> painted_picture(const PhotographJob& job, const std::string& format) {
-  for (const char* name : {"left", "painted"}) {
-    const fs::path file = fs::path(job.output) / fmt::format("{}.{}", name, format);
-    if (fs::exists(file)) return file;
-  }
-  return {};
-}
-
-PhotographList photographs_to_paint(const Arguments& arguments, const Session& session) {
-  const std::string style = fs::path(arguments.style.style).stem().string();
-  return photographs_in_folder(arguments.files.front(), arguments.photographs, arguments.walk,
-                               {.folder = arguments.folder, .ending = {}, .placeholders = {{"style", style}}}, session);
 }
 
 Report draw_for_display_again(const Arguments& arguments, const Session& session) {
@@ -521,6 +509,11 @@ Rows paint_rows(PaintArguments& a) {
       row("--report", flag(a.measure), "Measure the consistency of the two painted views", {printing, again, display}),
       row("--svg", flag(a.results.svg), "Also write left.svg and right.svg, the marks as vector graphics",
           {printing, display}),
+      row("--keep-location", flag(a.keep_location),
+          "Also write where the photograph was taken into the results; the title, and what its camera noted of it "
+          "else, "
+          "go with it",
+          {printing, again}),
       row("--html", flag(a.results.html), "Also write index.html, which shows the pictures",
           {printing, again, display}),
       layout_row(a.photographs.layout, {printing, again, given_depth, model}, depth_layout_words),

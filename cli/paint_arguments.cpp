@@ -95,4 +95,18 @@ std::vector<PhotographJob> paint_jobs(const PaintArguments& arguments) {
   return jobs;
 }
 
+std::optional<fs::path> painted_picture(const PhotographJob& job, const std::string& format) {
+  for (const char* name : {"left", "painted"}) {
+    const fs::path file = fs::path(job.output) / fmt::format("{}.{}", name, format);
+    if (fs::exists(file)) return file;
+  }
+  return {};
+}
+
+PhotographList photographs_to_paint(const PaintArguments& arguments, const Session& session) {
+  const std::string style = fs::path(arguments.style.style).stem().string();
+  return photographs_in_folder(arguments.files.front(), arguments.photographs, arguments.walk,
+                               {.folder = arguments.folder, .ending = {}, .placeholders = {{"style", style}}}, session);
+}
+
 }  // namespace wheatstone::cli

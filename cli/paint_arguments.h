@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct PaintArguments {
   std::vector<std::string> files;
   StereoArguments photographs;  ///< how each is read; the files are those of one
   std::string folder = "painted";
-  FolderArguments walk;  ///< of a folder
+  FolderArguments walk;        ///< of a folder
+  bool keep_location = false;  ///< whether results say where the photograph was taken
   ResultOptions results;
   std::string print_style;
   std::string disparity, right_disparity;
@@ -70,5 +72,11 @@ bool is_model(const PhotographJob& job);
 /// both views each. Several are painted into folders named for them inside the output.
 /// Throws Error{wrong_usage} where that is ambiguous, or two would get one folder.
 std::vector<PhotographJob> paint_jobs(const PaintArguments& arguments);
+
+/// The photographs in the folder that is given. Throws as photographs_in_folder does.
+PhotographList photographs_to_paint(const PaintArguments& arguments, const Session& session);
+
+/// The painted picture of a job, of the left eye where there are two; none where it was not painted.
+std::optional<std::filesystem::path> painted_picture(const PhotographJob& job, const std::string& format);
 
 }  // namespace wheatstone::cli

@@ -10,7 +10,9 @@
 #include <thread>
 
 #include "cli/run_program.h"
+#include "scenes/exif_data.h"
 #include "scenes/test_photographs.h"
+#include "wheatstone/photograph/photograph_notes.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
@@ -144,6 +146,21 @@ TEST(FolderCommands, GoOnWhereARunWasKilled) {
       const std::string name = "p" + std::to_string(i) + "_sbs/" + file;
       EXPECT_EQ(bytes_of(folder / "out" / name), bytes_of(folder / "whole" / name)) << name;
     }
+}
+
+TEST(PaintCommand, ItsPicturesSayWhatThePhotographSays) {
+  const TemporaryFolder folder;
+  const StereoPair still = still_for_test(96, 72);
+  const ImageView<const Rgb8> views[] = {still.left, still.right};
+  write_mpo(folder / "photo.mpo", views, 95, {.exif = exif_data("Fruit")});
+  EXPECT_EQ(run_in(folder, {"paint", "photo.mpo", "--range", "0:12", "--format", "jpg", "-o", "out"}).exit_code, 0);
+  for (const char* name : {"out/left.jpg", "out/anaglyph.jpg"}) {
+    EXPECT_EQ(read_photograph_notes(folder / name).title, "Fruit") << name;
+    EXPECT_EQ(read_photograph_notes(folder / name).taken, "2019:07:18 14:03:22") << name;
+  }
+  const std::string without = read_photograph_notes(folder / "out/left.jpg", true).exif;
+  run_in(folder, {"paint", "photo.mpo", "--range", "0:12", "--format", "jpg", "--keep-location", "-o", "placed"});
+  EXPECT_GT(read_photograph_notes(folder / "placed/left.jpg", true).exif.size(), without.size());
 }
 
 TEST(FolderCommands, FrameAPairToItsCommonRows) {

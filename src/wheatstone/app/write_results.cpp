@@ -34,7 +34,7 @@ void write_svg(const std::filesystem::path& path, const Painting& painting, View
 /// The results where all views are one picture.
 std::vector<std::string> write_flat(OutputFolder& folder, const PaintingReport& told, const ResultOptions& options) {
   const PaintedPair& painted = told.painted.painted;
-  write_image(folder.file(fmt::format("painted.{}", options.format)), painted.pictures.left);
+  write_image(folder.file(fmt::format("painted.{}", options.format)), painted.pictures.left, options.notes);
   write_painting(folder.file("painting.wst"), painted.painting);
   write_whole_file(folder.file("report.json"), report_json(told));
   if (options.svg) write_svg(folder.file("painted.svg"), painted.painting, central_view);
@@ -81,10 +81,10 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
       set_convergence(separation < 1 ? result.painted.nearer : pictures, separation * result.zero_parallax_px);
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   std::vector<Output> outputs{
-      {picture("left"), [&](const Path& path) { write_image(path, pictures.left); }},
-      {picture("right"), [&](const Path& path) { write_image(path, pictures.right); }},
-      {picture("side_by_side"), [&](const Path& path) { write_image(path, side_by_side(presented)); }},
-      {picture("anaglyph"), [&](const Path& path) { write_image(path, anaglyph(presented)); }},
+      {picture("left"), [&](const Path& path) { write_image(path, pictures.left, options.notes); }},
+      {picture("right"), [&](const Path& path) { write_image(path, pictures.right, options.notes); }},
+      {picture("side_by_side"), [&](const Path& path) { write_image(path, side_by_side(presented), options.notes); }},
+      {picture("anaglyph"), [&](const Path& path) { write_image(path, anaglyph(presented), options.notes); }},
       {"disparity.png", [&](const Path& path) { write_image(path, disparity_picture(geometry.left_disparity)); }},
       {"left_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
       {"left_disparity.png", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
@@ -99,8 +99,10 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
     outputs.push_back({"right.svg", [&](const Path& path) { write_svg(path, painting, right_eye); }});
   }
   if (options.photographs || options.html) {
-    outputs.push_back({picture("left_photograph"), [&](const Path& path) { write_image(path, photographs.left); }});
-    outputs.push_back({picture("right_photograph"), [&](const Path& path) { write_image(path, photographs.right); }});
+    outputs.push_back(
+        {picture("left_photograph"), [&](const Path& path) { write_image(path, photographs.left, options.notes); }});
+    outputs.push_back(
+        {picture("right_photograph"), [&](const Path& path) { write_image(path, photographs.right, options.notes); }});
   }
   if (options.html) {
     outputs.push_back({"index.html", [&](const Path& path) {

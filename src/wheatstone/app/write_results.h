@@ -8,6 +8,7 @@
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/report.h"
 #include "wheatstone/depth/comfort.h"
+#include "wheatstone/pictures/picture_notes.h"
 
 namespace wheatstone {
 
@@ -17,6 +18,7 @@ struct ResultOptions {
   bool html = false;           ///< also these, and an index.html that shows the pictures
   bool svg = false;            ///< also left.svg and right.svg, the marks as vectors
   std::string format = "png";  ///< of the pictures to look at, as a file's ending
+  PictureNotes notes = {};     ///< what these pictures say of the photograph
 };
 
 /// The names of all files that write_results writes, in its order.
