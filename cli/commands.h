@@ -19,6 +19,7 @@ Command measure_painting_command();
 Command measure_stereo_command();
 Command measure_views_command();
 Command synth_film_command();
+Command synth_model_command();
 Command synth_still_command();
 Command synth_universe_command();
 Command study_analyse_command();

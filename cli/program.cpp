@@ -90,7 +90,7 @@ std::unique_ptr<CLI::App> make_program(Session& session) {
         Command{.name = "synth",
         .help = "Make synthetic input with exact ground truth",
         .footer = "Example:\n  wheatstone synth still -o still",
-        .kinds = {synth_film_command(), synth_still_command(), synth_universe_command()}},
+        .kinds = {synth_film_command(), synth_model_command(), synth_still_command(), synth_universe_command()}},
         Command{.name = "study",
         .help = "Plan, run, simulate and analyse experiments with people",
         .footer = "Example:\n  wheatstone study stimuli --count 4 -o stimuli",

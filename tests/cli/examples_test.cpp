@@ -57,6 +57,9 @@ const std::vector<Reduction> reductions{
     {{"rotoscope"}, "--display", "--size", "36x48"},
     {{"render"}, ".hdf5", "--size", "48x36"},
     {{"render"}, ".glb", "--size", "48x36"},
+    {{"render"}, ".obj", "--size", "48x36"},
+    {{"synth", "model"}, "", "--triangles", "400"},
+    {{"paint"}, ".glb", "--picture-size", "96x72"},
     {{"view"}, "", "--script", "tour.txt"},
     {{"view"}, "--camera", "--script", "stop.txt"},
 };

@@ -12,7 +12,9 @@
 #include "throws_error.h"
 #include "wheatstone/error.h"
 #include "wheatstone/models/import_in_child_internal.h"
+#include "wheatstone/models/write_obj.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/synthetic_models.h"
 
 namespace wheatstone {
 namespace read_model_test {
@@ -190,6 +192,20 @@ TEST_F(ReadModelTest, LimitsOfTheChildHold) {
   expect_error(ErrorKind::bad_input, "of memory",
                [&] { import_in_child(path, "obj", {.memory_bytes = 1 << 20, .seconds = 60}, {}); });
   EXPECT_EQ(import_in_child(path, "obj", {}, {}).meshes.size(), 1u);
+}
+
+TEST_F(ReadModelTest, WhatIsWrittenIsReadAgain) {
+  for (const Model& model : {make_knot(1000), make_city(1000)}) {
+    write_obj(folder_ / "model.obj", model);
+    const ReadModel read = read_model(folder_ / "model.obj");
+    EXPECT_EQ(read.model.triangles.size(), model.triangles.size());
+    EXPECT_TRUE(read.has_normals);
+    EXPECT_EQ(read.model.textures, model.textures);
+    EXPECT_EQ(read.model.colours.empty(), model.colours.empty());
+    const ModelBounds bounds = bounds_of(read.model), written = bounds_of(model);
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(bounds.size()[axis], written.size()[axis], 1e-5);
+  }
+  expect_error(ErrorKind::wrong_usage, "ends in .obj", [&] { write_obj(folder_ / "model.glb", make_knot(1000)); });
 }
 
 TEST_F(ReadModelTest, CanBeInterrupted) {
