@@ -78,6 +78,19 @@ TEST_F(ModelCommandTest, FacesOfAPlyFileAreDrawnUnlessPointsAreWanted) {
   EXPECT_EQ(run({"render", "faces.ply", "--size", "64x48", "--points", "-o", "b"})["particles"], 3);
 }
 
+TEST_F(ModelCommandTest, IsPaintedWithItsOwnDisparity) {
+  const nlohmann::json facts =
+      run({"paint", "model.obj", "--picture-size", "96x72", "--azimuth", "60", "-o", "painted"});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "painted/left_photograph.png"));
+  EXPECT_EQ(read_image(folder_ / "painted/left.png").width(), 96);
+  const Image<float> disparity = read_disparity(folder_ / "painted/left_disparity.pfm");
+  EXPECT_GT(disparity(48, 36), disparity(0, 0));
+  run({"paint", "painted/painting.wst", "--display", "looking-glass-portrait", "--size", "48x64", "-o", "quilt"});
+  expect_refused(folder_, {"paint", "model.obj", "--disparity", "d.pfm", "-o", "out"}, 2, "on a model of triangles");
+  expect_refused(folder_, {"paint", "model.obj", "--rectify", "always", "-o", "out"}, 2, "on a model of triangles");
+  expect_refused(folder_, {"paint", "model.obj", "--depth", "d.png", "-o", "out"}, 2, "on a model of triangles");
+}
+
 TEST_F(ModelCommandTest, WhatDoesNotApplyIsRefused) {
   const auto refused = [&](std::vector<std::string> words, int code, const std::string& part) {
     words.insert(words.begin(), {"render"});
