@@ -17,11 +17,14 @@ Value film_layout(std::optional<StereoLayout>& layout) {
 
 Rows film_coding_rows(FilmWriterOptions& writing) {
   return {
-      row("--codec", text(writing.codec), "h264, hevc, or ffv1 (lossless, .mkv)"),
-      row("--crf", number(writing.crf, {0, 51}),
-          "Constant rate factor of h264 and hevc: from 0, the best quality, to 51"),
-      row("--preset", text(writing.preset), "Encoder preset of h264 and hevc, from ultrafast to placebo"),
-      row("--pixel-format", without_default(text(writing.pixel_format)), "yuv420p, yuv422p, yuv444p; bgr0 for ffv1")};
+      row("--codec", name(writing.codec, film_codecs()),
+          "hevc-10, prores, dnxhr and av1 have 10 bits; ffv1 is lossless; prores and dnxhr go into .mov or .mkv, ffv1 "
+          "into .mkv, av1 and vp9 into .webm, .mp4 or .mkv"),
+      row("--crf", number(writing.crf, {0, 63}),
+          "Constant rate factor of h264 and hevc, to 51, and of av1 and vp9, to 63: 0 is the best quality"),
+      row("--preset", text(writing.preset), "Encoder preset of these codecs, from ultrafast to placebo"),
+      row("--pixel-format", without_default(text(writing.pixel_format)),
+          "yuv420p, yuv422p, yuv444p; yuv420p10le and so on with 10 bits; bgr0 for ffv1")};
 }
 
 Rows film_resume_rows(bool& resume, int& frames_between_checkpoints) {

@@ -13,7 +13,6 @@
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/display_presets.h"
-#include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
 #include "wheatstone/gpu/gpu.h"
@@ -29,6 +28,7 @@
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/multiview_exr.h"
 #include "wheatstone/video/film_files.h"
 #include "wheatstone/video/film_reader.h"
 

@@ -16,11 +16,11 @@
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/lenticular.h"
-#include "wheatstone/display/multiview_exr.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/display/wiggle.h"
 #include "wheatstone/error.h"
 #include "wheatstone/photograph/write_views.h"
+#include "wheatstone/pictures/multiview_exr.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/packed_pair.h"
 

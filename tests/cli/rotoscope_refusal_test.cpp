@@ -120,8 +120,8 @@ TEST(RotoscopeRefusal, OfOptionsThatMakeNoSense) {
   };
   refused(folder, {"a.mp4", "--layout", "sideways"}, 2, "--layout: there is no layout 'sideways'");
   mono({"--output-layout", "sbs"}, 2, "--output-layout: is 'sbs', but the film has one eye");
-  mono({"--crf", "99"}, 2, "--crf: is '99', expected a number from 0 to 51");
-  mono({"--codec", "mpeg9"}, 2, "codec: mpeg9, expected h264, hevc or ffv1");
+  mono({"--crf", "99"}, 2, "--crf: is '99', expected a number from 0 to 63");
+  mono({"--codec", "mpeg9"}, 2, "--codec: is 'mpeg9', expected h264|hevc");
   mono({"--codec", "ffv1"}, 2, "expected .mkv");
   mono({"--pixel-format", "rgb"}, 2, "pixel format: rgb");
   mono({"--style", "cubist"}, 2, "cubist");

@@ -1,6 +1,7 @@
 #include "wheatstone/video/film_file_internal.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,24 +13,55 @@
 #include "wheatstone/error.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
+#include "wheatstone/video/video_codings_internal.h"
 
 namespace wheatstone {
 namespace {
 
-enum class Container { mp4, quicktime, matroska, other };
+enum class Container { mp4, quicktime, matroska, webm, other };
 
-Container container_of(const std::filesystem::path& path) {
+std::string ending_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  return ending;
+}
+
+Container container_of(const std::filesystem::path& path) {
+  const std::string ending = ending_of(path);
   if (ending == ".mp4" || ending == ".m4v") return Container::mp4;
   if (ending == ".mov") return Container::quicktime;
   if (ending == ".mkv" || ending == ".mk3d") return Container::matroska;
-  return Container::other;
+  return ending == ".webm" ? Container::webm : Container::other;
 }
 
 const char* format_of(Container container) {
-  if (container == Container::mp4) return "mp4";
-  return container == Container::quicktime ? "mov" : "matroska";
+  switch (container) {
+    case Container::mp4:
+      return "mp4";
+    case Container::quicktime:
+      return "mov";
+    case Container::webm:
+      return "webm";
+    default:
+      return "matroska";
+  }
+}
+
+bool is_matroska(Container container) { return container == Container::matroska || container == Container::webm; }
+
+/// The stereo modes that WebM has.
+bool webm_can_say(std::string_view matroska_mode) {
+  return matroska_mode == "left_right" || matroska_mode == "right_left" || matroska_mode == "top_bottom" ||
+         matroska_mode == "bottom_top";
+}
+
+/// Of a codec that others know by the container's tag: by which.
+std::uint32_t tag_of(const AVCodecParameters& coded, Container container) {
+  // Each of its profiles has its own.
+  if (coded.codec_id == AV_CODEC_ID_PRORES) return coded.codec_tag;
+  if (coded.codec_id == AV_CODEC_ID_DNXHD && container == Container::quicktime) return MKTAG('A', 'V', 'd', 'h');
+  // The one by which Apple's players know HEVC.
+  return coded.codec_id == AV_CODEC_ID_HEVC && !is_matroska(container) ? MKTAG('h', 'v', 'c', '1') : 0;
 }
 
 }  // namespace
@@ -37,13 +69,15 @@ const char* format_of(Container container) {
 void check_container(const std::filesystem::path& path, const FilmWriterOptions& options) {
   const Container container = container_of(path);
   if (container == Container::other) {
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: films are written to .mp4, .m4v, .mov, .mkv, or numbered pictures like out_%04d.png",
-                            path.string()));
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("{}: films are written to .mp4, .m4v, .mov, .mkv, .webm, or numbered pictures like out_%04d.png",
+                    path.string()));
   }
-  if (options.codec == "ffv1" && container != Container::matroska) {
-    throw Error(ErrorKind::wrong_usage, fmt::format("{}: only Matroska can hold ffv1, expected .mkv", path.string()));
-  }
+  const VideoCoding& coding = coding_of(options);
+  if (std::ranges::find(coding.containers, ending_of(path)) == coding.containers.end())
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: cannot hold {}, expected {}", path.string(), coding.name,
+                                                    fmt::join(coding.containers, ", ")));
   // Said before hours of work, at the end of which no name could be given.
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
@@ -88,9 +122,7 @@ void FilmFile::begin(const AVCodecParameters& coded, Rational time_base) {
   stream_ = avformat_new_stream(output_, nullptr);
   if (stream_ == nullptr || avcodec_parameters_copy(stream_->codecpar, &coded) < 0) throw std::bad_alloc();
   const Container container = container_of(path_);
-  // The tag by which Apple's players know HEVC.
-  const bool is_apple_hevc = coded.codec_id == AV_CODEC_ID_HEVC && container != Container::matroska;
-  stream_->codecpar->codec_tag = is_apple_hevc ? MKTAG('h', 'v', 'c', '1') : 0;
+  stream_->codecpar->codec_tag = tag_of(coded, container);
   stream_->sample_aspect_ratio = coded.sample_aspect_ratio;
   time_base_ = as_av(time_base);
   stream_->time_base = time_base_;
@@ -102,7 +134,7 @@ void FilmFile::begin(const AVCodecParameters& coded, Rational time_base) {
   check(avio_open(&output_->pb, ("file:" + file_.path().string()).c_str(), AVIO_FLAG_WRITE));
   AVDictionary* settings = nullptr;
   // The index in front: a film that arrives slowly, or not to its end, can be shown.
-  if (container != Container::matroska) av_dict_set(&settings, "movflags", "+faststart", 0);
+  if (!is_matroska(container)) av_dict_set(&settings, "movflags", "+faststart", 0);
   const int error = avformat_write_header(output_, &settings);
   av_dict_free(&settings);
   check(error);
@@ -113,7 +145,7 @@ void FilmFile::say_layout(AVStream& stream) {
   if (!stereo) return;
   const Container container = container_of(path_);
   const LayoutTraits& traits = traits_of(options_.layout);
-  if (container == Container::matroska) {
+  if (is_matroska(container) && (container != Container::webm || webm_can_say(traits.matroska))) {
     av_dict_set(&stream.metadata, "stereo_mode", std::string(traits.matroska).c_str(), 0);
     return;
   }

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_picture(const fs::path& path) {
-  constexpr std::array endings{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
+  constexpr std::array endings{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp", ".exr"};
   std::string ending = path.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::ranges::find(endings, ending) != endings.end();
@@ -54,13 +54,13 @@ FilmFiles find_in_folder(const fs::path& folder, std::optional<StereoLayout> lay
     if (!pattern.starts_with("left_%")) continue;
     const std::string right = "right" + pattern.substr(4);
     if (patterns.contains(right)) return {folder / pattern, folder / right, {}};
-    return {folder / pattern, {}, layout.value_or(StereoLayout::mono)};
+    return find_film((folder / pattern).string(), layout);
   }
   if (patterns.size() > 1)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: has numbered pictures of {} names ({}, {}), expected one, or left_ and right_",
                             folder.string(), patterns.size(), *patterns.begin(), *std::next(patterns.begin())));
-  return {folder / *patterns.begin(), {}, layout.value_or(StereoLayout::mono)};
+  return find_film((folder / *patterns.begin()).string(), layout);
 }
 
 }  // namespace
@@ -70,7 +70,8 @@ FilmFiles find_film(const std::string& argument, std::optional<StereoLayout> lay
   const std::size_t comma = argument.find(',');
   if (comma != std::string::npos && !fs::exists(argument))
     return {argument.substr(0, comma), argument.substr(comma + 1), {}};
-  if (!layout && frame_pattern(argument)) layout = StereoLayout::mono;
+  // Of OpenEXR files, the views tell.
+  if (!layout && frame_pattern(argument) && fs::path(argument).extension() != ".exr") layout = StereoLayout::mono;
   return {argument, {}, layout};
 }
 

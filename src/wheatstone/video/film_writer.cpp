@@ -21,7 +21,7 @@ struct FilmWriter::Implementation {
     if (auto pattern = frame_pattern(path)) {
       check_no_pictures(path, *pattern);
       const std::string hidden = fmt::format(".{}frames.{}.partial", pattern->before, ::getpid());
-      sequence.emplace(*pattern, pattern->folder / hidden);
+      sequence.emplace(*pattern, pattern->folder / hidden, options.layout);
       if (!options.side_streams_from.empty()) notes.emplace_back("numbered pictures hold no audio and no subtitles");
       return;
     }

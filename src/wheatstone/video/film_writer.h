@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wheatstone/stereo/stereo_layout.h"
@@ -14,10 +16,10 @@ namespace wheatstone {
 
 /// How a film is coded and what it carries. FilmFacts of a source give colour, frame_rate and pixel_aspect.
 struct FilmWriterOptions {
-  std::string codec = "h264";     ///< "h264", "hevc", or "ffv1" (lossless, Matroska only)
-  std::optional<double> crf;      ///< quality of h264 and hevc, 0 (best) to 51; 16 and 18 where not given
-  std::string preset = "medium";  ///< effort of h264 and hevc: "ultrafast" to "placebo"
-  std::string pixel_format;       ///< "yuv420p", "yuv422p", "yuv444p"; "bgr0" (ffv1: RGB). Empty: yuv420p, ffv1 bgr0
+  std::string codec = "h264";     ///< one of film_codecs
+  std::optional<double> crf;      ///< quality of h264, hevc, av1 and vp9, 0 (best) to 51 or 63; else the usual one
+  std::string preset = "medium";  ///< effort of these: "ultrafast" to "placebo"
+  std::string pixel_format;       ///< "yuv420p", "yuv422p10le", "bgr0" (RGB) and so on. Empty: the codec's usual one
   StereoLayout layout = StereoLayout::mono;  ///< written wherever the container and the codec can say it
   Rational frame_rate;          ///< on average, for the encoder's planning; each frame's own time is what counts
   Rational pixel_aspect{1, 1};  ///< what the layout asks for goes before it
@@ -31,13 +33,16 @@ struct FilmWriterOptions {
   std::optional<double> end_s;  ///< of the source: side streams end here
 };
 
+/// The codecs that films are written with: "h264", "prores-hq" and so on.
+std::span<const std::string_view> film_codecs();
+
 /// What of the audio and subtitles of `options.side_streams_from` a film at `path` would leave out because its
 /// container cannot take it: a sentence a stream. Found out by writing the beginning of each stream to memory.
 std::vector<std::string> side_streams_left_out(const std::filesystem::path& path, const FilmWriterOptions& options);
 
-/// Writes a film (.mp4, .m4v, .mov, .mkv), or numbered pictures where the name holds one %d, %04d or the like (from 1
-/// on). The film appears under its name when it is whole; destroyed before `finish`, the writer leaves nothing. The
-/// same frames and options give the same bytes on any machine with the same libraries.
+/// Writes a film (.mp4, .m4v, .mov, .mkv, .webm), or numbered pictures where the name holds one %d, %04d or the like
+/// (from 1 on). The film appears under its name when it is whole; destroyed before `finish`, the writer leaves nothing.
+/// The same frames and options give the same bytes on any machine with the same libraries.
 class FilmWriter {
  public:
   /// Throws Error{wrong_usage} where options do not fit together or the ending, or where pictures of such names exist;

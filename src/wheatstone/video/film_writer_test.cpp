@@ -1,5 +1,6 @@
 #include "wheatstone/video/film_writer.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -10,8 +11,11 @@
 #include "psnr.h"
 #include "scenes/moving_picture.h"
 #include "throws_error.h"
+#include "wheatstone/pictures/multiview_exr.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/libav_internal.h"
+#include "wheatstone/video/video_codings_internal.h"
 
 namespace wheatstone::film_writer_test {
 
@@ -81,6 +85,60 @@ TEST(FilmWriter, H264AndHevcAreClose) {
   // The measure can come out badly.
   make_film(folder / "a.mp4", 24, {.crf = 45}, 320, 192);
   EXPECT_LT(psnr_db(frames_of(folder / "a.mp4")[12].picture, moving_picture(320, 192, 12)), 34);
+}
+
+TEST(FilmWriter, EveryCodecIsReadBackFromEveryContainer) {
+  const TemporaryFolder folder;
+  for (const VideoCoding& coding : video_codings())
+    for (const std::string_view ending : coding.containers) {
+      const fs::path path = folder / fmt::format("a{}", ending);
+      make_film(path, 6, {.codec = std::string(coding.name), .preset = "veryfast"}, 320, 192);
+      const std::vector<Frame> frames = frames_of(path);
+      ASSERT_EQ(frames.size(), 6u) << path << coding.name;
+      for (int i = 0; i < 6; ++i)
+        EXPECT_GE(psnr_db(frames[i].picture, moving_picture(320, 192, i)), 33) << path << coding.name;
+      EXPECT_EQ(open_film(path).facts().pixel_format.ends_with("10le"),
+                coding.formats.front().ends_with("10le") && coding.name != "prores-4444")
+          << open_film(path).facts().pixel_format;  // ProRes 4444 is decoded with 12 bits
+    }
+}
+
+TEST(FilmWriter, TenBitsKeepColoursThatEightBitsOfLumaAndChromaRound) {
+  const TemporaryFolder folder;
+  // Every step of a grey ramp, and of a coloured one.
+  Frame ramp{Image<Rgb8>(256, 128), 0, {1, 25}, 1};
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const auto step = static_cast<std::uint8_t>(x);
+      ramp.picture(x, y) = y < 64 ? Rgb8{step, step, step} : Rgb8{step, static_cast<std::uint8_t>(255 - x), 90};
+    }
+  const auto colours_that_change = [&](const char* format) {
+    write_film(folder / "a.mkv", {ramp}, {.codec = "av1", .crf = 0, .pixel_format = format});
+    const Image<Rgb8> read = frames_of(folder / "a.mkv").front().picture;
+    int changed = 0;
+    for (int y = 0; y < 128; ++y)
+      for (int x = 0; x < 256; ++x) changed += read(x, y) == ramp.picture(x, y) ? 0 : 1;
+    return changed;
+  };
+  EXPECT_GT(colours_that_change("yuv444p"), 8000);
+  EXPECT_LT(colours_that_change("yuv444p10le"), 300);
+}
+
+TEST(FilmWriter, ExrFilesHoldEachEyeAsAView) {
+  const TemporaryFolder folder;
+  const StereoPair eyes{moving_picture(64, 48, 0), moving_picture(64, 48, 3)};
+  const Frame both{put_together(eyes.left, eyes.right, StereoLayout::left_right), 0, {1, 24}, 1};
+  write_film(folder / "two_%04d.exr", {both}, {.layout = StereoLayout::left_right});
+  EXPECT_EQ(read_multiview_exr(folder / "two_0001.exr"), (std::vector{eyes.left, eyes.right}));
+  FilmReader two = open_film(folder / "two_%04d.exr");
+  EXPECT_EQ(two.facts().layout, StereoLayout::left_right);
+  Frame read;
+  ASSERT_TRUE(two.read(read));
+  EXPECT_EQ(read.picture, both.picture);
+
+  write_film(folder / "one_%04d.exr", {both});
+  EXPECT_FALSE(is_multiview_exr(folder / "one_0001.exr"));
+  EXPECT_EQ(frames_of(folder / "one_%04d.exr").front().picture, both.picture);
 }
 
 TEST(FilmWriter, UnevenTimesSurvive) {
@@ -271,10 +329,16 @@ TEST(FilmWriter, RefusesWhatMakesNoSense) {
     expect_error(ErrorKind::wrong_usage, part, [&] { FilmWriter(folder / name, options); });
   };
   refused("a.avi", {}, "films are written to");
-  refused("a.mp4", {.codec = "vp9"}, "expected h264, hevc or ffv1");
+  refused("a.mp4", {.codec = "mpeg9"}, "codec: mpeg9, expected one of h264, hevc");
+  refused("a.webm", {.codec = "h264"}, "cannot hold h264, expected .mp4");
+  refused("a.mp4", {.codec = "prores-hq"}, "cannot hold prores-hq, expected .mov");
+  refused("a.mov", {.codec = "prores-hq", .crf = 10}, "no rate factor");
+  expect_error(ErrorKind::wrong_usage, "codec: av9 is not in this installation's libavcodec (libav9)", [] {
+    check_encoder({"av9", "libav9", 0, 0, 1, {"yuv420p"}, {".mkv"}});
+  });
   refused("a.mp4", {.codec = "ffv1"}, "expected .mkv");
   refused("a.mp4", {.crf = 70}, "crf: 70");
-  refused("a.mkv", {.codec = "ffv1", .crf = 10}, "lossless");
+  refused("a.mkv", {.codec = "ffv1", .crf = 10}, "no rate factor");
   refused("a.mp4", {.preset = "hurry"}, "preset: hurry");
   refused("a.mp4", {.pixel_format = "bgr0"}, "pixel format: bgr0");
   expect_error(ErrorKind::cannot_read_write, "the folder cannot be made", [&] { FilmWriter("/dev/null/no/a.mp4"); });
@@ -288,7 +352,7 @@ TEST(FilmWriter, RefusesWhatMakesNoSense) {
 
 TEST(FilmWriter, TheSameFramesGiveTheSameBytes) {
   const TemporaryFolder folder;
-  for (const char* codec : {"h264", "hevc", "ffv1"}) {
+  for (const std::string codec : {"h264", "hevc", "ffv1", "hevc-10", "prores-hq", "prores-4444", "av1", "vp9"}) {
     make_film(folder / "a.mkv", 20, {.codec = codec});
     for (std::size_t i = 1; i < 6; ++i) {
       // Memory that was used: an encoder that reads what it did not write is found out.

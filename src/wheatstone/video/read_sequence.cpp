@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/multiview_exr.h"
 #include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/read_sequence_internal.h"
 
 namespace wheatstone {
@@ -15,7 +17,8 @@ PictureSequence::PictureSequence(const std::filesystem::path& path, FramePattern
   const std::vector<std::int64_t> numbers = numbers_without_hole(pattern_);
   first_ = numbers.front();
   count_ = static_cast<std::int64_t>(numbers.size());
-  const Image<Rgb8> first = read_image(pattern_.file(first_));
+  is_multiview_ = is_multiview_exr(pattern_.file(first_));
+  const Image<Rgb8> first = picture(first_);
   facts_.container = "sequence";
   facts_.codec = path.extension().empty() ? "" : path.extension().string().substr(1);
   facts_.pixel_format = "rgb24";
@@ -25,6 +28,18 @@ PictureSequence::PictureSequence(const std::filesystem::path& path, FramePattern
   facts_.time_base = {rate.denominator, rate.numerator};
   facts_.duration_s = static_cast<double>(count_) / rate.value();
   facts_.frame_count = count_;
+  if (pattern_.after != ".exr") return;
+  facts_.layout = is_multiview_ ? StereoLayout::left_right : StereoLayout::mono;
+  facts_.layout_how = "the views of the pictures";
+}
+
+/// The views of both eyes lie side by side.
+Image<Rgb8> PictureSequence::picture(std::int64_t number) const {
+  const std::filesystem::path file = pattern_.file(number);
+  if (!is_multiview_) return read_image(file);
+  const std::vector<Image<Rgb8>> views = read_multiview_exr(file);
+  if (views.size() != 2) refuse_film(file, fmt::format("{} views, expected two", views.size()));
+  return put_together(views[0], views[1], StereoLayout::left_right);
 }
 
 void PictureSequence::seek_before(double seconds) {
@@ -39,11 +54,11 @@ bool PictureSequence::step() {
 }
 
 void PictureSequence::convert(Image<Rgb8>& picture) const {
-  const std::filesystem::path file = pattern_.file(first_ + next_ - 1);
-  picture = read_image(file);
+  picture = this->picture(first_ + next_ - 1);
   if (picture.width() == facts_.width && picture.height() == facts_.height) return;
-  refuse_film(file, fmt::format("{}x{} pixels, expected {}x{} like the first of its sequence", picture.width(),
-                                picture.height(), facts_.width, facts_.height));
+  refuse_film(pattern_.file(first_ + next_ - 1),
+              fmt::format("{}x{} pixels, expected {}x{} like the first of its sequence", picture.width(),
+                          picture.height(), facts_.width, facts_.height));
 }
 
 }  // namespace wheatstone

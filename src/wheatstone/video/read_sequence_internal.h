@@ -22,10 +22,13 @@ class PictureSequence {
   std::optional<std::string> loss() const { return {}; }
 
  private:
+  Image<Rgb8> picture(std::int64_t number) const;
+
   FramePattern pattern_;
   std::int64_t first_ = 0;
   std::int64_t count_ = 0;
-  std::int64_t next_ = 0;  ///< counted from the first
+  bool is_multiview_ = false;  ///< each file holds both eyes as views
+  std::int64_t next_ = 0;      ///< counted from the first
   FilmFacts facts_;
 };
 

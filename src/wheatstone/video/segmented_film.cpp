@@ -116,7 +116,7 @@ struct SegmentedFilm::Implementation {
   }
 
   void join_as_pictures(const Progress& progress) {
-    SequenceFile sequence(*pattern, folder / pictures_folder);
+    SequenceFile sequence(*pattern, folder / pictures_folder, options.layout);
     for (std::int64_t number = 0; number < whole_segments; ++number) {
       FilmReader reader = open_film(segment_film(folder, number));
       for (Frame frame; reader.read(frame);) sequence.add(frame.picture);

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <system_error>
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/multiview_exr.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/packed_pair.h"
 
 namespace wheatstone {
 
@@ -20,7 +23,8 @@ void check_no_pictures(const fs::path& path, const FramePattern& pattern) {
                           path.string(), pattern.file(existing.front()).filename().string()));
 }
 
-SequenceFile::SequenceFile(FramePattern pattern, fs::path hidden) : pattern_(std::move(pattern)), hidden_(pattern_) {
+SequenceFile::SequenceFile(FramePattern pattern, fs::path hidden, StereoLayout layout)
+    : pattern_(std::move(pattern)), hidden_(pattern_), layout_(layout) {
   hidden_.folder = std::move(hidden);
   std::error_code error;
   fs::create_directory(hidden_.folder, error);
@@ -35,7 +39,13 @@ SequenceFile::~SequenceFile() {
   fs::remove_all(hidden_.folder, ignored);
 }
 
-void SequenceFile::add(ImageView<const Rgb8> picture) { write_image(hidden_.file(++count_), picture); }
+void SequenceFile::add(ImageView<const Rgb8> picture) {
+  const fs::path file = hidden_.file(++count_);
+  if (file.extension() != ".exr") return write_image(file, picture);
+  if (!is_packed(layout_)) return write_picture_exr(file, picture);
+  StereoPair eyes = cut_apart(picture, layout_, file.string());
+  write_multiview_exr(file, std::array{std::move(eyes.left), std::move(eyes.right)});
+}
 
 void SequenceFile::finish() {
   for (std::int64_t number = 1; number <= count_; ++number) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone {
@@ -16,7 +17,8 @@ class SequenceFile {
  public:
   /// Until all are there they lie in the folder `hidden`, which is on the same file system and goes with this. Throws
   /// Error{cannot_read_write} where it cannot be made.
-  SequenceFile(FramePattern pattern, std::filesystem::path hidden);
+  /// The layout says how eyes lie in a picture: OpenEXR files hold each as a view.
+  SequenceFile(FramePattern pattern, std::filesystem::path hidden, StereoLayout layout);
   ~SequenceFile();
   SequenceFile(const SequenceFile&) = delete;
   SequenceFile& operator=(const SequenceFile&) = delete;
@@ -27,6 +29,7 @@ class SequenceFile {
  private:
   FramePattern pattern_;
   FramePattern hidden_;  ///< the same in a folder of its own, until all are there
+  StereoLayout layout_;
   std::int64_t count_ = 0;
 };
 

@@ -4,8 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <new>
-#include <span>
+#include <string_view>
 
 extern "C" {
 #include <libavutil/cpu.h>
@@ -16,32 +17,11 @@ extern "C" {
 #include "wheatstone/error.h"
 #include "wheatstone/files/address_space.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
+#include "wheatstone/video/video_codings_internal.h"
 
 namespace wheatstone {
 namespace {
 
-struct Coding {
-  const char* name;
-  const char* encoder;
-  bool has_quality;
-  double usual_crf;
-  std::vector<std::string> formats;  ///< the first is the usual one
-};
-
-const std::vector<Coding>& codings() {
-  static const std::vector<Coding> all = {
-      {"h264", "libx264", true, 16, {"yuv420p", "yuv422p", "yuv444p"}},
-      {"hevc", "libx265", true, 18, {"yuv420p", "yuv422p", "yuv444p"}},
-      {"ffv1", "ffv1", false, 0, {"bgr0", "yuv420p", "yuv422p", "yuv444p"}},
-  };
-  return all;
-}
-
-constexpr const char* presets[] = {"ultrafast", "superfast", "veryfast", "faster",   "fast",
-                                   "medium",    "slow",      "slower",   "veryslow", "placebo"};
-
-// Bytes depend on the number of threads: fixed, not the machine's. x265 3.5 that codes several frames at a time gives
-// other bytes every time; its rows are coded by a pool of threads all the same.
 /// What an encoder takes for frames of this size, and for the frames that it looks ahead: x264 writes on standard error
 /// where it has too little.
 std::size_t bytes_of_encoder(const std::string& codec, int width, int height) {
@@ -50,27 +30,10 @@ std::size_t bytes_of_encoder(const std::string& codec, int width, int height) {
   return for_threads + bytes_a_pixel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-int threads_of(const std::string& codec) { return codec == "hevc" ? 1 : 4; }
-
 // What x264 core 164 computes with AVX-512 for its macroblock tree differs from run to run.
 const char* x264_processor() { return (av_get_cpu_flags() & AV_CPU_FLAG_AVX512) != 0 ? "asm=avx2" : "asm=auto"; }
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::wrong_usage, what); }
-
-const Coding& coding_of(const FilmWriterOptions& options) {
-  const auto found = std::ranges::find_if(codings(), [&](const Coding& c) { return options.codec == c.name; });
-  if (found == codings().end()) refuse(fmt::format("codec: {}, expected h264, hevc or ffv1", options.codec));
-  return *found;
-}
-
-AVPixelFormat format_of(const FilmWriterOptions& options) {
-  const Coding& coding = coding_of(options);
-  const std::string& name = options.pixel_format.empty() ? coding.formats.front() : options.pixel_format;
-  if (std::ranges::find(coding.formats, name) == coding.formats.end()) {
-    refuse(fmt::format("pixel format: {}, expected {} for {}", name, fmt::join(coding.formats, ", "), coding.name));
-  }
-  return av_get_pix_fmt(name.c_str());
-}
 
 int rounded_up(int size, int log2_step) {
   const int step = 1 << log2_step;
@@ -93,47 +56,71 @@ void tag_colours(AVCodecContext& codec, const FilmWriterOptions& options, bool i
   auto matrix = static_cast<AVColorSpace>(known(av_color_space_from_name(tags.matrix.c_str()), AVCOL_SPC_UNSPECIFIED));
   if (matrix == AVCOL_SPC_RGB || matrix > AVCOL_SPC_BT2020_NCL) matrix = AVCOL_SPC_UNSPECIFIED;
   codec.colorspace = matrix_in_use(matrix, codec.width, codec.height);
+  // Its pictures know no other, and decoders believe them more than the container.
+  if (options.codec == "dnxhr" && codec.colorspace != AVCOL_SPC_BT2020_NCL) codec.colorspace = AVCOL_SPC_BT709;
   codec.color_range = tags.range == "pc" ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
   codec.chroma_sample_location = AVCHROMA_LOC_LEFT;
 }
 
-void set_private_options(AVCodecContext& codec, const FilmWriterOptions& options, const Coding& coding) {
-  if (coding.has_quality) {
-    av_opt_set_double(codec.priv_data, "crf", options.crf.value_or(coding.usual_crf), 0);
-    av_opt_set(codec.priv_data, "preset", options.preset.c_str(), 0);
-  }
-  if (options.codec == "h264") {
+/// How fast libaom and libvpx are asked to be, for each of the presets.
+int cpu_used(const FilmWriterOptions& options) {
+  static constexpr std::array<int, 10> of_aom = {8, 8, 7, 7, 6, 6, 4, 3, 2, 1};
+  static constexpr std::array<int, 10> of_vpx = {5, 5, 5, 4, 3, 2, 1, 1, 0, 0};
+  const auto presets = encoder_presets();
+  const auto place =
+      static_cast<std::size_t>(std::ranges::find(presets, std::string_view(options.preset)) - presets.begin());
+  return (options.codec == "av1" ? of_aom : of_vpx).at(place);
+}
+
+const char* dnxhr_profile(AVPixelFormat format) {
+  if (format == AV_PIX_FMT_YUV422P) return "dnxhr_hq";
+  return format == AV_PIX_FMT_YUV444P10LE ? "dnxhr_444" : "dnxhr_hqx";
+}
+
+void set_private_options(AVCodecContext& codec, const FilmWriterOptions& options, const VideoCoding& coding) {
+  void* const own = codec.priv_data;
+  if (coding.most_crf > 0) av_opt_set_double(own, "crf", options.crf.value_or(coding.usual_crf), 0);
+  if (coding.encoder == "libx264") {
+    av_opt_set(own, "preset", options.preset.c_str(), 0);
     std::string parameters = x264_processor();
     if (const auto packing = frame_packing_of(options.layout)) parameters += fmt::format(":frame-packing={}", *packing);
     // x264 takes six steps from the chroma of 4:4:4; who chooses that wants its chroma.
     if (codec.pix_fmt == AV_PIX_FMT_YUV444P) parameters += ":chroma-qp-offset=-6";
-    av_opt_set(codec.priv_data, "x264-params", parameters.c_str(), 0);
-  } else if (options.codec == "hevc") {
+    av_opt_set(own, "x264-params", parameters.c_str(), 0);
+  } else if (coding.encoder == "libx265") {
+    av_opt_set(own, "preset", options.preset.c_str(), 0);
     // Its own threads; libav's setting is how many frames at a time.
-    av_opt_set(codec.priv_data, "x265-params", "log-level=none:pools=4", 0);
-  } else {
+    av_opt_set(own, "x265-params", "log-level=none:pools=4", 0);
+  } else if (coding.encoder == "prores_ks") {
+    av_opt_set(own, "profile", options.codec == "prores-4444" ? "4444" : "hq", 0);
+    av_opt_set(own, "vendor", "apl0", 0);  // editors doubt films of other makers
+  } else if (coding.encoder == "dnxhd") {
+    av_opt_set(own, "profile", dnxhr_profile(codec.pix_fmt), 0);
+  } else if (coding.encoder == "ffv1") {
     codec.level = 3;
     codec.slices = 4;
     codec.gop_size = 1;
-    av_opt_set_int(codec.priv_data, "slicecrc", 1, 0);
+    av_opt_set_int(own, "slicecrc", 1, 0);
+  } else {  // libaom, libvpx
+    av_opt_set_int(own, "cpu-used", cpu_used(options), 0);
+    if (options.codec == "vp9") av_opt_set_int(own, "tile-columns", 2, 0);  // what its threads share
+    codec.bit_rate = 0;                                                     // the quality decides
   }
 }
 
 }  // namespace
 
 void check_encoding(const FilmWriterOptions& options) {
-  const Coding& coding = coding_of(options);
-  format_of(options);
-  if (options.crf && !(*options.crf >= 0 && *options.crf <= 51)) {
-    refuse(fmt::format("crf: {}, expected 0 (best) to 51", *options.crf));
-  }
-  if (options.crf && !coding.has_quality) refuse(fmt::format("crf: {} is lossless, expected none", coding.name));
-  if (std::ranges::find_if(presets, [&](const char* name) { return options.preset == name; }) == std::end(presets)) {
+  const VideoCoding& coding = coding_of(options);
+  pixel_format_of(options);
+  if (options.crf && coding.most_crf <= 0)
+    refuse(fmt::format("crf: {} has no rate factor, expected none", coding.name));
+  if (options.crf && !(*options.crf >= 0 && *options.crf <= coding.most_crf))
+    refuse(fmt::format("crf: {}, expected 0 (best) to {}", *options.crf, coding.most_crf));
+  const auto presets = encoder_presets();
+  if (std::ranges::find(presets, std::string_view(options.preset)) == presets.end())
     refuse(fmt::format("preset: {}, expected {}", options.preset, fmt::join(presets, ", ")));
-  }
-  if (avcodec_find_encoder_by_name(coding.encoder) == nullptr) {
-    refuse(fmt::format("codec: {} is not in this installation's libavcodec ({})", coding.name, coding.encoder));
-  }
+  check_encoder(coding);
 }
 
 void note_padding(ImageView<const Rgb8> picture, const AVCodecContext& codec, std::vector<std::string>& notes) {
@@ -145,12 +132,15 @@ void note_padding(ImageView<const Rgb8> picture, const AVCodecContext& codec, st
 VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int height, Rational time_base) {
   silence_libav();
   check_encoding(options);
-  const Coding& coding = coding_of(options);
-  const AVCodec* encoder = avcodec_find_encoder_by_name(coding.encoder);
+  const VideoCoding& coding = coding_of(options);
+  if (width < coding.least_width || height < coding.least_height)
+    refuse(fmt::format("{} cannot encode {}x{} pixels, expected at least {}x{}", coding.name, width, height,
+                       coding.least_width, coding.least_height));
+  const AVCodec* encoder = avcodec_find_encoder_by_name(std::string(coding.encoder).c_str());
   codec_.reset(avcodec_alloc_context3(encoder));
   if (!codec_) throw std::bad_alloc();
   AVCodecContext& codec = *codec_;
-  codec.pix_fmt = format_of(options);
+  codec.pix_fmt = pixel_format_of(options);
   const AVPixFmtDescriptor& format = *av_pix_fmt_desc_get(codec.pix_fmt);
   codec.width = rounded_up(width, format.log2_chroma_w);
   codec.height = rounded_up(height, format.log2_chroma_h);
@@ -158,7 +148,7 @@ VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int heig
   codec.framerate = options.frame_rate.numerator > 0 ? as_av(options.frame_rate) : AVRational{25, 1};
   const Rational of_layout = pixel_aspect_of(options.layout);
   codec.sample_aspect_ratio = as_av(of_layout == Rational{1, 1} ? options.pixel_aspect : of_layout);
-  codec.thread_count = threads_of(options.codec);
+  codec.thread_count = coding.threads;
   // The header goes into the container; nothing in the packets tells when or where they were made.
   codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
   tag_colours(codec, options, (format.flags & AV_PIX_FMT_FLAG_RGB) != 0);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures to packets of H.264, HEVC or FFV1. Nothing of files.
+// Pictures to packets of a codec. Nothing of files.
 
 #include <functional>
 #include <map>

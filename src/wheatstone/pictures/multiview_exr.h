@@ -18,6 +18,9 @@ std::vector<std::string> view_names(std::size_t count);
 /// Throws Error: wrong_usage where views are fewer than two or of different sizes, cannot_read_write.
 void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb8>> views);
 
+/// Writes one picture as OpenEXR, in the same way. Throws Error{cannot_read_write}.
+void write_picture_exr(const std::filesystem::path& path, ImageView<const Rgb8> picture);
+
 /// The views of such a file, as sRGB. Throws Error{bad_input} where it has none.
 std::vector<Image<Rgb8>> read_multiview_exr(const std::filesystem::path& path);
 

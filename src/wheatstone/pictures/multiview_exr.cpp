@@ -1,4 +1,4 @@
-#include "wheatstone/display/multiview_exr.h"
+#include "wheatstone/pictures/multiview_exr.h"
 
 #include <fmt/format.h>
 
@@ -37,20 +37,17 @@ std::vector<std::string> view_names(std::size_t count) {
   return names;
 }
 
-void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb8>> views) {
-  if (views.size() < 2 || views.size() > most_views)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("{}: {} views, expected 2 to {}", path.string(), views.size(), most_views));
-  for (const Image<Rgb8>& view : views)
-    if (view.empty() || !same_size(view, views.front()))
-      throw Error(ErrorKind::wrong_usage, fmt::format("{}: views of different sizes, expected one", path.string()));
+namespace {
+
+/// One view is an ordinary picture; of more, the attribute tells their names.
+void write_views(const std::filesystem::path& path, std::span<const ImageView<const Rgb8>> views) {
   const int width = views.front().width(), height = views.front().height();
   const std::size_t channels = 3 * views.size();
   StoredPicture picture{width, height, static_cast<int>(channels)};
   picture.kind = halves_kind;
   const std::vector<std::string> names = view_names(views.size());
   for (std::size_t i = 0; i < channels; ++i) picture.channel_names.push_back(channel_name(names, i / 3, i % 3));
-  picture.put("multiView", names);
+  if (views.size() > 1) picture.put("multiView", names);
   picture.put("oiio:ColorSpace", "Linear");
   picture.put("compression", "zip");
   // Otherwise the time of writing: the same views are to be the same bytes.
@@ -80,6 +77,22 @@ void write_multiview_exr(const std::filesystem::path& path, std::span<const Imag
   }
   check(writer->end());
   write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace
+
+void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb8>> views) {
+  if (views.size() < 2 || views.size() > most_views)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: {} views, expected 2 to {}", path.string(), views.size(), most_views));
+  for (const Image<Rgb8>& view : views)
+    if (view.empty() || !same_size(view, views.front()))
+      throw Error(ErrorKind::wrong_usage, fmt::format("{}: views of different sizes, expected one", path.string()));
+  write_views(path, std::vector<ImageView<const Rgb8>>(views.begin(), views.end()));
+}
+
+void write_picture_exr(const std::filesystem::path& path, ImageView<const Rgb8> picture) {
+  write_views(path, {&picture, 1});
 }
 
 bool is_multiview_exr(const std::filesystem::path& path) {
