@@ -139,6 +139,7 @@ ModelShading::Surface::Surface(const ModelShading& shading, const ScreenTriangle
     along_sight += across_it[axis] * from_camera[axis];
   }
   turned_ = (along_normals > 0) == (along_sight > 0);
+  if (screen.shows_other_side(static_cast<double>(view))) turned_ = !turned_;
 }
 
 ModelShading::Surface::Point ModelShading::Surface::at(double x, double y) const {

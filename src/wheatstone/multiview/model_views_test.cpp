@@ -215,6 +215,26 @@ TEST(ModelViews, ATextureLiesWhereItsPlacesSay) {
   EXPECT_LT(lower_left.r, upper_left.r / 2);
 }
 
+TEST(ModelViews, ASideThatOnlyAnOuterViewSeesIsLitAsThatSide) {
+  // A wall whose left side looks at the lamp. The central view sees a little of its right side, which is in the shade,
+  // and the left view all of its left side.
+  Model model;
+  model.positions = {{0.02, 1, 0}, {0.02, -1, 0}, {0, 1, 1}, {0, -1, 1}};
+  model.normals.assign(4, {-1, 0, 0});
+  model.triangles = {{0, 1, 2}, {1, 3, 2}};
+  model.material_of = {0, 0};
+  model.materials.resize(1);
+  const ModelScene scene = over_sheet(false);
+  const RenderedModel rendered = render_model(model, scene, evenly_spaced(width, height, 3, 2));
+  const auto brightest = [&](std::size_t view) {
+    int most = 0;
+    for (const Rgb8 pixel : rendered.views[view].pixels())
+      if (pixel != scene.look.background) most = std::max(most, int{pixel.g});
+    return most;
+  };
+  EXPECT_GT(std::abs(brightest(0) - brightest(2)), 40);
+}
+
 TEST(ModelViews, WhatIsBehindTheCameraIsNotSeen) {
   const Model model = make_knot(1000);
   ModelScene scene = scene_around(model, width, height);

@@ -188,7 +188,9 @@ class Resolver {
       return background_;
     }
     const ModelShading::Fineness fineness = prepared_.fineness[triangle];
-    const bool is_lit = fineness != ModelShading::Fineness::by_pixel;
+    // A view beside the central one may see a side that is not lit there.
+    const bool is_lit = fineness != ModelShading::Fineness::by_pixel &&
+                        !prepared_.screen.triangles[triangle].shows_other_side(static_cast<double>(view_));
     ModelShading::Surface::Point point{};
     if (!is_lit || tells_geometry) {
       if (!surface_ || triangle != surface_of_) surface_.emplace(shading_, prepared_.screen, triangle, view_);

@@ -25,6 +25,17 @@ struct ScreenTriangle {
   double nearness(std::size_t k, bool is_orthographic) const {
     return is_orthographic ? -static_cast<double>(depth[k]) : 1. / static_cast<double>(depth[k]);
   }
+
+  /// Twice its area in a view; positive or negative by the side that is seen.
+  double area(double view) const {
+    std::array<double, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(x[k]) - view * static_cast<double>(disparity[k]);
+    const double upper = static_cast<double>(y[0]);
+    return (at[1] - at[0]) * (static_cast<double>(y[2]) - upper) -
+           (at[2] - at[0]) * (static_cast<double>(y[1]) - upper);
+  }
+  /// Whether a view sees the side that the central view does not.
+  bool shows_other_side(double view) const { return area(view) * area(0) < 0; }
 };
 
 /// Where the corners of a part lie in its triangle: shares of the triangle's three corners.
