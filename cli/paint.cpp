@@ -336,6 +336,9 @@ Report run_paint(const Arguments& given, const Session& session) {
             "left one",
             option_of(arguments.depth),
             is_folder ? "a folder is" : fmt::format("{} files are", arguments.files.size())));
+  const bool in_all_styles = arguments.walk.contact_sheet && !is_folder;
+  if (in_all_styles)
+    refuse_options(arguments.given, {"--style"}, "with --contact-sheet of one photograph: all are painted");
   const PaintPhotographOptions options = options_from(arguments, session);
   PhotographWork work{
       .input = is_folder ? arguments.files.front() : "",
@@ -349,6 +352,14 @@ Report run_paint(const Arguments& given, const Session& session) {
   work.work = [&](const PhotographJob& job, const Session& of_one) {
     return paint_one(arguments_of(arguments, job), job, options, of_one);
   };
+  if (in_all_styles) {
+    work.work = [&](const PhotographJob& job, const Session& of_one) {
+      Arguments one = arguments;
+      one.style.style = fs::path(job.output).filename().string();
+      return paint_one(arguments_of(one, job), job, options_from(one, of_one), of_one);
+    };
+    return work_on_all(work, {a_job_for_each_style(arguments)}, session);
+  }
   if (is_folder) return work_on_all(work, photographs_to_paint(arguments, session), session);
   const std::vector<PhotographJob> jobs = paint_jobs(arguments);
   if (jobs.size() > 1) return work_on_all(work, {jobs}, session);
@@ -446,7 +457,8 @@ Rows paint_rows(PaintArguments& a) {
   Rows walk = folder_rows(a.walk, on_folder, "painted", "; {style}, the name of the style", {printing});
   for (Row& option : walk)
     if (option.names == "--skip-existing") option.unless.push_back(display);
-  walk.push_back(contact_sheet_row(a.walk, on_folder, {printing, display}));
+  walk.push_back(contact_sheet_row(a.walk, [&a] { return is_photograph_folder(a) || !are_several(a); },
+                                   {printing, again, display}));
 
   const Rows basic{
       row("PHOTOGRAPHS", texts(a.files),

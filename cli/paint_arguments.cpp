@@ -7,6 +7,7 @@
 
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
+#include "wheatstone/marks/style.h"
 #include "wheatstone/models/read_model.h"
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/photograph/find_layout.h"
@@ -107,6 +108,15 @@ PhotographList photographs_to_paint(const PaintArguments& arguments, const Sessi
   const std::string style = fs::path(arguments.style.style).stem().string();
   return photographs_in_folder(arguments.files.front(), arguments.photographs, arguments.walk,
                                {.folder = arguments.folder, .ending = {}, .placeholders = {{"style", style}}}, session);
+}
+
+std::vector<PhotographJob> a_job_for_each_style(const PaintArguments& arguments) {
+  std::vector<PhotographJob> jobs;
+  for (const std::string_view style : style_names()) {
+    jobs.push_back(paint_jobs(arguments).front());
+    jobs.back().output = (fs::path(arguments.folder) / style).string();
+  }
+  return jobs;
 }
 
 }  // namespace wheatstone::cli

@@ -76,6 +76,9 @@ std::vector<PhotographJob> paint_jobs(const PaintArguments& arguments);
 /// The photographs in the folder that is given. Throws as photographs_in_folder does.
 PhotographList photographs_to_paint(const PaintArguments& arguments, const Session& session);
 
+/// The one photograph that is given, once for each preset of a style, each with a folder of its name.
+std::vector<PhotographJob> a_job_for_each_style(const PaintArguments& arguments);
+
 /// The painted picture of a job, of the left eye where there are two; none where it was not painted.
 std::optional<std::filesystem::path> painted_picture(const PhotographJob& job, const std::string& format);
 

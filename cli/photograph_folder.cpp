@@ -81,8 +81,7 @@ Rows folder_rows(FolderArguments& a, const std::function<bool()>& is_folder, std
 Row contact_sheet_row(FolderArguments& a, const std::function<bool()>& is_folder, Reasons unless) {
   unless.push_back(when([is_folder] { return !is_folder(); }, "on files; it works on a folder of photographs"));
   Row sheet = row("--contact-sheet", flag(a.contact_sheet),
-                  "Also write contact_sheet.png, which shows the results of a folder, small, with their names",
-                  std::move(unless));
+                  "Also write contact_sheet.png, which shows all results, small, with their names", std::move(unless));
   sheet.heading = "A folder of photographs";
   return sheet;
 }

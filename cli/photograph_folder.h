@@ -30,7 +30,7 @@ struct FolderArguments {
 Rows folder_rows(FolderArguments& arguments, const std::function<bool()>& is_folder, std::string_view done,
                  std::string_view placeholders = {}, const Reasons& unless = {});
 
-/// --contact-sheet, likewise.
+/// --contact-sheet, likewise; of `paint` it has an effect on one photograph, too.
 Row contact_sheet_row(FolderArguments& arguments, const std::function<bool()>& is_folder, Reasons unless = {});
 
 /// Whether the input is a folder.

@@ -115,6 +115,21 @@ TEST(PaintFolder, HasAContactSheetOfAllResults) {
   EXPECT_EQ(sheet.height(), 2 * 278 + 12);
 }
 
+TEST(PaintCommand, ShowsOnePhotographInAllStyles) {
+  const TemporaryFolder folder;
+  write_photographs(folder / "photos");
+  const ProgramResult result =
+      run_program({"paint", "photos/a.mpo", "--contact-sheet", "--range", "0:12", "-o", "styles", "--quiet"},
+                  {.folder = folder / ""});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  run_program({"paint", "photos/a.mpo", "--style", "mosaic", "--range", "0:12", "-o", "mosaic", "--quiet"},
+              {.folder = folder / ""});
+  EXPECT_EQ(bytes_of(folder / "styles/mosaic/left.png"), bytes_of(folder / "mosaic/left.png"));
+  EXPECT_GT(read_image(folder / "styles/contact_sheet.png").width(), 3 * 332);
+  expect_refused(folder, {"paint", "photos/a.mpo", "--contact-sheet", "--style", "mosaic", "-o", "new"}, 2,
+                 "--style: has no effect with --contact-sheet of one photograph");
+}
+
 TEST(PaintFolder, IsNotPaintedInADryRun) {
   const TemporaryFolder folder;
   write_photographs(folder / "photos");
