@@ -218,6 +218,7 @@ Report run_pack(const PackArguments& arguments, const Session& session) {
 }
 
 Rows pack_rows(PackArguments& a) {
+  a.input.into_one_file = [&a] { return fs::path(a.output).has_extension(); };
   const auto parse_strips = [](const std::string& option, const std::string& words) -> TypedWindow {
     if (words == "auto") return std::nullopt;
     const std::vector<int> strips = parse_integers(option, words, {',', 2, {0, 65535}, "LEFT,RIGHT or auto"});

@@ -135,7 +135,9 @@ enum class ViewsKind { files, folder, photographs, film, quilt, painting, slices
 ViewsKind kind_of(const ViewsArguments& arguments) {
   if (arguments.files.size() != 1) return ViewsKind::files;
   const std::string& file = arguments.files.front();
-  if (fs::is_directory(file)) return holds_photographs(file) ? ViewsKind::photographs : ViewsKind::folder;
+  if (fs::is_directory(file))
+    return !(arguments.into_one_file && arguments.into_one_file()) && holds_photographs(file) ? ViewsKind::photographs
+                                                                                              : ViewsKind::folder;
   if (is_film(file)) return ViewsKind::film;
   if (quilt_layout_of(arguments, file)) return ViewsKind::quilt;
   if (file.ends_with(".wst")) return ViewsKind::painting;

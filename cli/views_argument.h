@@ -24,6 +24,8 @@ struct ViewsArguments {
   int views = 0;                      ///< of slices; 0: what the packing wants
   float span = 1;                     ///< of slices, in eye separations
   Device device = Device::processor;  ///< of paintings
+  /// Whether the output is named as one file: then a folder holds views. None: it may hold photographs.
+  std::function<bool()> into_one_file = {};
   /// Where all that is wanted is one picture of the views: paintings are drawn into it.
   std::optional<DisplayComposition> composition = {};
 };

@@ -188,7 +188,7 @@ std::vector<WithoutEffect> options_without_effect() {
       {with(pack_two, {"-o", "out.gif"}), {{"--quality", "50"}}},
       {with(pack_two, {"--to", "anaglyph", "-o", "out.png"}), {{"--quality", "50"}, {"--quilt", "2x1"}}},
       {with(pack_two, {"--to", "quilt", "--quilt", "2x1", "-o", "out.png"}), {{"--format", "jpg"}}},
-      {{"pack", "both.png", "-o", "out.mpo"}, {{"--span", "2"}}},
+      {{"pack", "both.png", "-o", "out.mpo"}, {{"--span", "2"}, {"--strength", "2%"}}},
       {{"pack", "left.png", "right.png", "left.png", "-o", "out.mpo"}, {{"--views", "3"}, {"--span", "2"}}},
       {{"pack", "some.wst", "-o", "out"}, {{"--layout", "sbs"}}},
       {with(again, {"--display", "looking-glass-go"}),
