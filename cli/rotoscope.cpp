@@ -19,6 +19,7 @@
 #include "style_options.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/rotoscope_film.h"
+#include "wheatstone/display/anaglyph.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
 #include "wheatstone/motion/flow_file.h"
@@ -32,11 +33,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// How two eyes lie in a painted frame: a layout, or an anaglyph.
+struct OutputLayout {
+  std::optional<StereoLayout> layout;
+  std::string anaglyph;
+};
+
 struct RotoscopeArguments {
   Given given;
   std::string film, right;
   std::string output = "painted.mp4";
-  std::optional<StereoLayout> layout, output_layout;
+  std::optional<StereoLayout> layout;
+  OutputLayout output_layout;
   std::optional<double> from_s, to_s;
   int frame_step = 1;
   bool no_audio = false, no_subtitles = false;
@@ -70,7 +78,13 @@ KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
 StereoLayout layout_of_output(const RotoscopeArguments& arguments, const StereoFilmReader& source, bool two_films) {
   if (arguments.options.frames.display) return StereoLayout::mono;
   two_films = two_films || has_depth(arguments.depth);
-  if (const auto asked = arguments.output_layout) {
+  if (!arguments.output_layout.anaglyph.empty()) {
+    if (source.layout() == StereoLayout::mono && !two_films)
+      throw Error(ErrorKind::wrong_usage, fmt::format("--output-layout: is '{}', but the film has one eye",
+                                                      arguments.given.word_of("--output-layout")));
+    return StereoLayout::mono;
+  }
+  if (const auto asked = arguments.output_layout.layout) {
     if (source.layout() == StereoLayout::mono && !two_films && *asked != StereoLayout::mono)
       throw Error(ErrorKind::wrong_usage, fmt::format("--output-layout: is '{}', but the film has one eye",
                                                       arguments.given.word_of("--output-layout")));
@@ -85,7 +99,16 @@ FilmWriterOptions writing_options(const RotoscopeArguments& arguments, const Fil
   const FilmFacts& facts = source.facts();
   writing.layout = layout_of_output(arguments, source, !film.right.empty());
   write_as_source(film.film, facts, reading, writing);
-  if (arguments.options.frames.display) writing.pixel_aspect = {1, 1};
+  if (arguments.options.frames.display) {
+    writing.pixel_aspect = {1, 1};
+    writing.projection = "flat";
+  }
+  // Colour tells the eyes apart: chroma is kept at full size where the codec can.
+  const std::string_view codec = writing.codec;
+  if (!arguments.output_layout.anaglyph.empty() && !arguments.given("--pixel-format"))
+    writing.pixel_format = codec == "h264" || codec == "hevc" || codec == "vp9"       ? "yuv444p"
+                           : codec == "hevc-10" || codec == "av1" || codec == "dnxhr" ? "yuv444p10le"
+                                                                                      : "";
   writing.copy_audio = !arguments.no_audio;
   writing.copy_subtitles = !arguments.no_subtitles;
   return writing;
@@ -265,6 +288,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   if (session.verbose && film.right.empty())
     remark(session, fmt::format("layout: {} ({})", layout_name(source.layout()), source.layout_how()));
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));
+  options.anaglyph = arguments.output_layout.anaglyph;
   options.writing = writing_options(arguments, film, source, options.reading);
   options.expected_frames = expected_frames(source.facts(), options.reading);
   options.made_from.push_back(film.film);
@@ -282,14 +306,33 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   return session.ranks.first() ? report_of(arguments, result, session) : Report();
 }
 
+OutputLayout parse_output_layout(const std::string& option, const std::string& words) {
+  if (words.empty()) return {};
+  if (words == "anaglyph") return {{}, std::string(anaglyph_kinds().front().name)};
+  for (const AnaglyphKind& kind : anaglyph_kinds())
+    if (words == kind.name || (!kind.ffmpeg.empty() && words == kind.ffmpeg)) return {{}, std::string(kind.name)};
+  const std::optional<StereoLayout> found = find_stereo_layout(words);
+  if (!found)
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: there is no layout '{}', expected anaglyph or one of {}",
+                                                    option, words, stereo_layout_names()));
+  return {found, {}};
+}
+
 Rows film_rows(RotoscopeArguments& a) {
+  static constexpr std::array<std::string_view, 4> spheres{"source", "flat", "180", "360"};
   const Rows source{
       row("--layout", film_layout(a.layout),
           "Stereo layout of the film: sbs, sbs-half, tb, tb-half, mono, …; by default from its metadata, or else "
           "estimated from the pictures"),
-      row("--output-layout", film_layout(a.output_layout),
-          "Stereo layout of the painted film; that of the source by default",
+      row("--output-layout", parsed(a.output_layout, parse_output_layout),
+          "Stereo layout of the painted film, such as sbs-half for televisions, or anaglyph, or a kind of anaglyph; "
+          "that "
+          "of the source by default",
           {when([&a] { return !a.display.name.empty(); }, "with --display; it works where two eyes are painted")}),
+      row("--projection", name(a.options.writing.projection, spheres),
+          "Sphere that the painted film says it lies on: 360 or 180 (equirectangular), or flat; that of the source by "
+          "default. Pictures are not changed",
+          {when([&a] { return !a.display.name.empty(); }, "with --display; its films lie on no sphere")}),
       row("--from", parsed(a.from_s, parse_time_s), "Start time: seconds or [HH:]MM:SS"),
       row("--to", parsed(a.to_s, parse_time_s), "End time: seconds or [HH:]MM:SS"),
       row("--rate", parsed(a.rate, parse_frame_rate),

@@ -11,6 +11,7 @@
 #include "psnr.h"
 #include "scenes/moving_picture.h"
 #include "shared_data.h"
+#include "wheatstone/display/anaglyph.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/stereo_film.h"
@@ -180,6 +181,12 @@ TEST(RotoscopeCommand, TheSameEyesGiveTheSamePaintingInEveryLayout) {
     EXPECT_THAT(film.layout_how(), HasSubstr("container"));
     expect_same_eyes(eyes_of(open_stereo_film(folder / "again.mkv")), expected);
   }
+  rotoscope(folder, {"sbs.mkv", "--output-layout", "anaglyph", "--codec", "ffv1", "-o", "glasses.mkv"});
+  const std::vector<Frame> glasses = frames_of(open_film(folder / "glasses.mkv"));
+  ASSERT_EQ(glasses.size(), expected.size());
+  for (std::size_t i = 0; i < glasses.size(); ++i)
+    EXPECT_EQ(glasses[i].picture, anaglyph({expected[i].left, expected[i].right})) << i;
+  EXPECT_EQ(open_film(folder / "glasses.mkv").facts().layout, StereoLayout::mono);
   rotoscope(folder, {"film", "-o", "out_%04d.png"});
   expect_same_eyes(eyes_of(open_stereo_film(folder / "out_%04d.png", StereoLayout::left_right)), expected);
   EXPECT_TRUE(fs::exists(folder / "out_0001.png")) << "numbers from 1";

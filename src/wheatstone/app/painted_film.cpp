@@ -15,7 +15,7 @@ void write_as_source(const std::filesystem::path& film, const FilmFacts& facts, 
   writing.frame_rate = facts.frame_rate;
   writing.pixel_aspect = facts.pixel_aspect;
   writing.colour = facts.colour;
-  if (!facts.side_streams.empty()) writing.side_streams_from = film;
+  if (!facts.projection.empty()) writing.side_streams_from = film;
   writing.start_s = reading.from_s.value_or(0);
   writing.end_s = reading.to_s;
 }

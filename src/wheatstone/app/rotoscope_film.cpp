@@ -11,6 +11,7 @@
 #include "wheatstone/app/marks_sequence_internal.h"
 #include "wheatstone/app/passed_frames_internal.h"
 #include "wheatstone/app/rotoscope_state_file.h"
+#include "wheatstone/display/anaglyph.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/struct_fields.h"
 #include "wheatstone/files/unfinished_outputs.h"
@@ -49,11 +50,20 @@ fs::path state_file(const fs::path& output, std::int64_t frames) {
   return work_folder_of(output) / fmt::format("state_{:09}", frames);
 }
 
-/// A painted frame in one picture, in which two eyes lie as the layout says, and when it is shown.
-Frame frame_of(FramePictures pictures, const StereoFrame& source, StereoLayout layout) {
+/// Two eyes in one picture.
+Image<Rgb8> together(const StereoPair& eyes, const RotoscopeFilmOptions& options) {
+  if (options.anaglyph.empty()) return put_together(eyes.left, eyes.right, options.writing.layout);
+  const auto kind = std::ranges::find(anaglyph_kinds(), std::string_view(options.anaglyph), &AnaglyphKind::name);
+  if (kind == anaglyph_kinds().end())
+    throw Error(ErrorKind::wrong_usage, fmt::format("there is no anaglyph '{}'", options.anaglyph));
+  return anaglyph({eyes.left, eyes.right}, *kind);
+}
+
+/// A painted frame in one picture, and when it is shown.
+Frame frame_of(FramePictures pictures, const StereoFrame& source, const RotoscopeFilmOptions& options) {
   const auto* const eyes = std::get_if<StereoPair>(&pictures);
-  return {eyes != nullptr ? put_together(eyes->left, eyes->right, layout) : std::get<Image<Rgb8>>(std::move(pictures)),
-          source.pts, source.time_base, source.duration};
+  return {eyes != nullptr ? together(*eyes, options) : std::get<Image<Rgb8>>(std::move(pictures)), source.pts,
+          source.time_base, source.duration};
 }
 
 /// Where frames go: a film that is being made, or only files of marks.
@@ -205,7 +215,7 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const Roto
     within("", 0);
     RotoscopedFrame painted = paint_frame_of(frame, options, state, within);
     output.write_marks(painted.painting, state);
-    output.write(frame_of(std::move(painted.pictures), frame, options.writing.layout), state);
+    output.write(frame_of(std::move(painted.pictures), frame, options), state);
     add(painted, film);
     if (!painted.rows_note.empty()) film.notes.push_back(note_of(film.frames, painted.rows_note));
   }
@@ -291,8 +301,7 @@ class SharedWork {
     add(painted, film_);
     if (const fs::path marks = marks_of(path_, options_); !marks.empty())
       write_painting(unfinished_marks(marks, state.frames), painted.painting);
-    PassedFrame passed{frame_of(std::move(painted.pictures), source, options_.writing.layout), state.totals,
-                       painted.rows_note};
+    PassedFrame passed{frame_of(std::move(painted.pictures), source, options_), state.totals, painted.rows_note};
     if (!makes_film()) passed.frame.picture = {};
     if (has_state(state.frames)) write_rotoscope_state(passed_.state_file(state.frames), state);
     passed_.put(state.frames, passed);
@@ -402,14 +411,15 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
   // Whoever adds a member says here whether it decides a byte. Not in the text: `writing` and the interval, which the
   // film's segments compare themselves, the sources, which are compared by what is in them, and what only says how
   // the run goes: resume, keep_going, expected_frames, ranks and their scenes.
-  static_assert(field_count<RotoscopeFilmOptions>() == 13);
+  static_assert(field_count<RotoscopeFilmOptions>() == 14);
   RotoscopeOptions frames = options.frames;
   frames.matching.model.clear();  // their content is compared
   frames.flow_model.clear();
   FilmReaderOptions reading = options.reading;
   reading.threads = 0;  // the same frames on any number
-  return fmt::format("{}\n{}\n{}\nmarks {}\nknown {}", options.made_by, text_of_fields(frames), text_of_fields(reading),
-                     options.marks.string(), static_cast<bool>(options.known));
+  return fmt::format("{}\n{}\n{}\nanaglyph {}\nmarks {}\nknown {}", options.made_by, text_of_fields(frames),
+                     text_of_fields(reading), options.anaglyph, options.marks.string(),
+                     static_cast<bool>(options.known));
 }
 
 std::optional<std::string> unfinished_film(const fs::path& output, const fs::path& marks) {

@@ -19,6 +19,7 @@ struct RotoscopeFilmOptions {
   RotoscopeOptions frames;
   FilmReaderOptions reading;    ///< that the source was opened with: they decide which frames there are
   FilmWriterOptions writing;    ///< `layout` says how the eyes lie in a painted frame
+  std::string anaglyph;         ///< an anaglyph_kind's name: two eyes in one picture for coloured glasses; empty: none
   std::filesystem::path marks;  ///< "marks_%04d.wst" also keeps each frame's marks, from 1 on; empty: no
   int frames_between_checkpoints = 48;
   bool resume = false;      ///< go on with what an earlier run left; without it, such a rest is an error

@@ -14,6 +14,7 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include "wheatstone/video/kept_metadata_internal.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
 
 namespace wheatstone {
@@ -118,6 +119,7 @@ void DecodedFilm::gather_facts() {
   facts_.duration_s = stated_end_s();
   if (stream_->nb_frames > 0) facts_.frame_count = stream_->nb_frames;
   facts_.colour = colour_tags_of(ahead_->colorspace, ahead_->color_range, ahead_->color_primaries, ahead_->color_trc);
+  facts_.projection = projection_of(*stream_);
   facts_.comment = tag_of(input_->metadata, "comment");
   facts_.side_streams = side_streams_of(*input_);
   gather_layout();

@@ -12,6 +12,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/video/kept_metadata_internal.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
 #include "wheatstone/video/video_codings_internal.h"
 
@@ -129,7 +130,14 @@ void FilmFile::begin(const AVCodecParameters& coded, Rational time_base) {
   shift_ = std::llround(options_.start_s / av_q2d(time_base_));
   say_layout(*stream_);
   if (!options_.comment.empty()) av_dict_set(&output_->metadata, "comment", options_.comment.c_str(), 0);
-  if (!options_.side_streams_from.empty()) side_streams_.emplace(options_, *output_, notes_);
+  OwnedInput source;
+  if (!options_.side_streams_from.empty()) {
+    side_streams_.emplace(options_, *output_, notes_);
+    source = open_input(options_.side_streams_from);
+    keep_chapters(*source, options_, *output_);
+    keep_timecode(*source, options_, *stream_, notes_);
+  }
+  say_projection(source.get(), options_, *stream_);
 
   check(avio_open(&output_->pb, ("file:" + file_.path().string()).c_str(), AVIO_FLAG_WRITE));
   AVDictionary* settings = nullptr;

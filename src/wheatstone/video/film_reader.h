@@ -46,6 +46,7 @@ struct FilmFacts {
   std::optional<std::int64_t> frame_count;  ///< of the whole film, where it says
   StereoLayout layout = StereoLayout::mono;
   std::string layout_how;  ///< "Matroska StereoMode", … ; empty where the film says nothing of it
+  std::string projection;  ///< the sphere that it lies on: "360", "180", "other"; "flat": none; empty: it is no film
   std::string comment;     ///< that the film carries; empty: none
   ColourTags colour;
   std::vector<SideStream> side_streams;

@@ -26,7 +26,10 @@ struct FilmWriterOptions {
   std::string comment;          ///< that the film carries; empty: none
   ColourTags colour;            ///< RGB is converted with this matrix and range, and tagged so
 
-  std::filesystem::path side_streams_from;  ///< film whose audio and subtitles are copied, bit for bit; empty: none
+  std::string projection = "source";  ///< "360", "180" (equirectangular), "flat"; "source": as side_streams_from says
+
+  /// Film whose audio and subtitles are copied, bit for bit, with its chapters and timecode; empty: none.
+  std::filesystem::path side_streams_from;
   bool copy_audio = true;
   bool copy_subtitles = true;
   double start_s = 0;           ///< this moment of the source becomes the film's beginning

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -217,6 +218,41 @@ TEST(FilmWriter, CopiesSoundAndSubtitlesBitForBit) {
       for (const std::string& note : writer.notes()) EXPECT_THAT(note, testing::HasSubstr("subtitle stream 2")) << what;
     }
   }
+}
+
+TEST(FilmWriter, KeepsChaptersTimecodeAndTheSphere) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  std::ofstream(folder / "chapters.txt") << ";FFMETADATA1\n[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=800\ntitle=one\n"
+                                            "[CHAPTER]\nTIMEBASE=1/1000\nSTART=800\nEND=2000\ntitle=two\n";
+  const std::string source = (folder / "source.mov").string();
+  ASSERT_EQ(std::system(fmt::format("ffmpeg -v error -f lavfi -i testsrc=s=64x48:r=25:d=2 -i {}/chapters.txt "
+                                    "-map_metadata 1 -timecode 01:00:00:00 {}",
+                                    (folder / ".").string(), source)
+                            .c_str()),
+            0);
+  for (const char* name : {"a.mp4", "a.mov", "a.mkv"}) {
+    FilmWriterOptions options{.frame_rate = {25, 1}, .projection = "360", .side_streams_from = source, .start_s = 1};
+    FilmWriter writer(folder / name, options);
+    for (int i = 25; i < 50; ++i) writer.write(moving_frame(64, 48, i));
+    writer.finish();
+    const OwnedInput read = open_input(folder / name);
+    ASSERT_EQ(read->nb_chapters, 1u) << name;
+    EXPECT_STREQ(av_dict_get(read->chapters[0]->metadata, "title", nullptr, 0)->value, "two") << name;
+    EXPECT_NEAR(static_cast<double>(read->chapters[0]->end) * av_q2d(read->chapters[0]->time_base), 1, 0.01) << name;
+    const AVDictionaryEntry* timecode = av_dict_get(read->streams[0]->metadata, "timecode", nullptr, 0);
+    ASSERT_NE(timecode, nullptr) << name;
+    EXPECT_STREQ(timecode->value, "01:00:01:00") << name;
+    if (std::string(name) == "a.mov") continue;  // libav writes no sphere into QuickTime
+    EXPECT_EQ(open_film(folder / name).facts().projection, "360") << name;
+    // Kept by the next film, and changed or removed where that is asked for.
+    for (const char* wanted : {"source", "180", "flat"}) {
+      make_film(folder / "b.mkv", 3, {.projection = wanted, .side_streams_from = folder / name});
+      EXPECT_EQ(open_film(folder / "b.mkv").facts().projection, std::string(wanted) == "source" ? "360" : wanted);
+    }
+  }
+  expect_error(ErrorKind::wrong_usage, "projection: 270",
+               [&] { make_film(folder / "c.mkv", 1, {.projection = "270"}); });
 }
 
 TEST(FilmWriter, APartOfAFilmBringsItsPartOfTheSound) {

@@ -30,6 +30,7 @@ FilmWriterOptions bare(FilmWriterOptions options) {
   options.end_s.reset();
   options.layout = StereoLayout::mono;
   options.comment.clear();
+  options.projection = "flat";
   return options;
 }
 

@@ -16,6 +16,7 @@ extern "C" {
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/address_space.h"
+#include "wheatstone/video/kept_metadata_internal.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
 #include "wheatstone/video/video_codings_internal.h"
 
@@ -113,6 +114,7 @@ void set_private_options(AVCodecContext& codec, const FilmWriterOptions& options
 void check_encoding(const FilmWriterOptions& options) {
   const VideoCoding& coding = coding_of(options);
   pixel_format_of(options);
+  check_projection(options.projection);
   if (options.crf && coding.most_crf <= 0)
     refuse(fmt::format("crf: {} has no rate factor, expected none", coding.name));
   if (options.crf && !(*options.crf >= 0 && *options.crf <= coding.most_crf))
