@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "wheatstone/error.h"
@@ -68,6 +69,31 @@ void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState
   if (painted_anew) viewer.paint();
 }
 
+/// What is set by hand.
+struct Work {
+  Style style;
+  std::vector<DepthRegion> depth_regions;
+  float vertical_px = 0, roll_deg = 0;
+  CameraPath camera_path;
+  explicit Work(const Session& session)
+      : style(session.state.style),
+        depth_regions(session.state.depth_regions),
+        vertical_px(session.state.adjustment.vertical_px),
+        roll_deg(session.state.adjustment.roll_deg),
+        camera_path(session.camera_path) {}
+  friend bool operator==(const Work&, const Work&) = default;
+};
+
+/// What a menu's commands work on.
+bool menu_applies(const Viewer& viewer, std::string_view menu) {
+  const Session& session = viewer.session();
+  if (menu == "File" || menu == "Help" || menu == "Tracking") return true;
+  if (menu == "Film") return session.film.has_value();
+  if (menu == "Painting") return shows_painting(viewer);
+  if (menu == "Particles") return shows_particles(viewer);
+  return shows_something(viewer);
+}
+
 }  // namespace
 
 Words words_of(std::string_view line) {
@@ -119,6 +145,29 @@ std::span<const Command> command_table() {
   return table;
 }
 
+std::string readable(std::string_view name) {
+  std::string text(name);
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(text.front()));
+  std::ranges::replace(text, '-', ' ');
+  return text;
+}
+
+bool shows_something(const Viewer& viewer) {
+  return !std::holds_alternative<std::monostate>(viewer.session().opened.content);
+}
+
+bool shows_painting(const Viewer& viewer) {
+  return std::holds_alternative<PaintedContent>(viewer.session().opened.content);
+}
+
+bool shows_particles(const Viewer& viewer) {
+  return std::holds_alternative<ParticlesContent>(viewer.session().opened.content);
+}
+
+bool shows_scene(const Viewer& viewer) {
+  return shows_particles(viewer) || std::holds_alternative<SlicesContent>(viewer.session().opened.content);
+}
+
 const Frame& frame_of(const Viewer& viewer) {
   if (viewer.frame() == nullptr) throw Error(ErrorKind::wrong_usage, "nothing has been drawn yet");
   return *viewer.frame();
@@ -139,12 +188,40 @@ void run_command(Viewer& viewer, const Command& command, const Words& arguments)
   const Change change(session);
   // A gaze changes all the time.
   const bool is_kept = command.name != "undo" && command.name != "redo" && command.name != "gaze";
+  // A preset and a file are chosen again as easily.
+  const bool is_work = command.name != "style" && command.name != "camera" && command.name != "open";
+  const Work before(session);
   try {
     command.run(viewer, arguments);
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("{}: {}", command.name, error.what()));
   }
   if (is_kept) change.keep(session);
+  if (is_work && before != Work(session)) session.has_unsaved_work = true;
+}
+
+std::string title_of(const Command& command) {
+  return std::string(command.text.substr(0, std::min(command.text.find(':'), command.text.find(','))));
+}
+
+bool applies(const Viewer& viewer, const Command& command) {
+  return command.entry.applies != nullptr ? command.entry.applies(viewer) : menu_applies(viewer, command.menu);
+}
+
+std::vector<Choice> choices_of(const Viewer& viewer, const Command& command) {
+  if (command.entry.choices != nullptr) return command.entry.choices(viewer);
+  std::vector<Choice> choices;
+  if (command.arguments.find('|') == std::string_view::npos) return choices;
+  std::istringstream words{std::string(command.arguments)};
+  for (std::string word; std::getline(words, word, '|');) {
+    if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos) return {};
+    choices.push_back({word, readable(word)});
+  }
+  return choices;
+}
+
+bool is_toggle(const Command& command) {
+  return command.entry.now != nullptr && (command.arguments.empty() || command.arguments == "on|off");
 }
 
 void run_line(Viewer& viewer, std::string_view line) {

@@ -21,6 +21,28 @@ double number_of(const std::string& word);
 double number_of(const std::string& word, double least, double most);
 bool switch_of(const std::string& word);  ///< "on" or "off"
 
+/// Something that a command's argument can be.
+struct Choice {
+  std::string words;  ///< as a script has it
+  std::string text;   ///< for people
+};
+
+/// What the number that a command takes may be, for a slider. None where `step` is 0.
+struct NumberRange {
+  double least = 0, most = 0, step = 0;
+};
+
+/// How menus, panels and the toolbar show a command; what a row leaves out is as usual.
+struct Entry {
+  std::vector<Choice> (*choices)(const Viewer&) = nullptr;  ///< a submenu; none: those that `arguments` lists
+  std::string (*now)(const Viewer&) = nullptr;  ///< the argument that stands; of a command without, "on" or "off"
+  NumberRange range = {};
+  bool (*applies)(const Viewer&) = nullptr;  ///< grey where it does not; none: as its menu
+  std::string_view icon = {};                ///< in the toolbar; empty: it is not there
+  bool begins_group = false;                 ///< a line is drawn above it
+  bool is_for_scripts = false;               ///< another entry does the same for people
+};
+
 /// One line of the table of commands, from which the menus, the keys, the help and scripts are made.
 struct Command {
   std::string_view name;       ///< "zero-parallax-at"
@@ -30,9 +52,22 @@ struct Command {
   std::string_view keys;       ///< as Qt writes them, "F, F11"; empty: none
   /// Does it. Throws Error{wrong_usage} where an argument does not fit, and what it does may throw.
   void (*run)(Viewer&, const Words&);
+  Entry entry = {};
 };
 
 std::span<const Command> command_table();
+
+/// A command's text without what explains it further.
+std::string title_of(const Command& command);
+
+/// Whether a command has any effect on what is open.
+bool applies(const Viewer& viewer, const Command& command);
+
+/// What a command's argument can be: as its row says, or the words of "back|front". Empty where it is anything else.
+std::vector<Choice> choices_of(const Viewer& viewer, const Command& command);
+
+/// Whether a command turns something on and off, so that a menu shows it with a tick.
+bool is_toggle(const Command& command);
 
 /// Throws Error{wrong_usage} that names the command.
 const Command& find_command(std::string_view name);
@@ -73,6 +108,16 @@ std::span<const Command> camera_commands();
 std::span<const Command> panel_commands();
 
 inline ViewState& state_of(Viewer& viewer) { return viewer.session().state; }
+
+/// "fitted-strokes" as "Fitted strokes".
+std::string readable(std::string_view name);
+
+// What rows say of themselves.
+inline std::string on_or_off(bool is_on) { return is_on ? "on" : "off"; }
+bool shows_something(const Viewer& viewer);
+bool shows_painting(const Viewer& viewer);
+bool shows_particles(const Viewer& viewer);
+bool shows_scene(const Viewer& viewer);  ///< particles or slices
 
 /// Throws Error{wrong_usage} before the first frame.
 const Frame& frame_of(const Viewer& viewer);

@@ -181,6 +181,27 @@ Opened open_without_depth(std::span<const fs::path> files, const Listeners& list
 
 PictureSize size_of(const Content& content) { return std::visit(SizeOf(), content); }
 
+bool has_one_view(const Content& content) {
+  const auto* const views = std::get_if<ViewsContent>(&content);
+  return views != nullptr && views->views->size() == 1;
+}
+
+std::optional<fs::path> find_other_eye(const fs::path& picture) {
+  std::vector<fs::path> beside;
+  for (const fs::directory_entry& entry : fs::directory_iterator(picture.parent_path()))
+    if (entry.path().extension() == picture.extension()) beside.push_back(entry.path());
+  std::ranges::sort(beside);
+  const auto own = std::ranges::find(beside, picture.filename(), [](const fs::path& path) { return path.filename(); });
+  std::vector<fs::path> likely;
+  for (const fs::path& other : beside)
+    if (are_named_as_eyes(picture, other) || are_named_as_eyes(other, picture)) likely.push_back(other);
+  if (own != beside.end() && own + 1 != beside.end()) likely.push_back(own[1]);
+  if (own != beside.end() && own != beside.begin()) likely.push_back(own[-1]);
+  for (const fs::path& other : likely)
+    if (other.filename() != picture.filename() && are_eyes_of_one(picture, other)) return other;
+  return {};
+}
+
 std::optional<DepthEnds> depth_of(const Content& content) {
   if (const auto* const painted = std::get_if<PaintedContent>(&content)) {
     if (painted->painting && !painted->painting->surfaces.seen.empty())

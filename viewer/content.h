@@ -64,6 +64,9 @@ using Content = std::variant<std::monostate, PaintedContent, ViewsContent, Slice
 /// Size of what is open, in its own pixels; {0, 0} where it has none of its own, as particles.
 PictureSize size_of(const Content& content);
 
+/// Whether there is one picture, so that both eyes would see the same.
+bool has_one_view(const Content& content);
+
 /// Disparities of the scene from its farthest point to its nearest, but for outliers, in pixels of a view at full eye
 /// separation; none where they are not known. Looks at all of a painting's surface: not for the window's thread.
 std::optional<DepthEnds> depth_of(const Content& content);
@@ -91,6 +94,10 @@ using ShowFirst = std::function<void(Opened)>;
 /// of a pattern, "snap_%03d.hdf5", are a series. Throws Error that names the file.
 Opened open_content(std::span<const std::filesystem::path> files, const Progress& progress = {},
                     const ShowFirst& show = {}, const std::string& quantity = {});
+
+/// The picture of the other eye that lies beside a picture of one view, as their names tell (left and right, L and R,
+/// or the next number) and what they show. None where there is no such. Reads pictures; the path is absolute.
+std::optional<std::filesystem::path> find_other_eye(const std::filesystem::path& picture);
 
 /// Whether two files are the eyes of one photograph: two pictures, each of one view, that show one scene. `show` is
 /// given two pictures of one size before it is known.

@@ -40,30 +40,87 @@ void open_series(Viewer& viewer, const Words& /*words*/) {
 void save_painting(Viewer& viewer, const Words& words) {
   const auto* const content = std::get_if<PaintedContent>(&viewer.session().opened.content);
   if (content == nullptr || !content->painting) throw Error(ErrorKind::wrong_usage, "there is no painting to save");
-  viewer.save(words[0], [path = words[0], painting = content->painting] { write_painting(path, *painting); });
+  viewer.save(
+      words[0], [path = words[0], painting = content->painting] { write_painting(path, *painting); },
+      [&viewer] { viewer.session().has_unsaved_work = false; });
 }
 
 void save_style(Viewer& viewer, const Words& words) {
   write_whole_file(words[0], style_to_toml(state_of(viewer).style));
+  viewer.session().has_unsaved_work = false;
   viewer.tell("saved " + words[0]);
 }
 
 constexpr Command file_table[] = {
     // name, arguments, menu, text, keys
-    {"open", "FILE [RIGHT]", "File", "Open…", "Ctrl+O", open_files},
-    {"open-series", "", "File", "Open the series of this snapshot", "Ctrl+Shift+O", open_series},
-    {"next-file", "", "File", "Next file", "PgDown", [](Viewer& v, const Words&) { step_item(v, 1); }},
-    {"previous-file", "", "File", "Previous file", "PgUp", [](Viewer& v, const Words&) { step_item(v, -1); }},
-    {"save-picture", "FILE", "File", "Save picture…", "Ctrl+S",
+    {"open", "FILE [RIGHT]", "File", "Open…", "Ctrl+O", open_files, {.icon = "open"}},
+    {"open-example", "", "File", "Open an example", "", [](Viewer& v, const Words&) { v.open_example(); }},
+    {"open-series",
+     "",
+     "File",
+     "Open the series of this snapshot",
+     "Ctrl+Shift+O",
+     open_series,
+     {.applies = [](const Viewer& v) { return shows_particles(v); }}},
+    {"find-other-view",
+     "",
+     "File",
+     "Find the other view of this picture",
+     "O",
+     [](Viewer& v, const Words&) { v.open_other_eye(); },
+     {.applies = [](const Viewer& v) { return has_one_view(v.session().opened.content); }}},
+    {"next-file",
+     "",
+     "File",
+     "Next file",
+     "PgDown",
+     [](Viewer& v, const Words&) { step_item(v, 1); },
+     {.applies = [](const Viewer& v) { return !v.session().items.empty(); }, .begins_group = true}},
+    {"previous-file",
+     "",
+     "File",
+     "Previous file",
+     "PgUp",
+     [](Viewer& v, const Words&) { step_item(v, -1); },
+     {.applies = [](const Viewer& v) { return !v.session().items.empty(); }}},
+    {"save-picture",
+     "FILE",
+     "File",
+     "Save picture…",
+     "Ctrl+S",
      [](Viewer& v, const Words& w) {
        const auto picture = std::make_shared<const Image<Rgb8>>(frame_of(v).picture);
        v.save(w[0], [path = w[0], picture] { write_image(path, *picture); });
-     }},
-    {"save-painting", "FILE", "File", "Save painting…", "Ctrl+Shift+S", save_painting},
-    {"save-style", "FILE", "File", "Save style…", "", save_style},
-    {"copy-command", "", "File", "Copy command", "Ctrl+Shift+C",
-     [](Viewer& v, const Words&) { v.tell(command_line_of(v.session())); }},
-    {"quit", "", "File", "Quit", "Q, Ctrl+Q", [](Viewer& v, const Words&) { v.session().ends = true; }},
+     },
+     {.applies = [](const Viewer& v) { return shows_something(v); }, .icon = "save", .begins_group = true}},
+    {"save-painting",
+     "FILE",
+     "File",
+     "Save painting…",
+     "Ctrl+Shift+S",
+     save_painting,
+     {.applies = [](const Viewer& v) { return shows_painting(v); }}},
+    {"save-style",
+     "FILE",
+     "File",
+     "Save style…",
+     "",
+     save_style,
+     {.applies = [](const Viewer& v) { return shows_painting(v); }}},
+    {"copy-command",
+     "",
+     "File",
+     "Copy command",
+     "Ctrl+Shift+C",
+     [](Viewer& v, const Words&) { v.tell(command_line_of(v.session())); },
+     {.applies = [](const Viewer& v) { return shows_something(v); }}},
+    {"quit",
+     "",
+     "File",
+     "Quit",
+     "Q, Ctrl+Q",
+     [](Viewer& v, const Words&) { v.session().ends = true; },
+     {.begins_group = true}},
 };
 
 /// Throws Error{wrong_usage} where nothing is open that goes on in time.
@@ -90,8 +147,8 @@ constexpr double longest_film_s = 1e7;
 constexpr Command film_table[] = {
     // name, arguments, menu, text, keys
     {"play-or-pause", "", "Film", "Play, or pause what plays", "Space", play_or_pause},
-    {"play", "", "Film", "Play", "", [](Viewer& v, const Words&) { v.play_film(); }},
-    {"pause", "", "Film", "Pause", "", [](Viewer& v, const Words&) { v.pause_film(); }},
+    {"play", "", "Film", "Play", "", [](Viewer& v, const Words&) { v.play_film(); }, {.is_for_scripts = true}},
+    {"pause", "", "Film", "Pause", "", [](Viewer& v, const Words&) { v.pause_film(); }, {.is_for_scripts = true}},
     {"frame-step", "", "Film", "Next frame", ".", [](Viewer& v, const Words&) { v.step_film(1); }},
     {"frame-back", "", "Film", "Previous frame", ",", [](Viewer& v, const Words&) { v.step_film(-1); }},
     {"seek", "SECONDS", "Film", "Go so many seconds on, or back where negative", "",
@@ -103,10 +160,28 @@ constexpr Command film_table[] = {
        film_of(v);
        v.seek_film(number_of(w[0], 0, longest_film_s));
      }},
-    {"film-painting", "on|off", "Film", "Paint the frame at which the film stands", "", set_film_painting},
-    {"paint-film", "FILE", "Film", "Paint the whole film…", "",
-     [](Viewer& v, const Words& w) { v.paint_whole_film(w[0]); }},
-    {"cancel", "", "Film", "Stop painting the film", "", [](Viewer& v, const Words&) { v.cancel_whole_film(); }},
+    {"film-painting",
+     "on|off",
+     "Film",
+     "Paint the frame at which the film stands",
+     "",
+     set_film_painting,
+     {.now = [](const Viewer& v) { return on_or_off(v.session().film && v.session().film->paints); },
+      .begins_group = true}},
+    {"paint-film",
+     "FILE",
+     "Film",
+     "Paint the whole film…",
+     "",
+     [](Viewer& v, const Words& w) { v.paint_whole_film(w[0]); },
+     {.begins_group = true}},
+    {"cancel",
+     "",
+     "Film",
+     "Stop painting the film",
+     "",
+     [](Viewer& v, const Words&) { v.cancel_whole_film(); },
+     {.applies = [](const Viewer& v) { return v.session().whole_film.has_value(); }}},
 };
 
 void load_camera(Viewer& viewer, const Words& words) {
@@ -136,13 +211,14 @@ void save_camera(Viewer& viewer, const Words& words) {
     throw Error(ErrorKind::wrong_usage, "the camera path has no keyframe; 'add-key' makes one");
   write_whole_file(words[0], camera_path_text(session.camera_path));
   session.camera_file = words[0];
+  session.has_unsaved_work = false;
   viewer.tell("saved " + words[0]);
 }
 
 constexpr Command camera_table[] = {
     // name, arguments, menu, text, keys
     {"camera", "FILE", "Particles", "Open a camera path…", "", load_camera},
-    {"add-key", "", "Particles", "Add a keyframe to the camera path", "K", add_key},
+    {"add-key", "", "Particles", "Add a keyframe to the camera path", "K", add_key, {.begins_group = true}},
     {"remove-key", "", "Particles", "Remove the nearest keyframe", "Shift+K", remove_key},
     {"clear-camera", "", "Particles", "Remove all keyframes", "",
      [](Viewer& v, const Words&) { v.take_camera_path({}); }},

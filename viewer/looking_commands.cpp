@@ -5,6 +5,7 @@
 
 #include "command_table.h"
 #include "depth_seen.h"
+#include "devices.h"
 #include "inputs.h"
 #include "particle_scene.h"
 #include "wheatstone/depth/display_presets.h"
@@ -14,6 +15,28 @@
 namespace wheatstone::viewer {
 namespace {
 
+/// The mode is that in which other files of this kind are opened, too.
+void take_mode(Viewer& viewer, std::string_view mode) {
+  Session& session = viewer.session();
+  session.state.mode = mode;
+  const Content& content = session.opened.content;
+  if (has_one_view(content)) return;
+  const bool is_empty = std::holds_alternative<std::monostate>(content);
+  const bool is_scene =
+      std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
+  if (is_empty || !is_scene) session.usual_modes.pictures = mode;
+  if (is_empty || is_scene) session.usual_modes.scenes = mode;
+}
+
+void look_with(Viewer& viewer, const Words& words) {
+  const LookingWith& device = find_device(words[0]);
+  Session& session = viewer.session();
+  session.device = device.name;
+  if (!device.display.empty()) session.state.display = device.display;
+  session.usual_modes = {std::string(device.mode), std::string(device.mode)};
+  if (!has_one_view(session.opened.content)) session.state.mode = device.mode;
+}
+
 void set_mode(Viewer& viewer, const Words& words) {
   const OutputMode& mode = find_output_mode(words[0]);
   ViewState& state = state_of(viewer);
@@ -21,7 +44,7 @@ void set_mode(Viewer& viewer, const Words& words) {
     throw Error(ErrorKind::wrong_usage, "page-flip needs a graphics card with stereo, asked for by --stereo");
   if (std::holds_alternative<Lenticular>(mode.kind) && state.screen.empty())
     lenticular_screen_of(find_display(state.display));
-  state.mode = mode.name;
+  take_mode(viewer, mode.name);
 }
 
 void step_mode(Viewer& viewer, int by) {
@@ -36,7 +59,7 @@ void step_mode(Viewer& viewer, int by) {
         (std::holds_alternative<PageFlip>(modes[static_cast<std::size_t>(at)].kind) && !viewer.session().stereo);
     if (!needs_display) break;
   }
-  state_of(viewer).mode = modes[static_cast<std::size_t>(at)].name;
+  take_mode(viewer, modes[static_cast<std::size_t>(at)].name);
 }
 
 /// Screen pixels for one of the content. Frames come later than what is set: only what fits is known from them alone.
@@ -89,6 +112,31 @@ void reset(Viewer& viewer, const Words& /*words*/) {
   viewer.show_comfortably();
 }
 
+std::vector<Choice> device_choices(const Viewer& /*viewer*/) {
+  std::vector<Choice> choices;
+  for (const LookingWith& device : devices()) choices.push_back({std::string(device.name), std::string(device.text)});
+  return choices;
+}
+
+/// Those that the screen can show.
+std::vector<Choice> mode_choices(const Viewer& viewer) {
+  std::vector<Choice> choices;
+  for (const OutputMode& mode : output_modes())
+    if (viewer.session().stereo || !std::holds_alternative<PageFlip>(mode.kind)) {
+      choices.push_back({std::string(mode.name), mode.text});
+      char& first = choices.back().text.front();
+      first = static_cast<char>(std::toupper(first));
+    }
+  return choices;
+}
+
+std::vector<Choice> screen_choices(const Viewer& viewer) {
+  std::vector<Choice> choices;
+  for (int screen = 1; screen <= viewer.session().screens; ++screen)
+    choices.push_back({fmt::format("{}", screen), fmt::format("Screen {}", screen)});
+  return choices;
+}
+
 void fill_screen(Viewer& viewer, const Words& words) {
   Session& session = viewer.session();
   const double number = number_of(words[0]);
@@ -103,17 +151,56 @@ constexpr double zoom_step = 1.25;
 
 constexpr Command looking_table[] = {
     // name, arguments, menu, text, keys
-    {"mode", "NAME", "View", "Output mode", "", set_mode},
+    {"look-with",
+     "DEVICE",
+     "View",
+     "What do you look with?",
+     "",
+     look_with,
+     {.choices = device_choices, .now = [](const Viewer& v) { return v.session().device; }}},
+    {"mode",
+     "NAME",
+     "View",
+     "Output mode",
+     "",
+     set_mode,
+     {.choices = mode_choices, .now = [](const Viewer& v) { return v.session().state.mode; }, .icon = "mode"}},
     {"next-mode", "", "View", "Next output mode", "T", [](Viewer& v, const Words&) { step_mode(v, 1); }},
     {"previous-mode", "", "View", "Previous output mode", "Shift+T", [](Viewer& v, const Words&) { step_mode(v, -1); }},
-    {"swap", "", "View", "Swap eyes", "W", [](Viewer& v, const Words&) { state_of(v).swap = !state_of(v).swap; }},
-    {"full-screen", "", "View", "Full screen", "F, F11",
-     [](Viewer& v, const Words&) { v.session().full_screen = !v.session().full_screen; }},
-    {"full-screen-on", "NUMBER", "View", "Full screen on the screen of that number", "", fill_screen},
+    {"swap",
+     "",
+     "View",
+     "Swap eyes",
+     "W",
+     [](Viewer& v, const Words&) { state_of(v).swap = !state_of(v).swap; },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().state.swap); }}},
+    {"full-screen",
+     "",
+     "View",
+     "Full screen",
+     "F, F11",
+     [](Viewer& v, const Words&) { v.session().full_screen = !v.session().full_screen; },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().full_screen); },
+      .applies = [](const Viewer&) { return true; },
+      .icon = "full-screen",
+      .begins_group = true}},
+    {"full-screen-on",
+     "NUMBER",
+     "View",
+     "Full screen on",
+     "",
+     fill_screen,
+     {.choices = screen_choices, .applies = [](const Viewer& v) { return v.session().screens > 1; }}},
     {"zoom", "FACTOR", "View", "Zoom: screen pixels for one of the picture", "",
      [](Viewer& v, const Words& w) { state_of(v).framed.zoom = number_of(w[0], 1. / 64, 64); }},
     {"zoom-at", "FACTOR X Y", "View", "Zoom around a place on the screen", "", zoom_at},
-    {"zoom-in", "", "View", "Zoom in", "+, =", [](Viewer& v, const Words&) { zoom_by(v, zoom_step); }},
+    {"zoom-in",
+     "",
+     "View",
+     "Zoom in",
+     "+, =",
+     [](Viewer& v, const Words&) { zoom_by(v, zoom_step); },
+     {.begins_group = true}},
     {"zoom-out", "", "View", "Zoom out", "-", [](Viewer& v, const Words&) { zoom_by(v, 1 / zoom_step); }},
     {"fit", "", "View", "Fit into the window", "0",
      [](Viewer& v, const Words&) {
@@ -122,15 +209,30 @@ constexpr Command looking_table[] = {
     {"actual-size", "", "View", "Actual size", "1", [](Viewer& v, const Words&) { state_of(v).framed.zoom = 1; }},
     {"pan", "X Y", "View", "Move the picture, in screen pixels", "", pan},
     {"reset", "", "View", "Reset the view", "Backspace", reset},
-    {"leave", "", "View", "Leave full screen, or quit", "Esc",
+    {"leave",
+     "",
+     "View",
+     "Close the help, or leave full screen",
+     "Esc",
      [](Viewer& v, const Words&) {
        Session& session = v.session();
-       (session.full_screen ? session.full_screen : session.ends) = !session.full_screen;
-     }},
-    {"information", "", "View", "Information", "I",
-     [](Viewer& v, const Words&) { v.session().information = !v.session().information; }},
-    {"help", "", "Help", "Keys and commands", "?, F1",
-     [](Viewer& v, const Words&) { v.session().help = !v.session().help; }},
+       (session.help ? session.help : session.full_screen) = false;
+     },
+     {.applies = [](const Viewer& v) { return v.session().full_screen || v.session().help; }, .begins_group = true}},
+    {"information",
+     "",
+     "View",
+     "Information",
+     "I",
+     [](Viewer& v, const Words&) { v.session().information = !v.session().information; },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().information); }}},
+    {"help",
+     "",
+     "Help",
+     "Keys and commands",
+     "?, F1",
+     [](Viewer& v, const Words&) { v.session().help = !v.session().help; },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().help); }}},
 };
 
 void track_head(Viewer& viewer, const Words& words) {
@@ -158,27 +260,72 @@ void deepen_gaze(Viewer& viewer, const Words& words) {
     viewer.tell("only a painting of strokes or lines can have more depth where one looks");
 }
 
+std::vector<Choice> tracker_choices(const Viewer& /*viewer*/) {
+  return {{"off", "Off"}, {"4242", "OpenTrack, port 4242"}};
+}
+
+std::string tracker_port(const Session& session) {
+  return session.tracked_head ? fmt::format("{}", session.tracked_head->port) : "off";
+}
+
+std::vector<Choice> gaze_choices(const Viewer& /*viewer*/) {
+  return {{"1 1", "As elsewhere"}, {"1.5 0.5", "Half as much again, and half of it elsewhere"}};
+}
+
+std::string gaze_gains_told(const Viewer& viewer) {
+  return fmt::format("{} {}", viewer.session().gaze_gains.there, viewer.session().gaze_gains.elsewhere);
+}
+
 constexpr double longest_smoothing_s = 2, longest_prediction_s = 0.5;
 
 constexpr Command input_table[] = {
     // name, arguments, menu, text, keys
-    {"head-tracker", "PORT|off", "Depth", "Follow the head position that OpenTrack sends to a UDP port (4242)", "",
-     track_head},
-    {"head-smoothing", "SECONDS", "Depth", "Smooth the tracked head position over this time", "",
-     [](Viewer& v, const Words& w) { v.session().head_filter.smoothing_s = number_of(w[0], 0, longest_smoothing_s); }},
-    {"head-prediction", "SECONDS", "Depth", "Predict the tracked head position this far ahead", "",
-     [](Viewer& v, const Words& w) {
-       v.session().head_filter.prediction_s = number_of(w[0], 0, longest_prediction_s);
-     }},
-    {"gaze", "X Y", "Depth", "Set the gaze point, in picture pixels", "",
+    {"head-tracker",
+     "PORT|off",
+     "Tracking",
+     "Head tracker: follow the head position that OpenTrack sends to a UDP port (4242)",
+     "",
+     track_head,
+     {.choices = tracker_choices, .now = [](const Viewer& v) { return tracker_port(v.session()); }}},
+    {"head-smoothing",
+     "SECONDS",
+     "Tracking",
+     "Smoothing: time over which the tracked head position is smoothed",
+     "",
+     [](Viewer& v, const Words& w) { v.session().head_filter.smoothing_s = number_of(w[0], 0, longest_smoothing_s); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().head_filter.smoothing_s); },
+      .range = {0, 1, 0.05}}},
+    {"head-prediction",
+     "SECONDS",
+     "Tracking",
+     "Prediction: how far ahead the tracked head position is predicted",
+     "",
+     [](Viewer& v, const Words& w) { v.session().head_filter.prediction_s = number_of(w[0], 0, longest_prediction_s); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().head_filter.prediction_s); },
+      .range = {0, 0.2, 0.01}}},
+    {"gaze", "X Y", "Tracking", "Set the gaze point, in picture pixels", "",
      [](Viewer& v, const Words& w) {
        frame_of(v);
        look_at(v, number_of(w[0]), number_of(w[1]));
      }},
-    {"gaze-follows", "pointer|off", "Depth", "Take the pointer as the gaze point; the screen plane follows it", "",
-     follow_gaze},
-    {"gaze-depth", "THERE ELSEWHERE", "Depth", "More depth where one looks and less elsewhere: 1.5 0.5; 1 1 for none",
-     "", deepen_gaze},
+    {"gaze-follows",
+     "pointer|off",
+     "Tracking",
+     "Gaze: take the pointer as the gaze point, which the screen plane follows",
+     "",
+     follow_gaze,
+     {.now =
+          [](const Viewer& v) {
+            return v.session().gaze_follows_pointer ? std::string("pointer") : std::string("off");
+          },
+      .begins_group = true}},
+    {"gaze-depth",
+     "THERE ELSEWHERE",
+     "Tracking",
+     "Depth at the gaze point: there and elsewhere, 1.5 0.5; 1 1 for none",
+     "",
+     deepen_gaze,
+     {.choices = gaze_choices, .now = gaze_gains_told}},
 };
 
 }  // namespace

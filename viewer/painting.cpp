@@ -37,17 +37,14 @@ ImageView<const std::uint8_t> detail_of(const Photograph& photograph, const Styl
   return reads_detail(style) && photograph.detail ? photograph.detail->view() : ImageView<const std::uint8_t>();
 }
 
-/// What stays the same when the picture is made smaller: lengths of a style count in pixels of a 640-pixel-wide one.
+/// As large as the photograph.
 Painting coarse_painting(const Photograph& photograph, const Style& style, const Progress& progress) {
   const Image<Rgb8>& left = photograph.pictures.left;
-  const PictureSize size = reduced_size({left.width(), left.height()}, coarse_px);
-  const StereoPair pair{reduced(left, size), reduced(photograph.pictures.right, size)};
-  const StereoGeometry geometry = geometry_from_both(reduced_disparity(photograph.geometry->left_disparity, size),
-                                                     reduced_disparity(photograph.geometry->right_disparity, size));
-  Painting painting = plan_painting(pair, geometry, style, progress, ViewRange{}, detail_of(photograph, style));
+  Painting painting = small_painting(photograph, style, coarse_px, progress);
+  const int width = width_of(painting);
   return placed(std::move(painting), {.width = left.width(),
                                       .height = left.height(),
-                                      .scale = static_cast<double>(left.width()) / static_cast<double>(size.width)});
+                                      .scale = static_cast<double>(left.width()) / static_cast<double>(width)});
 }
 
 /// "2:05 left", as far as it can be told from what is done in so many seconds.
@@ -59,6 +56,15 @@ std::string time_left(double done, double seconds) {
 }
 
 }  // namespace
+
+Painting small_painting(const Photograph& photograph, const Style& style, int largest_px, const Progress& progress) {
+  const Image<Rgb8>& left = photograph.pictures.left;
+  const PictureSize size = reduced_size({left.width(), left.height()}, largest_px);
+  const StereoPair pair{reduced(left, size), reduced(photograph.pictures.right, size)};
+  const StereoGeometry geometry = geometry_from_both(reduced_disparity(photograph.geometry->left_disparity, size),
+                                                     reduced_disparity(photograph.geometry->right_disparity, size));
+  return plan_painting(pair, geometry, style, progress, ViewRange{}, detail_of(photograph, style));
+}
 
 void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style, const Progress& progress,
                     const std::function<void(PaintedContent)>& deliver) {

@@ -20,6 +20,11 @@ namespace wheatstone::viewer {
 void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style, const Progress& progress,
                     const std::function<void(PaintedContent)>& deliver);
 
+/// A painting of a small copy of a photograph whose geometry is known, in pixels of the copy, which has at most so many
+/// on its longer side. Lengths of a style count in pixels of a 640-pixel-wide picture, so that it looks as the whole.
+Painting small_painting(const Photograph& photograph, const Style& style, int largest_px,
+                        const Progress& progress = {});
+
 /// A film that is to be painted into a file, as `wheatstone rotoscope` does it.
 struct WholeFilm {
   FilmFiles files;

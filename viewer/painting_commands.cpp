@@ -83,6 +83,12 @@ void compare(Viewer& viewer, const Words& words) {
   state_of(viewer).comparison = static_cast<Comparison>(found - comparison_names.begin());
 }
 
+std::vector<Choice> style_choices(const Viewer& /*viewer*/) {
+  std::vector<Choice> choices;
+  for (const std::string_view name : style_names()) choices.push_back({std::string(name), readable(name)});
+  return choices;
+}
+
 constexpr Command painting_table[] = {
     // name, arguments, menu, text, keys
     {"finest-layer", "NUMBER", "Painting", "Finest layer of strokes that is shown, from 0, the coarsest", "",
@@ -90,19 +96,70 @@ constexpr Command painting_table[] = {
     {"slice-depth", "SHARE%|DISPARITYpx,...|off", "Painting",
      "Planes that cut the finest layer and those under it: strokes before a layer's plane are hidden", "",
      set_slice_depth},
-    {"slice-keep", "back|front", "Painting", "Side of the plane whose strokes stay", "", set_slice_keep},
-    {"slice", "", "Painting", "Slice the finest layer, or show it whole", "X", toggle_slice},
+    {"slice-keep",
+     "back|front",
+     "Painting",
+     "Strokes that stay: behind the plane or before it",
+     "",
+     set_slice_keep,
+     {.now =
+          [](const Viewer& v) {
+            return v.session().state.slicing.keeps == SliceKeeps::back ? std::string("back") : std::string("front");
+          }}},
+    {"slice",
+     "",
+     "Painting",
+     "Slice the finest layer, or show it whole",
+     "X",
+     toggle_slice,
+     {.now = [](const Viewer& v) { return on_or_off(!v.session().state.slicing.depths.empty()); },
+      .icon = "slice",
+      .begins_group = true}},
     {"slice-nearer", "", "Painting", "Move the slicing plane nearer", "{",
      [](Viewer& v, const Words&) { step_slice(v, -slice_step); }},
     {"slice-farther", "", "Painting", "Move the slicing plane farther", "}",
      [](Viewer& v, const Words&) { step_slice(v, slice_step); }},
-    {"less-detail", "", "Painting", "Less detail", "[", [](Viewer& v, const Words&) { step_detail(v, -1); }},
+    {"less-detail",
+     "",
+     "Painting",
+     "Less detail",
+     "[",
+     [](Viewer& v, const Words&) { step_detail(v, -1); },
+     {.begins_group = true}},
     {"more-detail", "", "Painting", "More detail", "]", [](Viewer& v, const Words&) { step_detail(v, 1); }},
-    {"style", "NAME|FILE", "Painting", "Style", "", set_style},
+    {"style",
+     "NAME|FILE",
+     "Painting",
+     "Style",
+     "",
+     set_style,
+     {.choices = style_choices, .now = [](const Viewer& v) { return v.session().state.style.name; }}},
     {"set", "PARAMETER VALUE", "Painting", "Change a parameter of the style", "", set_parameter},
-    {"compare", "painting|photograph|split", "Painting", "Compare with the photograph", "", compare},
-    {"undo", "", "Painting", "Undo", "Ctrl+Z", [](Viewer& v, const Words&) { undo(v); }},
-    {"redo", "", "Painting", "Redo", "Ctrl+Shift+Z", [](Viewer& v, const Words&) { redo(v); }},
+    {"compare",
+     "painting|photograph|split",
+     "Painting",
+     "Compare with the photograph",
+     "",
+     compare,
+     {.now =
+          [](const Viewer& v) {
+            return std::string(comparison_names[static_cast<std::size_t>(v.session().state.comparison)]);
+          },
+      .icon = "compare"}},
+    {"undo",
+     "",
+     "Painting",
+     "Undo",
+     "Ctrl+Z",
+     [](Viewer& v, const Words&) { undo(v); },
+     {.applies = [](const Viewer& v) { return !v.session().done.empty(); }, .begins_group = true}},
+    {"redo",
+     "",
+     "Painting",
+     "Redo",
+     "Ctrl+Shift+Z",
+     [](Viewer& v, const Words&) { redo(v); },
+     {.applies = [](const Viewer& v) { return !v.session().undone.empty(); }}},
 };
 
 void ease_zero_parallax(Viewer& viewer, float disparity_px) {
@@ -136,52 +193,109 @@ void move_head(Viewer& viewer, int steps) {
     state_of(viewer).head += static_cast<float>(steps) * head_step;
 }
 
+std::vector<Choice> display_choices(const Viewer& /*viewer*/) {
+  std::vector<Choice> choices;
+  for (const DisplayPreset& display : display_presets())
+    choices.push_back({std::string(display.name), fmt::format("{} ({})", display.name, display.note)});
+  return choices;
+}
+
+std::vector<Choice> calibration_choices(const Viewer& /*viewer*/) {
+  return {{"bridge", "That of Looking Glass Bridge"}};
+}
+
 constexpr Command depth_table[] = {
     // name, arguments, menu, text, keys
-    {"zero-parallax", "DISPARITY", "Depth", "Disparity on the screen plane, in pixels", "",
-     [](Viewer& v, const Words& w) { ease_zero_parallax(v, static_cast<float>(number_of(w[0], -65535, 65535))); }},
+    {"zero-parallax",
+     "DISPARITY",
+     "Depth",
+     "Disparity on the screen plane: in pixels of the picture",
+     "",
+     [](Viewer& v, const Words& w) { ease_zero_parallax(v, static_cast<float>(number_of(w[0], -65535, 65535))); },
+     {.now =
+          [](const Viewer& v) {
+            return fmt::format(
+                "{}", v.session().zero_parallax_target_px.value_or(v.session().state.adjustment.zero_parallax_px));
+          },
+      .range = {-100, 100, 1}}},
     {"zero-parallax-at", "X Y", "Depth", "Bring what lies at a place onto the screen plane", "", zero_parallax_at},
     {"nearer", "", "Depth", "Bring the scene nearer", "Alt+Left, /",
      [](Viewer& v, const Words&) { step_zero_parallax(v, -1); }},
     {"farther", "", "Depth", "Move the scene farther away", "Alt+Right, *",
      [](Viewer& v, const Words&) { step_zero_parallax(v, 1); }},
-    {"separation", "EYES", "Depth", "Distance of the eyes, in those of the picture", "",
-     [](Viewer& v, const Words& w) { state_of(v).adjustment.separation = static_cast<float>(number_of(w[0], 0, 10)); }},
+    {"separation",
+     "EYES",
+     "Depth",
+     "Distance of the eyes: in those of the picture",
+     "",
+     [](Viewer& v, const Words& w) { state_of(v).adjustment.separation = static_cast<float>(number_of(w[0], 0, 10)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.adjustment.separation); },
+      .range = {0, 2, 0.05}}},
     {"comfortable", "", "Depth", "Comfortable depth", "Home", [](Viewer& v, const Words&) { v.show_comfortably(); }},
-    {"vertical", "PIXELS", "Depth", "Move the right eye's picture down, in screen pixels", "",
+    {"vertical",
+     "PIXELS",
+     "Depth",
+     "Right picture down: in screen pixels",
+     "",
      [](Viewer& v, const Words& w) {
        state_of(v).adjustment.vertical_px = static_cast<float>(number_of(w[0], -1000, 1000));
-     }},
-    {"roll", "DEGREES", "Depth", "Turn the right eye's picture clockwise", "",
-     [](Viewer& v, const Words& w) { state_of(v).adjustment.roll_deg = static_cast<float>(number_of(w[0], -45, 45)); }},
-    {"head", "X", "Depth", "Position of the head, in eye separations", "",
-     [](Viewer& v, const Words& w) { state_of(v).head = static_cast<float>(number_of(w[0], -100, 100)); }},
-    {"head-left", "", "Depth", "Move the head to the left", "Left", [](Viewer& v, const Words&) { move_head(v, -1); }},
-    {"head-right", "", "Depth", "Move the head to the right", "Right",
+     },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.adjustment.vertical_px); },
+      .range = {-50, 50, 1}}},
+    {"roll",
+     "DEGREES",
+     "Depth",
+     "Right picture turned: clockwise, in degrees",
+     "",
+     [](Viewer& v, const Words& w) { state_of(v).adjustment.roll_deg = static_cast<float>(number_of(w[0], -45, 45)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.adjustment.roll_deg); },
+      .range = {-5, 5, 0.1}}},
+    {"head",
+     "X",
+     "Tracking",
+     "Position of the head: in eye separations",
+     "",
+     [](Viewer& v, const Words& w) { state_of(v).head = static_cast<float>(number_of(w[0], -100, 100)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.head); }, .range = {-1, 1, 0.05}}},
+    {"head-left", "", "Tracking", "Move the head to the left", "Left",
+     [](Viewer& v, const Words&) { move_head(v, -1); }},
+    {"head-right", "", "Tracking", "Move the head to the right", "Right",
      [](Viewer& v, const Words&) { move_head(v, 1); }},
-    {"display", "NAME", "Depth", "Display", "",
-     [](Viewer& v, const Words& w) { state_of(v).display = find_display(w[0]).name; }},
-    {"screen", "NAME|FILE|bridge", "Depth", "Lenticular screen, or its calibration, or that of Looking Glass Bridge",
+    {"display",
+     "NAME",
+     "Depth",
+     "Display",
+     "",
+     [](Viewer& v, const Words& w) { state_of(v).display = find_display(w[0]).name; },
+     {.choices = display_choices,
+      .now = [](const Viewer& v) { return v.session().state.display; },
+      .begins_group = true}},
+    {"screen",
+     "NAME|FILE|bridge",
+     "Depth",
+     "Lenticular screen, or its calibration, or that of Looking Glass Bridge",
      "",
      [](Viewer& v, const Words& w) {
        if (w[0] == "bridge") return use_screen_of_bridge(v);
        find_lenticular(w[0]);
        state_of(v).screen = w[0];
-     }},
-    {"lens-simulator", "on|off", "Depth", "Show what the eyes see through the display's lenses", "",
-     [](Viewer& v, const Words& w) { state_of(v).quantised = switch_of(w[0]); }},
+     },
+     {.choices = calibration_choices}},
+    {"lens-simulator",
+     "on|off",
+     "Depth",
+     "Lens simulator: what the eyes see through the display's lenses",
+     "",
+     [](Viewer& v, const Words& w) { state_of(v).quantised = switch_of(w[0]); },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().state.quantised); }}},
 };
 
 void set_panel(Viewer& viewer, const Words& words) {
-  static constexpr std::array names{std::pair{std::string_view("off"), Panel::off},
-                                    std::pair{std::string_view("style"), Panel::style},
-                                    std::pair{std::string_view("depth"), Panel::depth}};
-  for (const auto& [name, panel] : names)
-    if (name == words[0]) {
-      viewer.session().panel = panel;
-      return;
-    }
-  throw Error(ErrorKind::wrong_usage, fmt::format("'{}' is no panel, expected style, depth or off", words[0]));
+  const auto found = std::ranges::find(panel_names, words[0]);
+  if (found == panel_names.end())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("'{}' is no panel, expected style, depth, particles or off", words[0]));
+  viewer.session().panel = static_cast<Panel>(found - panel_names.begin());
 }
 
 void toggle(Viewer& viewer, Panel panel) {
@@ -216,26 +330,72 @@ void set_layers_apart(Viewer& viewer, const Words& words) {
       words[0] == "off" ? 0 : static_cast<float>(number_of(words[0], -steepest_deg, steepest_deg));
 }
 
+std::vector<Choice> mapping_choices(const Viewer& /*viewer*/) {
+  return {{"comfortable", "All that is comfortable"}, {"reset", "As in the photographs"}};
+}
+
 constexpr float usual_angle_deg = 40;
 
 constexpr Command panel_table[] = {
     // name, arguments, menu, text, keys
-    {"panel", "style|depth|off", "View", "Panel beside the picture", "", set_panel},
-    {"style-panel", "", "Painting", "Style panel", "S", [](Viewer& v, const Words&) { toggle(v, Panel::style); }},
-    {"depth-panel", "", "Depth", "Depth panel", "D", [](Viewer& v, const Words&) { toggle(v, Panel::depth); }},
-    {"depth-mapping", "SHARE:MM,...|comfortable|reset", "Depth",
-     "Depths behind the screen of parts of the scene, from 0, the nearest, to 1", "", map_depth},
+    {"panel",
+     "style|depth|particles|off",
+     "View",
+     "Panel beside the picture",
+     "",
+     set_panel,
+     {.now = [](const Viewer& v) { return std::string(panel_names[static_cast<std::size_t>(v.session().panel)]); },
+      .is_for_scripts = true}},
+    {"style-panel",
+     "",
+     "Painting",
+     "Style panel",
+     "S",
+     [](Viewer& v, const Words&) { toggle(v, Panel::style); },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().panel == Panel::style); }, .icon = "style"}},
+    {"depth-panel",
+     "",
+     "Depth",
+     "Depth panel",
+     "D",
+     [](Viewer& v, const Words&) { toggle(v, Panel::depth); },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().panel == Panel::depth); }, .icon = "depth"}},
+    {"depth-mapping",
+     "SHARE:MM,...|comfortable|reset",
+     "Depth",
+     "Depth mapping: depths behind the screen of parts of the scene, from 0, the nearest, to 1",
+     "",
+     map_depth,
+     {.choices = mapping_choices}},
+    {"particles-panel",
+     "",
+     "Particles",
+     "Particles panel",
+     "P",
+     [](Viewer& v, const Words&) { toggle(v, Panel::particles); },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().panel == Panel::particles); }, .applies = shows_scene}},
     {"comfort", "", "Depth", "Tell whether the depth is comfortable", "",
      [](Viewer& v, const Words&) { v.tell(comfort_told(v)); }},
-    {"crosstalk", "PERCENT", "Depth", "Crosstalk: light of the neighbouring views in each eye, in %", "",
-     [](Viewer& v, const Words& w) { state_of(v).crosstalk = static_cast<float>(number_of(w[0], 0, 50) / 100); }},
+    {"crosstalk",
+     "PERCENT",
+     "Depth",
+     "Crosstalk: light of the neighbouring views in each eye, in %",
+     "",
+     [](Viewer& v, const Words& w) { state_of(v).crosstalk = static_cast<float>(number_of(w[0], 0, 50) / 100); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", 100 * v.session().state.crosstalk); },
+      .range = {0, 25, 1}}},
     {"layers-apart", "ANGLE|off", "Painting", "Look at the layers of strokes from a side, in degrees", "",
      set_layers_apart},
-    {"side-view", "", "Painting", "Layers from the side", "A",
+    {"side-view",
+     "",
+     "Painting",
+     "Layers from the side",
+     "A",
      [](Viewer& v, const Words&) {
        float& angle = state_of(v).layers_apart_deg;
        angle = angle == 0 ? usual_angle_deg : 0;
-     }},
+     },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().state.layers_apart_deg != 0); }, .begins_group = true}},
 };
 
 }  // namespace

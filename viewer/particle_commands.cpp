@@ -94,28 +94,98 @@ void set_opaque(Viewer& viewer, const Words& words) {
   forget_brightness(look);
 }
 
+bool shows_light(const Viewer& viewer) {
+  return shows_particles(viewer) && drawn_look(viewer.session().state.look) == Look::thesis;
+}
+
+std::vector<Choice> colour_choices(const Viewer& /*viewer*/) {
+  std::vector<Choice> choices{{"auto", "Automatic"}};
+  for (const std::string_view name : colour_map_names()) choices.push_back({std::string(name), readable(name)});
+  return choices;
+}
+
 constexpr Command particle_table[] = {
     // name, arguments, menu, text, keys
     {"orbit", "AZIMUTH ELEVATION", "Particles", "Turn around the particles, in degrees", "", orbit},
-    {"magnify", "FACTOR", "Particles", "Magnification of particles", "",
-     [](Viewer& v, const Words& w) { state_of(v).orbit.zoom = static_cast<float>(number_of(w[0], 0.01, 1e6)); }},
+    {"magnify",
+     "FACTOR",
+     "Particles",
+     "Magnification of particles",
+     "",
+     [](Viewer& v, const Words& w) { state_of(v).orbit.zoom = static_cast<float>(number_of(w[0], 0.01, 1e6)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.orbit.zoom); }, .range = {0.1, 20, 0.1}}},
     {"look-at", "X Y Z", "Particles", "Point in the middle, around which the view turns", "", look_at},
     {"look-at-place", "X Y", "Particles", "Look at what is seen at a place on the screen", "", look_at_place},
-    {"exposure", "VALUE|auto", "Particles", "Exposure: factor on the light", "",
-     [](Viewer& v, const Words& w) { thesis_look_of(v).exposure = number_or_auto(w[0], 1e-9, 1e9); }},
-    {"colours", "NAME|auto", "Particles", "Colour map", "", set_colours},
+    {"exposure",
+     "VALUE|auto",
+     "Particles",
+     "Exposure: factor on the light",
+     "",
+     [](Viewer& v, const Words& w) { thesis_look_of(v).exposure = number_or_auto(w[0], 1e-9, 1e9); },
+     {.now =
+          [](const Viewer& v) {
+            return v.session().state.look.exposure ? fmt::format("{}", *v.session().state.look.exposure)
+                                                   : std::string("auto");
+          },
+      .applies = shows_light}},
+    {"colours",
+     "NAME|auto",
+     "Particles",
+     "Colour map",
+     "",
+     set_colours,
+     {.choices = colour_choices,
+      .now =
+          [](const Viewer& v) {
+            return v.session().state.look.colours.empty() ? std::string("auto") : v.session().state.look.colours;
+          }}},
     {"coldest", "VALUE|auto", "Particles", "Temperature where the colours begin", "",
      [](Viewer& v, const Words& w) { set_limit(v, &ParticleLook::coldest, w[0]); }},
     {"hottest", "VALUE|auto", "Particles", "Temperature where the colours end", "",
      [](Viewer& v, const Words& w) { set_limit(v, &ParticleLook::hottest, w[0]); }},
     {"splat", "MIN,MAX", "Particles", "Smallest and largest diameter of a splat, in pixels", "", set_splat},
-    {"opacity", "VALUE", "Particles", "Opacity of the densest particles", "",
-     [](Viewer& v, const Words& w) { thesis_look_of(v).opacity = static_cast<float>(number_of(w[0], 1e-6, 1000)); }},
-    {"opaque", "on|off", "Particles", "Opaque particles, the nearest hides the others", "", set_opaque},
-    {"near", "MM|auto", "Particles", "Depth of particles or slices in front of the screen, in mm", "",
-     [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::near_mm, w[0]); }},
-    {"far", "MM|auto", "Particles", "Depth of particles or slices behind the screen, in mm", "",
-     [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::far_mm, w[0]); }},
+    {"opacity",
+     "VALUE",
+     "Particles",
+     "Opacity of the densest particles",
+     "",
+     [](Viewer& v, const Words& w) { thesis_look_of(v).opacity = static_cast<float>(number_of(w[0], 1e-6, 1000)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.look.opacity); },
+      .range = {0.05, 4, 0.05},
+      .applies = shows_light}},
+    {"opaque",
+     "on|off",
+     "Particles",
+     "Opaque particles: the nearest hides the others",
+     "",
+     set_opaque,
+     {.now = [](const Viewer& v) { return on_or_off(v.session().state.look.opaque); }}},
+    {"near",
+     "MM|auto",
+     "Particles",
+     "Depth before the screen: of particles or slices, in mm",
+     "",
+     [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::near_mm, w[0]); },
+     {.now =
+          [](const Viewer& v) {
+            return v.session().state.look.near_mm ? fmt::format("{}", *v.session().state.look.near_mm)
+                                                  : std::string("auto");
+          },
+      .range = {0, 200, 5},
+      .applies = shows_scene}},
+    {"far",
+     "MM|auto",
+     "Particles",
+     "Depth behind the screen: of particles or slices, in mm",
+     "",
+     [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::far_mm, w[0]); },
+     {.now =
+          [](const Viewer& v) {
+            return v.session().state.look.far_mm ? fmt::format("{}", *v.session().state.look.far_mm)
+                                                 : std::string("auto");
+          },
+      .range = {0, 500, 5},
+      .applies = shows_scene}},
 };
 
 template <class Value, std::size_t count>
@@ -225,28 +295,101 @@ void set_focus_number(Viewer& viewer, float ScreenFocus::*number, double value) 
   change_focus(viewer, focus);
 }
 
+std::string stretch_told(const Viewer& viewer) {
+  switch (viewer.session().state.look.stretch) {
+    case Stretch::log:
+      return "log";
+    case Stretch::linear:
+      return "linear";
+    default:
+      return "asinh";
+  }
+}
+
+std::vector<Choice> quantity_choices(const Viewer& /*viewer*/) {
+  return {{"picture", "Mass in the colours of temperature"}, {"column-density", "Column density"}};
+}
+
+std::string quantity_told(const Viewer& viewer) {
+  const std::string& quantity = viewer.session().state.look.quantity;
+  return quantity.empty() ? "picture" : quantity;
+}
+
 constexpr Command quantity_table[] = {
     // name, arguments, menu, text, keys
-    {"look", "mass|thesis", "Particles", "What is shown: mass, or the light of the thesis", "", set_look},
-    {"quantity", "NAME|column-density|mean:temperature|picture", "Particles",
-     "Numbers that are shown: the column density, or the mean of a dataset along each line of sight", "", set_quantity},
-    {"stretch", "asinh|log|linear", "Particles", "How numbers become brightness", "", set_stretch},
+    {"look",
+     "mass|thesis",
+     "Particles",
+     "Look: mass, or the light of the thesis",
+     "",
+     set_look,
+     {.now =
+          [](const Viewer& v) {
+            return drawn_look(v.session().state.look) == Look::thesis ? std::string("thesis") : std::string("mass");
+          }}},
+    {"quantity",
+     "NAME|column-density|mean:temperature|picture",
+     "Particles",
+     "Quantity: the column density, or the mean of a dataset along each line of sight",
+     "",
+     set_quantity,
+     {.choices = quantity_choices, .now = quantity_told}},
+    {"stretch",
+     "asinh|log|linear",
+     "Particles",
+     "Stretch: how numbers become brightness",
+     "",
+     set_stretch,
+     {.now = stretch_told}},
     {"least", "VALUE|auto", "Particles", "Column density, or quantity, where brightness begins", "",
      [](Viewer& v, const Words& w) { set_brightness(v, &ParticleLook::least, w[0]); }},
     {"most", "VALUE|auto", "Particles", "Column density, or quantity, where brightness ends", "",
      [](Viewer& v, const Words& w) { set_brightness(v, &ParticleLook::most, w[0]); }},
-    {"projection", "perspective|orthographic", "Particles", "Projection", "", set_projection},
-    {"annotate", "on|off", "Particles", "Show a scale bar, a colour bar with units, and the redshift", "",
-     [](Viewer& v, const Words& w) { state_of(v).look.annotated = switch_of(w[0]); }},
-    {"annotations", "", "Particles", "Scale and colour bars", "B",
-     [](Viewer& v, const Words&) { state_of(v).look.annotated = !state_of(v).look.annotated; }},
+    {"projection",
+     "perspective|orthographic",
+     "Particles",
+     "Projection",
+     "",
+     set_projection,
+     {.now =
+          [](const Viewer& v) {
+            return v.session().state.orbit.orthographic ? std::string("orthographic") : std::string("perspective");
+          }}},
+    {"annotate",
+     "on|off",
+     "Particles",
+     "Show a scale bar, a colour bar with units, and the redshift",
+     "",
+     [](Viewer& v, const Words& w) { state_of(v).look.annotated = switch_of(w[0]); },
+     {.is_for_scripts = true}},
+    {"annotations",
+     "",
+     "Particles",
+     "Scale and colour bars",
+     "B",
+     [](Viewer& v, const Words&) { state_of(v).look.annotated = !state_of(v).look.annotated; },
+     {.now = [](const Viewer& v) { return on_or_off(v.session().state.look.annotated); }, .begins_group = true}},
     {"focus", "X,Y|off", "Depth", "Point with more depth than elsewhere, as shares of a view of particles or slices",
      "", set_focus},
     {"focus-at", "X Y", "Depth", "More depth around a place on the screen", "", focus_at},
-    {"focus-radius", "SHARE", "Depth", "Radius of the area with more depth, as a share of the width", "",
-     [](Viewer& v, const Words& w) { set_focus_number(v, &ScreenFocus::radius, number_of(w[0], 0.001, 10)); }},
-    {"focus-gain", "FACTOR", "Depth", "Factor on the depth at that point", "",
-     [](Viewer& v, const Words& w) { set_focus_number(v, &ScreenFocus::gain, number_of(w[0], 0, 10)); }},
+    {"focus-radius",
+     "SHARE",
+     "Depth",
+     "Radius of the focus: of the area with more depth, as a share of the width",
+     "",
+     [](Viewer& v, const Words& w) { set_focus_number(v, &ScreenFocus::radius, number_of(w[0], 0.001, 10)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.look.focus.radius); },
+      .range = {0.05, 1, 0.05},
+      .applies = shows_scene}},
+    {"focus-gain",
+     "FACTOR",
+     "Depth",
+     "Depth at the focus: factor on it",
+     "",
+     [](Viewer& v, const Words& w) { set_focus_number(v, &ScreenFocus::gain, number_of(w[0], 0, 10)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.look.focus.gain); },
+      .range = {0, 4, 0.1},
+      .applies = shows_scene}},
 };
 
 }  // namespace

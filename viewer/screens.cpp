@@ -30,14 +30,6 @@ std::string plain(std::string_view name) {
 
 namespace fs = std::filesystem;
 
-/// Where what can be found again is kept.
-fs::path cache_folder() {
-  const char* const cache = std::getenv("XDG_CACHE_HOME");
-  if (cache != nullptr && *cache != '\0') return fs::path(cache) / "wheatstone";
-  const char* const home = std::getenv("HOME");
-  return fs::path(home != nullptr ? home : "/tmp") / ".cache/wheatstone";
-}
-
 /// Bridge's library may end the program that loads it, or hang: not ours.
 void write_calibration(const fs::path& file) {
   std::error_code error;
@@ -54,6 +46,13 @@ void write_calibration(const fs::path& file) {
 }
 
 }  // namespace
+
+fs::path cache_folder() {
+  const char* const cache = std::getenv("XDG_CACHE_HOME");
+  if (cache != nullptr && *cache != '\0') return fs::path(cache) / "wheatstone";
+  const char* const home = std::getenv("HOME");
+  return fs::path(home != nullptr ? home : "/tmp") / ".cache/wheatstone";
+}
 
 int screen_to_fill(const Session& session, std::span<const Screen> screens) {
   if (session.screen > 0 && session.screen <= static_cast<int>(screens.size())) return session.screen;

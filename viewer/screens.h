@@ -30,6 +30,9 @@ bool is_lost(const DesktopArea& window, std::span<const DesktopArea> screens);
 /// Where a lost window comes to stand: in the middle of what windows may fill, and no larger than that.
 DesktopArea brought_to(const DesktopArea& available, const DesktopArea& window);
 
+/// Where what can be made again is kept.
+std::filesystem::path cache_folder();
+
 class Viewer;
 
 /// Has the Looking Glass that is attached taken as the screen: another program of ours asks Looking Glass Bridge for

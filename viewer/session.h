@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "content.h"
@@ -43,7 +45,16 @@ struct GazeGains {
 constexpr double click_easing_s = 0.08;  ///< after which a third of the way is left
 
 /// What stands beside the picture.
-enum class Panel { off, style, depth };
+enum class Panel { off, style, depth, particles };
+
+inline constexpr std::array<std::string_view, 4> panel_names{"off", "style", "depth", "particles"};  ///< in their order
+
+/// The output modes in which contents of two views or more are opened: what was last chosen for their kind. A picture
+/// of one view is shown as it is.
+struct UsualModes {
+  std::string pictures = "left";  ///< photographs, paintings, films, views
+  std::string scenes = "left";    ///< particles and slices, which have no width of their own
+};
 
 /// A film that is open.
 struct FilmStatus {
@@ -65,6 +76,9 @@ struct Session {
   std::optional<Activity> whole_film;  ///< a whole film is being painted
   PictureSize eye;                     ///< of the picture that each eye is shown, in screen pixels
   ViewState state;
+  UsualModes usual_modes;
+  std::string device = "no-glasses";             ///< what somebody looks with: a name of devices()
+  bool has_unsaved_work = false;                 ///< something was set by hand that no file holds
   std::optional<float> zero_parallax_target_px;  ///< what it moves to
   double easing_s = click_easing_s;              ///< of that move
   CameraPath camera_path;                        ///< along which particles are looked at, as time goes on
@@ -84,12 +98,16 @@ struct Session {
   int screen = 0;       ///< that is filled, from 1; 0: the display's own, or the window's
   bool stereo = false;  ///< the graphics card shows a picture for each eye in turn
   Panel panel = Panel::off;
+  std::filesystem::path folder;  ///< where dialogs for files begin; empty: where the program does
   bool ends = false;
   int exit_code = 0;
 };
 
 /// The files of what is open; none where nothing is.
 const Item* open_item(const Session& session);
+
+/// A name for a file that a command is to save: that of what is open, with what is saved of it.
+std::string proposed_name(const Session& session, std::string_view command);
 
 /// What was opened last, the newest first: what a session has opened, and what earlier ones had. Nothing twice, and at
 /// most ten. Paths are made absolute, because the next session may begin in another folder.

@@ -142,6 +142,13 @@ void show_what_both_show(const PictureSize& content, const Fit& fit, double shif
     }
 }
 
+/// An anaglyph of one picture would only tint it.
+const OutputMode& mode_for(const Content& content, const ViewState& state) {
+  const OutputMode& mode = find_output_mode(state.mode);
+  const bool tints = has_one_view(content) && std::holds_alternative<const AnaglyphKind*>(mode.kind);
+  return tints ? find_output_mode("left") : mode;
+}
+
 LenticularScreen screen_of(const ViewState& state) {
   return state.screen.empty() ? lenticular_screen_of(find_display(state.display)) : find_lenticular(state.screen);
 }
@@ -218,7 +225,7 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
   if (const auto* const painted = std::get_if<PaintedContent>(&content);
       painted && state.layers_apart_deg != 0 && painted->painting && can_stand_apart(*painted->painting))
     return draw_apart(*painted, state, viewport);
-  const OutputMode& mode = find_output_mode(state.mode);
+  const OutputMode& mode = mode_for(content, state);
   const PictureSize eye = eye_size(mode, viewport);
   PictureSize size = size_of(content);
   const bool has_no_size = size.width == 0;

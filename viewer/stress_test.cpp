@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "command_table.h"
+#include "devices.h"
 #include "script.h"
 #include "temporary_folder.h"
 #include "viewer.h"
@@ -78,7 +79,7 @@ class Monkey {
     do {
       command = &commands[any(random_, commands.size())];
       name = command->name;
-    } while (name == "quit" || name == "leave" || name == "head-tracker");
+    } while (name == "quit" || name == "leave" || name == "head-tracker" || name == "open-example");
     std::string line(name);
     // What writes files is to write them into the folder of the test.
     const bool may_write = command->arguments.find("FILE") != std::string_view::npos && name != "open";
@@ -104,6 +105,7 @@ class Monkey {
   }
   std::string argument(std::string_view command, const std::string& word) {
     if (command == "mode") return std::string(output_modes()[any(random_, output_modes().size())].name);
+    if (command == "look-with") return std::string(devices()[any(random_, devices().size())].name);
     if (command == "display") return std::string(display_presets()[any(random_, display_presets().size())].name);
     if (command == "style") return any(random_, 9) == 0 ? "nothing" : one_of(random_, style_names());
     if (command == "set" && word == "PARAMETER")

@@ -93,7 +93,7 @@ struct Framed {
 
 /// Everything that decides what is seen of what is open: plain data, which can be compared, kept and brought back.
 struct ViewState {
-  std::string mode = "red-cyan";  ///< an output mode
+  std::string mode = "left";  ///< an output mode
   bool swap = false;
   Adjustment adjustment;
   Framed framed;

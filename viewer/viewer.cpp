@@ -13,8 +13,11 @@
 #include "inputs.h"
 #include "painting.h"
 #include "particle_film.h"
+#include "screens.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -75,8 +78,57 @@ void Viewer::open_all(const std::vector<std::filesystem::path>& files) {
   });
 }
 
+void Viewer::open_other_eye() {
+  const Item* const item = open_item(session_);
+  if (item == nullptr || !has_one_view(session_.opened.content)) return tell("no picture of one view is open", true);
+  session_.opening = Activity{"looking for the other view", 0};
+  const std::uint64_t job = ++job_;
+  making_.start([this, job, picture = std::filesystem::absolute(item->front())](const std::stop_token&) {
+    try {
+      const std::optional<std::filesystem::path> other = find_other_eye(picture);
+      mailbox_.post([this, job, picture, other] {
+        if (job != job_) return;
+        session_.opening.reset();
+        if (!other)
+          return tell(fmt::format("no picture beside {} shows the same from another place; open both together",
+                                  picture.filename().string()));
+        // Left comes before right, L before R, and most take the left picture first.
+        session_.items[session_.item] = {std::min(picture, *other), std::max(picture, *other)};
+        open(session_.item);
+      });
+    } catch (const std::exception& error) {
+      post_failure(error, job);
+    }
+  });
+}
+
+void Viewer::open_example() {
+  session_.opening = Activity{"making the example", 0};
+  const std::uint64_t job = ++job_;
+  making_.start([this, job](const std::stop_token& stop) {
+    try {
+      const std::filesystem::path folder = cache_folder() / "example";
+      const Item files{folder / "left.png", folder / "right.png"};
+      if (!std::filesystem::exists(files[0]) || !std::filesystem::exists(files[1])) {
+        std::filesystem::create_directories(folder);
+        const SyntheticStill still = make_synthetic_still({}, progress_of(job, stop));
+        write_image(files[0], still.pictures.left);
+        write_image(files[1], still.pictures.right);
+      }
+      mailbox_.post([this, job, files] {
+        if (job != job_) return;
+        session_.items.push_back(files);
+        open(session_.items.size() - 1);
+      });
+    } catch (const std::exception& error) {
+      post_failure(error, job);
+    }
+  });
+}
+
 void Viewer::open(std::size_t item) {
   if (item >= session_.items.size()) return;
+  if (!std::holds_alternative<std::monostate>(session_.opened.content)) tell("");  // it was of another file
   session_.item = item;
   session_.opened = {};
   // Its thread may be in the middle of a frame: who opens waits for that, and the window does not.
@@ -154,8 +206,17 @@ void Viewer::post_failure(const std::exception& error, std::uint64_t job) {
   });
 }
 
+void Viewer::take_usual_mode() {
+  const Content& content = session_.opened.content;
+  const bool is_scene =
+      std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
+  const UsualModes& usual = session_.usual_modes;
+  session_.state.mode = has_one_view(content) ? "left" : is_scene ? usual.scenes : usual.pictures;
+}
+
 void Viewer::take_opened(Opened opened) {
   session_.opened = std::move(opened);
+  take_usual_mode();
   forget_brightness(session_.state.look);
   session_.state.orbit.look_at.reset();
   session_.state.adjustment.zero_parallax_px = 0;
@@ -164,6 +225,7 @@ void Viewer::take_opened(Opened opened) {
   if (!session_.opened.is_ready) return;
   session_.opening.reset();
   for (const std::string& note : session_.opened.notes) tell(note);
+  if (has_one_view(session_.opened.content)) tell("one view; find the other? (O)");
   show_comfortably();
   take_film(session_.opened.film);
   take_particles();
@@ -333,6 +395,16 @@ void Viewer::wait() {
     else
       mailbox_.wait_for(step);
   }
+}
+
+std::string proposed_name(const Session& session, std::string_view command) {
+  const Item* const item = open_item(session);
+  const std::string stem = item == nullptr ? "picture" : item->front().stem().string();
+  if (command == "save-style") return session.state.style.name + ".toml";
+  if (command == "save-camera") return "path.toml";
+  if (command == "save-painting") return stem + ".wst";
+  if (command == "paint-film") return stem + "_painted.mp4";
+  return fmt::format("{}_{}.png", stem, session.state.mode);
 }
 
 std::vector<Item> recent_items(std::span<const Item> opened, std::span<const Item> before) {

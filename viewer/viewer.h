@@ -36,6 +36,10 @@ class Viewer {
 
   /// Makes an item of each of the files, or one of two that are the eyes of one photograph, and opens the first.
   void open_all(const std::vector<std::filesystem::path>& files);
+  /// Looks for the other eye's picture beside what is open, a picture of one view, and opens both.
+  void open_other_eye();
+  /// Makes the built-in still life where it is not made yet, and opens it.
+  void open_example();
   /// Opens the item of that number.
   void open(std::size_t item);
   /// Paints what is open with the session's style, where there is a photograph.
@@ -114,6 +118,8 @@ class Viewer {
   void post_frame(Frame frame, const Asked& asked);
   ShowFirst showing(std::uint64_t job);
   void take_opened(Opened opened);
+  /// Shows what was opened in the mode of its kind.
+  void take_usual_mode();
   void take_painted(const PaintedContent& content, const std::optional<DepthEnds>& depth);
 
   Progress progress_of(std::uint64_t job, const std::stop_token& stop);

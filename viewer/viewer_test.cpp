@@ -155,10 +155,10 @@ TEST_F(OpenPainting, IsInterleavedForALenticularScreenAsPackAndPaintDoIt) {
 
 TEST_F(OpenPainting, UndoesAndRedoesWhatWasSet) {
   run("zero-parallax 5");
-  run("mode left");
+  run("mode left-right");
   run("pan 10 10");
   run("undo");
-  EXPECT_EQ(viewer.session().state.mode, "red-cyan");
+  EXPECT_EQ(viewer.session().state.mode, "left");
   EXPECT_NE(viewer.session().state.framed.pan_x, 0) << "where one looks is not a parameter";
   run("undo");
   EXPECT_NE(viewer.session().state.adjustment.zero_parallax_px, 5);

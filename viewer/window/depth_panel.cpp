@@ -1,6 +1,7 @@
 #include "depth_panel.h"
 
 #include <QComboBox>
+#include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMouseEvent>
@@ -258,6 +259,10 @@ DepthPanel::DepthPanel(DoCommand do_command)
   }
   column->addLayout(buttons);
   column->addWidget(told_);
+  auto* const numbers = new QFormLayout;
+  column->addLayout(numbers);
+  depth_controls_ = std::make_unique<CommandControls>("Depth", false, *numbers, do_command_);
+  tracking_controls_ = std::make_unique<CommandControls>("Tracking", false, *numbers, do_command_);
   const auto changed = [this](const std::vector<DepthRegion>& regions) { set_soon(regions); };
   planes_->on_change(changed);
   graph_->on_change(changed);
@@ -277,6 +282,8 @@ void DepthPanel::show(const Viewer& viewer) {
   const ViewState& state = viewer.session().state;
   display_->setCurrentText(QString::fromStdString(state.display));
   told_->setText(QString::fromStdString(comfort_told(viewer)));
+  depth_controls_->show(viewer);
+  tracking_controls_->show(viewer);
   if (timer_.isActive()) return;
   const ViewingGeometry viewing = viewing_of(find_display(state.display));
   std::vector<DepthRegion> regions = state.depth_regions;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "command_controls.h"
 #include "panels.h"
 #include "wheatstone/depth/depth_regions.h"
 #include "wheatstone/depth/viewing_geometry.h"
@@ -100,6 +101,7 @@ class DepthPanel {
 
   DoCommand do_command_;
   QWidget* widget_;
+  std::unique_ptr<CommandControls> depth_controls_, tracking_controls_;
   QComboBox* display_;
   DepthPlanes* planes_;
   DepthGraph* graph_;

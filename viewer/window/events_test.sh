@@ -186,7 +186,7 @@ is width 480.0 "the window is as wide as before"
 does 'mode left-right' 'resize 480 400' wait copy-command 'screenshot onscreen.png'
 printf '%s\n' 'resize 480 400' wait 'mode left-right' "zero-parallax $expected" wait copy-command 'screenshot offscreen.png' >tour.txt
 (unset DISPLAY && "$view" painted/painting.wst --script tour.txt) || fail "the window without a screen fails"
-for place in offscreen onscreen; do oiiotool "$place.png" --cut 480x340+0+24 -o "$place-picture.png"; done
+for place in offscreen onscreen; do oiiotool "$place.png" --cut 480x290+0+60 -o "$place-picture.png"; done
 "$wheatstone" measure views offscreen-picture.png --against onscreen-picture.png --noticeable 8 >difference.txt
 grep --quiet --extended-regexp '^offscreen-picture.png +equal' difference.txt ||
   fail "OpenGL shows something else: $(cat difference.txt)"
@@ -215,10 +215,13 @@ done
 [[ $(uniq tops.txt | wc -l) == 2 ]] || fail "the window has not moved: $(cat tops.txt)"
 
 xdotool key Escape
+say print >answers.txt || fail "Esc ends the window"
+
+xdotool key q
 code=0
 wait "$window" || code=$?
 window=''
-[[ $code == 0 ]] || fail "Esc ends the window with $code: $(cat errors.txt)"
+[[ $code == 0 ]] || fail "Q ends the window with $code: $(cat errors.txt)"
 [[ ! -e control ]] || fail "the socket is left behind"
 
 # Where the processor computes OpenGL, pictures are shown without it. No handler then blocks the window for more than
@@ -265,7 +268,7 @@ start
 is opengl 0.0 "OpenGL is not used"
 [[ $(value message) == *'the processor draws instead' ]] || fail "it is not told why: $(value message)"
 does 'mode left-right' "zero-parallax $expected" 'resize 480 400' wait copy-command 'screenshot painted.png'
-oiiotool painted.png --cut 480x340+0+24 -o painted-picture.png
+oiiotool painted.png --cut 480x290+0+60 -o painted-picture.png
 "$wheatstone" measure views painted-picture.png --against onscreen-picture.png --noticeable 8 >difference.txt
 grep --quiet --extended-regexp '^painted-picture.png +equal' difference.txt ||
   fail "without OpenGL something else is shown: $(cat difference.txt)"

@@ -5,9 +5,7 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QLabel>
-#include <QTextBrowser>
 
-#include "viewer/command_table.h"
 #include "viewer/output_mode.h"
 #include "viewer/session.h"
 
@@ -35,8 +33,6 @@ std::string information_of(const Session& session) {
   return text;
 }
 
-QString html(std::string_view text) { return QString::fromUtf8(text).toHtmlEscaped(); }
-
 }  // namespace
 
 std::string head_tracker_text(const Session& session) {
@@ -60,28 +56,6 @@ void show_information(QLabel& label, const Session& session) {
   label.adjustSize();
   label.move(8, 8);
   label.raise();
-}
-
-QWidget* make_help(QWidget* parent) {
-  auto* const page = new QTextBrowser(parent);
-  page->setWindowFlags(Qt::Tool);
-  page->setWindowTitle("Keys and commands");
-  QString text = "<table cellpadding=3>";
-  std::string_view menu;
-  for (const Command& command : command_table()) {
-    if (command.menu != menu) text += "<tr><th align=left colspan=3>" + html(command.menu) + "</th></tr>";
-    menu = command.menu;
-    text += "<tr><td>" + html(command.keys) + "</td><td><code>" + html(command.name) + " " + html(command.arguments) +
-            "</code></td><td>" + html(command.text) + "</td></tr>";
-  }
-  page->setHtml(text +
-                "</table><p>C, held: the photograph. Wheel: zoom. Ctrl + wheel: detail. Drag: pan, or turn particles, "
-                "which Shift + drag pans; "
-                "Ctrl + click: look at the particles that lie there. Click: what lies "
-                "there comes onto the screen plane. Double click: full screen.</p>");
-  page->resize(640, 560);
-  page->hide();
-  return page;
 }
 
 void copy_to_clipboard(const std::string& text) { QApplication::clipboard()->setText(QString::fromStdString(text)); }

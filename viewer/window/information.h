@@ -16,9 +16,6 @@ void show_information(QLabel& label, const Session& session);
 /// What the status bar says of a head tracker; empty where there is none.
 std::string head_tracker_text(const Session& session);
 
-/// A page of all commands and their keys.
-QWidget* make_help(QWidget* parent);
-
 void copy_to_clipboard(const std::string& text);
 
 }  // namespace wheatstone::viewer

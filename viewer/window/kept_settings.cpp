@@ -2,7 +2,6 @@
 
 #include <QFileInfo>
 #include <QMenu>
-#include <QMenuBar>
 #include <QSettings>
 #include <utility>
 #include <variant>
@@ -17,7 +16,8 @@
 namespace wheatstone::viewer {
 namespace {
 
-constexpr auto recent_key = "recent", mode_key = "mode", display_key = "display", size_key = "size";
+constexpr auto recent_key = "recent", mode_key = "mode", device_key = "look-with", panel_key = "panel",
+               style_key = "style", folder_key = "folder", display_key = "display", size_key = "size";
 constexpr QChar between_eyes = '\n';
 
 constexpr auto organisation = "Wheatstone", program_name = "wheatstone-view";
@@ -32,21 +32,23 @@ bool is_for_any_screen(const OutputMode& mode) {
 KeptSettings::KeptSettings(Window& window) : window_(window) {
   auto* const recent = new QMenu("Recent", &window);
   QObject::connect(recent, &QMenu::aboutToShow, recent, [this, recent] { fill_menu(*recent); });
-  const QList<QAction*> menus = window.menuBar()->actions();
-  if (menus.empty() || menus.front()->menu() == nullptr) return;
-  QMenu& file = *menus.front()->menu();
+  QMenu& file = *window.menus().file_menu();
   file.insertMenu(file.actions().size() > 1 ? file.actions().at(1) : nullptr, recent);
 }
 
-QStringList KeptSettings::recent_files() const {
+std::vector<Item> KeptSettings::recent() const {
   std::vector<Item> before;
   for (const QString& line : QSettings(organisation, program_name).value(recent_key).toStringList()) {
     Item item;
     for (const QString& name : line.split(between_eyes)) item.emplace_back(name.toStdString());
     before.push_back(std::move(item));
   }
+  return recent_items(window_.viewer().session().items, before);
+}
+
+QStringList KeptSettings::recent_files() const {
   QStringList files;
-  for (const Item& item : recent_items(window_.viewer().session().items, before)) {
+  for (const Item& item : recent()) {
     QStringList names;
     for (const auto& file : item) names << QString::fromStdString(file.string());
     files << names.join(between_eyes);
@@ -75,7 +77,7 @@ void KeptSettings::fill_menu(QMenu& menu) {
 
 void KeptSettings::restore(bool with_size) {
   const QSettings kept(organisation, program_name);
-  for (const char* key : {display_key, mode_key}) {
+  for (const char* key : {device_key, display_key, panel_key, style_key}) {
     const std::string name = kept.value(key).toString().toStdString();
     if (name.empty()) continue;
     try {
@@ -84,14 +86,26 @@ void KeptSettings::restore(bool with_size) {
       continue;  // this version does not know it
     }
   }
+  Session& session = window_.viewer().session();
+  try {
+    session.usual_modes.pictures = find_output_mode(kept.value(mode_key).toString().toStdString()).name;
+  } catch (const Error&) {  // none was kept, or this version does not know it
+  }
+  if (const QString folder = kept.value(folder_key).toString(); !folder.isEmpty())
+    session.folder = folder.toStdString();
+  window_.start_page().show_recent(recent());
   if (const QSize size = kept.value(size_key).toSize(); with_size && size.isValid()) window_.resize(size);
 }
 
 void KeptSettings::keep() {
   QSettings kept(organisation, program_name);
   const Session& session = window_.viewer().session();
-  if (is_for_any_screen(find_output_mode(session.state.mode)))
-    kept.setValue(mode_key, QString::fromStdString(session.state.mode));
+  if (is_for_any_screen(find_output_mode(session.usual_modes.pictures)))
+    kept.setValue(mode_key, QString::fromStdString(session.usual_modes.pictures));
+  kept.setValue(device_key, QString::fromStdString(session.device));
+  kept.setValue(style_key, QString::fromStdString(session.state.style.name));
+  kept.setValue(folder_key, QString::fromStdString(session.folder.string()));
+  kept.setValue(panel_key, QString::fromUtf8(panel_names[static_cast<std::size_t>(session.panel)]));
   kept.setValue(display_key, QString::fromStdString(session.state.display));
   if (!session.full_screen) kept.setValue(size_key, window_.size());
   kept.setValue(recent_key, recent_files());

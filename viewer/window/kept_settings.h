@@ -1,6 +1,9 @@
 #pragma once
 
 #include <QStringList>
+#include <vector>
+
+#include "viewer/session.h"
 
 class QMenu;
 
@@ -8,8 +11,9 @@ namespace wheatstone::viewer {
 
 class Window;
 
-/// What stays from one session to the next: the output mode, the display, the window's size, and the files that were
-/// opened last, in a menu. Not for scripts, which begin the same every time.
+/// What stays from one session to the next: what somebody looks with, the output mode, the display, the style, the
+/// panel, the folder of dialogs, the window's size, and the files that were opened last. Not for scripts, which begin
+/// the same every time.
 class KeptSettings {
  public:
   /// Puts the recent files into the window's first menu.
@@ -20,6 +24,7 @@ class KeptSettings {
   void keep();
 
  private:
+  std::vector<Item> recent() const;
   /// A line each; those that are open first.
   QStringList recent_files() const;
   void fill_menu(QMenu& menu);

@@ -1,11 +1,13 @@
 #include "panels.h"
 
 #include <QDockWidget>
+#include <QFormLayout>
 #include <QLayout>
 #include <QMainWindow>
 #include <QScrollArea>
 #include <utility>
 
+#include "command_controls.h"
 #include "depth_panel.h"
 #include "style_panel.h"
 #include "viewer/viewer.h"
@@ -31,19 +33,35 @@ QDockWidget* make_dock(QMainWindow& window, const char* title, QWidget* content)
 
 }  // namespace
 
+/// The commands of the menu Particles, but for what is told by a number of words.
+struct ParticlesPanel {
+  explicit ParticlesPanel(const DoCommand& do_command)
+      : widget(new QWidget),
+        form(new QFormLayout(widget)),
+        particles("Particles", true, *form, do_command),
+        depth("Depth", false, *form, do_command) {}
+  QWidget* widget;
+  QFormLayout* form;
+  CommandControls particles, depth;
+};
+
 struct Panels::Parts {
   StylePanel style;
   DepthPanel depth;
+  ParticlesPanel particles;
   QDockWidget* style_dock;
   QDockWidget* depth_dock;
+  QDockWidget* particles_dock;
   QMainWindow& window;
   Panel shown = Panel::off;
 
   Parts(QMainWindow& around, const DoCommand& do_command)
       : style(do_command),
         depth(do_command),
+        particles(do_command),
         style_dock(make_dock(around, "Style", style.widget())),
         depth_dock(make_dock(around, "Depth", depth.widget())),
+        particles_dock(make_dock(around, "Particles", particles.widget)),
         window(around) {}
 };
 
@@ -56,10 +74,15 @@ void Panels::show(const Viewer& viewer) {
   const Panel panel = viewer.session().panel;
   parts_->style_dock->setVisible(panel == Panel::style);
   parts_->depth_dock->setVisible(panel == Panel::depth);
+  parts_->particles_dock->setVisible(panel == Panel::particles);
   // The picture gets its new size at once, so that it is drawn in it before anybody asks whether all is drawn.
   if (std::exchange(parts_->shown, panel) != panel) parts_->window.layout()->activate();
   if (panel == Panel::style) parts_->style.show(viewer);
   if (panel == Panel::depth) parts_->depth.show(viewer);
+  if (panel == Panel::particles) {
+    parts_->particles.particles.show(viewer);
+    parts_->particles.depth.show(viewer);
+  }
 }
 
 }  // namespace wheatstone::viewer

@@ -29,22 +29,18 @@ StylePanel::StylePanel(DoCommand do_command)
     : do_command_(std::move(do_command)),
       widget_(new QWidget),
       remark_(new QLabel(widget_)),
-      style_(new QComboBox(widget_)),
+      styles_(new StyleStrip(widget_, do_command_)),
       layers_(new QSlider(Qt::Horizontal, widget_)),
       form_(new QFormLayout(widget_)) {
   remark_->setWordWrap(true);
   form_->addRow(remark_);
+  form_->addRow(styles_);
   layers_->setAccessibleName("Layers of detail");
   layers_->setTickPosition(QSlider::TicksBelow);
   layers_->setPageStep(1);
   QObject::connect(layers_, &QSlider::valueChanged, widget_,
                    [this](int layer) { do_command_("finest-layer", {fmt::format("{}", layer)}); });
   form_->addRow("Detail", layers_);
-  for (const std::string_view name : style_names()) style_->addItem(QString::fromUtf8(name));
-  style_->setAccessibleName("Style");
-  QObject::connect(style_, &QComboBox::activated, widget_,
-                   [this] { do_command_("style", {style_->currentText().toStdString()}); });
-  form_->addRow("Style", style_);
   auto* const read = new QPushButton("From a file…", widget_);
   QObject::connect(read, &QPushButton::clicked, widget_, [this] {
     const QString name = QFileDialog::getOpenFileName(widget_, "Style", {}, "Styles (*.toml)");
@@ -56,18 +52,30 @@ StylePanel::StylePanel(DoCommand do_command)
     if (!name.isEmpty()) do_command_("save-style", {name.toStdString()});
   });
   form_->addRow(read, save);
-  for (const StyleControl& control : style_controls()) {
-    rows_.push_back(make_row(control));
-    rows_.back().control->setToolTip(QString::fromUtf8(control.parameter->help));
-    rows_.back().control->setAccessibleName(QString::fromUtf8(control.parameter->name));
-    auto* const label = new QLabel(QString::fromUtf8(control.parameter->name), widget_);
-    label->setToolTip(QString::fromUtf8(control.parameter->help));
-    form_->addRow(label, rows_.back().control);
+  for (std::size_t section = 0; section < style_section_names.size(); ++section) {
+    headings_[section] = new QLabel(QString("<b>%1</b>").arg(QString::fromUtf8(style_section_names[section])), widget_);
+    headings_[section]->setContentsMargins(0, 8, 0, 0);
+    form_->addRow(headings_[section]);
+    for (const StyleControl& control : style_controls())
+      if (control.parameter->section == static_cast<StyleSection>(section)) add_row(control);
   }
   timer_.setSingleShot(true);
   QObject::connect(&timer_, &QTimer::timeout, widget_, [this] {
     for (const auto& [name, value] : std::exchange(waiting_, {})) do_command_("set", {name, value});
   });
+}
+
+void StylePanel::add_row(const StyleControl& control) {
+  const StyleParameter& parameter = *control.parameter;
+  rows_.push_back(make_row(control));
+  QWidget& widget = *rows_.back().control;
+  const QString title = QString::fromUtf8(parameter.title);
+  const QString help = QString("%1 (%2)").arg(QString::fromUtf8(parameter.help), QString::fromUtf8(parameter.name));
+  widget.setToolTip(help);
+  widget.setAccessibleName(title);
+  auto* const label = new QLabel(title, widget_);
+  label->setToolTip(help);
+  form_->addRow(label, &widget);
 }
 
 StylePanel::Row StylePanel::make_row(const StyleControl& control) {
@@ -174,13 +182,13 @@ void StylePanel::show(const Viewer& viewer) {
     layers_->setRange(0, layers - 1);
     layers_->setValue(std::min(session.state.slicing.finest_layer, layers - 1));
   }
-  if (const int at = style_->findText(QString::fromStdString(style.name)); at >= 0 && at != style_->currentIndex()) {
-    const QSignalBlocker quiet(style_);
-    style_->setCurrentIndex(at);
-  }
+  styles_->show_style(can_paint ? content->photograph : nullptr, style.name);
+  std::array<bool, style_section_names.size()> has_any{};
   for (Row& row : rows_) {
     const bool is_read = is_read_by(*row.parameter, style.marks);
     row.control->setVisible(is_read);
+    bool& has_row = has_any[static_cast<std::size_t>(row.parameter->section)];
+    has_row = has_row || is_read;
     form_->labelForField(row.control)->setVisible(is_read);
     row.control->setEnabled(can_paint);
     const std::string value = plain_value(*row.parameter, style);
@@ -188,6 +196,7 @@ void StylePanel::show(const Viewer& viewer) {
     row.show(value);
     row.shown = value;
   }
+  for (std::size_t section = 0; section < has_any.size(); ++section) headings_[section]->setVisible(has_any[section]);
 }
 
 }  // namespace wheatstone::viewer

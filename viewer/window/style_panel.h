@@ -2,15 +2,16 @@
 
 #include <QTimer>
 #include <QWidget>
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "panels.h"
+#include "style_strip.h"
 #include "viewer/style_controls.h"
 
-class QComboBox;
 class QFormLayout;
 class QLabel;
 class QSlider;
@@ -33,6 +34,7 @@ class StylePanel {
     std::function<void(const std::string&)> show;
     std::string shown;
   };
+  void add_row(const StyleControl& control);
   Row make_row(const StyleControl& control);
   Row make_number(const StyleParameter& parameter, const NumberControl& range);
   Row make_switch(const StyleParameter& parameter);
@@ -43,10 +45,11 @@ class StylePanel {
   DoCommand do_command_;
   QWidget* widget_;
   QLabel* remark_;
-  QComboBox* style_;
+  StyleStrip* styles_;
   QSlider* layers_;
   QFormLayout* form_;
   std::vector<Row> rows_;
+  std::array<QLabel*, style_section_names.size()> headings_{};
   std::map<std::string, std::string> waiting_;
   QTimer timer_;
 };

@@ -2,29 +2,29 @@
 
 #include <fmt/format.h>
 
-#include <QActionGroup>
+#include <QAbstractSpinBox>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileDialog>
-#include <QInputDialog>
+#include <QFileInfo>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QMouseEvent>
 #include <QProgressBar>
+#include <QStackedWidget>
 #include <QStatusBar>
 #include <cmath>
-#include <map>
 
+#include "help_page.h"
 #include "information.h"
 #include "picture_surface.h"
 #include "viewer/depth_seen.h"
 #include "viewer/particle_scene.h"
-#include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/style.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::viewer {
@@ -60,12 +60,23 @@ Window::Window(const WindowOptions& options)
   picture->setAccessibleName("Picture");
   picture->installEventFilter(this);
   if (surface_->pointed_at() != picture) surface_->pointed_at()->installEventFilter(this);
-  setCentralWidget(picture);
+  start_page_ = new StartPage([this](const std::string& name, const Words& words) { do_line(name, words); },
+                              [this] { menus_->ask(find_command("open")); });
+  pages_ = new QStackedWidget(this);
+  pages_->addWidget(start_page_);
+  pages_->addWidget(picture);
+  setCentralWidget(pages_);
   information_ = make_information(picture);
-  help_ = make_help(this);
+  help_ = make_help_page(this, [this] {
+    viewer_.session().help = false;
+    refresh();
+  });
   panels_ = std::make_unique<Panels>(
-      *this, [this](const std::string& name, const Words& arguments) { do_line(name, arguments); });
-  make_menus();
+      *this, [this](const std::string& name, const Words& arguments) { do_in_panel(name, arguments); });
+  menus_ = std::make_unique<Menus>(*this, [this](const Command& command, const Words& words) {
+    if (!words.empty()) return do_command(command, words);
+    if (const std::optional<Words> asked = ask_for_arguments(command)) do_command(command, *asked);
+  });
   make_status_bar();
   film_bar_ = new FilmBar(this, [this](const std::string& name, const Words& words) { do_line(name, words); });
   addToolBar(Qt::BottomToolBarArea, film_bar_);
@@ -102,25 +113,6 @@ Window::~Window() {
   surface_->pointed_at()->removeEventFilter(this);
 }
 
-void Window::make_menus() {
-  std::map<std::string_view, QMenu*> menus;
-  for (const Command& command : command_table()) {
-    QMenu*& menu = menus[command.menu];
-    if (menu == nullptr) menu = menuBar()->addMenu(QString::fromUtf8(command.menu));
-    auto* const action = new QAction(QString::fromUtf8(command.text), this);
-    action->setObjectName(QString::fromUtf8(command.name));
-    QList<QKeySequence> keys;
-    for (const QString& key : QString::fromUtf8(command.keys).split(", ", Qt::SkipEmptyParts))
-      keys.append(QKeySequence(key, QKeySequence::PortableText));
-    action->setShortcuts(keys);
-    connect(action, &QAction::triggered, this, [this, &command] {
-      if (const std::optional<Words> arguments = ask_for_arguments(command)) do_command(command, *arguments);
-    });
-    menu->addAction(action);
-    addAction(action);  // its keys work in full screen, too, where there is no menu
-  }
-}
-
 void Window::make_status_bar() {
   message_ = new QLabel(this);
   message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -142,39 +134,24 @@ void Window::make_status_bar() {
 
 std::optional<Words> Window::ask_for_arguments(const Command& command) {
   if (command.arguments.empty()) return Words();
-  const QString title = QString::fromUtf8(command.text);
-  const auto one = [](const QString& word) -> std::optional<Words> {
-    if (word.isEmpty()) return {};
-    return Words{word.toStdString()};
-  };
+  const QString title = QString::fromStdString(title_of(command));
+  Session& session = viewer_.session();
+  const QString folder = QString::fromStdString(session.folder.string());
+  QStringList files;
   if (command.name == "open") {
-    Words words;
-    for (const QString& name : QFileDialog::getOpenFileNames(this, title)) words.push_back(name.toStdString());
-    if (words.empty()) return {};
-    return words;
+    files = QFileDialog::getOpenFileNames(this, title, folder);
+  } else if (command.name == "camera" || command.name == "style") {
+    files << QFileDialog::getOpenFileName(this, title, folder, "TOML (*.toml)");
+  } else {
+    files << QFileDialog::getSaveFileName(
+        this, title, QString::fromStdString((session.folder / proposed_name(session, command.name)).string()));
   }
-  if (command.name == "camera") return one(QFileDialog::getOpenFileName(this, title));
-  if (command.arguments == "FILE") return one(QFileDialog::getSaveFileName(this, title));
-  QStringList choices;
-  if (command.name == "mode")
-    for (const OutputMode& mode : output_modes()) choices << QString::fromUtf8(mode.name);
-  if (command.name == "style")
-    for (const std::string_view name : style_names()) choices << QString::fromUtf8(name);
-  if (command.name == "display")
-    for (const DisplayPreset& display : display_presets()) choices << QString::fromUtf8(display.name);
-  if (QString::fromUtf8(command.arguments).contains('|')) choices = QString::fromUtf8(command.arguments).split('|');
-  bool accepted = false;
-  const QString answer =
-      choices.empty()
-          ? QInputDialog::getText(this, title, QString::fromUtf8(command.arguments), QLineEdit::Normal, {}, &accepted)
-          : QInputDialog::getItem(this, title, QString::fromUtf8(command.arguments), choices, 0, true, &accepted);
-  if (!accepted) return {};
-  try {
-    return words_of(answer.toStdString());
-  } catch (const Error& error) {
-    viewer_.tell(error.what(), true);
-    return {};
-  }
+  files.removeAll(QString());
+  if (files.empty()) return {};
+  session.folder = QFileInfo(files.front()).absolutePath().toStdString();
+  Words words;
+  for (const QString& file : files) words.push_back(file.toStdString());
+  return words;
 }
 
 void Window::do_command(const Command& command, const Words& arguments) {
@@ -188,6 +165,14 @@ void Window::do_command(const Command& command, const Words& arguments) {
 }
 
 void Window::do_line(const std::string& name, const Words& arguments) { do_command(find_command(name), arguments); }
+
+void Window::do_in_panel(const std::string& name, const Words& arguments) {
+  do_line(name, arguments);
+  // What is being typed is typed to its end.
+  const QWidget* const typed_in = QApplication::focusWidget();
+  if (qobject_cast<const QLineEdit*>(typed_in) == nullptr && qobject_cast<const QAbstractSpinBox*>(typed_in) == nullptr)
+    surface_->widget()->setFocus();
+}
 
 void Window::refresh() {
   viewer_.set_viewport(viewport_of(*surface_->widget()));
@@ -218,6 +203,7 @@ void Window::show_session() {
     filled_screen_ = session.screen;
     menuBar()->setVisible(!session.full_screen);
     statusBar()->setVisible(!session.full_screen);
+    menus_->toolbar().setVisible(!session.full_screen);
     if (session.full_screen) {
       full_screen_.enter(*this, *screen_to_fill(session, *this));
     } else {
@@ -230,6 +216,14 @@ void Window::show_session() {
   comfort_->setText(QString::fromStdString(comfort_in_short(viewer_)));
   comfort_->setToolTip(QString::fromStdString(comfort_told(viewer_)));
   panels_->show(viewer_);
+  menus_->show(viewer_);
+  const bool is_empty = std::holds_alternative<std::monostate>(session.opened.content) && !session.opening;
+  QWidget* const page = is_empty ? static_cast<QWidget*>(start_page_) : surface_->widget();
+  if (pages_->currentWidget() != page) {
+    pages_->setCurrentWidget(page);
+    if (!is_empty) page->setFocus();
+  }
+  start_page_->show_session(session);
   help_->setVisible(session.help);
   if (session.ends) close();
 }
@@ -301,7 +295,10 @@ bool Window::pointer_event(QEvent* event) {
     case QEvent::Wheel: {
       const auto* const wheel = static_cast<QWheelEvent*>(event);
       const double steps = wheel->angleDelta().y() / 120.;
-      if (wheel->modifiers().testFlag(Qt::ControlModifier)) {
+      // With Alt, a wheel turns sideways.
+      if (const int aside = wheel->angleDelta().x(); wheel->modifiers().testFlag(Qt::AltModifier) && aside != 0) {
+        do_line(aside > 0 ? "slice-nearer" : "slice-farther", {});
+      } else if (wheel->modifiers().testFlag(Qt::ControlModifier)) {
         do_line(steps > 0 ? "more-detail" : "less-detail", {});
       } else if (steps != 0) {
         const QPointF place = wheel->position() * ratio;
@@ -341,7 +338,33 @@ void Window::dropEvent(QDropEvent* event) {
   if (!files.empty() && files.size() <= 2) do_line("open", files);
 }
 
+bool Window::may_close() {
+  const Session& session = viewer_.session();
+  if (!options_.with_dialogs || !session.has_unsaved_work) return true;
+  is_asking_ = true;
+  QMessageBox box(QMessageBox::Question, "Wheatstone", "What you have set is in no file yet.",
+                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
+  box.setInformativeText("Save it before the window closes?");
+  const int answer = box.exec();
+  is_asking_ = false;
+  if (answer == QMessageBox::Discard) return true;
+  if (answer != QMessageBox::Save) return false;
+  const bool is_path = !session.camera_path.keys.empty();
+  const auto* const content = std::get_if<PaintedContent>(&session.opened.content);
+  const bool has_painting = content != nullptr && content->painting;
+  const Command& save = find_command(is_path ? "save-camera" : has_painting ? "save-painting" : "save-style");
+  const std::optional<Words> file = ask_for_arguments(save);
+  if (!file) return false;
+  do_command(save, *file);
+  return !session.message_is_error;  // what is being written is written to its end
+}
+
 void Window::closeEvent(QCloseEvent* event) {
+  if (is_asking_ || !may_close()) {
+    viewer_.session().ends = false;
+    event->ignore();
+    return;
+  }
   viewer_.session().ends = true;
   event->accept();
 }
@@ -389,6 +412,7 @@ void Window::listen(std::unique_ptr<Control> control) {
 
 void Window::end(int exit_code) {
   exit_code_ = exit_code;
+  options_.with_dialogs = false;
   viewer_.session().ends = true;
   QApplication::closeAllWindows();
   QApplication::quit();

@@ -10,14 +10,17 @@
 #include "event_loop.h"
 #include "film_bar.h"
 #include "full_screen.h"
+#include "menus.h"
 #include "panels.h"
 #include "picture_surface.h"
+#include "start_page.h"
 #include "viewer/command_table.h"
 #include "viewer/script.h"
 #include "viewer/viewer.h"
 
 class QLabel;
 class QProgressBar;
+class QStackedWidget;
 
 namespace wheatstone::viewer {
 
@@ -44,6 +47,8 @@ class Window final : public QMainWindow {
   void close_control() { control_.reset(); }
   /// Closes the window and all its dialogs; the program is to end with that code.
   void end(int exit_code);
+  StartPage& start_page() { return *start_page_; }
+  Menus& menus() { return *menus_; }
   /// What the script asks of the window.
   ScriptHost script_host();
 
@@ -55,13 +60,15 @@ class Window final : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  void make_menus();
-  void add_choices();
   void make_status_bar();
   /// Does a command of the table; what it throws is told.
   void do_command(const Command& command, const Words& arguments);
   void do_line(const std::string& name, const Words& arguments);
-  /// Asks for what a command needs.
+  /// As do_line, for what is chosen in a panel: the keys are the picture's again.
+  void do_in_panel(const std::string& name, const Words& arguments);
+  /// Asks whether what no file holds is to be saved; false where the window is to stay.
+  bool may_close();
+  /// Asks for the files that a command needs.
   std::optional<Words> ask_for_arguments(const Command& command);
 
   void refresh();
@@ -94,6 +101,10 @@ class Window final : public QMainWindow {
   QLabel* information_ = nullptr;
   QWidget* help_ = nullptr;
   std::unique_ptr<Panels> panels_;
+  std::unique_ptr<Menus> menus_;
+  QStackedWidget* pages_ = nullptr;
+  StartPage* start_page_ = nullptr;
+  bool is_asking_ = false;
 
   QPointF pressed_at_, dragged_to_, pointer_;
   bool is_pressed_ = false, is_dragged_ = false, pans_ = false;

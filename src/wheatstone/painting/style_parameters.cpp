@@ -54,6 +54,12 @@ Rgb8 parse_colour(std::string_view name, std::string_view text) {
   return *colour;
 }
 
+/// The beginning of a row.
+struct Named {
+  std::string_view name, title;
+  StyleSection section;
+};
+
 constexpr std::span<const Marks> every_kind;
 constexpr std::array strokes_only{Marks::strokes, Marks::fitted_strokes};
 constexpr std::array traced_only{Marks::strokes};
@@ -71,55 +77,69 @@ std::string toml_text(std::string_view text) {
 }
 
 template <class Member>
-StyleParameter number(std::string_view name, std::string_view help, Member member,
+StyleParameter number(const Named& named, std::string_view help, Member member,
                       std::span<const Marks> read_by = strokes_only) {
-  return {name,
+  return {named.name,
+          named.title,
+          named.section,
           help,
           false,
           [=](const Style& style) { return fmt::format("{}", style.*member); },
-          [=](Style& style, std::string_view text) {
+          [=, name = named.name](Style& style, std::string_view text) {
             style.*member = parse_number<std::remove_cvref_t<decltype(style.*member)>>(name, text);
           },
           read_by};
 }
 
-StyleParameter jitter(std::string_view name, std::string_view help, float ColourJitter::*member) {
-  return {name,
+StyleParameter jitter(const Named& named, std::string_view help, float ColourJitter::*member) {
+  return {named.name,
+          named.title,
+          named.section,
           help,
           false,
           [=](const Style& style) { return fmt::format("{}", style.jitter.*member); },
-          [=](Style& style, std::string_view text) { style.jitter.*member = parse_number<float>(name, text); },
+          [=, name = named.name](Style& style, std::string_view text) {
+            style.jitter.*member = parse_number<float>(name, text);
+          },
           strokes_only};
 }
 
-StyleParameter brush(std::string_view name, std::string_view help, float Brush::*member) {
-  return {name,
+StyleParameter brush(const Named& named, std::string_view help, float Brush::*member) {
+  return {named.name,
+          named.title,
+          named.section,
           help,
           false,
           [=](const Style& style) { return fmt::format("{}", style.brush.*member); },
-          [=](Style& style, std::string_view text) { style.brush.*member = parse_number<float>(name, text); },
+          [=, name = named.name](Style& style, std::string_view text) {
+            style.brush.*member = parse_number<float>(name, text);
+          },
           fitted_only};
 }
 
-StyleParameter toggle(std::string_view name, std::string_view help, bool Style::*member,
+StyleParameter toggle(const Named& named, std::string_view help, bool Style::*member,
                       std::span<const Marks> read_by = strokes_only) {
-  return {name,
+  return {named.name,
+          named.title,
+          named.section,
           help,
           true,
           [=](const Style& style) { return style.*member ? "true" : "false"; },
-          [=](Style& style, std::string_view text) { style.*member = parse_switch(name, text); },
+          [=, name = named.name](Style& style, std::string_view text) { style.*member = parse_switch(name, text); },
           read_by};
 }
 
 template <class Value>
-StyleParameter choice(std::string_view name, std::string_view help, Value Style::*member,
+StyleParameter choice(const Named& named, std::string_view help, Value Style::*member,
                       std::optional<Value> (*by_name)(std::string_view), std::string_view names,
                       std::span<const Marks> read_by = strokes_only) {
-  return {name,
+  return {named.name,
+          named.title,
+          named.section,
           help,
           false,
           [=](const Style& style) { return fmt::format("\"{}\"", name_of(style.*member)); },
-          [=](Style& style, std::string_view text) {
+          [=, name = named.name](Style& style, std::string_view text) {
             const std::optional<Value> value = by_name(text);
             if (!value) refuse(name, text, names);
             style.*member = *value;
@@ -128,63 +148,86 @@ StyleParameter choice(std::string_view name, std::string_view help, Value Style:
 }
 
 std::vector<StyleParameter> make_parameters() {
+  using enum StyleSection;
   return {
-      {"radii", "Brush radii from coarse to fine, in pixels of a picture 640 pixels wide: 8,4,2", false,
+      {"radii", "Brush sizes", strokes,
+       "Brush radii from coarse to fine, in pixels of a picture 640 pixels wide: 8,4,2", false,
        [](const Style& style) { return fmt::format("[{}]", fmt::join(style.radii_px, ", ")); },
        [](Style& style, std::string_view text) { style.radii_px = parse_list("radii", text); }, strokes_only},
-      toggle("absolute-radii", "Give radii and the depth threshold in pixels of this picture instead",
-             &Style::absolute_radii, every_kind),
-      number("threshold", "T: RGB distance (0..441) above which a grid cell gets a stroke", &Style::threshold,
+      toggle({"absolute-radii", "Sizes in pixels of this picture", strokes},
+             "Give radii and the depth threshold in pixels of this picture instead", &Style::absolute_radii,
+             every_kind),
+      number({"threshold", "Tolerance", strokes}, "T: RGB distance (0..441) above which a grid cell gets a stroke",
+             &Style::threshold, traced_only),
+      number({"grid", "Stroke spacing", strokes},
+             "f_g: size of a grid cell, which gets at most one stroke, as a multiple of the radius", &Style::grid,
              traced_only),
-      number("grid", "f_g: size of a grid cell, which gets at most one stroke, as a multiple of the radius",
-             &Style::grid, traced_only),
-      number("blur", "f_s: blur of the photograph for a brush, as a multiple of its radius", &Style::blur),
-      number("curvature", "f_c: curvature filter; 1 follows the new direction at once, lower values keep the last one",
+      number({"blur", "Blur before painting", strokes},
+             "f_s: blur of the photograph for a brush, as a multiple of its radius", &Style::blur),
+      number({"curvature", "Stroke bend", strokes},
+             "f_c: curvature filter; 1 follows the new direction at once, lower values keep the last one",
              &Style::curvature, traced_only),
-      number("opacity", "Opacity of the paint, 0..1", &Style::opacity),
-      number("min-length", "Smallest number of control points before a stroke may end", &Style::min_length,
-             traced_only),
-      number("max-length", "Largest number of control points; 0 paints dots", &Style::max_length, traced_only),
-      jitter("jitter-hue", "Random change of hue, 0..1, at the same lightness", &ColourJitter::hue),
-      jitter("jitter-saturation", "Random change of saturation, 0..1, at the same lightness",
-             &ColourJitter::saturation),
-      jitter("jitter-value", "Random change of brightness, 0..1", &ColourJitter::value),
-      jitter("jitter-red", "Random change of red, 0..1", &ColourJitter::red),
-      jitter("jitter-green", "Random change of green, 0..1", &ColourJitter::green),
-      jitter("jitter-blue", "Random change of blue, 0..1", &ColourJitter::blue),
-      number("fineness", "How small a difference is worth a fitted stroke, 0..1", &Style::fineness, fitted_only),
-      number("strokes", "Largest number of fitted strokes, spent where they gain most; 0: as many as fineness asks for",
+      number({"opacity", "Opacity of the paint", colour}, "Opacity of the paint, 0..1", &Style::opacity),
+      number({"min-length", "Shortest stroke", strokes}, "Smallest number of control points before a stroke may end",
+             &Style::min_length, traced_only),
+      number({"max-length", "Longest stroke", strokes}, "Largest number of control points; 0 paints dots",
+             &Style::max_length, traced_only),
+      jitter({"jitter-hue", "Colour variation: hue", colour}, "Random change of hue, 0..1, at the same lightness",
+             &ColourJitter::hue),
+      jitter({"jitter-saturation", "Colour variation: saturation", colour},
+             "Random change of saturation, 0..1, at the same lightness", &ColourJitter::saturation),
+      jitter({"jitter-value", "Colour variation: brightness", colour}, "Random change of brightness, 0..1",
+             &ColourJitter::value),
+      jitter({"jitter-red", "Colour variation: red", colour}, "Random change of red, 0..1", &ColourJitter::red),
+      jitter({"jitter-green", "Colour variation: green", colour}, "Random change of green, 0..1", &ColourJitter::green),
+      jitter({"jitter-blue", "Colour variation: blue", colour}, "Random change of blue, 0..1", &ColourJitter::blue),
+      number({"fineness", "Fineness", strokes}, "How small a difference is worth a fitted stroke, 0..1",
+             &Style::fineness, fitted_only),
+      number({"strokes", "Most strokes", strokes},
+             "Largest number of fitted strokes, spent where they gain most; 0: as many as fineness asks for",
              &Style::strokes, fitted_only),
-      brush("bristle", "Width that a bristle leaves, in pixels of a picture 640 pixels wide; 0: none",
-            &Brush::bristle_px),
-      brush("streaks", "Levels by which the paint of a bristle may be lighter or darker, 0..255", &Brush::streaks),
-      brush("ridge", "Levels by which the paint at a stroke's rim is lit, 0..255", &Brush::ridge),
-      brush("dry", "Share of a stroke's length before whose end a bristle may run out of paint, 0..1", &Brush::dry),
-      {"brush", "Brush: none, round, flat, filbert, fan, knife, charcoal, or a picture whose white covers", false,
+      brush({"bristle", "Bristle width", strokes},
+            "Width that a bristle leaves, in pixels of a picture 640 pixels wide; 0: none", &Brush::bristle_px),
+      brush({"streaks", "Bristle streaks", strokes},
+            "Levels by which the paint of a bristle may be lighter or darker, 0..255", &Brush::streaks),
+      brush({"ridge", "Ridge of paint at the rim", strokes},
+            "Levels by which the paint at a stroke's rim is lit, 0..255", &Brush::ridge),
+      brush({"dry", "Dry ends", strokes},
+            "Share of a stroke's length before whose end a bristle may run out of paint, 0..1", &Brush::dry),
+      {"brush", "Brush", strokes,
+       "Brush: none, round, flat, filbert, fan, knife, charcoal, or a picture whose white covers", false,
        [](const Style& style) { return toml_text(style.brush.picture.empty() ? "none" : style.brush.picture.name); },
        [](Style& style, std::string_view text) { style.brush.picture = read_brush(std::string(text)); }, fitted_only},
-      toggle("dual", "Strokes of two colours, side by side", &Style::dual, traced_only),
-      toggle("texture", "Relief of the paint, lit from one side", &Style::texture),
-      choice("marks", "Kind of marks: strokes, fitted-strokes, regions of few colours, tiles of a mosaic, or curves",
+      toggle({"dual", "Strokes of two colours", colour}, "Strokes of two colours, side by side", &Style::dual,
+             traced_only),
+      toggle({"texture", "Relief of the paint", strokes}, "Relief of the paint, lit from one side", &Style::texture),
+      choice({"marks", "Kind of marks", strokes},
+             "Kind of marks: strokes, fitted-strokes, regions of few colours, tiles of a mosaic, or curves",
              &Style::marks, marks_by_name, "strokes, fitted-strokes, regions, tiles or curves", every_kind),
-      number("colours", "k: number of colours of a posterised picture", &Style::colours, regions_only),
-      number("tile", "Width of a mosaic's tiles, in pixels of a picture 640 pixels wide", &Style::tile_px, tiles_only),
-      toggle("depth-test", "End strokes at depth edges", &Style::depth_test),
-      number("depth-threshold", "Disparity step that counts as a depth edge, in pixels of a picture 640 pixels wide",
+      number({"colours", "Number of colours", colour}, "k: number of colours of a posterised picture", &Style::colours,
+             regions_only),
+      number({"tile", "Tile width", strokes}, "Width of a mosaic's tiles, in pixels of a picture 640 pixels wide",
+             &Style::tile_px, tiles_only),
+      toggle({"depth-test", "End strokes at depth edges", depth}, "End strokes at depth edges", &Style::depth_test),
+      number({"depth-threshold", "Step that is a depth edge", depth},
+             "Disparity step that counts as a depth edge, in pixels of a picture 640 pixels wide",
              &Style::depth_threshold_px, every_kind),
-      toggle("follow-depth-edges", "Let the finest strokes beside depth edges run along them; otherwise they are dots",
+      toggle({"follow-depth-edges", "Follow depth edges", depth},
+             "Let the finest strokes beside depth edges run along them; otherwise they are dots",
              &Style::follow_depth_edges, traced_only),
-      number("occlusion-dilation", "Dilation of the occlusion masks, as a multiple of the largest radius",
-             &Style::occlusion_dilation),
-      choice("propagation", "How the second eye is painted: strokes, raster or independent", &Style::propagation,
-             propagation_by_name, "strokes, raster or independent", every_kind),
-      choice("orientation", "Direction of strokes in areas without texture: smooth, or gradient (strokes end there)",
+      number({"occlusion-dilation", "Margin of hidden areas", depth},
+             "Dilation of the occlusion masks, as a multiple of the largest radius", &Style::occlusion_dilation),
+      choice({"propagation", "Painting of the second eye", depth},
+             "How the second eye is painted: strokes, raster or independent", &Style::propagation, propagation_by_name,
+             "strokes, raster or independent", every_kind),
+      choice({"orientation", "Stroke direction", strokes},
+             "Direction of strokes in areas without texture: smooth, or gradient (strokes end there)",
              &Style::orientation, orientation_by_name, "smooth or gradient", traced_only),
-      choice("reference-filter", "Filter that blurs the photograph: median or gaussian", &Style::reference_filter,
-             reference_filter_by_name, "median or gaussian"),
-      choice("background", "Background behind the paint: photograph or colour", &Style::background, background_by_name,
-             "photograph or colour"),
-      {"canvas-colour", "Colour of the bare canvas, #rrggbb", false,
+      choice({"reference-filter", "Kind of blur", strokes}, "Filter that blurs the photograph: median or gaussian",
+             &Style::reference_filter, reference_filter_by_name, "median or gaussian"),
+      choice({"background", "Background", colour}, "Background behind the paint: photograph or colour",
+             &Style::background, background_by_name, "photograph or colour"),
+      {"canvas-colour", "Canvas colour", colour, "Colour of the bare canvas, #rrggbb", false,
        [](const Style& style) {
          const Rgb8 c = style.canvas_colour;
          return fmt::format("\"#{:02x}{:02x}{:02x}\"", c.r, c.g, c.b);

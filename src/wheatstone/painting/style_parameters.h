@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -10,9 +11,15 @@
 
 namespace wheatstone {
 
+/// Under which heading people look for a parameter.
+enum class StyleSection { strokes, colour, depth };
+inline constexpr std::array<std::string_view, 3> style_section_names{"Strokes", "Colour", "Depth"};  ///< in their order
+
 /// One parameter of a style, as the command line and style files know it.
 struct StyleParameter {
-  std::string_view name;  ///< "depth-threshold": an option without its dashes, and a key of a style file
+  std::string_view name;   ///< "depth-threshold": an option without its dashes, and a key of a style file
+  std::string_view title;  ///< for people: "Stroke spacing"
+  StyleSection section;
   std::string_view help;
   bool is_switch;                                       ///< true or false
   std::function<std::string(const Style&)> toml_value;  ///< as it stands in a TOML file

@@ -91,6 +91,12 @@ SizeRule size_rule_of(const Appearance& appearance, const CloudStatistics& stati
 
 }  // namespace
 
+std::vector<std::string_view> colour_map_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, map] : colour_maps) names.emplace_back(name);
+  return names;
+}
+
 UsualColours usual_colours(Look look) {
   if (look == Look::thesis) return {{40, 90, 255}, {255, 120, 30}};
   return {{38, 98, 255}, {255, 186, 84}};

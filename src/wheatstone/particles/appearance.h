@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "wheatstone/image/image.h"
 #include "wheatstone/particles/cloud_statistics.h"
@@ -98,5 +100,8 @@ UsualColours usual_colours(Look look);
 std::array<Rgb8, 256> colour_map(const std::string& name);
 
 SplatStyle make_splat_style(const Appearance& appearance, const CloudStatistics& statistics);
+
+/// The names that a colour map may have.
+std::vector<std::string_view> colour_map_names();
 
 }  // namespace wheatstone

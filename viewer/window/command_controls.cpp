@@ -1,0 +1,119 @@
+#include "command_controls.h"
+
+#include <fmt/format.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSlider>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <utility>
+
+#include "viewer/viewer.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+int decimals_of(double step) { return step >= 1 ? 0 : step >= 0.1 ? 1 : 2; }
+
+}  // namespace
+
+CommandControls::CommandControls(std::string_view menu, bool with_choices, QFormLayout& form, DoCommand do_command)
+    : do_command_(std::move(do_command)), form_(form) {
+  QWidget* const parent = form.parentWidget();
+  for (const Command& command : command_table()) {
+    if (command.menu != menu || command.entry.now == nullptr || command.entry.is_for_scripts) continue;
+    if (command.entry.range.step > 0)
+      rows_.push_back(slider_of(command, parent));
+    else if (!with_choices)
+      continue;
+    else if (command.arguments == "on|off")
+      rows_.push_back(switch_of(command, parent));
+    else if (!command.arguments.empty())
+      rows_.push_back(box_of(command, parent));
+    else
+      continue;
+    QWidget* const control = rows_.back().control;
+    const QString title = QString::fromStdString(title_of(command));
+    control->setToolTip(QString::fromUtf8(command.text));
+    control->setAccessibleName(title);
+    auto* const label = new QLabel(title, parent);
+    label->setToolTip(control->toolTip());
+    form.addRow(label, control);
+  }
+}
+
+CommandControls::Row CommandControls::slider_of(const Command& command, QWidget* parent) {
+  const NumberRange range = command.entry.range;
+  auto* const both = new QWidget(parent);
+  auto* const line = new QHBoxLayout(both);
+  line->setContentsMargins(0, 0, 0, 0);
+  auto* const slider = new QSlider(Qt::Horizontal, both);
+  slider->setRange(0, static_cast<int>(std::lround((range.most - range.least) / range.step)));
+  slider->setMinimumWidth(80);
+  auto* const box = new QDoubleSpinBox(both);
+  box->setDecimals(decimals_of(range.step));
+  box->setSingleStep(range.step);
+  box->setRange(range.least, range.most);
+  line->addWidget(slider, 1);
+  line->addWidget(box);
+  QObject::connect(slider, &QSlider::valueChanged, box,
+                   [box, range](int at) { box->setValue(range.least + range.step * at); });
+  QObject::connect(box, &QDoubleSpinBox::valueChanged, both, [this, &command](double value) {
+    do_command_(std::string(command.name), {fmt::format("{:.6g}", value)});
+  });
+  return {&command, both, [&command, slider, box, range](const Viewer& viewer) {
+            const std::string now = command.entry.now(viewer);
+            const QSignalBlocker quiet_slider(slider), quiet_box(box);
+            char* end = nullptr;
+            const double number = std::strtod(now.c_str(), &end);
+            box->setSpecialValueText(end == now.c_str() ? QString::fromStdString(now) : QString());
+            if (end == now.c_str()) return box->setValue(range.least);  // "auto"
+            // A script may go beyond what a hand needs.
+            box->setRange(std::min(range.least, number), std::max(range.most, number));
+            if (!box->hasFocus()) box->setValue(number);
+            slider->setValue(static_cast<int>(std::lround((number - range.least) / range.step)));
+          }};
+}
+
+CommandControls::Row CommandControls::box_of(const Command& command, QWidget* parent) {
+  auto* const box = new QComboBox(parent);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(12);
+  QObject::connect(box, &QComboBox::activated, parent, [this, &command, box] {
+    do_command_(std::string(command.name), words_of(box->currentData().toString().toStdString()));
+  });
+  return {&command, box, [&command, box](const Viewer& viewer) {
+            const QSignalBlocker quiet(box);
+            if (box->count() == 0)
+              for (const Choice& choice : choices_of(viewer, command))
+                box->addItem(QString::fromStdString(choice.text), QString::fromStdString(choice.words));
+            box->setCurrentIndex(box->findData(QString::fromStdString(command.entry.now(viewer))));
+          }};
+}
+
+CommandControls::Row CommandControls::switch_of(const Command& command, QWidget* parent) {
+  auto* const box = new QCheckBox(parent);
+  QObject::connect(box, &QCheckBox::toggled, parent,
+                   [this, &command](bool is_on) { do_command_(std::string(command.name), {on_or_off(is_on)}); });
+  return {&command, box, [&command, box](const Viewer& viewer) {
+            const QSignalBlocker quiet(box);
+            box->setChecked(command.entry.now(viewer) == "on");
+          }};
+}
+
+void CommandControls::show(const Viewer& viewer) {
+  for (const Row& row : rows_) {
+    row.show(viewer);
+    const bool has_effect = applies(viewer, *row.command);
+    row.control->setEnabled(has_effect);
+    form_.labelForField(row.control)->setEnabled(has_effect);
+  }
+}
+
+}  // namespace wheatstone::viewer
