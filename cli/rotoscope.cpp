@@ -419,7 +419,7 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
                        "per eye: LEFT,RIGHT"),
                    row("RIGHT", text(a.right), "Film of the right eye, if FILM is that of the left eye"),
                    row("-o,--output", output_name(a.output),
-                       "Painted film (.mp4, .mov, .mkv), numbered pictures (frame_%04d.png), or marks "
+                       "Painted film (.mp4, .mov, .mkv, .webm), numbered pictures (frame_%04d.png, .exr), or marks "
                        "(frame_%04d.wst); the stem of the name with --display")};
   Rows style = style_rows(a.style);
   std::ranges::find(style, "--propagation", &Row::names)->unless.push_back([&a] {
