@@ -307,7 +307,7 @@ std::string stretch_told(const Viewer& viewer) {
 }
 
 std::vector<Choice> quantity_choices(const Viewer& /*viewer*/) {
-  return {{"picture", "Mass in the colours of temperature"}, {"column-density", "Column density"}};
+  return {{"picture", "Mass, temperature"}, {"column-density", "Column density"}};
 }
 
 std::string quantity_told(const Viewer& viewer) {

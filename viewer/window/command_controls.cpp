@@ -14,6 +14,7 @@
 #include <memory>
 #include <utility>
 
+#include "menus.h"
 #include "viewer/viewer.h"
 
 namespace wheatstone::viewer {
@@ -34,7 +35,7 @@ CommandControls::CommandControls(std::string_view menu, bool with_choices, QForm
       continue;
     else if (command.arguments == "on|off")
       rows_.push_back(switch_of(command, parent));
-    else if (!command.arguments.empty())
+    else if (has_choices(command))
       rows_.push_back(box_of(command, parent));
     else
       continue;

@@ -30,14 +30,14 @@ bool is_file(const Command& command) {
   return command.arguments == "FILE" || command.arguments == "FILE [RIGHT]" || command.arguments == "FOLDER";
 }
 
+}  // namespace
+
 bool has_choices(const Command& command) {
   if (is_toggle(command) || command.arguments.empty() || is_file(command)) return false;
   if (command.entry.choices != nullptr) return true;
   return command.arguments.find('|') != std::string_view::npos &&
          command.arguments.find_first_not_of("abcdefghijklmnopqrstuvwxyz-|") == std::string_view::npos;
 }
-
-}  // namespace
 
 bool has_entry(const Command& command) {
   return !command.entry.is_for_scripts &&

@@ -51,4 +51,7 @@ class Menus {
 /// scripts.
 bool has_entry(const Command& command);
 
+/// Whether the argument is one of several, which a submenu or a box shows.
+bool has_choices(const Command& command);
+
 }  // namespace wheatstone::viewer
