@@ -1,7 +1,7 @@
 #include "start_page.h"
 
 #include <QButtonGroup>
-#include <QFileInfo>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
@@ -116,19 +116,21 @@ QWidget* StartPage::make_recent() {
 
 QWidget* StartPage::make_devices() {
   auto* const row = new QWidget(this);
-  auto* const layout = new QHBoxLayout(row);
+  auto* const layout = new QGridLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(16);
-  layout->addWidget(make_heading("What do you look with?", 1, row));
+  layout->setHorizontalSpacing(24);
+  constexpr int columns = 3;  // they fit into a small window
+  layout->addWidget(make_heading("What do you look with?", 1, row), 0, 0, 1, columns);
+  layout->setColumnStretch(columns, 1);
   devices_ = new QButtonGroup(row);
   for (const LookingWith& device : devices()) {
     auto* const button = new QRadioButton(QString::fromUtf8(device.text), row);
     devices_->addButton(button);
-    layout->addWidget(button);
+    const int number = static_cast<int>(devices_->buttons().size()) - 1;
+    layout->addWidget(button, 1 + number / columns, number % columns);
     QObject::connect(button, &QRadioButton::clicked, this,
                      [this, &device] { do_command_("look-with", {std::string(device.name)}); });
   }
-  layout->addStretch(1);
   return row;
 }
 
