@@ -76,9 +76,9 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_refused(folder, {"--threads", "1", "info", "a.png", "--threads", "2"}, 2,
                  "--threads: is given 2 times, expected once");
   expect_refused(folder, {"match", "a.png", "b.png", "--output"}, 2, "--output: is given without a value");
-  expect_refused(folder, {"synth"}, 2, "synth: its kind is missing, expected film, still, universe");
+  expect_refused(folder, {"synth"}, 2, "synth: its kind is missing, expected film, model, still, universe");
   expect_refused(folder, {"synth", "stil"}, 2, "synth stil: no such kind; did you mean 'still'?");
-  expect_refused(folder, {"synth", "water"}, 2, "synth water: no such kind, expected film, still, universe");
+  expect_refused(folder, {"synth", "water"}, 2, "synth water: no such kind, expected film, model, still, universe");
   expect_refused(folder, {"--config", "none.toml", "info", "a.png"}, 3, "--config: none.toml: cannot be read");
 }
 
