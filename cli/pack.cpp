@@ -23,6 +23,7 @@
 #include "wheatstone/photograph/photograph_notes.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/video/film_files.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
@@ -100,7 +101,8 @@ ViewsArguments input_of(const PackArguments& arguments, const Packing& packing, 
 
 /// What the first file says of its photograph; nothing of files that are no pictures.
 PictureNotes notes_of(const PackArguments& arguments, const std::vector<fs::path>& files) {
-  if (files.empty() || files.front().extension() == ".wst" || files.front().extension() == ".exr") return {};
+  if (files.empty() || is_film(files.front())) return {};
+  if (files.front().extension() == ".wst" || files.front().extension() == ".exr") return {};
   return read_photograph_notes(files.front(), arguments.print.keep_location);
 }
 
