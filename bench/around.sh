@@ -68,7 +68,7 @@ row "nine views of 1920x1080" "$wheatstone" pack painted_hd/painting.wst --views
 row "nine views of a million particles" "$wheatstone" render universe.hdf5 --views 9 -o out
 row "share 2 megapixels" "$wheatstone" share painted_hd/painting.wst -o out.html
 row "share 12 megapixels" "$wheatstone" share painted_large/painting.wst -o out.html
-row "info of a JPEG of 24 megapixels" "$wheatstone" info large.jpg
+row "info of a JPEG of 24 MP that holds two views" "$wheatstone" info large.jpg
 has_python_with PIL && rival "PNG of 12 megapixels by zlib (Pillow)" python3 -c "
 from PIL import Image
 Image.open('large/left.png').save('out_pillow.png')"
