@@ -117,7 +117,8 @@ void Window::make_status_bar() {
   message_ = new QLabel(this);
   message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   message_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  depth_ = new QLabel(this);
+  // One that never had a text is as wide as a letter: then what stands beside it would depend on what was shown before.
+  depth_ = new QLabel(" ", this);
   progress_ = new QProgressBar(this);
   progress_->setMaximumWidth(220);
   progress_->hide();

@@ -27,7 +27,7 @@ grep --quiet '"mode":"left-right"' state.json || fail "the state does not tell t
 
 
 # Numbers are written as in English, whatever the user's language.
-printf '%s\n' 'resize 900 700' wait 'panel style' wait 'wait 0.5' 'screenshot PANEL' >panel.txt
+printf '%s\n' 'resize 900 700' wait 'panel style' wait 'screenshot PANEL' >panel.txt
 for language in C de_DE.UTF-8; do
   sed "s/PANEL/panel-$language.png/" panel.txt >panel-$language.txt
   LANG=$language LC_ALL=$language "$view" painted/painting.wst --script panel-$language.txt >out.txt
