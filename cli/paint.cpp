@@ -287,7 +287,7 @@ Arguments arguments_of(const Arguments& given, const PhotographJob& job) {
   of_one.depth.carried = job.right.empty() && finds_depth_in_file(of_one);
   // A layout is that of files that hold both views.
   if (!job.right.empty() || has_depth(of_one.depth)) of_one.photographs.layout.clear();
-  of_one.results.notes = read_photograph_notes(job.left, given.keep_location);
+  if (!is_model(job)) of_one.results.notes = read_photograph_notes(job.left, given.keep_location);
   of_one.files = given.files;
   of_one.files.insert(of_one.files.end(), {job.left, job.right, job.depth});
   return of_one;
