@@ -10,11 +10,13 @@ foreach(name IN LISTS NAMES)
   file(READ ${FOLDER}/${name}.pgm pixels OFFSET 14 HEX)
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," pixels "${pixels}")
   string(APPEND text "constexpr std::uint8_t ${name}_brush[256 * 64] = {${pixels}};\n")
-  string(APPEND list "${name}_brush, ")
+  string(APPEND list "{\"${name}\", ${name}_brush}, ")
 endforeach()
 file(WRITE ${TO} "${text}
+constexpr BuiltInBrush all[] = {${list}};
+
 }  // namespace
 
-const std::array<const std::uint8_t*, built_in_brush_names.size()> built_in_brushes{${list}};
+std::span<const BuiltInBrush> built_in_brushes() { return all; }
 
 }  // namespace wheatstone\n")

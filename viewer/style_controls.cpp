@@ -11,14 +11,12 @@ constexpr std::array<std::string_view, 3> propagations{"strokes", "raster", "ind
 constexpr std::array<std::string_view, 2> orientations{"smooth", "gradient"};
 constexpr std::array<std::string_view, 2> filters{"median", "gaussian"};
 constexpr std::array<std::string_view, 2> backgrounds{"photograph", "colour"};
-constexpr std::array<std::string_view, 7> brushes{"none", "round", "flat", "filbert", "fan", "knife", "charcoal"};
 
 struct NamedChoice {
   std::string_view parameter;
   std::span<const std::string_view> names;
 };
-constexpr std::array<NamedChoice, 6> choices{{{"marks", marks},
-                                              {"brush", brushes},
+constexpr std::array<NamedChoice, 5> choices{{{"marks", marks},
                                               {"propagation", propagations},
                                               {"orientation", orientations},
                                               {"reference-filter", filters},
@@ -48,8 +46,18 @@ bool is_number(std::string_view value) {
   return !value.empty() && value.find_first_not_of("0123456789.-+e") == std::string_view::npos;
 }
 
+std::span<const std::string_view> brushes() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all{"none"};
+    all.insert(all.end(), brush_names().begin(), brush_names().end());
+    return all;
+  }();
+  return names;
+}
+
 StyleControl control_of(const StyleParameter& parameter) {
   if (parameter.is_switch) return {&parameter, SwitchControl()};
+  if (parameter.name == "brush") return {&parameter, ChoiceControl{brushes()}};
   for (const NamedChoice& choice : choices)
     if (choice.parameter == parameter.name) return {&parameter, ChoiceControl{choice.names}};
   for (const NamedRange& range : ranges)

@@ -7,6 +7,7 @@
 #include "wheatstone/marks/built_in_brushes_internal.h"
 
 namespace wheatstone {
+
 int brush_level(float radius_px) {
   const float level = std::log2(BrushPicture::width / (2 * radius_px));
   return std::clamp(static_cast<int>(std::lround(level)), 0, static_cast<int>(BrushPicture::sizes.size()) - 1);
@@ -29,14 +30,20 @@ BrushPicture brush_picture(std::string name, std::span<const std::uint8_t> cover
   return picture;
 }
 
-std::span<const std::string_view> brush_names() { return built_in_brush_names; }
+std::span<const std::string_view> brush_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const BuiltInBrush& brush : built_in_brushes()) all.push_back(brush.name);
+    return all;
+  }();
+  return names;
+}
 
 BrushPicture built_in_brush(std::string_view name) {
-  const auto found = std::ranges::find(built_in_brush_names, name);
-  if (found == built_in_brush_names.end()) return {};
-  const auto number = static_cast<std::size_t>(found - built_in_brush_names.begin());
-  return brush_picture(std::string(name),
-                       {built_in_brushes[number], std::size_t{BrushPicture::length} * BrushPicture::width});
+  for (const BuiltInBrush& brush : built_in_brushes())
+    if (brush.name == name)
+      return brush_picture(std::string(name), {brush.cover, std::size_t{BrushPicture::length} * BrushPicture::width});
+  return {};
 }
 
 }  // namespace wheatstone

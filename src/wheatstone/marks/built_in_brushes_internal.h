@@ -1,15 +1,17 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace wheatstone {
 
-inline constexpr std::array<std::string_view, 6> built_in_brush_names{"round", "flat",  "filbert",
-                                                                      "fan",   "knife", "charcoal"};
+struct BuiltInBrush {
+  std::string_view name;
+  const std::uint8_t* cover;  ///< of BrushPicture::length × width pixels, row by row
+};
 
-/// The pictures of the folder brushes/, row by row, in the order of their names. Written by the build.
-extern const std::array<const std::uint8_t*, built_in_brush_names.size()> built_in_brushes;
+/// The pictures of the folder brushes/. Written by the build.
+std::span<const BuiltInBrush> built_in_brushes();
 
 }  // namespace wheatstone

@@ -76,45 +76,37 @@ std::string toml_text(std::string_view text) {
   return quoted + '"';
 }
 
+/// Of the number that `member(style)` refers to.
 template <class Member>
-StyleParameter number(const Named& named, std::string_view help, Member member,
-                      std::span<const Marks> read_by = strokes_only) {
+StyleParameter number_at(const Named& named, std::string_view help, Member member, std::span<const Marks> read_by) {
   return {named.name,
           named.title,
           named.section,
           help,
           false,
-          [=](const Style& style) { return fmt::format("{}", style.*member); },
+          [=](const Style& style) { return fmt::format("{}", member(style)); },
           [=, name = named.name](Style& style, std::string_view text) {
-            style.*member = parse_number<std::remove_cvref_t<decltype(style.*member)>>(name, text);
+            auto& number = member(style);
+            number = parse_number<std::remove_cvref_t<decltype(number)>>(name, text);
           },
           read_by};
 }
 
+template <class Number>
+StyleParameter number(const Named& named, std::string_view help, Number Style::*member,
+                      std::span<const Marks> read_by = strokes_only) {
+  return number_at(
+      named, help, [=](auto& style) -> auto& { return style.*member; }, read_by);
+}
+
 StyleParameter jitter(const Named& named, std::string_view help, float ColourJitter::*member) {
-  return {named.name,
-          named.title,
-          named.section,
-          help,
-          false,
-          [=](const Style& style) { return fmt::format("{}", style.jitter.*member); },
-          [=, name = named.name](Style& style, std::string_view text) {
-            style.jitter.*member = parse_number<float>(name, text);
-          },
-          strokes_only};
+  return number_at(
+      named, help, [=](auto& style) -> auto& { return style.jitter.*member; }, strokes_only);
 }
 
 StyleParameter brush(const Named& named, std::string_view help, float Brush::*member) {
-  return {named.name,
-          named.title,
-          named.section,
-          help,
-          false,
-          [=](const Style& style) { return fmt::format("{}", style.brush.*member); },
-          [=, name = named.name](Style& style, std::string_view text) {
-            style.brush.*member = parse_number<float>(name, text);
-          },
-          fitted_only};
+  return number_at(
+      named, help, [=](auto& style) -> auto& { return style.brush.*member; }, fitted_only);
 }
 
 StyleParameter toggle(const Named& named, std::string_view help, bool Style::*member,
