@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "wheatstone/image/cielab_internal.h"
 #include "wheatstone/image/srgb.h"
 
 namespace wheatstone {
@@ -16,6 +17,18 @@ Cielab cielab_of(Rgb8 colour) {
   const auto curve = [](float share) { return share > dark ? std::cbrt(share) : slope * share + 16.f / 116; };
   const float from_y = curve(y);
   return {116 * from_y - 16, 500 * (curve(x) - from_y), 200 * (from_y - curve(z))};
+}
+
+cv::Mat cielab_of(const cv::Mat& rgb) {
+  cv::Mat values(rgb.size(), CV_32FC3);
+  for (int y = 0; y < rgb.rows; ++y) {
+    for (int x = 0; x < rgb.cols; ++x) {
+      const auto& colour = rgb.at<cv::Vec3b>(y, x);
+      const Cielab value = cielab_of(Rgb8{colour[0], colour[1], colour[2]});
+      values.at<cv::Vec3f>(y, x) = {value.lightness, value.a, value.b};
+    }
+  }
+  return values;
 }
 
 }  // namespace wheatstone

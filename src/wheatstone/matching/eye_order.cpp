@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "wheatstone/image/cielab.h"
+#include "wheatstone/image/cielab_internal.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/image/shrunk_internal.h"
 #include "wheatstone/matching/match_internal.h"
@@ -33,18 +33,6 @@ double asked_scale(int width_px, int height_px) {
 
 cv::Mat asked_copy(const Image<Rgb8>& picture, double scale) {
   return shrunk(as_mat(picture), scale, scale > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
-}
-
-cv::Mat lab(const cv::Mat& rgb) {
-  cv::Mat values(rgb.size(), CV_32FC3);
-  for (int y = 0; y < rgb.rows; ++y) {
-    for (int x = 0; x < rgb.cols; ++x) {
-      const auto& colour = rgb.at<cv::Vec3b>(y, x);
-      const Cielab value = cielab_of({colour[0], colour[1], colour[2]});
-      values.at<cv::Vec3f>(y, x) = {value.lightness, value.a, value.b};
-    }
-  }
-  return values;
 }
 
 /// 255 on what has the colour of a corner of the picture and goes on from there, and a little around it. It may be a
@@ -154,11 +142,11 @@ EyeOrderEvidence eye_order_evidence(const StereoPair& pair, const std::optional<
                        [&] {
                          back = match_plain_sgbm(right, left, {-range.largest, -range.least});
                        });
-  const cv::Mat left_colours = lab(left);
+  const cv::Mat left_colours = cielab_of(left);
   vote({left_colours, confirmed(forth, back), frame_of(left_colours)}, votes);
   // The right view in a mirror is a left view.
   cv::flip(right, right, 1);
-  const cv::Mat right_colours = lab(right);
+  const cv::Mat right_colours = cielab_of(right);
   vote({right_colours, confirmed(mirrored(back), mirrored(forth)), frame_of(right_colours)}, votes);
 
   EyeOrderEvidence evidence;

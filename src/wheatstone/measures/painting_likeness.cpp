@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/cielab.h"
+#include "wheatstone/image/cielab_internal.h"
 #include "wheatstone/image/opencv_internal.h"
 
 namespace wheatstone {
@@ -40,16 +40,7 @@ cv::Mat luminance_of(const cv::Mat& picture) {
 /// The channels L*, a*, b*.
 std::array<cv::Mat, 3> lab_of(const cv::Mat& picture) {
   std::array<cv::Mat, 3> channels;
-  for (cv::Mat& channel : channels) channel.create(picture.size(), CV_32F);
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) {
-      const auto& colour = picture.at<cv::Vec3b>(y, x);
-      const Cielab lab = cielab_of({colour[0], colour[1], colour[2]});
-      channels[0].at<float>(y, x) = lab.lightness;
-      channels[1].at<float>(y, x) = lab.a;
-      channels[2].at<float>(y, x) = lab.b;
-    }
-  }
+  cv::split(cielab_of(picture), channels.data());
   return channels;
 }
 
