@@ -81,6 +81,11 @@ void set_depth(Viewer& viewer, std::optional<float> ParticleLook::*length_mm, co
   state_of(viewer).look = changed.look;
 }
 
+std::string depth_now(const Viewer& viewer, std::optional<float> ParticleLook::*length_mm) {
+  const std::optional<float>& length = viewer.session().state.look.*length_mm;
+  return length ? fmt::format("{}", *length) : "auto";
+}
+
 /// For what has no effect on mass. Throws Error{wrong_usage} where that is shown.
 ParticleLook& thesis_look_of(Viewer& viewer) {
   ParticleLook& look = state_of(viewer).look;
@@ -166,11 +171,7 @@ constexpr Command particle_table[] = {
      "Depth before the screen: of particles or slices, in mm",
      "",
      [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::near_mm, w[0]); },
-     {.now =
-          [](const Viewer& v) {
-            return v.session().state.look.near_mm ? fmt::format("{}", *v.session().state.look.near_mm)
-                                                  : std::string("auto");
-          },
+     {.now = [](const Viewer& v) { return depth_now(v, &ParticleLook::near_mm); },
       .range = {0, 200, 5},
       .applies = shows_scene}},
     {"far",
@@ -179,11 +180,7 @@ constexpr Command particle_table[] = {
      "Depth behind the screen: of particles or slices, in mm",
      "",
      [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::far_mm, w[0]); },
-     {.now =
-          [](const Viewer& v) {
-            return v.session().state.look.far_mm ? fmt::format("{}", *v.session().state.look.far_mm)
-                                                 : std::string("auto");
-          },
+     {.now = [](const Viewer& v) { return depth_now(v, &ParticleLook::far_mm); },
       .range = {0, 500, 5},
       .applies = shows_scene}},
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wheatstone/models/model.h"
+#include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {
@@ -29,16 +30,12 @@ Point3 of_unit_length(const Point3& v) {
 /// Numbers from 0 to 1, the same in every run.
 class HashedNumbers {
  public:
-  explicit HashedNumbers(std::uint64_t seed) : state_(seed) {}
-  double operator()() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
+  explicit HashedNumbers(std::uint64_t seed) : key_(seed - 2 * step) {}
+  double operator()() { return static_cast<double>(hash_keys({key_ += step}) >> 11) * 0x1p-53; }
 
  private:
-  std::uint64_t state_;
+  static constexpr std::uint64_t step = 0x9e3779b97f4a7c15u;
+  std::uint64_t key_;
 };
 
 std::uint32_t add_vertex(Model& model, const Point3& position, const Point3& normal) {
