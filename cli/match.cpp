@@ -80,29 +80,17 @@ PhotographResult match_one(const MatchCommandArguments& arguments, const Session
   return {std::move(report), arguments.folder};
 }
 
-/// The same of each photograph in a folder.
-Report match_folder(const MatchCommandArguments& arguments, const Session& session) {
-  const std::string& folder = arguments.photographs.left;
-  const PhotographWork work{.input = folder,
-                            .output = arguments.folder,
-                            .folder = arguments.walk,
-                            .done = "matched",
-                            .max_size = arguments.photographs.max_size,
-                            .work =
-                                [&](const PhotographJob& job, const Session& of_one) {
-                                  MatchCommandArguments one = arguments;
-                                  one.photographs = photograph_of(arguments.photographs, job);
-                                  one.folder = job.output;
-                                  return match_one(one, of_one);
-                                },
-                            .is_done = [](const PhotographJob& job) { return is_folder(job.output); }};
-  const FolderOutput output{.folder = arguments.folder, .ending = {}, .placeholders = {}};
-  return work_on_all(work, pairs_in_folder(folder, arguments.photographs, arguments.walk, output, session), session);
-}
-
 Report run_match(const MatchCommandArguments& arguments, const Session& session) {
-  if (is_folder(arguments.photographs.left)) return match_folder(arguments, session);
-  return match_one(arguments, session).report;
+  if (!is_folder(arguments.photographs.left)) return match_one(arguments, session).report;
+  return work_on_pairs(
+      arguments.photographs, arguments.walk, arguments.folder, "matched",
+      [&](const StereoArguments& photograph, const std::string& output, const Session& of_one) {
+        MatchCommandArguments one = arguments;
+        one.photographs = photograph;
+        one.folder = output;
+        return match_one(one, of_one);
+      },
+      session);
 }
 
 Rows match_command_rows(MatchCommandArguments& a) {

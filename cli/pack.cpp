@@ -198,10 +198,7 @@ Report pack_folder(const PackArguments& arguments, const Session& session) {
       .shown = [&](const PhotographJob& job) { return shown_of(job, packing, arguments.packing.format); }};
   work.work = [&](const PhotographJob& job, const Session& of_one) {
     PackArguments one = arguments;
-    one.input.files = {job.left};
-    if (!job.right.empty()) one.input.files.push_back(job.right);
-    if (!job.right.empty() || !job.depth.empty()) one.input.layout.clear();
-    one.depth.file = job.depth;
+    read_photograph_of(job, one.input, one.depth);
     one.output = job.output;
     one.packing.to = packing.name;  // whatever the ending says
     if (one.input.files.size() > 1 && one.input.swap) std::swap(one.input.files[0], one.input.files[1]);

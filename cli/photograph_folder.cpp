@@ -146,6 +146,13 @@ StereoArguments photograph_of(const StereoArguments& given, const PhotographJob&
   return one;
 }
 
+void read_photograph_of(const PhotographJob& job, ViewsArguments& views, DepthArguments& depth) {
+  views.files = {job.left};
+  if (!job.right.empty()) views.files.push_back(job.right);
+  if (!job.right.empty() || !job.depth.empty()) views.layout.clear();
+  depth.file = job.depth;
+}
+
 Rows pair_folder_rows(FolderArguments& a, const StereoArguments& photographs, std::string_view done) {
   return folder_rows(
       a, [&photographs] { return is_folder(photographs.left); }, done);

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "command.h"
+#include "depth_argument.h"
 #include "stereo_arguments.h"
+#include "views_argument.h"
 #include "wheatstone/photograph/find_photographs.h"
 
 namespace wheatstone::cli {
@@ -70,6 +72,9 @@ PhotographList pairs_in_folder(const std::string& folder, const StereoArguments&
 
 /// What is read for one photograph of a folder.
 StereoArguments photograph_of(const StereoArguments& given, const PhotographJob& job);
+
+/// The same, for commands that read views or a picture with its depth.
+void read_photograph_of(const PhotographJob& job, ViewsArguments& views, DepthArguments& depth);
 
 /// folder_rows of a command with LEFT and RIGHT; RIGHT is refused beside a folder.
 Rows pair_folder_rows(FolderArguments& arguments, const StereoArguments& photographs, std::string_view done);

@@ -309,4 +309,19 @@ Report work_on_all(const PhotographWork& work, const PhotographList& list, const
   return report;
 }
 
+Report work_on_pairs(const StereoArguments& photographs, const FolderArguments& folder, const std::string& output,
+                     std::string_view done, const PairWork& work, const Session& session) {
+  const PhotographWork all{
+      .input = photographs.left,
+      .output = output,
+      .folder = folder,
+      .done = done,
+      .max_size = photographs.max_size,
+      .work = [&](const PhotographJob& job,
+                  const Session& of_one) { return work(photograph_of(photographs, job), job.output, of_one); },
+      .is_done = [](const PhotographJob& job) { return is_folder(job.output); }};
+  const FolderOutput results{.folder = output, .ending = {}, .placeholders = {}};
+  return work_on_all(all, pairs_in_folder(photographs.left, photographs, folder, results, session), session);
+}
+
 }  // namespace wheatstone::cli

@@ -36,4 +36,11 @@ struct PhotographWork {
 /// of each, and of each file that is left out, in their order.
 Report work_on_all(const PhotographWork& work, const PhotographList& list, const Session& session);
 
+/// What a command that needs two views does with one photograph, whose result is a folder.
+using PairWork = std::function<PhotographResult(const StereoArguments&, const std::string& output, const Session&)>;
+
+/// work_on_all for the pairs in the folder `photographs.left`. `done` as PhotographWork's.
+Report work_on_pairs(const StereoArguments& photographs, const FolderArguments& folder, const std::string& output,
+                     std::string_view done, const PairWork& work, const Session& session);
+
 }  // namespace wheatstone::cli

@@ -109,31 +109,17 @@ PhotographResult rectify_one(const RectifyArguments& arguments, const Session& s
   return {report_of(pair, arguments), arguments.folder};
 }
 
-/// The same of each photograph in a folder.
-Report rectify_folder(const RectifyArguments& arguments, const Session& session) {
-  const std::string& folder = arguments.photographs.left;
-  const PhotographWork work{.input = folder,
-                            .output = arguments.folder,
-                            .folder = arguments.walk,
-                            .done = "rectified",
-                            .work =
-                                [&](const PhotographJob& job, const Session& of_one) {
-                                  RectifyArguments one = arguments;
-                                  one.photographs = photograph_of(arguments.photographs, job);
-                                  one.folder = job.output;
-                                  return rectify_one(one, of_one);
-                                },
-                            .is_done = [](const PhotographJob& job) { return is_folder(job.output); },
-                            .shown = [&](const PhotographJob& job) -> std::optional<std::filesystem::path> {
-                              return std::filesystem::path(job.output) / fmt::format("left.{}", arguments.format);
-                            }};
-  const FolderOutput output{.folder = arguments.folder, .ending = {}, .placeholders = {}};
-  return work_on_all(work, pairs_in_folder(folder, arguments.photographs, arguments.walk, output, session), session);
-}
-
 Report run_rectify(const RectifyArguments& arguments, const Session& session) {
-  if (is_folder(arguments.photographs.left)) return rectify_folder(arguments, session);
-  return rectify_one(arguments, session).report;
+  if (!is_folder(arguments.photographs.left)) return rectify_one(arguments, session).report;
+  return work_on_pairs(
+      arguments.photographs, arguments.walk, arguments.folder, "rectified",
+      [&](const StereoArguments& photograph, const std::string& output, const Session& of_one) {
+        RectifyArguments one = arguments;
+        one.photographs = photograph;
+        one.folder = output;
+        return rectify_one(one, of_one);
+      },
+      session);
 }
 
 Rows rectify_rows(RectifyArguments& a) {

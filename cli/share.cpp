@@ -231,10 +231,7 @@ Report share_folder(const ShareArguments& arguments, const Session& session) {
       .done = "shared",
       .work = [&](const PhotographJob& job, const Session& of_one) -> PhotographResult {
         ShareArguments one = arguments;
-        one.views.files = {job.left};
-        if (!job.right.empty()) one.views.files.push_back(job.right);
-        if (!job.right.empty() || !job.depth.empty()) one.views.layout.clear();
-        one.depth.file = job.depth;
+        read_photograph_of(job, one.views, one.depth);
         one.output = job.output;
         one.thumbnail = thumbnail_of(job);
         one.words = {.title = read_photograph_notes(job.left).title, .description = {}, .caption = {}};
