@@ -23,13 +23,14 @@ struct MatchCommandArguments {
 /// The names of all files that `write` writes.
 std::vector<std::string> result_names(bool rectified) {
   std::vector<std::string> names{"left_disparity.pfm",  "right_disparity.pfm", "left_disparity.png",
-                                 "right_disparity.png", "disparity.png",       "left_occlusion.png",
-                                 "right_occlusion.png"};
+                                 "right_disparity.png", "disparity.png",       "confidence.png",
+                                 "left_occlusion.png",  "right_occlusion.png"};
   if (rectified) names.insert(names.end(), {"left.png", "right.png"});
   return names;
 }
 
-void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry& geometry) {
+void write(OutputFolder& output, const PreparedPair& pair, const MatchedPair& matched) {
+  const StereoGeometry& geometry = matched.geometry;
   if (pair.rectification) {
     write_image(output.file("left.png"), pair.pictures.left);
     write_image(output.file("right.png"), pair.pictures.right);
@@ -39,6 +40,7 @@ void write(OutputFolder& output, const PreparedPair& pair, const StereoGeometry&
   write_disparity(output.file("left_disparity.png"), geometry.left_disparity);
   write_disparity(output.file("right_disparity.png"), geometry.right_disparity);
   write_image(output.file("disparity.png"), disparity_picture(geometry.left_disparity));
+  write_image(output.file("confidence.png"), matched.left_confidence);
   write_image(output.file("left_occlusion.png"), geometry.left_occlusion);
   write_image(output.file("right_occlusion.png"), geometry.right_occlusion);
   output.commit();
@@ -54,7 +56,7 @@ PhotographResult match_one(const MatchCommandArguments& arguments, const Session
   const MatchOptions options = match_options_from(arguments.matching);
   const MatchedPair matched = match(pair.pictures, options, session.progress);
   const MatchConfidence confidence = measure_match(pair.pictures, matched, options.range);
-  write(folder, pair, matched.geometry);
+  write(folder, pair, matched);
   tell_of_match(read, confidence, session);
   Report report{{{"folder", arguments.folder},
                  {"least_disparity_px", matched.range.least,
@@ -66,8 +68,10 @@ PhotographResult match_one(const MatchCommandArguments& arguments, const Session
                  {"right_found_share", matched.right_found_share},
                  {"confidence", Json::parse(confidence_json(confidence)),
                   fmt::format("streaks                  {:.1f} % of the disparity map\n"
+                              "patches                  {:.2f} % of it; {:.0f} % of the left view is plain\n"
                               "partners differ by       {:.1f} of 255 (median)",
-                              100 * confidence.streak_share, confidence.colour_difference)},
+                              100 * confidence.streak_share, 100 * confidence.patch_share, 100 * confidence.plain_share,
+                              confidence.colour_difference)},
                  {"pair", Json::parse(preparation_json(pair)),
                   undecided_eyes(pair).empty() ? "" : fmt::format("eyes                     {}", undecided_eyes(pair))},
                  only_text(fmt::format("written to               {}", arguments.folder))}};
@@ -107,9 +111,9 @@ Command match_command() {
   return make_command(
       "match", "Estimate disparity and occlusion of a stereo pair", match_command_rows, run_match,
       R"(Writes left_disparity and right_disparity, each in its own view, as .pfm in pixels and as .png with 16 bits, which can
-be edited and given back with paint --disparity; disparity.png to look at (near is red); and the occlusion masks (white:
-the other eye does not see it); where the pair was rectified also left.png and right.png, the rectified pictures that
-they belong to.
+be edited and given back with paint --disparity; disparity.png to look at (near is red); confidence.png (white: found and confirmed, grey: doubtful, black: filled from
+its surroundings); and the occlusion masks (white: the other eye does not see it). Where the pair was rectified, left.png
+and right.png are the rectified pictures that they belong to.
 
 Example:
   wheatstone synth still -o still

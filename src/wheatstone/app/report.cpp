@@ -104,6 +104,7 @@ std::string confidence_json(const MatchConfidence& confidence) {
   const std::string warning = match_warning(confidence);
   Json facts{{"found_share", rounded(confidence.found_share)},
              {"streak_share", rounded(confidence.streak_share)},
+             {"patch_share", rounded(confidence.patch_share)},
              {"colour_difference", rounded(confidence.colour_difference)},
              {"plain_share", rounded(confidence.plain_share)},
              {"overlap_share", rounded(confidence.overlap_share)},

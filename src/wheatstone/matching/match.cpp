@@ -161,6 +161,15 @@ double share_of(const cv::Mat& mask) {
   return mask.empty() ? 0 : static_cast<double>(cv::countNonZero(mask)) / static_cast<double>(mask.total());
 }
 
+/// MatchedPair::left_confidence.
+Image<std::uint8_t> confidence_of(const CheckedMatch& match) {
+  Image<std::uint8_t> confidence(match.found.width(), match.found.height());
+  cv::Mat sum = as_mat(confidence);
+  const cv::Mat trusted = as_mat(match.found) == as_mat(match.found);
+  cv::addWeighted(match.confirmed, 0.5, trusted, 0.5, 0, sum);
+  return confidence;
+}
+
 /// The median of 5×5 pixels, on all processors.
 void take_median(Image<float>& disparity) {
   constexpr int side_px = 5, margin = side_px / 2, band_rows = 64;
@@ -210,6 +219,7 @@ std::optional<MatchedPair> match_at_this_size(const StereoPair& pair, const Disp
   MatchedPair matched;
   matched.left_found_share = share_of(match.confirmed);
   matched.plain_share = share_of(match.plain);
+  matched.left_confidence = confidence_of(match);
   matched.right_found_share = known_share(match.right);
   report(progress, "matching", 1);
   if (ours) {
@@ -304,9 +314,14 @@ std::optional<MatchedPair> match_if_any(const StereoPair& pair, const MatchOptio
   }
   if (!matched) return {};
   matched->range = range;
-  if (scale != 1)
-    matched->geometry =
-        geometry_from_left(enlarged(matched->geometry.left_disparity, pair.left.width(), pair.left.height()));
+  if (scale != 1) {
+    const int width = pair.left.width(), height = pair.left.height();
+    matched->geometry = geometry_from_left(enlarged(matched->geometry.left_disparity, width, height));
+    Image<std::uint8_t> confidence(width, height);
+    cv::Mat target = as_mat(confidence);
+    cv::resize(as_mat(matched->left_confidence), target, target.size(), 0, 0, cv::INTER_NEAREST);
+    matched->left_confidence = std::move(confidence);
+  }
   report(progress, "matching", 1);
   return matched;
 }

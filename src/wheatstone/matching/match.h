@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -78,6 +79,9 @@ MatchOptions match_options_for(MatchQuality quality);
 struct MatchedPair {
   StereoGeometry geometry;
   DisparityRange range;
+  /// Of each pixel of the left view: 255, its disparity is confirmed and clear; 128, it is one of the two; 0, it is
+  /// filled from its surroundings.
+  Image<std::uint8_t> left_confidence;
   double left_found_share = 0;
   double right_found_share = 0;
   double plain_share = 0;  ///< of the left picture: large parts that show nothing but noise; census only

@@ -1,7 +1,6 @@
 #include "wheatstone/matching/match_confidence.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -10,9 +9,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/opencv_internal.h"
 #include "wheatstone/image/shrunk_internal.h"
+#include "wheatstone/matching/map_flaws.h"
 #include "wheatstone/matching/seen_disparities_internal.h"
 #include "wheatstone/percentile.h"
 
@@ -24,43 +23,6 @@ Value middle_of(std::vector<Value>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
-}
-
-constexpr int taps = 15;
-
-/// How many of the values along lines through the pixels of a row lie beyond a tolerance, above the pixel's own value
-/// and below it. Where most do, so does their median.
-struct Beyond {
-  std::vector<int> above, below;
-  explicit Beyond(int columns) : above(columns, 0), below(columns, 0) {}
-
-  /// Counts one value of each line; `is_beyond` compares a difference with the tolerance.
-  template <class IsBeyond>
-  void count(const float* values, const float* own, IsBeyond is_beyond) {
-    for (std::size_t x = 0; x < above.size(); ++x) {
-      above[x] += is_beyond(values[x] - own[x]) ? 1 : 0;
-      below[x] += is_beyond(own[x] - values[x]) ? 1 : 0;
-    }
-  }
-
-  bool has_median(std::size_t x) const { return above[x] > taps / 2 || below[x] > taps / 2; }
-};
-
-/// How many pixels of a row differ from the median of the column about them by more than a tolerance, but not from that
-/// of their row. `framed` goes on by taps / 2 beyond each side.
-int streaks_of_row(const cv::Mat& framed, int y, float tolerance) {
-  constexpr int reach = taps / 2;
-  const int columns = framed.cols - 2 * reach;
-  const float* const own = framed.ptr<float>(y + reach) + reach;
-  Beyond of_column(columns), of_row(columns);
-  for (int i = -reach; i <= reach; ++i) {
-    of_column.count(framed.ptr<float>(y + reach + i) + reach, own, [&](float by) { return by > tolerance; });
-    of_row.count(own + i, own, [&](float by) { return by >= tolerance; });
-  }
-  int streaks = 0;
-  for (std::size_t x = 0; x < of_row.above.size(); ++x)
-    streaks += of_column.has_median(x) && !of_row.has_median(x) ? 1 : 0;
-  return streaks;
 }
 
 /// Fine detail of a picture as it is matched: the mean magnitude of its Laplacian, above what noise makes of it.
@@ -145,27 +107,6 @@ Spread compare_partners(const StereoPair& pair, const StereoGeometry& geometry, 
 
 }  // namespace
 
-double streak_share(ImageView<const float> disparity) {
-  constexpr int columns = 640;
-  constexpr double share_of_range = 0.03;
-  // Of a tall strip only so many: it would be enlarged to many times its size.
-  constexpr int most_rows = 4 * columns;
-  const double own_shape = static_cast<double>(disparity.height()) * columns / disparity.width();
-  const int rows = std::clamp(static_cast<int>(std::lround(std::min<double>(own_shape, most_rows))), 1, most_rows);
-  Image<float> reduced(columns, rows);
-  const cv::Mat map = as_mat(reduced);
-  cv::resize(as_mat(disparity), map, map.size(), 0, 0, cv::INTER_NEAREST);
-  const double range = static_cast<double>(disparity_percentile(reduced, 0.98)) - disparity_percentile(reduced, 0.02);
-  const auto tolerance = static_cast<float>(share_of_range * range);
-  std::vector<int> streaks(rows, 0);
-  cv::Mat framed;
-  cv::copyMakeBorder(map, framed, taps / 2, taps / 2, taps / 2, taps / 2, cv::BORDER_REFLECT);
-  tbb::parallel_for(0, rows, [&](int y) { streaks[y] = streaks_of_row(framed, y, tolerance); });
-  int all = 0;
-  for (const int count : streaks) all += count;
-  return static_cast<double>(all) / (static_cast<double>(columns) * rows);
-}
-
 MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched,
                               const std::optional<DisparityRange>& asked_range) {
   const Image<float>& disparity = matched.geometry.left_disparity;
@@ -175,6 +116,7 @@ MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched
   double left_detail = 0, right_detail = 0;
   Spread spread;
   tbb::parallel_invoke([&] { confidence.streak_share = streak_share(disparity); },
+                       [&] { confidence.patch_share = patch_share(disparity, pair.left); },
                        [&] { left_detail = detail_of(pair.left); }, [&] { right_detail = detail_of(pair.right); },
                        [&] { spread = compare_partners(pair, matched.geometry, confidence); });
   confidence.left_is_blurrier = left_detail < right_detail;

@@ -19,6 +19,7 @@ struct RangeMisfit {
 struct MatchConfidence {
   double found_share = 0;   ///< of the left view: found before anything was filled, and confirmed by the right view
   double streak_share = 0;  ///< of a copy of 640 columns: as its row is, but not as its column is (`streak_share`)
+  double patch_share = 0;   ///< of a copy of 800 columns: unlike its surroundings without an edge there (`patch_share`)
   double colour_difference = 0;  ///< median of |left − right| of partners, mean of the channels, 0..255
   double plain_share = 0;        ///< of the left view: nothing but noise
   double overlap_share = 0;      ///< of the left view: its partner lies within the right picture
@@ -33,11 +34,6 @@ struct MatchConfidence {
 /// its ends the pair is searched for more beyond, in a fifth of the time that matching takes.
 MatchConfidence measure_match(const StereoPair& pair, const MatchedPair& matched,
                               const std::optional<DisparityRange>& asked_range = {});
-
-/// Streaks of a disparity map reduced to 640 columns: the share of pixels that differ from the median of the 15 in
-/// their column by more than 3 % of the map's range (2nd to 98th percentile), and from that of the 15 in their row by
-/// less. Every disparity is known.
-double streak_share(ImageView<const float> disparity);
 
 /// One sentence that names the likeliest reason why a match is poor, and what helps; empty where it is good: at least
 /// 70 % found, at most 3 % streaks, some depth, in a range that fits. Rows that differ are told by row_warning.

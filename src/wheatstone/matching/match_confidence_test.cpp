@@ -134,16 +134,4 @@ TEST(MatchWarning, NamesTheRangeThatIsFarTooWide) {
   EXPECT_THAT(warning, HasSubstr("narrow --range"));
 }
 
-TEST(MatchConfidence, CountsTheStreaksThatThereAre) {
-  Image<float> slope(1280, 720);
-  for (int y = 0; y < slope.height(); ++y)
-    for (int x = 0; x < slope.width(); ++x) slope(x, y) = 10 + 0.05f * static_cast<float>(y);
-  EXPECT_EQ(streak_share(slope), 0);
-  // Every twelfth pair of rows is off over half of the width: a pair of rows is one of the copy's.
-  for (int y = 0; y < slope.height(); ++y)
-    for (int x = 0; x < slope.width() / 2; ++x)
-      if (y / 2 % 12 == 0) slope(x, y) += 20;
-  EXPECT_NEAR(streak_share(slope), 0.5 / 12, 0.003);
-}
-
 }  // namespace wheatstone::match_confidence_test

@@ -9,8 +9,8 @@
 
 #include "shared_data.h"
 #include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/matching/map_flaws.h"
 #include "wheatstone/matching/match.h"
-#include "wheatstone/matching/match_confidence.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/match_reliability_internal.h"
 #include "wheatstone/measures/consistency.h"
