@@ -35,7 +35,15 @@ cv::Mat weighted_tensors(const cv::Mat& luminance, float steps_per_picture_px) {
   return tensors;
 }
 
-/// Normalised convolution over a pyramid: each level speaks where it has weight, the coarser ones elsewhere.
+/// How much more a tensor points one way than noise alone would, 0..1.
+float clear_coherence(const cv::Vec4f& tensor, float of_noise) {
+  const float across = tensor[0] - tensor[2], aslant = 2 * tensor[1], sum = tensor[0] + tensor[2];
+  const float coherence = std::sqrt(across * across + aslant * aslant) / std::max(sum, 1e-12f);
+  return std::max(coherence - of_noise, 0.f) / (1 - of_noise);
+}
+
+/// Normalised convolution over a pyramid: each level speaks where it has weight, the coarser ones elsewhere. What is
+/// weak counts where it points one way: noise does not, and a faint slope does.
 cv::Mat interpolate(const cv::Mat& finest) {
   std::vector<cv::Mat> levels{finest};
   while (std::min(levels.back().rows, levels.back().cols) > 2) {
@@ -43,13 +51,18 @@ cv::Mat interpolate(const cv::Mat& finest) {
     cv::pyrDown(levels.back(), coarser);
     levels.push_back(coarser);
   }
-  constexpr float full_confidence = 0.25f;
+  // Noise points one way about as much as this in the finest level, and half as much in each coarser one, which takes
+  // the mean of four times as many.
+  constexpr float full_confidence = 0.25f, weak = 0.1f, finest_of_noise = 0.6f;
+  // Where there is nothing but faint noise strokes lie level, as on a slope of 1/20 step a pixel from top to bottom.
+  constexpr double level_ground = 1e-5;
   cv::Mat field;
   for (std::size_t finer_levels = levels.size(); finer_levels-- > 0;) {
     const cv::Mat& level = levels[finer_levels];
+    const float of_noise = std::ldexp(finest_of_noise, -static_cast<int>(finer_levels));
     cv::Mat coarser_field;
     if (field.empty()) {
-      coarser_field = cv::Mat::zeros(level.size(), CV_32FC4);
+      coarser_field = cv::Mat(level.size(), CV_32FC4, cv::Scalar(0, 0, level_ground, 0));
     } else {
       cv::pyrUp(field, coarser_field, level.size());
     }
@@ -60,7 +73,8 @@ cv::Mat interpolate(const cv::Mat& finest) {
       cv::Vec4f* to = field.ptr<cv::Vec4f>(y);
       for (int x = 0; x < field.cols; ++x) {
         const float weight = own[x][3];
-        const float confidence = std::min(weight / full_confidence, 1.f);
+        const float strength = std::min(weight / full_confidence, 1.f);
+        const float confidence = strength * std::max(std::min(strength / weak, 1.f), clear_coherence(own[x], of_noise));
         const cv::Vec4f mean = own[x] * (1 / std::max(weight, 1e-6f));
         to[x] = mean * confidence + coarse[x] * (1 - confidence);
       }
@@ -76,7 +90,9 @@ OrientationField::OrientationField(ImageView<const std::uint8_t> luminance, floa
   const int width = std::max(static_cast<int>(static_cast<float>(luminance.width()) * scale_), 1);
   const int height = std::max(static_cast<int>(static_cast<float>(luminance.height()) * scale_), 1);
   cv::Mat reduced;
-  cv::resize(as_mat(luminance), reduced, {width, height}, 0, 0, cv::INTER_AREA);
+  // In parts of a step: a plain place's rounding has edges of its own.
+  as_mat(luminance).convertTo(reduced, CV_32F);
+  cv::resize(reduced, reduced, {width, height}, 0, 0, cv::INTER_AREA);
   // A first blur spreads each gradient a little, so that neighbouring strokes agree.
   cv::Mat tensors = weighted_tensors(reduced, scale_);
   cv::GaussianBlur(tensors, tensors, {}, 1.5);
