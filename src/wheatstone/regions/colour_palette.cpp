@@ -13,9 +13,16 @@ using Colour = PaletteColour;
 
 Colour colour_of(Rgb8 c) { return {static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)}; }
 
-double squared_distance(const Colour& a, const Colour& b) {
-  const double red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
-  return red * red + green * green + blue * blue;
+/// Of two colours with these differences of their channels. Rec. 601's luminance.
+double unlikeness_of(double red, double green, double blue) {
+  constexpr double of_colour = 3;
+  const double luminance = 0.299 * red + 0.587 * green + 0.114 * blue;
+  const double redness = red - luminance, blueness = blue - luminance;
+  return 3 * luminance * luminance + of_colour * (redness * redness + blueness * blueness);
+}
+
+double unlikeness(const Colour& a, const Colour& b) {
+  return unlikeness_of(a.red - b.red, a.green - b.green, a.blue - b.blue);
 }
 
 /// Pixels on a regular lattice: as many as tell the colours of any picture.
@@ -30,14 +37,14 @@ std::vector<Colour> sampled(ImageView<const Rgb8> picture) {
   return samples;
 }
 
-/// Each centre is drawn with a chance proportional to the squared distance to the nearest one so far.
+/// Each centre is drawn with a chance proportional to its unlikeness to the nearest one so far.
 std::vector<Colour> first_centres(const std::vector<Colour>& samples, int count, std::uint64_t seed) {
   std::vector<Colour> centres{samples[hash_keys({seed, 0}) % samples.size()]};
   std::vector<double> distance(samples.size(), std::numeric_limits<double>::infinity());
   while (static_cast<int>(centres.size()) < count) {
     double sum = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      distance[i] = std::min(distance[i], squared_distance(samples[i], centres.back()));
+      distance[i] = std::min(distance[i], unlikeness(samples[i], centres.back()));
       sum += distance[i];
     }
     if (sum <= 0) break;
@@ -53,7 +60,7 @@ std::size_t nearest(const std::vector<Colour>& centres, const Colour& colour) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    const double distance = squared_distance(centres[i], colour);
+    const double distance = unlikeness(centres[i], colour);
     if (distance >= least) continue;
     least = distance;
     best = i;
@@ -83,14 +90,10 @@ void move_to_means(const std::vector<Colour>& samples, int rounds, std::vector<C
 /// below that, because regions have the mean of their pixels.
 constexpr double missed_from = 0.8 * unlike_colours;
 
-double squared_distance_to(const std::vector<Colour>& centres, const Colour& colour) {
-  return squared_distance(centres[nearest(centres, colour)], colour);
-}
-
 std::vector<Colour> missed_by(const std::vector<Colour>& centres, const std::vector<Colour>& samples) {
   std::vector<Colour> missed;
   for (const Colour& sample : samples)
-    if (squared_distance_to(centres, sample) > missed_from * missed_from) missed.push_back(sample);
+    if (unlikeness(centres[nearest(centres, sample)], sample) > missed_from * missed_from) missed.push_back(sample);
   return missed;
 }
 
@@ -104,7 +107,7 @@ Colour densest(const std::vector<Colour>& colours) {
     Colour sum;
     double count = 0;
     for (const Colour& colour : colours) {
-      if (squared_distance(colour, colours[i]) > missed_from * missed_from) continue;
+      if (unlikeness(colour, colours[i]) > missed_from * missed_from) continue;
       sum = {sum.red + colour.red, sum.green + colour.green, sum.blue + colour.blue};
       ++count;
     }
@@ -115,22 +118,19 @@ Colour densest(const std::vector<Colour>& colours) {
   return best;
 }
 
-/// The centre that is missed least where the others stand in for it: first by how many samples they would miss, then
-/// by the squared distances that they add.
+/// The centre for whose samples the others stand in best: by the unlikeness that each of them gains. Neighbouring
+/// shades move together and heal the gap that one of them leaves; nothing heals that of a colour of its own.
 std::size_t least_needed(const std::vector<Colour>& centres, const std::vector<Colour>& samples) {
-  struct Loss {
-    double missed = 0, error = 0;
-    auto operator<=>(const Loss&) const = default;
-  };
-  std::vector<Loss> losses(centres.size());
+  std::vector<double> losses(centres.size()), members(centres.size());
   for (const Colour& sample : samples) {
     const std::size_t own = nearest(centres, sample);
     double next = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < centres.size(); ++i)
-      if (i != own) next = std::min(next, squared_distance(centres[i], sample));
-    losses[own].missed += next > missed_from * missed_from ? 1 : 0;
-    losses[own].error += next - squared_distance(centres[own], sample);
+      if (i != own) next = std::min(next, unlikeness(centres[i], sample));
+    losses[own] += next - unlikeness(centres[own], sample);
+    ++members[own];
   }
+  for (std::size_t i = 0; i < losses.size(); ++i) losses[i] /= std::max(members[i], 1.0);
   return static_cast<std::size_t>(std::ranges::min_element(losses) - losses.begin());
 }
 
@@ -191,12 +191,13 @@ int squared_distance(Rgb8 a, Rgb8 b) {
   return red * red + green * green + blue * blue;
 }
 
+float unlikeness(Rgb8 a, Rgb8 b) { return static_cast<float>(unlikeness(colour_of(a), colour_of(b))); }
+
 std::size_t nearest_colour(const std::vector<Rgb8>& palette, Rgb8 colour) {
   std::size_t best = 0;
-  int least = std::numeric_limits<int>::max();
+  float least = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < palette.size(); ++i) {
-    const int red = palette[i].r - colour.r, green = palette[i].g - colour.g, blue = palette[i].b - colour.b;
-    const int distance = red * red + green * green + blue * blue;
+    const float distance = unlikeness(palette[i], colour);
     if (distance >= least) continue;
     least = distance;
     best = i;

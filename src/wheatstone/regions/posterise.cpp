@@ -21,19 +21,19 @@ namespace {
 
 /// Regions smaller than this, for a picture 640 pixels wide, are joined to their neighbours.
 constexpr float least_area_px = 40;
-/// How firmly a pixel keeps the colour that was carried to it: another one must be nearer by this share of the squared
-/// distance between the kept colour and its nearest neighbour in the palette, so that a pixel leaves for that neighbour
-/// after four fifths of the way.
+/// How firmly a pixel keeps the colour that was carried to it: another one must be nearer by this share of the
+/// unlikeness between the kept colour and its nearest neighbour in the palette, so that a pixel leaves for that
+/// neighbour after four fifths of the way.
 constexpr float firmness = 0.6f;
 
-/// For each colour, by how much in squared distance others must be nearer.
+/// For each colour, by how much in unlikeness others must be nearer.
 std::vector<float> holds_of(const std::vector<Rgb8>& palette) {
   std::vector<float> holds;
   for (std::size_t i = 0; i < palette.size(); ++i) {
-    int nearest = std::numeric_limits<int>::max();
+    float nearest = std::numeric_limits<float>::max();
     for (std::size_t k = 0; k < palette.size(); ++k)
-      if (k != i) nearest = std::min(nearest, squared_distance(palette[i], palette[k]));
-    holds.push_back(firmness * static_cast<float>(nearest));
+      if (k != i) nearest = std::min(nearest, unlikeness(palette[i], palette[k]));
+    holds.push_back(firmness * nearest);
   }
   return holds;
 }
@@ -64,17 +64,17 @@ class CarriedColours {
     // The usual case, without a search: by the triangle inequality no other colour can be nearer by enough.
     constexpr float surely = 0.99f * (1 + firmness) * (1 + firmness) / 4 / firmness;
     if (std::ranges::all_of(colours, [&](std::size_t colour) { return colour == colours[0]; }) &&
-        static_cast<float>(squared_distance(palette[colours[0]], own)) < surely * holds_[colours[0]])
+        unlikeness(palette[colours[0]], own) < surely * holds_[colours[0]])
       return colours[0];
     const std::array<float, 4> shares{(1 - across) * (1 - down), across * (1 - down), (1 - across) * down,
                                       across * down};
     std::size_t best = nearest_colour(palette, own);
-    auto least = static_cast<float>(squared_distance(palette[best], own));
+    float least = unlikeness(palette[best], own);
     for (const std::size_t colour : colours) {
       float share = 0;
       for (std::size_t i = 0; i < colours.size(); ++i)
         if (colours[i] == colour) share += shares[i];
-      const float distance = static_cast<float>(squared_distance(palette[colour], own)) - holds_[colour] * share;
+      const float distance = unlikeness(palette[colour], own) - holds_[colour] * share;
       if (distance >= least) continue;
       least = distance;
       best = colour;
@@ -120,7 +120,7 @@ std::size_t colour_of_area(const RegionMeans& means, std::span<const std::uint32
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < palette.size(); ++i) {
     const double kept = static_cast<double>(carried.hold(i)) * counts[i] / static_cast<double>(means.area);
-    const double distance = squared_distance(palette[i], mean) - kept;
+    const double distance = static_cast<double>(unlikeness(palette[i], mean)) - kept;
     if (distance >= least) continue;
     least = distance;
     best = i;

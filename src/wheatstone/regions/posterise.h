@@ -21,7 +21,7 @@ struct PosterisedMemory {
 };
 
 /// A frame of a film as regions of few colours (Bukenberger et al. 2015, sec. 4.2): the pixels of the reference view
-/// are clustered in RGB by k-means into `style.colours` colours, connected pixels of one colour and one surface become
+/// are clustered by k-means into `style.colours` colours, connected pixels of one colour and one surface become
 /// a region. The reference view gives all views their regions; what only another view sees is cut there, into the same
 /// colours. In the frames that follow the palette goes on from the frame before, slowly, and a pixel keeps its point's
 /// colour, carried along the confirmed flow, unless another one is now clearly nearer. Throws Error: bad_input where

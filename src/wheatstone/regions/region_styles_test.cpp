@@ -145,6 +145,28 @@ TEST(Palette, HasAColourForSmallThingsOfTheirOwn) {
   }
 }
 
+/// A face and a grey coat of the same luminances, from dark to light.
+TEST(Palette, TellsSkinFromGreyOfItsLuminance) {
+  Image<Rgb8> picture(320, 160);
+  for (int y = 0; y < 160; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      const float light = 40 + 160 * static_cast<float>(x % 160) / 160;
+      const auto level = [&](float share) { return static_cast<std::uint8_t>(share * light); };
+      picture(x, y) = x < 160 ? Rgb8{level(1.18f), level(0.95f), level(0.82f)} : Rgb8{level(1), level(1), level(1)};
+    }
+  }
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const std::vector<Rgb8> palette = rounded(find_palette(picture, 8, seed));
+    int wrong = 0;
+    for (int x = 0; x < 320; ++x) {
+      const Rgb8 colour = palette[nearest_colour(palette, picture(x, 80))];
+      const bool looks_like_skin = colour.r - colour.b > 0.18f * static_cast<float>(colour.r);
+      wrong += looks_like_skin == (x < 160) ? 0 : 1;
+    }
+    EXPECT_LE(wrong, 60) << seed;  // by distances in RGB 75 to 96; what is left is nearly black
+  }
+}
+
 TEST(Posterise, ShowsNoMoreColoursThanAskedFor) {
   Style style = small_style("posterise");
   style.colours = 3;
