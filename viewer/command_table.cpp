@@ -16,7 +16,7 @@ std::vector<Command> all_commands() {
   std::vector<Command> all;
   for (const std::span<const Command> group :
        {file_commands(), looking_commands(), depth_commands(), input_commands(), painting_commands(), film_commands(),
-        particle_commands(), quantity_commands(), camera_commands(), panel_commands()})
+        particle_commands(), quantity_commands(), camera_commands(), panel_commands(), retouch_commands()})
     all.insert(all.end(), group.begin(), group.end());
   std::ranges::stable_partition(all, [](const Command& command) { return command.menu != "Help"; });
   return all;
@@ -47,13 +47,15 @@ ViewState parameters_of(ViewState state) {
   state.comparison = as_new.comparison;
   state.layers_apart_deg = as_new.layers_apart_deg;
   state.depth_around = as_new.depth_around;
+  // A stroke of the hand is undone as a whole.
+  while (!state.touches.empty() && state.touches.back().is_another) state.touches.pop_back();
   return state;
 }
 
 void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState>& to) {
   if (from.empty()) return;
   Session& session = viewer.session();
-  const bool painted_anew = from.back().style != session.state.style;
+  const bool painted_anew = from.back().style != session.state.style || from.back().touches != session.state.touches;
   const ViewState now = session.state;
   session.state = from.back();
   session.state.framed = now.framed;
@@ -73,11 +75,13 @@ void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState
 struct Work {
   Style style;
   std::vector<DepthRegion> depth_regions;
+  std::vector<Touch> touches;
   float vertical_px = 0, roll_deg = 0;
   CameraPath camera_path;
   explicit Work(const Session& session)
       : style(session.state.style),
         depth_regions(session.state.depth_regions),
+        touches(session.state.touches),
         vertical_px(session.state.adjustment.vertical_px),
         roll_deg(session.state.adjustment.roll_deg),
         camera_path(session.camera_path) {}

@@ -98,6 +98,7 @@ void redo(Viewer& viewer);
 // The parts of the table, in its order, one a file.
 std::span<const Command> file_commands();
 std::span<const Command> looking_commands();
+std::span<const Command> retouch_commands();
 std::span<const Command> depth_commands();
 std::span<const Command> input_commands();
 std::span<const Command> painting_commands();

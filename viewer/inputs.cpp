@@ -165,6 +165,14 @@ std::optional<SeenPlace> seen_at(const Viewer& viewer, double x, double y) {
                    disparity_at(frame.placed, place).value_or(*disparity)};
 }
 
+std::optional<SeenPlace> seen_in_left(const Viewer& viewer, double x, double y) {
+  std::optional<SeenPlace> seen = seen_at(viewer, x, y);
+  const auto* const painted = std::get_if<PaintedContent>(&viewer.frame()->shown);
+  if (!seen || painted == nullptr || !painted->painting || painted->painting->surfaces.seen.empty()) return {};
+  seen->x += (painted->painting->surfaces.seen.front().view - left_eye) * seen->disparity_px;
+  return seen;
+}
+
 std::optional<float> disparity_under(const Viewer& viewer, double x, double y) {
   const Frame* const frame = viewer.frame();
   const std::optional<PlaceInView> place = frame != nullptr ? place_at(frame->places, x, y) : std::nullopt;

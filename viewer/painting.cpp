@@ -66,22 +66,54 @@ Painting small_painting(const Photograph& photograph, const Style& style, int la
   return plan_painting(pair, geometry, style, progress, ViewRange{}, detail_of(photograph, style));
 }
 
-void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style, const Progress& progress,
-                    const std::function<void(PaintedContent)>& deliver) {
-  std::shared_ptr<const Photograph> known = photograph;
-  const bool wants_detail = reads_detail(style) && !known->detail;
-  if (!known->geometry || wants_detail) {
-    auto found = std::make_shared<Photograph>(*photograph);
-    if (!found->geometry) found->geometry = find_geometry(found->pictures, {}, progress).geometry;
-    if (wants_detail) found->detail = detail_of_faces(found->pictures.left);
-    known = std::move(found);
-    if (!photograph->geometry) deliver({nullptr, known});
+namespace {
+
+/// The photograph with what a style needs of it, retouched; the same where nothing is to be done.
+std::shared_ptr<const Photograph> made_ready(const std::shared_ptr<const Photograph>& photograph, const Style& style,
+                                             std::span<const Touch> touches, const Progress& progress) {
+  const bool wants_detail = reads_detail(style) && !photograph->detail;
+  if (photograph->geometry && !wants_detail && touches.empty() && !photograph->found) return photograph;
+  auto ready = std::make_shared<Photograph>(*photograph);
+  if (!ready->geometry) ready->geometry = find_geometry(ready->pictures, {}, progress).geometry;
+  if (wants_detail) ready->detail = detail_of_faces(ready->pictures.left);
+  const bool changes_depth =
+      std::ranges::any_of(touches, [](const Touch& touch) { return touch.kind != Retouch::detail; });
+  if (changes_depth) {
+    if (!ready->found) ready->found = ready->geometry;
+    Image<float> disparity = ready->found->left_disparity;
+    retouch_disparity(touches, ready->pictures.left, disparity);
+    ready->geometry = geometry_from_left(std::move(disparity));
+  } else if (ready->found) {
+    ready->geometry = std::exchange(ready->found, {});
   }
+  return ready;
+}
+
+/// The detail map of a photograph, retouched; empty where the style reads none.
+Image<std::uint8_t> retouched_detail(const Photograph& photograph, const Style& style, std::span<const Touch> touches) {
+  if (!reads_detail(style) || !photograph.detail) return {};
+  Image<std::uint8_t> detail = *photograph.detail;
+  const bool is_touched =
+      std::ranges::any_of(touches, [](const Touch& touch) { return touch.kind == Retouch::detail; });
+  if (is_touched && detail.empty())
+    detail = Image<std::uint8_t>(photograph.pictures.left.width(), photograph.pictures.left.height(), even_detail);
+  retouch_detail(touches, detail);
+  return detail;
+}
+
+}  // namespace
+
+void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style,
+                    std::span<const Touch> touches, const Progress& progress,
+                    const std::function<void(PaintedContent)>& deliver) {
+  const std::shared_ptr<const Photograph> known = made_ready(photograph, style, touches, progress);
+  if (!photograph->geometry) deliver({nullptr, known});
   const Image<Rgb8>& left = known->pictures.left;
   if (std::max(left.width(), left.height()) > 2 * coarse_px)
     deliver({std::make_shared<const Painting>(coarse_painting(*known, style, progress)), known});
-  deliver({std::make_shared<const Painting>(plan_painting(known->pictures, *known->geometry, style, progress,
-                                                          widest_views, detail_of(*known, style))),
+  const Image<std::uint8_t> detail = retouched_detail(*known, style, touches);
+  deliver({std::make_shared<const Painting>(
+               plan_painting(known->pictures, *known->geometry, style, progress, widest_views, detail)),
            known});
 }
 

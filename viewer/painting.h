@@ -4,20 +4,24 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
 
 #include "content.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
+#include "wheatstone/stereo/retouch.h"
 #include "wheatstone/video/film_files.h"
 
 namespace wheatstone::viewer {
 
 /// Paints a photograph, coarse at once and then fine: `deliver` gets the photograph with its geometry, where that is
-/// not known yet, then a painting of a small copy, enlarged, then the painting as `wheatstone paint` makes it. Throws
-/// as paint_photograph does; what `progress` throws ends it.
-void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style, const Progress& progress,
+/// not known yet, then a painting of a small copy, enlarged, then the painting as `wheatstone paint` makes it. The
+/// touches are of its geometry as it was found, and of its detail. Throws as paint_photograph does; what `progress`
+/// throws ends it.
+void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style,
+                    std::span<const Touch> touches, const Progress& progress,
                     const std::function<void(PaintedContent)>& deliver);
 
 /// A painting of a small copy of a photograph whose geometry is known, in pixels of the copy, which has at most so many

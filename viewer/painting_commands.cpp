@@ -79,7 +79,7 @@ void compare(Viewer& viewer, const Words& words) {
   const auto found = std::ranges::find(comparison_names, words[0]);
   if (found == comparison_names.end())
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("'{}' is nothing to compare, expected painting, photograph or split", words[0]));
+                fmt::format("'{}' is nothing to compare, expected painting, photograph, split or depth", words[0]));
   state_of(viewer).comparison = static_cast<Comparison>(found - comparison_names.begin());
 }
 
@@ -136,9 +136,9 @@ constexpr Command painting_table[] = {
      {.choices = style_choices, .now = [](const Viewer& v) { return v.session().state.style.name; }}},
     {"set", "PARAMETER VALUE", "Painting", "Change a parameter of the style", "", set_parameter},
     {"compare",
-     "painting|photograph|split",
+     "painting|photograph|split|depth",
      "Painting",
-     "Compare with the photograph",
+     "Compare with the photograph, or its depth",
      "",
      compare,
      {.now =

@@ -95,6 +95,7 @@ std::string state_json(const Viewer& viewer, const std::vector<std::pair<std::st
             {"finest_layer", state.slicing.finest_layer},
             {"slice_depth", slice_depths_text(state.slicing.depths)},
             {"style", state.style.name},
+            {"touches", state.touches.size()},
             {"compare", comparison_names[static_cast<std::size_t>(state.comparison)]},
             {"full_screen", session.full_screen},
             {"information", session.information},

@@ -44,6 +44,19 @@ struct GazeGains {
 
 constexpr double click_easing_s = 0.08;  ///< after which a third of the way is left
 
+/// What the pointer does to the maps that a photograph is painted with.
+enum class RetouchTool { off, nearer, farther, smooth, flatten, fill_far, fill_near, finer, coarser };
+
+inline constexpr std::array<std::string_view, 9> retouch_tool_names{
+    "off", "nearer", "farther", "smooth", "flatten", "fill-far", "fill-near", "finer", "coarser"};  ///< in their order
+
+struct RetouchBrush {
+  RetouchTool tool = RetouchTool::off;
+  float radius_px = 30;  ///< in pixels of the picture
+  float strength = 1;    ///< of a touch: pixels of disparity, or 40 levels of detail
+  float flatten_to = 0;  ///< the disparity where the stroke of the hand began
+};
+
 /// What stands beside the picture.
 enum class Panel { off, style, depth, particles };
 
@@ -88,6 +101,7 @@ struct Session {
   bool gaze_follows_pointer = false;
   std::optional<Fixation> fixation;
   GazeGains gaze_gains;
+  RetouchBrush retouch;
   std::optional<DepthAround> depth_around_target;  ///< what the state's moves to
   std::vector<ViewState> done, undone;             ///< states before, for undo and redo
   std::optional<Activity> opening;                 ///< reading and painting

@@ -233,9 +233,10 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
   const Fit fit = has_no_size ? Fit() : fit_in(eye, size, state.framed);
   const WantedPart part = wanted_part(fit, eye, size);
   const std::vector<ViewPosition> positions = wanted_positions(mode, state);
-  const bool photograph_only = state.comparison == Comparison::photograph;
+  const bool shows_depth = state.comparison == Comparison::depth;
+  const bool photograph_only = state.comparison == Comparison::photograph || shows_depth;
   const DrawnViews* const photographs =
-      state.comparison == Comparison::painting ? nullptr : drawer_.photographed(content, part, positions);
+      state.comparison == Comparison::painting ? nullptr : drawer_.photographed(content, part, positions, shows_depth);
   const DrawnViews& drawn = photograph_only && photographs != nullptr
                                 ? *photographs
                                 : drawer_.painted(content, state, part, positions, effort);

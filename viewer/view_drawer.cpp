@@ -10,6 +10,7 @@
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/depth/rig.h"
+#include "wheatstone/display/disparity_picture.h"
 #include "wheatstone/error.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/stereo/reduced_pair.h"
@@ -34,10 +35,15 @@ DrawnViews nearest_pictures(std::span<const ImageView<const Rgb8>> pictures, flo
   return drawn;
 }
 
-DrawnViews photographs(const Photograph& photograph, const WantedPart& part, const std::vector<ViewPosition>& wanted) {
-  std::vector<ImageView<const Rgb8>> pictures{photograph.pictures.left};
-  if (!photograph.pictures.right.empty()) pictures.emplace_back(photograph.pictures.right);
+DrawnViews photographs(const StereoPair& pair, const WantedPart& part, const std::vector<ViewPosition>& wanted) {
+  std::vector<ImageView<const Rgb8>> pictures{pair.left};
+  if (!pair.right.empty()) pictures.emplace_back(pair.right);
   return nearest_pictures(pictures, 1, part, wanted);
+}
+
+StereoPair under_its_depth(const Photograph& photograph) {
+  return {disparity_over(photograph.pictures.left, photograph.geometry->left_disparity),
+          disparity_over(photograph.pictures.right, photograph.geometry->right_disparity)};
 }
 
 std::vector<Image<Rgb8>> slice_views(const SliceStack& stack, const std::vector<ViewPosition>& positions,
@@ -125,7 +131,7 @@ const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& s
   DrawnViews views;
   if (const auto* const painted = std::get_if<PaintedContent>(&content)) {
     views = painted->painting ? draw_painting(painted->painting, state.slicing, part, positions)
-                              : photographs(*painted->photograph, part, positions);
+                              : photographs(painted->photograph->pictures, part, positions);
   } else if (const auto* const pictures = std::get_if<ViewsContent>(&content)) {
     const std::vector<ImageView<const Rgb8>> lent(pictures->views->begin(), pictures->views->end());
     views = nearest_pictures(lent, pictures->span, part, positions);
@@ -145,12 +151,15 @@ const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& s
 }
 
 const DrawnViews* ViewDrawer::photographed(const Content& content, const WantedPart& part,
-                                           const std::vector<ViewPosition>& positions) {
+                                           const std::vector<ViewPosition>& positions, bool with_depth) {
   const auto* const painted = std::get_if<PaintedContent>(&content);
   if (painted == nullptr || !painted->photograph) return nullptr;
   if (!photographed_ || photographed_->content != content || photographed_->part.scale != part.scale ||
-      photographed_->wanted != positions) {
-    DrawnViews views = photographs(*painted->photograph, part, positions);
+      photographed_->wanted != positions || photographed_with_depth_ != with_depth) {
+    const Photograph& photograph = *painted->photograph;
+    DrawnViews views = photographs(
+        with_depth && photograph.geometry ? under_its_depth(photograph) : photograph.pictures, part, positions);
+    photographed_with_depth_ = with_depth;
     photographed_ = Drawn{content, part, Slicing(), Placing(), positions, std::move(views)};
   }
   return &photographed_->views;

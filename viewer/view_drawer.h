@@ -43,9 +43,9 @@ class ViewDrawer {
   const DrawnViews& painted(const Content& content, const ViewState& state, const WantedPart& part,
                             const std::vector<ViewPosition>& positions, Effort effort = Effort::whole);
 
-  /// The photograph; none where the content has none.
+  /// The photograph, under its disparity in false colours where `with_depth` says so; none where the content has none.
   const DrawnViews* photographed(const Content& content, const WantedPart& part,
-                                 const std::vector<ViewPosition>& positions);
+                                 const std::vector<ViewPosition>& positions, bool with_depth);
 
   /// All views of the state's display, of its size, as `wheatstone paint --display` makes them. Throws Error where the
   /// content cannot be drawn for more than two views.
@@ -106,6 +106,7 @@ class ViewDrawer {
   std::optional<Bent> bent_;
   std::optional<Prepared> prepared_;
   std::optional<Drawn> drawn_, photographed_;
+  bool photographed_with_depth_ = false;
   std::optional<DisplayDrawn> display_;
   ParticleDrawer particles_;
   struct PlacedSlices {

@@ -12,6 +12,7 @@
 #include "wheatstone/marks/mapped_depth.h"
 #include "wheatstone/marks/slicing.h"
 #include "wheatstone/marks/style.h"
+#include "wheatstone/stereo/retouch.h"
 
 namespace wheatstone::viewer {
 
@@ -70,10 +71,11 @@ enum class Comparison {
   painting,    ///< the painting alone
   photograph,  ///< the photograph instead
   split,       ///< the photograph in the left half of the screen
+  depth,       ///< the photograph under its disparity in false colours
 };
 
-inline constexpr std::array<std::string_view, 3> comparison_names{"painting", "photograph",
-                                                                  "split"};  ///< in their order
+inline constexpr std::array<std::string_view, 4> comparison_names{"painting", "photograph", "split",
+                                                                  "depth"};  ///< in their order
 
 /// How the two eyes are brought onto the screen.
 struct Adjustment {
@@ -107,6 +109,7 @@ struct ViewState {
   std::vector<DepthRegion> depth_regions;   ///< where the scene's parts are to seem; none: as in the photographs
   std::optional<DepthAround> depth_around;  ///< more depth where somebody looks; none: everywhere the same
   Comparison comparison = Comparison::painting;
+  std::vector<Touch> touches;  ///< by hand, of what the photograph is painted with
   Style style;
   wheatstone::Framing orbit{.zoom = 1.2f};  ///< of particles
   ParticleLook look;

@@ -138,6 +138,10 @@ void Viewer::open(std::size_t item) {
   session_.fixation.reset();
   session_.depth_around_target.reset();
   session_.state.depth_around.reset();
+  // Touches are of what was open.
+  session_.state.touches.clear();
+  for (std::vector<ViewState>* const states : {&session_.done, &session_.undone})
+    for (ViewState& state : *states) state.touches.clear();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
   reads_particles_ = false;
@@ -172,21 +176,21 @@ void Viewer::paint() {
   if (session_.film && (session_.film->plays || !session_.film->paints)) return;
   session_.opening = Activity{"painting", 0};
   const std::uint64_t job = ++job_;
-  making_.start(
-      [this, job, photograph = content->photograph, style = session_.state.style](const std::stop_token& stop) {
-        try {
-          paint_in_steps(photograph, style, progress_of(job, stop), [this, job](const PaintedContent& painted) {
-            mailbox_.post([this, job, painted, depth = depth_of(painted)] {
-              if (job == job_) take_painted(painted, depth);
-            });
-          });
-          mailbox_.post([this, job] {
-            if (job == job_) session_.opening.reset();
-          });
-        } catch (const std::exception& error) {
-          post_failure(error, job);
-        }
+  making_.start([this, job, photograph = content->photograph, style = session_.state.style,
+                 touches = session_.film ? std::vector<Touch>() : session_.state.touches](const std::stop_token& stop) {
+    try {
+      paint_in_steps(photograph, style, touches, progress_of(job, stop), [this, job](const PaintedContent& painted) {
+        mailbox_.post([this, job, painted, depth = depth_of(painted)] {
+          if (job == job_) take_painted(painted, depth);
+        });
       });
+      mailbox_.post([this, job] {
+        if (job == job_) session_.opening.reset();
+      });
+    } catch (const std::exception& error) {
+      post_failure(error, job);
+    }
+  });
 }
 
 Progress Viewer::progress_of(std::uint64_t job, const std::stop_token& stop) {

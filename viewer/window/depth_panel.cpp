@@ -263,6 +263,7 @@ DepthPanel::DepthPanel(DoCommand do_command)
   column->addLayout(numbers);
   depth_controls_ = std::make_unique<CommandControls>("Depth", false, *numbers, do_command_);
   tracking_controls_ = std::make_unique<CommandControls>("Tracking", false, *numbers, do_command_);
+  retouch_controls_ = std::make_unique<CommandControls>("Retouch", true, *numbers, do_command_);
   const auto changed = [this](const std::vector<DepthRegion>& regions) { set_soon(regions); };
   planes_->on_change(changed);
   graph_->on_change(changed);
@@ -284,6 +285,7 @@ void DepthPanel::show(const Viewer& viewer) {
   told_->setText(QString::fromStdString(comfort_told(viewer)));
   depth_controls_->show(viewer);
   tracking_controls_->show(viewer);
+  retouch_controls_->show(viewer);
   if (timer_.isActive()) return;
   const ViewingGeometry viewing = viewing_of(find_display(state.display));
   std::vector<DepthRegion> regions = state.depth_regions;

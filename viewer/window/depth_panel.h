@@ -101,7 +101,7 @@ class DepthPanel {
 
   DoCommand do_command_;
   QWidget* widget_;
-  std::unique_ptr<CommandControls> depth_controls_, tracking_controls_;
+  std::unique_ptr<CommandControls> depth_controls_, tracking_controls_, retouch_controls_;
   QComboBox* display_;
   DepthPlanes* planes_;
   DepthGraph* graph_;

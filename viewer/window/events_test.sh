@@ -191,6 +191,20 @@ for place in offscreen onscreen; do oiiotool "$place.png" --cut 480x290+0+60 -o 
 grep --quiet --extended-regexp '^offscreen-picture.png +equal' difference.txt ||
   fail "OpenGL shows something else: $(cat difference.txt)"
 
+# A brush that is dragged touches all along, and is undone as a whole.
+does 'open still/left.png still/right.png' 'mode left' 'retouch nearer' 'brush-radius 10' wait
+point 150 120
+xdotool mousedown 1
+for step in 170 190 210 230 250; do point "$step" 130; done
+xdotool mouseup 1
+does wait
+touches=$(value touches)
+((${touches%.*} > 1)) || fail "a dragged brush makes $touches touches"
+is pan_x 0.0 "the brush moves no picture"
+xdotool key ctrl+z
+is touches 0 "undo takes back the whole stroke"
+does 'retouch off' 'open painted/painting.wst' wait "zero-parallax $expected"
+
 # Each row of the screen stays the same eye's when the window is moved by a pixel.
 does 'mode left' wait 'save-picture left.png' 'mode right' wait 'save-picture right.png' 'mode even-odd-rows'
 "$wheatstone" pack left.png right.png --to even-odd-rows -o even.png --quiet >made.txt

@@ -37,6 +37,11 @@ QPainterPath outline_of(std::string_view name) {
   } else if (name == "slice") {  // a plane across a picture
     path.addRect(4, 6, 16, 13);
     line({{9, 2}, {9, 15}, {15, 22}, {15, 9}, {9, 2}});
+  } else if (name == "retouch") {  // a pen, and what it has drawn
+    line({{20, 4}, {8, 16}, {7, 19}, {10, 18}, {22, 6}, {20, 4}});
+    path.moveTo(3, 21);
+    path.quadTo(9, 18, 12, 21);
+    path.quadTo(15, 23, 20, 20);
   } else if (name == "compare") {
     path.addRect(3, 5, 18, 14);
     line({{12, 2}, {12, 22}});
@@ -70,8 +75,8 @@ QPixmap drawn(const QPainterPath& path, const QColor& colour, double ratio) {
 }  // namespace
 
 std::span<const std::string_view> tool_icons() {
-  static constexpr std::array<std::string_view, 8> names{"open",  "save",    "style",       "depth",
-                                                         "slice", "compare", "full-screen", "mode"};
+  static constexpr std::array<std::string_view, 9> names{"open",    "save",    "style",       "depth", "slice",
+                                                         "retouch", "compare", "full-screen", "mode"};
   return names;
 }
 

@@ -71,6 +71,8 @@ Window::Window(const WindowOptions& options)
     viewer_.session().help = false;
     refresh();
   });
+  brush_ = std::make_unique<BrushPointer>(
+      viewer_, [this](const std::string& name, const Words& arguments) { do_line(name, arguments); });
   panels_ = std::make_unique<Panels>(
       *this, [this](const std::string& name, const Words& arguments) { do_in_panel(name, arguments); });
   menus_ = std::make_unique<Menus>(*this, [this](const Command& command, const Words& words) {
@@ -218,6 +220,7 @@ void Window::show_session() {
   comfort_->setToolTip(QString::fromStdString(comfort_told(viewer_)));
   panels_->show(viewer_);
   menus_->show(viewer_);
+  brush_->show(*surface_->widget(), surface_->widget()->devicePixelRatioF());
   const bool is_empty = std::holds_alternative<std::monostate>(session.opened.content) && !session.opening;
   QWidget* const page = is_empty ? static_cast<QWidget*>(start_page_) : surface_->widget();
   if (pages_->currentWidget() != page) {
@@ -251,6 +254,7 @@ bool Window::compares_while_held(QEvent* event) {
 
 bool Window::pointer_event(QEvent* event) {
   const double ratio = surface_->widget()->devicePixelRatioF();
+  if (brush_->take(event, ratio)) return true;
   switch (event->type()) {
     case QEvent::MouseButtonPress: {
       is_pressed_ = true;

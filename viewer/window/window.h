@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "brush_pointer.h"
 #include "event_loop.h"
 #include "film_bar.h"
 #include "full_screen.h"
@@ -104,6 +105,7 @@ class Window final : public QMainWindow {
   std::unique_ptr<Menus> menus_;
   QStackedWidget* pages_ = nullptr;
   StartPage* start_page_ = nullptr;
+  std::unique_ptr<BrushPointer> brush_;
   bool is_asking_ = false;
 
   QPointF pressed_at_, dragged_to_, pointer_;

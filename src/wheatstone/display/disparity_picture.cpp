@@ -27,4 +27,13 @@ Image<Rgb8> disparity_picture(ImageView<const float> disparity) {
   return picture;
 }
 
+Image<Rgb8> disparity_over(ImageView<const Rgb8> photograph, ImageView<const float> disparity) {
+  Image<Rgb8> picture = disparity_picture(disparity);
+  cv::Mat grey, mixed = as_mat(picture);
+  cv::cvtColor(as_mat(photograph), grey, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(grey, grey, cv::COLOR_GRAY2RGB);
+  cv::addWeighted(mixed, 0.5, grey, 0.5, 0, mixed);
+  return picture;
+}
+
 }  // namespace wheatstone

@@ -1,0 +1,110 @@
+#include "wheatstone/stereo/retouch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "wheatstone/image/opencv_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// How much a touch does at a distance from its middle, 0..1.
+float share_at(float distance_px, float radius_px) {
+  const float share = std::clamp(2 - 2 * distance_px / radius_px, 0.f, 1.f);
+  return share * share * (3 - 2 * share);
+}
+
+/// The pixels within a touch's square that lie in a map.
+cv::Rect square_of(const Touch& touch, int width, int height) {
+  const auto place = [](float at, int size) {
+    return static_cast<int>(std::clamp(std::floor(at), 0.f, static_cast<float>(size)));
+  };
+  const int left = place(touch.x - touch.radius_px, width), right = place(touch.x + touch.radius_px + 1, width);
+  const int top = place(touch.y - touch.radius_px, height), bottom = place(touch.y + touch.radius_px + 1, height);
+  return {left, top, right - left, bottom - top};
+}
+
+/// Replaces each value under a touch by `change(value, share, x, y)`.
+template <class Value, class Change>
+void brush_over(const Touch& touch, Image<Value>& map, Change change) {
+  const cv::Rect square = square_of(touch, map.width(), map.height());
+  for (int y = square.y; y < square.y + square.height; ++y) {
+    for (int x = square.x; x < square.x + square.width; ++x) {
+      const float dx = static_cast<float>(x) + 0.5f - touch.x, dy = static_cast<float>(y) + 0.5f - touch.y;
+      const float share = share_at(std::hypot(dx, dy), touch.radius_px);
+      if (share > 0) map(x, y) = change(map(x, y), share, x, y);
+    }
+  }
+}
+
+void smooth(const Touch& touch, Image<float>& disparity) {
+  const cv::Rect square = square_of(touch, disparity.width(), disparity.height());
+  if (square.empty()) return;
+  // What lies beside the touch takes part in the means.
+  const int reach = 1 + static_cast<int>(3 * touch.amount);
+  const cv::Rect whole(0, 0, disparity.width(), disparity.height());
+  const cv::Rect around =
+      cv::Rect(square.x - reach, square.y - reach, square.width + 2 * reach, square.height + 2 * reach) & whole;
+  cv::Mat mean;
+  cv::GaussianBlur(as_mat(disparity)(around), mean, {}, static_cast<double>(touch.amount), 0, cv::BORDER_REPLICATE);
+  brush_over(touch, disparity, [&](float value, float share, int x, int y) {
+    return value + share * (mean.at<float>(y - around.y, x - around.x) - value);
+  });
+}
+
+void fill(const Touch& touch, ImageView<const Rgb8> picture, Image<float>& disparity) {
+  constexpr int from_neighbour = 6;
+  constexpr int from_begin = 40;
+  const cv::Point begin(static_cast<int>(std::floor(touch.x)), static_cast<int>(std::floor(touch.y)));
+  if (!cv::Rect(0, 0, picture.width(), picture.height()).contains(begin)) return;
+  // Noise would cut a sky into pieces.
+  cv::Mat steady;
+  cv::medianBlur(as_mat(picture), steady, 5);
+  cv::Mat near(picture.height() + 2, picture.width() + 2, CV_8U, cv::Scalar(0)), far = near.clone();
+  const int how = 4 | (255 << 8) | cv::FLOODFILL_MASK_ONLY;
+  cv::floodFill(steady, far, begin, {}, nullptr, cv::Scalar::all(from_begin), cv::Scalar::all(from_begin),
+                how | cv::FLOODFILL_FIXED_RANGE);
+  near.setTo(1, far == 0);  // pixels that are not 0 are not filled
+  cv::floodFill(steady, near, begin, {}, nullptr, cv::Scalar::all(from_neighbour), cv::Scalar::all(from_neighbour),
+                how);
+  const cv::Mat filled = near(cv::Rect(1, 1, picture.width(), picture.height())) == 255;
+  // The specks that it left out, and the pixels at its rim in which both colours mix.
+  cv::Mat closed;
+  cv::morphologyEx(filled, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
+  as_mat(disparity).setTo(static_cast<double>(touch.amount), closed);
+}
+
+}  // namespace
+
+void retouch_disparity(std::span<const Touch> touches, ImageView<const Rgb8> picture, Image<float>& disparity) {
+  for (const Touch& touch : touches) {
+    switch (touch.kind) {
+      case Retouch::shift:
+        brush_over(touch, disparity, [&](float d, float share, int, int) { return d + share * touch.amount; });
+        break;
+      case Retouch::smooth:
+        smooth(touch, disparity);
+        break;
+      case Retouch::set:
+        brush_over(touch, disparity, [&](float d, float share, int, int) { return d + share * (touch.amount - d); });
+        break;
+      case Retouch::fill:
+        fill(touch, picture, disparity);
+        break;
+      case Retouch::detail:
+        break;
+    }
+  }
+}
+
+void retouch_detail(std::span<const Touch> touches, Image<std::uint8_t>& detail) {
+  for (const Touch& touch : touches)
+    if (touch.kind == Retouch::detail)
+      brush_over(touch, detail, [&](std::uint8_t level, float share, int, int) {
+        return static_cast<std::uint8_t>(
+            std::lround(std::clamp(static_cast<float>(level) + share * touch.amount, 0.f, 255.f)));
+      });
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "command_table.h"
+#include "depth_seen.h"
+#include "inputs.h"
+#include "wheatstone/error.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/pictures/disparity_file.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+/// The photograph that can be retouched; none where there is none, or its depth is not known yet.
+const Photograph* retouched_photograph(const Viewer& viewer) {
+  const auto* const content = std::get_if<PaintedContent>(&viewer.session().opened.content);
+  const bool can = content != nullptr && content->painting && content->photograph && content->photograph->geometry &&
+                   !viewer.session().film;
+  return can ? content->photograph.get() : nullptr;
+}
+
+bool can_retouch(const Viewer& viewer) { return retouched_photograph(viewer) != nullptr; }
+
+void set_tool(Viewer& viewer, const Words& words) {
+  const auto found = std::ranges::find(retouch_tool_names, words[0]);
+  if (found == retouch_tool_names.end())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("'{}' is no tool, expected one of {}", words[0], fmt::join(retouch_tool_names, ", ")));
+  viewer.session().retouch.tool = static_cast<RetouchTool>(found - retouch_tool_names.begin());
+}
+
+/// The touch that the chosen tool does at a place of the left view, where that disparity lies.
+Touch touch_of(const Session& session, const SeenPlace& at, float pressure) {
+  const RetouchBrush& brush = session.retouch;
+  const float strength = pressure * brush.strength;
+  const float farthest = session.opened.depth ? session.opened.depth->farthest_px : at.disparity_px;
+  const float nearest = session.opened.depth ? session.opened.depth->nearest_px : at.disparity_px;
+  Touch touch{.x = at.x, .y = at.y, .radius_px = brush.radius_px};
+  const auto is = [&](Retouch kind, float amount) {
+    touch.kind = kind;
+    touch.amount = amount;
+  };
+  constexpr float detail_levels = 40, smoothed_over = 1.f / 3;
+  switch (brush.tool) {
+    case RetouchTool::off:
+      throw Error(ErrorKind::wrong_usage, "no tool is chosen; choose one with retouch");
+    case RetouchTool::nearer:
+      is(Retouch::shift, strength);
+      break;
+    case RetouchTool::farther:
+      is(Retouch::shift, -strength);
+      break;
+    case RetouchTool::smooth:
+      is(Retouch::smooth, smoothed_over * brush.radius_px);
+      break;
+    case RetouchTool::flatten:
+      is(Retouch::set, brush.flatten_to);
+      break;
+    case RetouchTool::fill_far:
+      is(Retouch::fill, farthest);
+      break;
+    case RetouchTool::fill_near:
+      is(Retouch::fill, nearest);
+      break;
+    case RetouchTool::finer:
+      is(Retouch::detail, detail_levels * strength);
+      break;
+    case RetouchTool::coarser:
+      is(Retouch::detail, -detail_levels * strength);
+      break;
+  }
+  return touch;
+}
+
+/// At X Y, with the PRESSURE of a pen. A stroke of the hand begins, or goes on.
+void do_touch(Viewer& viewer, const Words& words, bool goes_on) {
+  Session& session = viewer.session();
+  const double x = number_of(words[0]), y = number_of(words[1]);
+  const float pressure = words.size() > 2 ? static_cast<float>(number_of(words[2], 0, 1)) : 1;
+  if (!can_retouch(viewer))
+    throw Error(ErrorKind::wrong_usage, "there is no photograph to retouch, or it is not painted yet");
+  const std::optional<SeenPlace> at = seen_in_left(viewer, x, y);
+  if (!at) return viewer.tell("the depth is not known there");
+  if (!goes_on) session.retouch.flatten_to = at->disparity_px;
+  Touch touch = touch_of(session, *at, pressure);
+  touch.is_another = goes_on;
+  if (touch.kind == Retouch::detail && !reads_detail(session.state.style))
+    throw Error(ErrorKind::wrong_usage, fmt::format("the style {} paints all places alike; oil reads the detail map",
+                                                    session.state.style.name));
+  session.state.touches.push_back(touch);
+  viewer.paint();
+}
+
+/// The disparity that the photograph is painted with.
+void save_disparity(Viewer& viewer, const Words& words) {
+  const Photograph* const photograph = retouched_photograph(viewer);
+  if (photograph == nullptr) throw Error(ErrorKind::wrong_usage, "there is no photograph whose depth is known");
+  viewer.save(
+      words[0], [path = words[0], map = photograph->geometry->left_disparity] { write_disparity(path, map); },
+      [&viewer] { viewer.session().has_unsaved_work = false; });
+}
+
+constexpr Command retouch_table[] = {
+    // name, arguments, menu, text, keys
+    {"retouch",
+     "off|nearer|farther|smooth|flatten|fill-far|fill-near|finer|coarser",
+     "Retouch",
+     "Brush: the pointer changes depth, or where the painting is fine",
+     "",
+     set_tool,
+     {.now =
+          [](const Viewer& v) {
+            return std::string(retouch_tool_names[static_cast<std::size_t>(v.session().retouch.tool)]);
+          },
+      .applies = can_retouch,
+      .icon = "retouch"}},
+    {"brush-radius",
+     "PIXELS",
+     "Retouch",
+     "Radius of the brush: in pixels of the picture",
+     "",
+     [](Viewer& v, const Words& w) { v.session().retouch.radius_px = static_cast<float>(number_of(w[0], 1, 2000)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().retouch.radius_px); },
+      .range = {2, 200, 1},
+      .applies = can_retouch}},
+    {"brush-strength",
+     "AMOUNT",
+     "Retouch",
+     "Strength of the brush: pixels of disparity a touch",
+     "",
+     [](Viewer& v, const Words& w) { v.session().retouch.strength = static_cast<float>(number_of(w[0], 0, 100)); },
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().retouch.strength); },
+      .range = {0, 10, 0.1},
+      .applies = can_retouch}},
+    {"touch",
+     "X Y [PRESSURE]",
+     "Retouch",
+     "Touch a place with the brush",
+     "",
+     [](Viewer& v, const Words& w) { do_touch(v, w, false); },
+     {.applies = can_retouch, .is_for_scripts = true}},
+    {"touch-on",
+     "X Y [PRESSURE]",
+     "Retouch",
+     "Go on with the brush: undone together with what it began with",
+     "",
+     [](Viewer& v, const Words& w) { do_touch(v, w, true); },
+     {.applies = can_retouch, .is_for_scripts = true}},
+    {"untouched",
+     "",
+     "Retouch",
+     "Depth and detail as they were found",
+     "",
+     [](Viewer& v, const Words&) {
+       state_of(v).touches.clear();
+       v.paint();
+     },
+     {.applies = [](const Viewer& v) { return !v.session().state.touches.empty(); }, .begins_group = true}},
+    {"save-disparity", "FILE", "Retouch", "Save the disparity…", "", save_disparity, {.applies = can_retouch}},
+};
+
+}  // namespace
+
+std::span<const Command> retouch_commands() { return retouch_table; }
+
+}  // namespace wheatstone::viewer

@@ -1,0 +1,160 @@
+// Depth and detail that are changed by hand.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "command_table.h"
+#include "inputs.h"
+#include "temporary_folder.h"
+#include "throws_error.h"
+#include "viewer.h"
+#include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/random.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/synthetic/synthetic_still.h"
+
+namespace wheatstone::viewer::retouch_test {
+
+const StereoPair& pair() {
+  static const SyntheticStill made = make_synthetic_still({.width = 240, .height = 160, .samples_a_side = 1});
+  return made.pictures;
+}
+
+/// A viewer in which a photograph is open and painted, seen by the left eye, each pixel as one of the frame.
+class OpenPhotograph : public testing::Test {
+ protected:
+  OpenPhotograph() {
+    write_image(folder / "left.png", pair().left);
+    write_image(folder / "right.png", pair().right);
+    viewer.session().items.push_back({folder / "left.png", folder / "right.png"});
+    viewer.set_viewport({240, 160});
+    viewer.open(0);
+    viewer.wait();
+    run("mode left");
+    run("zero-parallax 0");
+    run("separation 1");
+    run("style oil");
+  }
+  void run(std::string_view line) {
+    run_line(viewer, line);
+    viewer.wait();
+  }
+  const PaintedContent& content() const { return std::get<PaintedContent>(viewer.session().opened.content); }
+  const Image<float>& disparity() const { return content().photograph->geometry->left_disparity; }
+
+  const TemporaryFolder folder;
+  Viewer viewer;
+};
+
+std::size_t stroke_count(const Painting& painting) {
+  std::size_t count = 0;
+  for (const Layer& layer : layers_of(painting)) count += layer.strokes.size();
+  return count;
+}
+
+TEST_F(OpenPhotograph, IsPaintedAnewWithTheDepthThatAHandGaveIt) {
+  const Image<float> before = disparity();
+  const std::optional<float> seen = disparity_under(viewer, 120, 80);
+  ASSERT_TRUE(seen);
+  run("retouch nearer");
+  run("brush-radius 20");
+  run("brush-strength 4");
+  run("touch 120 80");
+  EXPECT_NEAR(disparity()(119, 80), before(119, 80) + 4, 0.01f);
+  EXPECT_EQ(disparity()(60, 80), before(60, 80));
+  EXPECT_NEAR(disparity_under(viewer, 120, 80).value_or(0), *seen + 4, 1);
+  run("retouch flatten");
+  run("touch 60 40");
+  EXPECT_NEAR(disparity()(62, 42), disparity()(59, 39), 0.6f);
+}
+
+TEST_F(OpenPhotograph, EqualsPlanningAnewWithTheSameMapHoweverManyTouches) {
+  run("brush-radius 12");
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const auto random = [&](std::uint64_t what) { return unit_float(hash_keys({i, what})); };
+    const auto tool = 1 + hash_keys({i, 3}) % (retouch_tool_names.size() - 1);
+    run_line(viewer, fmt::format("retouch {}", retouch_tool_names[tool]));
+    run_line(viewer, fmt::format("touch {} {} {}", 240 * random(1), 160 * random(2), random(4)));
+    if (i % 20 == 19) viewer.wait();
+  }
+  ASSERT_FALSE(viewer.session().state.touches.empty());
+  run("save-disparity " + (folder / "map.pfm").string());
+  viewer.finish_saving();
+  const Image<float> map = read_disparity(folder / "map.pfm");
+  EXPECT_EQ(map, disparity());
+  Image<std::uint8_t> detail = *content().photograph->detail;
+  if (detail.empty()) detail = Image<std::uint8_t>(240, 160, even_detail);
+  retouch_detail(viewer.session().state.touches, detail);
+  const Painting anew =
+      plan_painting(pair(), geometry_from_left(map), viewer.session().state.style, {}, widest_views, detail);
+  EXPECT_EQ(*content().painting, anew);
+}
+
+TEST_F(OpenPhotograph, ComesBackByUndoAStrokeOfTheHandAtATime) {
+  const std::shared_ptr<const Painting> first = content().painting;
+  const Image<float> found = disparity();
+  run("retouch farther");
+  run("touch 100 80");
+  run("touch-on 110 80");
+  run("touch-on 120 80");
+  run("touch 60 60");
+  EXPECT_EQ(viewer.session().state.touches.size(), 4u);
+  run("undo");
+  EXPECT_EQ(viewer.session().state.touches.size(), 3u);
+  run("undo");
+  EXPECT_TRUE(viewer.session().state.touches.empty());
+  EXPECT_EQ(disparity(), found);
+  EXPECT_EQ(*content().painting, *first);
+  run("redo");
+  EXPECT_EQ(viewer.session().state.touches.size(), 3u);
+  run("untouched");
+  EXPECT_EQ(*content().painting, *first);
+}
+
+TEST_F(OpenPhotograph, IsPaintedFinerWhereAHandWantsIt) {
+  const std::size_t before = stroke_count(*content().painting);
+  run("retouch finer");
+  run("brush-radius 60");
+  run("brush-strength 3");
+  run("touch 120 80");
+  EXPECT_GT(stroke_count(*content().painting), 1.1 * static_cast<double>(before));
+}
+
+TEST_F(OpenPhotograph, ShowsItsDepthOverThePhotograph) {
+  run("compare photograph");
+  const Image<Rgb8> photograph = viewer.frame()->picture;
+  run("compare depth");
+  const Image<Rgb8> depth = viewer.frame()->picture;
+  EXPECT_NE(depth, photograph);
+  run("retouch fill-near");
+  run("touch 120 20");
+  EXPECT_NE(viewer.frame()->picture, depth);
+}
+
+TEST_F(OpenPhotograph, TakesItsTouchesAlong) {
+  run("retouch nearer");
+  run("touch 120 80");
+  write_painting(folder / "painting.wst", *content().painting);
+  viewer.session().items.push_back({folder / "painting.wst"});
+  viewer.open(1);
+  viewer.wait();
+  EXPECT_TRUE(viewer.session().state.touches.empty());
+  expect_error(ErrorKind::wrong_usage, "there is no photograph to retouch", [&] { run("touch 120 80"); });
+}
+
+TEST_F(OpenPhotograph, SaysWhyItCannotBeTouched) {
+  expect_error(ErrorKind::wrong_usage, "no tool is chosen", [&] { run("touch 120 80"); });
+  expect_error(ErrorKind::wrong_usage, "'hammer' is no tool", [&] { run("retouch hammer"); });
+  run("style impressionist");
+  run("retouch finer");
+  expect_error(ErrorKind::wrong_usage, "oil reads the detail map", [&] { run("touch 120 80"); });
+  EXPECT_TRUE(viewer.session().state.touches.empty());
+}
+
+}  // namespace wheatstone::viewer::retouch_test
