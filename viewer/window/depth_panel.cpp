@@ -226,7 +226,7 @@ void DepthGraph::paintEvent(QPaintEvent* /*event*/) {
     const QPointF at = place_of(region);
     const QRectF beside(at.x() + (region.share > 0.7f ? -76 : 8), at.y() - 18, 68, 16);
     painter.drawText(beside, region.share > 0.7f ? Qt::AlignRight : Qt::AlignLeft,
-                     QString("%1 mm").arg(static_cast<double>(region.behind_mm), 0, 'f', 0));
+                     QString("%1 mm").arg(std::lround(region.behind_mm)));
   }
 }
 
