@@ -70,6 +70,7 @@ Opened opened_photograph(StereoPair pictures, const std::string& name, const Lis
     if (!note.empty()) opened.notes.push_back(note);
   if (prepared.eyes == EyeOrder::swapped) opened.notes.emplace_back("the eyes look swapped");
   auto photograph = std::make_shared<Photograph>();
+  photograph->is_rectified = prepared.rectification.has_value();
   photograph->pictures = std::move(prepared.pictures);
   opened.content = PaintedContent{nullptr, std::move(photograph)};
   return opened;

@@ -22,6 +22,7 @@ namespace wheatstone::viewer {
 /// A photograph that is painted from.
 struct Photograph {
   StereoPair pictures;
+  bool is_rectified = false;                  ///< the pictures are not as in the files
   std::optional<StereoGeometry> geometry;     ///< once it was found; as it was retouched
   std::optional<StereoGeometry> found;        ///< as it was before it was retouched by hand; none: it was not
   std::optional<Image<std::uint8_t>> detail;  ///< as detail_of_faces, once a style wanted it

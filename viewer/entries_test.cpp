@@ -188,7 +188,7 @@ TEST(StyleParameters, HaveATitleEachThatNoOtherHas) {
 }
 
 TEST(StylePreview, IsThePhotographInThatStyle) {
-  const Photograph photograph{still().pictures, still().geometry, {}};
+  const Photograph photograph{.pictures = still().pictures, .geometry = still().geometry};
   const Image<Rgb8> oil = preview_of(photograph, style_by_name("oil"), 120);
   EXPECT_EQ(oil.width(), 120);
   EXPECT_EQ(oil.height(), 80);

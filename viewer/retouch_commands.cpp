@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -94,13 +96,27 @@ void do_touch(Viewer& viewer, const Words& words, bool goes_on) {
   viewer.paint();
 }
 
-/// The disparity that the photograph is painted with.
+/// The disparity that the photograph is painted with; beside it the pictures that it belongs to, where no file has
+/// them.
 void save_disparity(Viewer& viewer, const Words& words) {
   const Photograph* const photograph = retouched_photograph(viewer);
   if (photograph == nullptr) throw Error(ErrorKind::wrong_usage, "there is no photograph whose depth is known");
+  const std::filesystem::path path = words[0];
+  const auto beside = [&path](const char* eye) {
+    return path.parent_path() / fmt::format("{}_{}.png", path.stem().string(), eye);
+  };
   viewer.save(
-      words[0], [path = words[0], map = photograph->geometry->left_disparity] { write_disparity(path, map); },
+      path, [path, map = photograph->geometry->left_disparity] { write_disparity(path, map); },
       [&viewer] { viewer.session().has_unsaved_work = false; });
+  if (!photograph->is_rectified) return;
+  viewer.save(beside("left"), [file = beside("left"), left = photograph->pictures.left] { write_image(file, left); });
+  viewer.save(
+      beside("right"), [file = beside("right"), right = photograph->pictures.right] { write_image(file, right); },
+      [&viewer, path] {
+        const std::string stem = path.stem().string();
+        viewer.tell(fmt::format("saved {}, and the rectified pictures that it belongs to, {}_left.png and {}_right.png",
+                                path.string(), stem, stem));
+      });
 }
 
 constexpr Command retouch_table[] = {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "command_table.h"
 #include "inputs.h"
@@ -14,6 +16,7 @@
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/random.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
@@ -146,6 +149,27 @@ TEST_F(OpenPhotograph, TakesItsTouchesAlong) {
   viewer.wait();
   EXPECT_TRUE(viewer.session().state.touches.empty());
   expect_error(ErrorKind::wrong_usage, "there is no photograph to retouch", [&] { run("touch 120 80"); });
+}
+
+TEST_F(OpenPhotograph, SavesThePicturesThatTheMapBelongsToWhereTheyWereRectified) {
+  run("save-disparity " + (folder / "map.png").string());
+  viewer.finish_saving();
+  EXPECT_FALSE(std::filesystem::exists(folder / "map_left.png"));
+  // The right eye's camera stood a little lower.
+  Image<Rgb8> lower(240, 160);
+  for (int y = 0; y < 160; ++y) std::ranges::copy(pair().right.row(std::min(y + 4, 159)), lower.row(y).begin());
+  write_image(folder / "lower.png", lower);
+  viewer.session().items.push_back({folder / "left.png", folder / "lower.png"});
+  viewer.open(1);
+  viewer.wait();
+  ASSERT_TRUE(content().photograph->is_rectified);
+  run("save-disparity " + (folder / "map.png").string());
+  viewer.finish_saving();
+  viewer.wait();
+  const Image<Rgb8> left = read_image(folder / "map_left.png");
+  EXPECT_EQ(left, content().photograph->pictures.left);
+  EXPECT_EQ(read_disparity(folder / "map.png").width(), left.width());
+  EXPECT_NE(viewer.session().message.find("the rectified pictures that it belongs to"), std::string::npos);
 }
 
 TEST_F(OpenPhotograph, SaysWhyItCannotBeTouched) {

@@ -370,8 +370,8 @@ void Viewer::save(const std::filesystem::path& path, std::function<void()> write
     mailbox_.post([this, path, failed, then] {
       --files_to_save_;
       if (failed) failed_save_ = failed;
-      if (!failed && then) then();
       tell(failed ? failed->what() : "saved " + path.string(), failed.has_value());
+      if (!failed && then) then();
     });
   });
 }
