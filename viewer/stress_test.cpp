@@ -27,6 +27,7 @@
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/style_parameters.h"
+#include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
@@ -61,7 +62,9 @@ std::vector<std::string> small_files(const TemporaryFolder& folder) {
   write_whole_file(folder / "particles.txt", table);
   write_whole_file(folder / "damaged.wst", "no painting");
   std::vector<std::string> names;
-  for (const char* name : {"painting.wst", "slices.exr", "particles.txt", "damaged.wst", "missing.wst", "left.png"})
+  write_jps(folder / "pair.jps", still.pictures.left, still.pictures.right);
+  for (const char* name :
+       {"painting.wst", "slices.exr", "particles.txt", "damaged.wst", "missing.wst", "left.png", "pair.jps"})
     names.push_back(folder / name);
   return names;
 }
@@ -80,11 +83,15 @@ class Monkey {
       command = &commands[any(random_, commands.size())];
       name = command->name;
     } while (name == "quit" || name == "leave" || name == "head-tracker" || name == "open-example");
+    return line_of(*command);
+  }
+  std::string line_of(const Command& command) {
+    const std::string_view name = command.name;
     std::string line(name);
     // What writes files is to write them into the folder of the test.
-    const bool may_write = command->arguments.find("FILE") != std::string_view::npos && name != "open";
+    const bool may_write = command.arguments.find("FILE") != std::string_view::npos && name != "open";
     if (!may_write && any(random_, 20) == 0) return line + nonsense();
-    for (const std::string& word : words_of(command->arguments)) {
+    for (const std::string& word : words_of(command.arguments)) {
       if (word.starts_with('[') && any(random_, 2) == 0) continue;
       line += " \"" + argument(name, word) + '"';
     }
@@ -200,6 +207,34 @@ double resident_mb() {
 }
 
 TEST(RandomCommands, LeaveAStateThatCanBeDrawn) { run_random_commands(300, 1); }
+
+TEST(RandomTouches, LeaveAPhotographThatCanBePainted) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> files = small_files(folder);
+  Viewer viewer;
+  viewer.set_viewport({120, 80});
+  viewer.open_all({files.back()});
+  ASSERT_TRUE(settles(viewer));
+  run_line(viewer, "style oil");
+  Monkey monkey(files, folder / "", 5);
+  static constexpr std::array commands{"retouch",  "brush-radius", "brush-strength", "touch", "touch", "touch",
+                                       "touch-on", "touch-on",     "undo",           "redo",  "style"};
+  for (int step = 0; step < 200; ++step) {
+    const std::string line = monkey.line_of(find_command(one_of(monkey.random(), commands)));
+    SCOPED_TRACE(line);
+    try {
+      run_line(viewer, line);
+    } catch (const Error&) {  // it was implausible
+    }
+    if (any(monkey.random(), 4) != 0) continue;
+    ASSERT_TRUE(settles(viewer));
+    EXPECT_FALSE(viewer.session().message_is_error) << viewer.session().message;
+    EXPECT_TRUE(std::ranges::all_of(
+        std::get<PaintedContent>(viewer.session().opened.content).photograph->geometry->left_disparity.pixels(),
+        [](float d) { return std::isfinite(d); }));
+  }
+  EXPECT_FALSE(viewer.session().state.touches.empty());
+}
 
 TEST(RandomCommandsLong, LeaveAStateThatCanBeDrawn) {
   for (std::uint64_t seed = 2; seed < 22; ++seed) run_random_commands(500, seed);
