@@ -54,8 +54,8 @@ cv::Mat interpolate(const cv::Mat& finest) {
   // Noise points one way about as much as this in the finest level, and half as much in each coarser one, which takes
   // the mean of four times as many.
   constexpr float full_confidence = 0.25f, weak = 0.1f, finest_of_noise = 0.6f;
-  // Where there is nothing but faint noise strokes lie level, as on a slope of 1/20 step a pixel from top to bottom.
-  constexpr double level_ground = 1e-5;
+  // Where there is nothing but faint noise strokes lie level, as on a slope of 1/17 step a pixel from top to bottom.
+  constexpr double level_ground = 2e-5;
   cv::Mat field;
   for (std::size_t finer_levels = levels.size(); finer_levels-- > 0;) {
     const cv::Mat& level = levels[finer_levels];
@@ -90,9 +90,7 @@ OrientationField::OrientationField(ImageView<const std::uint8_t> luminance, floa
   const int width = std::max(static_cast<int>(static_cast<float>(luminance.width()) * scale_), 1);
   const int height = std::max(static_cast<int>(static_cast<float>(luminance.height()) * scale_), 1);
   cv::Mat reduced;
-  // In parts of a step: a plain place's rounding has edges of its own.
-  as_mat(luminance).convertTo(reduced, CV_32F);
-  cv::resize(reduced, reduced, {width, height}, 0, 0, cv::INTER_AREA);
+  cv::resize(as_mat(luminance), reduced, {width, height}, 0, 0, cv::INTER_AREA);
   // A first blur spreads each gradient a little, so that neighbouring strokes agree.
   cv::Mat tensors = weighted_tensors(reduced, scale_);
   cv::GaussianBlur(tensors, tensors, {}, 1.5);
