@@ -131,7 +131,7 @@ void measure(const std::vector<StereoPair>& film, const Contender& contender) {
 int main(int argc, char** argv) {
   using namespace wheatstone;
   const std::vector<bench::Contender> contenders{{"farneback", FlowMethod::farneback, MatchQuality::good, 2},
-                                                 {"dis", FlowMethod::dis, MatchQuality::good, 0.68},
+                                                 {"dis", FlowMethod::dis, MatchQuality::good, 0.65},
                                                  {"fast", FlowMethod::dis, MatchQuality::fast, 0.4}};
   const std::vector<std::string> names(argv + 1, argv + argc);
   fmt::print("Painted films, 1920x1080 an eye, strokes, after the first frame\n");

@@ -126,8 +126,8 @@ StereoGeometry find_geometry(const FrameTask& task, RotoscopeState& state) {
   } else if (task.reduction > 1) {
     matching.range = at_half_size(*matching.range);
   }
-  matching.size = std::min(matching.size * task.reduction,
-                           share_of_width(task.eyes.left, task.options.widest_matched_px / task.reduction));
+  const int widest_px = task.reduction > 1 ? task.options.widest_half_px : task.options.widest_matched_px;
+  matching.size = std::min(matching.size * task.reduction, share_of_width(task.eyes.left, widest_px));
   if (std::optional<MatchedPair> matched = match_frame(task, matching, state)) return std::move(matched->geometry);
   // A frame that shows nothing, as a black one, is as deep as the one before, or flat where a scene begins with it.
   if (state.frames_of_scene > 0 && !state.left_disparity_before.empty())

@@ -28,8 +28,9 @@ struct RotoscopeOptions {
   bool match_near_last = true;
   /// Asked once a scene, and of no effect where a frame's geometry is known.
   RectifyPolicy rectify = RectifyPolicy::automatic;
-  int widest_matched_px = 1280;  ///< wider frames are matched in copies of this width
-  int widest_flow_px = 960;      ///< and their flow is found in copies of this one
+  int widest_matched_px = 960;  ///< wider frames are matched in copies of this width
+  int widest_half_px = 640;     ///< and frames of half the size in copies of this one
+  int widest_flow_px = 960;     ///< the flow of wider frames is found in copies of this width
   /// All is found, and strokes are planned, in frames of half the size, where their brushes are wide enough for that
   /// and nothing is known beforehand. They are drawn at the film's size.
   bool at_half_size = false;
