@@ -1,5 +1,8 @@
 #include "film_argument.h"
 
+#include <array>
+#include <utility>
+
 #include "interrupt.h"
 #include "wheatstone/app/rotoscope_film.h"
 
@@ -25,6 +28,19 @@ Rows film_coding_rows(FilmWriterOptions& writing) {
       row("--preset", text(writing.preset), "Encoder preset of these codecs, from ultrafast to placebo"),
       row("--pixel-format", without_default(text(writing.pixel_format)),
           "yuv420p, yuv422p, yuv444p; yuv420p10le and so on with 10 bits; bgr0 for ffv1")};
+}
+
+Row projection_row(FilmWriterOptions& writing, Reasons unless) {
+  static constexpr std::array<std::string_view, 4> spheres{"source", "flat", "180", "360"};
+  return row("--projection", name(writing.projection, spheres),
+             "Sphere that the film says it lies on: 360 or 180 (equirectangular), or flat; that of the source by "
+             "default. Pictures are not changed",
+             std::move(unless));
+}
+
+Rows side_stream_rows(FilmWriterOptions& writing) {
+  return {row("!--no-audio", flag(writing.copy_audio), "Do not copy the film's sound"),
+          row("!--no-subtitles", flag(writing.copy_subtitles), "Do not copy the film's subtitles")};
 }
 
 Rows film_resume_rows(bool& resume, int& frames_between_checkpoints) {

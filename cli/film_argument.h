@@ -22,6 +22,12 @@ Value film_layout(std::optional<StereoLayout>& layout);
 /// How a film is coded: --codec, --crf, --preset and --pixel-format.
 Rows film_coding_rows(FilmWriterOptions& writing);
 
+/// --projection, the sphere that a film lies on.
+Row projection_row(FilmWriterOptions& writing, Reasons unless = {});
+
+/// What is copied from the source: --no-audio and --no-subtitles.
+Rows side_stream_rows(FilmWriterOptions& writing);
+
 /// How a film that was stopped is continued: --resume and --checkpoint.
 Rows film_resume_rows(bool& resume, int& frames_between_checkpoints);
 

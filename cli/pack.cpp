@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +12,7 @@
 #include "device_option.h"
 #include "display_argument.h"
 #include "made_views.h"
+#include "pack_film.h"
 #include "packing.h"
 #include "photograph_run.h"
 #include "print_options.h"
@@ -45,6 +49,7 @@ struct PackArguments {
   float shift_px = 0;
   int max_size = 0;                            ///< longer side of what is matched; 0: as large as it is
   std::optional<TypedWindow> floating_window;  ///< none: there is none
+  FilmWriterOptions film;
 };
 
 /// The strips that are typed, or those that the matched views need.
@@ -212,6 +217,10 @@ Report pack_folder(const PackArguments& arguments, const Session& session) {
 }
 
 Report run_pack(const PackArguments& arguments, const Session& session) {
+  if (are_films(arguments.input.files, arguments.output))
+    return run_pack_film({arguments.input.files, arguments.input.layout, arguments.packing.to, arguments.output,
+                          arguments.input.swap, arguments.shift_px, arguments.film},
+                         session);
   if (is_photograph_folder(arguments.input)) return pack_folder(arguments, session);
   return pack_one(arguments, session).report;
 }
@@ -236,30 +245,39 @@ Rows pack_rows(PackArguments& a) {
   const auto on_folder = [&a] { return is_photograph_folder(a.input); };
   Rows walk = folder_rows(a.walk, on_folder, "packed", "; {to}, the format");
   walk.push_back(contact_sheet_row(a.walk, on_folder));
+  const auto on_films = [&a] { return are_films(a.input.files, a.output); };
   max_size.help = "Match a reduced copy whose longer side has at most this many pixels";
-  return join(
-      {views_rows(a.input, are_made),
-       {views_device_row(a.input),
-        row("-o,--output", required(output_name(a.output)),
-            "File; a folder for views, or for the results of a folder; the stem of the file for a quilt")},
-       packing_rows(a.packing, a.output),
-       {row("--zero-parallax,--shift", number(a.shift_px, {-65535, 65535}),
-            "Disparity in pixels, from each view to the next, that lies on the screen plane"),
-        max_size,
-        row("--floating-window", parsed(a.floating_window, parse_strips),
-            "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right "
-            "edge of the right view; auto: as wide as needed for the frame to cut nothing before the screen for "
-            "one eye only, found by matching")},
-       {framing_row(a.packing.framing, "on the display or the card", {no_frame})},
-       walk,
-       under({}, depth_rows(a.depth, no_depth), {no_picture}),
-       print_rows(a.print, {if_matched(a.packing, a.output)}, {if_card(a.packing, a.output)})});
+  Rows rows =
+      join({views_rows(a.input, are_made),
+            {views_device_row(a.input),
+             row("-o,--output", required(output_name(a.output)),
+                 "File; a folder for views, or for the results of a folder; the stem of the file for a quilt")},
+            packing_rows(a.packing, a.output),
+            {row("--zero-parallax,--shift", number(a.shift_px, {-65535, 65535}),
+                 "Disparity in pixels, from each view to the next, that lies on the screen plane"),
+             max_size,
+             row("--floating-window", parsed(a.floating_window, parse_strips),
+                 "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right "
+                 "edge of the right view; auto: as wide as needed for the frame to cut nothing before the screen for "
+                 "one eye only, found by matching")},
+            {framing_row(a.packing.framing, "on the display or the card", {no_frame})},
+            walk,
+            under({}, depth_rows(a.depth, no_depth), {no_picture}),
+            print_rows(a.print, {if_matched(a.packing, a.output)}, {if_card(a.packing, a.output)})});
+  // What works on films, too; of all else it is said first, before formats of pictures are looked for.
+  constexpr std::array<std::string_view, 6> for_films{"VIEWS",    "--layout", "--swap",
+                                                      "--output", "--to",     "--zero-parallax"};
+  for (Row& row : rows)
+    if (std::ranges::find(for_films, name_of(row)) == for_films.end())
+      row.unless.insert(row.unless.begin(), when(on_films, "on a film; it works on pictures"));
+  const Rows film = pack_film_rows(a.film, when([on_films] { return !on_films(); }, "on pictures; it works on a film"));
+  return join({rows, film});
 }
 
 }  // namespace
 
 Command pack_command() {
-  return make_command("pack", "Convert views to the format of a display", pack_rows, run_pack,
+  return make_command("pack", "Convert views, or a film, to the format of a display", pack_rows, run_pack,
                       R"(Examples:
   wheatstone pack photograph.mpo --to anaglyph -o anaglyph.png
   wheatstone pack left.png right.png --to top-bottom-half -o tv.jpg
@@ -269,7 +287,8 @@ Command pack_command() {
   wheatstone pack photo.jpg --depth depth.png --display looking-glass-portrait -o photo
   wheatstone pack views --to lenticular --screen step-9 -o screen.png
   wheatstone pack views --to quilt --quilt 8x6 -o universe
-  wheatstone pack photographs --to anaglyph --format jpg -o anaglyphs)");
+  wheatstone pack photographs --to anaglyph --format jpg -o anaglyphs
+  wheatstone pack film.mp4 --to left-right-half -o tv.mp4)");
 }
 
 }  // namespace wheatstone::cli

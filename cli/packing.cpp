@@ -266,7 +266,9 @@ Rows packing_rows(PackingArguments& a, const std::string& output) {
   return {
       row("--to", text(a.to),
           fmt::format("Output format: {}; or ffmpeg's names (arcd, sbsl, irl ...). Chosen by the ending of the output "
-                      "by default: .mpo, .jps, .gif, .exr, .pdf for card, none for views",
+                      "by default: .mpo, .jps, .gif, .exr, .pdf for card, none for views. Films: anaglyphs, layouts of "
+                      "two eyes, or two-files, "
+                      "a film for each eye",
                       all_names())),
       row("--screen", text(a.screen), "Lenticular screen: the name of a display with lenses, or a calibration (.json)",
           {only({"lenticular"}, "it works with lenticular")}),

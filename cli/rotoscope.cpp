@@ -17,9 +17,9 @@
 #include "match_options.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
+#include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/rotoscope_film.h"
-#include "wheatstone/display/anaglyph.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
 #include "wheatstone/motion/flow_file.h"
@@ -33,21 +33,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How two eyes lie in a painted frame: a layout, or an anaglyph.
-struct OutputLayout {
-  std::optional<StereoLayout> layout;
-  std::string anaglyph;
-};
-
 struct RotoscopeArguments {
   Given given;
   std::string film, right;
   std::string output = "painted.mp4";
   std::optional<StereoLayout> layout;
-  OutputLayout output_layout;
+  EyesInFilm output_layout;
   std::optional<double> from_s, to_s;
   int frame_step = 1;
-  bool no_audio = false, no_subtitles = false;
   std::optional<Rational> rate;
   std::string truth;
   DisplayArguments display;
@@ -78,39 +71,26 @@ KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
 StereoLayout layout_of_output(const RotoscopeArguments& arguments, const StereoFilmReader& source, bool two_films) {
   if (arguments.options.frames.display) return StereoLayout::mono;
   two_films = two_films || has_depth(arguments.depth);
-  if (!arguments.output_layout.anaglyph.empty()) {
-    if (source.layout() == StereoLayout::mono && !two_films)
-      throw Error(ErrorKind::wrong_usage, fmt::format("--output-layout: is '{}', but the film has one eye",
-                                                      arguments.given.word_of("--output-layout")));
-    return StereoLayout::mono;
-  }
-  if (const auto asked = arguments.output_layout.layout) {
-    if (source.layout() == StereoLayout::mono && !two_films && *asked != StereoLayout::mono)
-      throw Error(ErrorKind::wrong_usage, fmt::format("--output-layout: is '{}', but the film has one eye",
-                                                      arguments.given.word_of("--output-layout")));
-    return *asked;
-  }
-  return layout_of_painted_film(source, two_films);
+  const EyesInFilm& asked = arguments.output_layout;
+  const bool in_one_layout = asked.anaglyph.empty() && !asked.two_films;
+  if (source.layout() == StereoLayout::mono && !two_films && asked.layout != StereoLayout::mono &&
+      (asked.layout || !in_one_layout))
+    throw Error(ErrorKind::wrong_usage, fmt::format("--output-layout: is '{}', but the film has one eye",
+                                                    arguments.given.word_of("--output-layout")));
+  if (!in_one_layout) return StereoLayout::mono;
+  return asked.layout.value_or(layout_of_painted_film(source, two_films));
 }
 
 FilmWriterOptions writing_options(const RotoscopeArguments& arguments, const FilmFiles& film,
                                   const StereoFilmReader& source, const FilmReaderOptions& reading) {
   FilmWriterOptions writing = arguments.options.writing;
-  const FilmFacts& facts = source.facts();
   writing.layout = layout_of_output(arguments, source, !film.right.empty());
-  write_as_source(film.film, facts, reading, writing);
+  write_as_source(film.film, source.facts(), reading, writing);
   if (arguments.options.frames.display) {
     writing.pixel_aspect = {1, 1};
     writing.projection = "flat";
   }
-  // Colour tells the eyes apart: chroma is kept at full size where the codec can.
-  const std::string_view codec = writing.codec;
-  if (!arguments.output_layout.anaglyph.empty() && !arguments.given("--pixel-format"))
-    writing.pixel_format = codec == "h264" || codec == "hevc" || codec == "vp9"       ? "yuv444p"
-                           : codec == "hevc-10" || codec == "av1" || codec == "dnxhr" ? "yuv444p10le"
-                                                                                      : "";
-  writing.copy_audio = !arguments.no_audio;
-  writing.copy_subtitles = !arguments.no_subtitles;
+  if (!arguments.output_layout.anaglyph.empty()) write_as_anaglyph(writing);
   return writing;
 }
 
@@ -162,7 +142,9 @@ Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film
   add({"ranks", session.ranks.count()});
   if (film.loss) add({"loss", *film.loss, fmt::format("source           {}", *film.loss)});
   add({"notes", film.notes, lines("note             ", film.notes)});
-  add(only_text(fmt::format("written to       {}", arguments.output)));
+  const std::string right = arguments.options.right_film.string();
+  if (!right.empty()) add({"right_output", right});
+  add(only_text(fmt::format("written to       {}{}{}", arguments.output, right.empty() ? "" : " and ", right)));
   return report;
 }
 
@@ -230,8 +212,9 @@ FilmFiles films_from(const RotoscopeArguments& arguments) {
   FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
-  check_not_an_input(arguments.output,
-                     std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model});
+  for (const fs::path& output : {fs::path(arguments.output), arguments.options.right_film})
+    if (!output.empty())
+      check_not_an_input(output, std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model});
   return film;
 }
 
@@ -272,6 +255,11 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   take_display(arguments);
   if (arguments.options.frames.display || writes_marks(arguments)) arguments.options.frames.depth_budget.reset();
   frames.depth = {.kind = arguments.depth.kind, .strength = arguments.depth.strength};
+  if (arguments.output_layout.two_films && !writes_marks(arguments)) {
+    arguments.options.right_film = film_of_eye(arguments.output, right_eye);
+    arguments.output = film_of_eye(arguments.output, left_eye).string();
+  }
+  arguments.options.anaglyph = arguments.output_layout.anaglyph;
   tell_what_film_keeps(arguments.output, arguments.options.marks);
   RotoscopeFilmOptions options = arguments.options;
   take_truth(arguments, session, options);
@@ -288,7 +276,6 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   if (session.verbose && film.right.empty())
     remark(session, fmt::format("layout: {} ({})", layout_name(source.layout()), source.layout_how()));
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));
-  options.anaglyph = arguments.output_layout.anaglyph;
   options.writing = writing_options(arguments, film, source, options.reading);
   options.expected_frames = expected_frames(source.facts(), options.reading);
   options.made_from.push_back(film.film);
@@ -306,44 +293,26 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   return session.ranks.first() ? report_of(arguments, result, session) : Report();
 }
 
-OutputLayout parse_output_layout(const std::string& option, const std::string& words) {
-  if (words.empty()) return {};
-  if (words == "anaglyph") return {{}, std::string(anaglyph_kinds().front().name)};
-  for (const AnaglyphKind& kind : anaglyph_kinds())
-    if (words == kind.name || (!kind.ffmpeg.empty() && words == kind.ffmpeg)) return {{}, std::string(kind.name)};
-  const std::optional<StereoLayout> found = find_stereo_layout(words);
-  if (!found)
-    throw Error(ErrorKind::wrong_usage, fmt::format("{}: there is no layout '{}', expected anaglyph or one of {}",
-                                                    option, words, stereo_layout_names()));
-  return {found, {}};
-}
-
 Rows film_rows(RotoscopeArguments& a) {
-  static constexpr std::array<std::string_view, 4> spheres{"source", "flat", "180", "360"};
   const Rows source{
       row("--layout", film_layout(a.layout),
           "Stereo layout of the film: sbs, sbs-half, tb, tb-half, mono, …; by default from its metadata, or else "
           "estimated from the pictures"),
-      row("--output-layout", parsed(a.output_layout, parse_output_layout),
-          "Stereo layout of the painted film, such as sbs-half for televisions, or anaglyph, or a kind of anaglyph; "
-          "that "
-          "of the source by default",
+      row("--output-layout", parsed(a.output_layout, find_eyes_in_film),
+          "Stereo layout of the painted film, such as sbs-half for televisions, or anaglyph, or a kind of anaglyph, or "
+          "two-files, a film for each eye; that of the source by default",
           {when([&a] { return !a.display.name.empty(); }, "with --display; it works where two eyes are painted")}),
-      row("--projection", name(a.options.writing.projection, spheres),
-          "Sphere that the painted film says it lies on: 360 or 180 (equirectangular), or flat; that of the source by "
-          "default. Pictures are not changed",
-          {when([&a] { return !a.display.name.empty(); }, "with --display; its films lie on no sphere")}),
+      projection_row(a.options.writing,
+                     {when([&a] { return !a.display.name.empty(); }, "with --display; its films lie on no sphere")}),
       row("--from", parsed(a.from_s, parse_time_s), "Start time: seconds or [HH:]MM:SS"),
       row("--to", parsed(a.to_s, parse_time_s), "End time: seconds or [HH:]MM:SS"),
       row("--rate", parsed(a.rate, parse_frame_rate),
           "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default"),
       row("--frame-step", number(a.frame_step, {1, 1'000'000}), "Paint every Nth frame only")};
-  const Rows side{row("--no-audio", flag(a.no_audio), "Do not copy the film's sound"),
-                  row("--no-subtitles", flag(a.no_subtitles), "Do not copy the film's subtitles"),
-                  row("--save-marks", text(a.options.marks), "Also write the marks of each frame: marks_%04d.wst")};
+  const Rows marks{row("--save-marks", text(a.options.marks), "Also write the marks of each frame: marks_%04d.wst")};
   const Rows damaged{row("--keep-going", flag(a.options.keep_going),
                          "Paint the frames of a damaged film that can be decoded, without an error at the end")};
-  return under("Film", join({source, film_coding_rows(a.options.writing), side,
+  return under("Film", join({source, film_coding_rows(a.options.writing), side_stream_rows(a.options.writing), marks,
                              film_resume_rows(a.options.resume, a.options.frames_between_checkpoints), damaged}));
 }
 

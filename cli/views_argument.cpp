@@ -188,7 +188,7 @@ Rows views_rows(ViewsArguments& a, const std::function<bool()>& makes_views) {
   return {row("VIEWS", required(texts(a.files)),
               "Pictures from left to right; a folder of them, or of photographs; or one file: MPO, JPS, both views in "
               "one picture, "
-              "multi-view OpenEXR, painting (.wst), slices (.exr)"),
+              "multi-view OpenEXR, painting (.wst), slices (.exr), film; or a film for each eye"),
           row("--layout", text(a.layout),
               fmt::format("Layout of one picture that holds both views: {}{}; detected by default",
                           fmt::join(photograph_layout_names(), ", "), depth_layout_words),

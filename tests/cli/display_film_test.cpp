@@ -51,8 +51,8 @@ TEST(DisplayFilm, AQuiltFilmHasTheNameSizeAndFramesThatTheDisplayTakes) {
   EXPECT_EQ(told["view_aspect"], 0.75);
   EXPECT_EQ(told["frames"], 3);
   EXPECT_EQ(told["codec"], "h264");
-  expect_refused(folder, {"pack", "painted_qs8x6a0.75.mp4", "--to", "views", "-o", "views"}, 3,
-                 "painted_qs8x6a0.75.mp4: is a film, expected pictures; of a film a single frame can be packed");
+  expect_refused(folder, {"pack", "painted_qs8x6a0.75.mp4", "--to", "views", "-o", "views"}, 2,
+                 "--to: there is no layout 'views' of films, expected two-files, anaglyph or one of");
 }
 
 TEST(DepthBudgetOfAFilm, IsComfortableByDefaultAndMeasuringTellsOfIt) {

@@ -8,15 +8,14 @@
 #include <mutex>
 #include <system_error>
 
+#include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/marks_sequence_internal.h"
 #include "wheatstone/app/passed_frames_internal.h"
 #include "wheatstone/app/rotoscope_state_file.h"
-#include "wheatstone/display/anaglyph.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/struct_fields.h"
 #include "wheatstone/files/unfinished_outputs.h"
 #include "wheatstone/marks/painting_file.h"
-#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/segmented_film.h"
 #include "wheatstone/video/work_folder.h"
@@ -50,23 +49,16 @@ fs::path state_file(const fs::path& output, std::int64_t frames) {
   return work_folder_of(output) / fmt::format("state_{:09}", frames);
 }
 
-/// Two eyes in one picture.
-Image<Rgb8> together(const StereoPair& eyes, const RotoscopeFilmOptions& options) {
-  if (options.anaglyph.empty()) return put_together(eyes.left, eyes.right, options.writing.layout);
-  const auto kind = std::ranges::find(anaglyph_kinds(), std::string_view(options.anaglyph), &AnaglyphKind::name);
-  if (kind == anaglyph_kinds().end())
-    throw Error(ErrorKind::wrong_usage, fmt::format("there is no anaglyph '{}'", options.anaglyph));
-  return anaglyph({eyes.left, eyes.right}, *kind);
-}
-
 /// A painted frame in one picture, and when it is shown.
 Frame frame_of(FramePictures pictures, const StereoFrame& source, const RotoscopeFilmOptions& options) {
   const auto* const eyes = std::get_if<StereoPair>(&pictures);
-  return {eyes != nullptr ? together(*eyes, options) : std::get<Image<Rgb8>>(std::move(pictures)), source.pts,
-          source.time_base, source.duration};
+  const StereoLayout layout = options.right_film.empty() ? options.writing.layout : StereoLayout::left_right;
+  return {
+      eyes != nullptr ? put_into_frame(*eyes, layout, options.anaglyph) : std::get<Image<Rgb8>>(std::move(pictures)),
+      source.pts, source.time_base, source.duration};
 }
 
-/// Where frames go: a film that is being made, or only files of marks.
+/// Where frames go: a film that is being made, or one for each eye, or only files of marks.
 class Output {
  public:
   Output(const fs::path& path, const RotoscopeFilmOptions& options)
@@ -76,15 +68,19 @@ class Output {
       throw Error(ErrorKind::wrong_usage, "a run that writes only marks cannot be resumed: write a film too");
     const fs::path marks = marks_of(path, options);
     if (!marks.empty()) check_marks(marks);
-    if (!only_marks)
-      film_.emplace(
-          path, options.writing,
-          SegmentOptions{options.frames_between_checkpoints, recipe_of(options), sources_of(options), options.resume});
-    if (!marks.empty()) open_marks(marks);
+    or_leave_nothing([&] {
+      if (!only_marks) open_film(path, options);
+      if (!only_marks && !options.right_film.empty()) open_film(options.right_film, options);
+      if (!marks.empty()) marks_.emplace(marks, frames_done());
+    });
   }
 
   /// Frames that are safe: an earlier run has left them, or this one has closed them.
-  std::int64_t frames_done() const { return film_ ? film_->frames_done() : 0; }
+  std::int64_t frames_done() const {
+    std::int64_t least = films_.empty() ? 0 : films_.front().frames_done();
+    for (const SegmentedFilm& film : films_) least = std::min(least, film.frames_done());
+    return least;
+  }
 
   /// After the frames that are done.
   RotoscopeState state() const {
@@ -95,15 +91,18 @@ class Output {
     if (marks_) marks_->write(state.frames, painting);
   }
 
-  void write(const Frame& frame, const RotoscopeState& state) {
-    if (!film_) return;
+  void write(Frame frame, const RotoscopeState& state) {
+    if (films_.empty()) return;
     const bool at_checkpoint = state.frames % frames_between_checkpoints_ == 0;
     // Before the segment of these frames is closed: each closed segment has its state.
     if (at_checkpoint) write_rotoscope_state(state_file(path_, state.frames), state);
     // The film's frames and their marks are kept together.
     std::unique_lock<std::recursive_mutex> hold;
     if (at_checkpoint) hold = hold_outputs();
-    film_->write(frame);
+    const std::vector<Frame> frames = frames_of_films(std::move(frame), films_.size());
+    // A run may have been killed when one film had closed a segment and the other had not yet.
+    for (std::size_t i = 0; i < films_.size(); ++i)
+      if (state.frames > kept_[i]) films_[i].write(frames[i]);
     if (!at_checkpoint) return;
     if (marks_) marks_->keep();
     std::error_code ignored;
@@ -113,31 +112,43 @@ class Output {
   std::vector<std::string> finish(const RotoscopeState& state, const Progress& progress) {
     // The film and its marks get their names together: no signal may end the program in between.
     const auto hold = hold_outputs();
-    if (film_) {
+    if (!films_.empty()) {
       // Joining closes the last segment, and may be stopped, too.
       if (state.frames > frames_done()) write_rotoscope_state(state_file(path_, state.frames), state);
       if (marks_) marks_->check(state.frames);
       const RotoscopeTotals& totals = state.totals;
-      if (totals.moved_frames > 0) film_->set_comment(moved_eyes_note(totals.moved_frames, totals.least_separation));
-      film_->finish(progress);
+      for (SegmentedFilm& film : films_) {
+        if (totals.moved_frames > 0) film.set_comment(moved_eyes_note(totals.moved_frames, totals.least_separation));
+        // Stopped between two films, the run would leave one of them.
+        film.finish(&film == &films_.front() ? progress : Progress());
+      }
     }
     if (marks_) marks_->give_names(state.frames);
-    return film_ ? film_->notes() : std::vector<std::string>();
+    return films_.empty() ? std::vector<std::string>() : films_.front().notes();
   }
 
   /// Removes what cannot be resumed.
   void discard() {
     if (marks_) marks_->discard();
-    if (film_) film_->discard();
+    for (SegmentedFilm& film : films_) film.discard();
   }
 
  private:
-  void open_marks(const fs::path& path) {
+  void open_film(const fs::path& path, const RotoscopeFilmOptions& options) {
+    films_.emplace_back(
+        path, options.writing,
+        SegmentOptions{options.frames_between_checkpoints, recipe_of(options), sources_of(options), options.resume});
+    kept_.push_back(films_.back().frames_done());
+  }
+
+  /// Where nothing was painted yet, a failure leaves nothing.
+  template <class Open>
+  void or_leave_nothing(Open open) {
     try {
-      marks_.emplace(path, frames_done());
+      open();
     } catch (const Error&) {
-      // Nothing was painted yet: nothing stays.
-      if (film_ && frames_done() == 0) film_->discard();
+      for (SegmentedFilm& film : films_)
+        if (film.frames_done() == 0) film.discard();
       throw;
     }
   }
@@ -156,7 +167,8 @@ class Output {
 
   fs::path path_;
   int frames_between_checkpoints_;
-  std::optional<SegmentedFilm> film_;
+  std::vector<SegmentedFilm> films_;
+  std::vector<std::int64_t> kept_;  ///< frames that an earlier run has left of each
   std::optional<MarksSequence> marks_;
 };
 
@@ -411,15 +423,15 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
   // Whoever adds a member says here whether it decides a byte. Not in the text: `writing` and the interval, which the
   // film's segments compare themselves, the sources, which are compared by what is in them, and what only says how
   // the run goes: resume, keep_going, expected_frames, ranks and their scenes.
-  static_assert(field_count<RotoscopeFilmOptions>() == 14);
+  static_assert(field_count<RotoscopeFilmOptions>() == 15);
   RotoscopeOptions frames = options.frames;
   frames.matching.model.clear();  // their content is compared
   frames.flow_model.clear();
   FilmReaderOptions reading = options.reading;
   reading.threads = 0;  // the same frames on any number
-  return fmt::format("{}\n{}\n{}\nanaglyph {}\nmarks {}\nknown {}", options.made_by, text_of_fields(frames),
-                     text_of_fields(reading), options.anaglyph, options.marks.string(),
-                     static_cast<bool>(options.known));
+  return fmt::format("{}\n{}\n{}\nanaglyph {}\ntwo films {}\nmarks {}\nknown {}", options.made_by,
+                     text_of_fields(frames), text_of_fields(reading), options.anaglyph, !options.right_film.empty(),
+                     options.marks.string(), static_cast<bool>(options.known));
 }
 
 std::optional<std::string> unfinished_film(const fs::path& output, const fs::path& marks) {

@@ -17,9 +17,11 @@ namespace wheatstone {
 
 struct RotoscopeFilmOptions {
   RotoscopeOptions frames;
-  FilmReaderOptions reading;    ///< that the source was opened with: they decide which frames there are
-  FilmWriterOptions writing;    ///< `layout` says how the eyes lie in a painted frame
-  std::string anaglyph;         ///< an anaglyph_kind's name: two eyes in one picture for coloured glasses; empty: none
+  FilmReaderOptions reading;  ///< that the source was opened with: they decide which frames there are
+  FilmWriterOptions writing;  ///< `layout` says how the eyes lie in a painted frame
+  std::string anaglyph;       ///< an anaglyph_kind's name: two eyes in one picture for coloured glasses; empty: none
+  /// The film of the right eye, where the output is that of the left eye alone; empty: both eyes are in the output.
+  std::filesystem::path right_film;
   std::filesystem::path marks;  ///< "marks_%04d.wst" also keeps each frame's marks, from 1 on; empty: no
   int frames_between_checkpoints = 48;
   bool resume = false;      ///< go on with what an earlier run left; without it, such a rest is an error

@@ -13,6 +13,7 @@
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/files/struct_fields.h"
+#include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone::rotoscope_test {
@@ -324,6 +325,56 @@ TEST(RotoscopeFilm, StoppedWhileItJoinsItJoinsAgain) {
     EXPECT_FALSE(fs::exists(folder / "o.mp4.part"));
     fs::remove(folder / "o.mp4");
   }
+}
+
+// A run may be killed when the film of one eye has closed a segment and that of the other has not yet.
+TEST(RotoscopeFilm, AFilmForEachEyeGoesOnWhereTheShorterOneEnds) {
+  const TemporaryFolder folder;
+  {
+    FilmWriter writer(folder / "a.mp4", {.preset = "ultrafast", .layout = StereoLayout::left_right});
+    for (int i = 0; i < 6; ++i)
+      writer.write({put_together(moving_picture(64, 48, i), moving_picture(64, 48, i, 3), StereoLayout::left_right),
+                    i,
+                    {1, 25},
+                    1});
+    writer.finish();
+  }
+  RotoscopeFilmOptions options;
+  options.frames_between_checkpoints = 2;
+  const auto paint = [&](const std::string& name, const Progress& progress = {}) {
+    options.right_film = folder / (name + "_right.mp4");
+    StereoFilmReader source = open_stereo_film(folder / "a.mp4", StereoLayout::left_right);
+    return rotoscope_film(source, folder / (name + "_left.mp4"), options, progress);
+  };
+  paint("whole");
+  const Progress stop = [](std::string_view step, double) {
+    if (step.starts_with("painting frame 5")) throw Error(ErrorKind::interrupted, "interrupted");
+  };
+  expect_error(ErrorKind::interrupted, "the first 4 frames are kept", [&] { paint("o", stop); });
+  for (const char* file : {"seg_000001.mkv", "seg_000001.json"})
+    ASSERT_TRUE(fs::remove(folder / "o_right.mp4.part" / file)) << file;
+  // The state of the frames before, which is there until both films have closed the segment.
+  options.resume = true;
+  {
+    RotoscopeFilmOptions before = options;
+    before.resume = false;
+    before.right_film = folder / "b_right.mp4";
+    StereoFilmReader source = open_stereo_film(folder / "a.mp4", StereoLayout::left_right);
+    const Progress earlier = [](std::string_view step, double) {
+      if (step.starts_with("painting frame 3")) throw Error(ErrorKind::interrupted, "interrupted");
+    };
+    expect_error(ErrorKind::interrupted, "the first 2 frames are kept",
+                 [&] { rotoscope_film(source, folder / "b_left.mp4", before, earlier); });
+    fs::copy_file(folder / "b_left.mp4.part/state_000000002", folder / "o_left.mp4.part/state_000000002",
+                  fs::copy_options::overwrite_existing);
+  }
+  EXPECT_EQ(paint("o").resumed_frames, 2);
+  for (const char* eye : {"left", "right"})
+    EXPECT_TRUE(bytes_of(folder / (std::string("o_") + eye + ".mp4")) ==
+                bytes_of(folder / (std::string("whole_") + eye + ".mp4")))
+        << eye;
+  EXPECT_FALSE(fs::exists(folder / "o_left.mp4.part"));
+  EXPECT_FALSE(fs::exists(folder / "o_right.mp4.part"));
 }
 
 TEST(RotoscopeFilm, OtherMatchingOrAnotherNetworkIsNotGoneOnWith) {
