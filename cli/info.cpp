@@ -270,6 +270,7 @@ Json facts_of_film(const fs::path& path) {
   if (film.frame_count) facts["frames"] = *film.frame_count;
   if (film.duration_s > 0) facts["duration_s"] = film.duration_s;
   if (film.projection != "flat") put(facts, "projection", film.projection);
+  if (film.interlaced) facts["interlaced"] = "frames are deinterlaced when they are read (bwdif)";
   put(facts, "comment", film.comment);
   put(facts, "colour_matrix", film.colour.matrix);
   put(facts, "colour_range", film.colour.range);

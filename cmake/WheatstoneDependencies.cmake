@@ -9,7 +9,7 @@ wheatstone_find_libraries(
   OpenImageIO::OpenImageIO TBB::tbb fmt::fmt nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus
   nanoflann::nanoflann ZLIB::ZLIB PNG::PNG JPEG::JPEG Eigen3::Eigen Boost::headers PkgConfig::HWY PkgConfig::HDF5
   PkgConfig::CFITSIO PkgConfig::ISAL PkgConfig::ZIP PkgConfig::FFTW
-  PkgConfig::LIBAV PkgConfig::LCMS PkgConfig::HEIF PkgConfig::WEBP PkgConfig::EPOXY PkgConfig::ASSIMP
+  PkgConfig::LIBAV PkgConfig::AVFILTER PkgConfig::LCMS PkgConfig::HEIF PkgConfig::WEBP PkgConfig::EPOXY PkgConfig::ASSIMP
   PkgConfig::EXIF PkgConfig::FREETYPE PkgConfig::FONTCONFIG)
 unset(CMAKE_FIND_PACKAGE_NAME)
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "wheatstone/app/eyes_in_film.h"
+#include "wheatstone/app/painted_film.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
@@ -49,7 +50,8 @@ PackedFilm pack_film(StereoFilmReader& source, const std::filesystem::path& outp
   // Both films get their names: no signal may end the program in between.
   const auto hold = hold_outputs();
   for (FilmWriter& film : films) film.finish();
-  packed.notes = films.front().notes();
+  packed.notes = notes_on_reading(source.facts());
+  for (const std::string& note : films.front().notes()) packed.notes.push_back(note);
   if (const std::optional<std::string> loss = source.loss())
     throw Error(ErrorKind::bad_input, fmt::format("{}; the {} frames that could be decoded were written to {}", *loss,
                                                   packed.frames, output.string()));

@@ -20,6 +20,11 @@ void write_as_source(const std::filesystem::path& film, const FilmFacts& facts, 
   writing.end_s = reading.to_s;
 }
 
+std::vector<std::string> notes_on_reading(const FilmFacts& facts) {
+  if (!facts.interlaced) return {};
+  return {"the source is interlaced; its frames were deinterlaced (bwdif)"};
+}
+
 std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& reading) {
   if (!facts.frame_count) return 0;
   auto frames = static_cast<double>(*facts.frame_count);

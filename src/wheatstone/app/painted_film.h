@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "wheatstone/video/film_writer.h"
 #include "wheatstone/video/stereo_film.h"
@@ -18,6 +20,9 @@ StereoLayout layout_of_painted_film(const StereoFilmReader& source, bool a_film_
 /// `reading.from_s` to `reading.to_s`.
 void write_as_source(const std::filesystem::path& film, const FilmFacts& facts, const FilmReaderOptions& reading,
                      FilmWriterOptions& writing);
+
+/// What the user should know of how the source was read: a sentence each.
+std::vector<std::string> notes_on_reading(const FilmFacts& facts);
 
 /// How many frames there will be, as far as the film says; 0 where it does not.
 std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& reading);

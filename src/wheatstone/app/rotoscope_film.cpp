@@ -10,6 +10,7 @@
 
 #include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/marks_sequence_internal.h"
+#include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/passed_frames_internal.h"
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/error.h"
@@ -466,6 +467,7 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     if (out && out->frames_done() == 0) out->discard();
     throw;
   }
+  for (std::string& note : notes_on_reading(source.facts())) film.notes.push_back(std::move(note));
   film.loss = source.loss();
   if (film.loss && !options.keep_going)
     throw Error(ErrorKind::bad_input, fmt::format("{}; the {} frames that could be decoded were painted to {}",

@@ -14,6 +14,7 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include "wheatstone/files/module.h"
 #include "wheatstone/video/kept_metadata_internal.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
 
@@ -158,6 +159,9 @@ double DecodedFilm::stated_end_s() {
 }
 
 void DecodedFilm::seek_before(double seconds) {
+  // Of a frame's fields, those of the frame before tell, too.
+  const double rate = facts_.frame_rate.value();
+  if (facts_.interlaced && rate > 0) seconds -= 2 / rate;
   const auto target = static_cast<std::int64_t>(std::floor(seconds / av_q2d(stream_->time_base)));
   if (time_ahead_ && time_ahead_->pts >= target) return;
   searched_ = true;
@@ -173,6 +177,7 @@ void DecodedFilm::seek_before(double seconds) {
 
 void DecodedFilm::decode_afresh() {
   fed_all_ = at_end_ = false;
+  deinterlacer_.reset();
   read_error_ = 0;
   time_ahead_.reset();
   look_ahead();
@@ -229,9 +234,32 @@ void DecodedFilm::pass_over_rest() {
   at_end_ = true;
 }
 
+void DecodedFilm::open_deinterlacer() {
+  auto* const open = reinterpret_cast<OpenDeinterlacer*>(
+      function_of_module(avfilter_module_name, open_deinterlacer_name, avfilter_module_bytes));
+  deinterlacer_.reset(open(*ahead_, stream_->time_base, threads_));
+  if (!deinterlacer_) refuse_film(path_, "its frames are interlaced, and libavfilter cannot deinterlace them");
+  facts_.interlaced = true;
+}
+
+/// The next frame, from the decoder or from what makes whole frames of its fields. Returns libav's error, or 0.
+int DecodedFilm::receive() {
+  while (true) {
+    if (deinterlacer_) {
+      const int error = deinterlacer_->receive(*ahead_);
+      if (error != AVERROR(EAGAIN)) return error;
+    }
+    const int error = avcodec_receive_frame(decoder_.get(), ahead_.get());
+    if (error == 0 && !deinterlacer_ && (facts_.interlaced || ahead_->interlaced_frame != 0)) open_deinterlacer();
+    if (!deinterlacer_ || (error < 0 && error != AVERROR_EOF)) return error;
+    const int sent = deinterlacer_->send(error == 0 ? ahead_.get() : nullptr);
+    if (sent < 0) return sent;
+  }
+}
+
 void DecodedFilm::look_ahead() {
   while (true) {
-    const int error = avcodec_receive_frame(decoder_.get(), ahead_.get());
+    const int error = receive();
     if (error == 0) {
       if (is_damaged(*ahead_)) ++damaged_;
       time_ahead_ = time_of(*ahead_);

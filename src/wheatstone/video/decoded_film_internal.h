@@ -2,8 +2,10 @@
 
 // The frames of one film file, one after the other, and what went wrong with them.
 
+#include <memory>
 #include <optional>
 
+#include "wheatstone/video/deinterlacer_internal.h"
 #include "wheatstone/video/film_reader.h"
 #include "wheatstone/video/libav_internal.h"
 #include "wheatstone/video/picture_conversion_internal.h"
@@ -45,6 +47,8 @@ class DecodedFilm {
   void decode_afresh();
   void look_ahead();
   bool read_packet();
+  int receive();
+  void open_deinterlacer();
   void feed();
   std::int64_t usual_duration(std::int64_t said) const;
   FrameTime time_of(const AVFrame& frame) const;
@@ -57,8 +61,9 @@ class DecodedFilm {
   OwnedCodec decoder_;
   AVStream* stream_ = nullptr;
   OwnedPacket packet_ = new_packet();
-  OwnedFrame frame_ = new_frame();  ///< the one at hand
-  OwnedFrame ahead_ = new_frame();  ///< the one after it: only its time tells how long this one is shown
+  OwnedFrame frame_ = new_frame();              ///< the one at hand
+  OwnedFrame ahead_ = new_frame();              ///< the one after it: only its time tells how long this one is shown
+  std::unique_ptr<Deinterlacer> deinterlacer_;  ///< from the first interlaced frame on
   RgbFromFrame rgb_from_frame_;
   Image<Rgb8> lying_;  ///< before it is turned
   FilmFacts facts_;

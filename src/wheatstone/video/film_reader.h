@@ -45,9 +45,10 @@ struct FilmFacts {
   double duration_s = 0;                    ///< of the whole film, 0 where unknown
   std::optional<std::int64_t> frame_count;  ///< of the whole film, where it says
   StereoLayout layout = StereoLayout::mono;
-  std::string layout_how;  ///< "Matroska StereoMode", … ; empty where the film says nothing of it
-  std::string projection;  ///< the sphere that it lies on: "360", "180", "other"; "flat": none; empty: it is no film
-  std::string comment;     ///< that the film carries; empty: none
+  std::string layout_how;   ///< "Matroska StereoMode", … ; empty where the film says nothing of it
+  std::string projection;   ///< the sphere that it lies on: "360", "180", "other"; "flat": none; empty: it is no film
+  std::string comment;      ///< that the film carries; empty: none
+  bool interlaced = false;  ///< its frames are stored as fields; they are delivered whole (bwdif)
   ColourTags colour;
   std::vector<SideStream> side_streams;
 };

@@ -402,4 +402,52 @@ TEST(FilmReader, AnimatedPicturesAreFilms) {
   expect_error(ErrorKind::bad_input, "cut.webp: a damaged WebP", [&] { open_film(folder / "cut.webp"); });
 }
 
+/// Mean difference of the frames' luma, 0..255.
+double difference(const std::vector<Frame>& a, const std::vector<Frame>& b) {
+  const auto luma = [](Rgb8 c) { return 0.299 * c.r + 0.587 * c.g + 0.114 * c.b; };
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t p = 0; p < a[i].picture.pixels().size(); ++p, ++count)
+      sum += std::abs(luma(a[i].picture.pixels()[p]) - luma(b[i].picture.pixels()[p]));
+  return sum / count;
+}
+
+TEST(FilmReader, InterlacedFramesAreDeinterlaced) {
+  const TemporaryFolder folder;
+  if (!has_program("ffmpeg")) GTEST_SKIP() << "the ffmpeg program is not installed";
+  const auto file = [&](const char* name) { return (folder / name).string(); };
+  // Fifty moments a second: as frames, and as the fields of 25 frames.
+  make_film(folder / "moments.mkv", 24, {.codec = "ffv1", .frame_rate = {50, 1}}, 96, 64);
+  ffmpeg("-i " + file("moments.mkv") + " -vf setpts=N/50/TB,fps=50,framestep=2 -r 25 -c:v libx264 -crf 1 " +
+         file("whole.mp4"));
+  ffmpeg("-i " + file("moments.mkv") +
+         " -vf setpts=N/50/TB,fps=50,format=yuv420p,tinterlace=interleave_top,fieldorder=tff -r 25 -c:v libx264 -crf 1 "
+         "-flags +ildct+ilme -g 6 " +
+         file("fields.mp4"));
+  ffmpeg("-i " + file("fields.mp4") + " -vf setfield=prog -c:v ffv1 " + file("unmarked.mkv"));
+  ffmpeg("-i " + file("fields.mp4") + " -vf bwdif=send_frame:auto:interlaced -c:v ffv1 " + file("peer.mkv"));
+  const std::vector<Frame> peer = frames_of(folder / "peer.mkv");
+  const std::vector<Frame> whole = frames_of(folder / "whole.mp4"), read = frames_of(folder / "fields.mp4"),
+                           unmarked = frames_of(folder / "unmarked.mkv");
+  ASSERT_EQ(read.size(), 12u);
+  ASSERT_EQ(whole.size(), read.size());
+  ASSERT_EQ(unmarked.size(), read.size());
+  EXPECT_TRUE(open_film(folder / "fields.mp4").facts().interlaced);
+  EXPECT_FALSE(open_film(folder / "whole.mp4").facts().interlaced);
+  EXPECT_FALSE(open_film(folder / "unmarked.mkv").facts().interlaced);
+  // The upper field shows the moment of the whole frame, the lower one the moment after it.
+  EXPECT_LT(difference(read, whole), 0.4 * difference(unmarked, whole))
+      << difference(read, whole) << ", " << difference(unmarked, whole);
+  ASSERT_EQ(peer.size(), read.size());
+  EXPECT_EQ(difference(read, peer), 0) << "as ffmpeg does it";
+  for (std::size_t i = 0; i < read.size(); ++i) EXPECT_NEAR(read[i].seconds(), static_cast<double>(i) / 25, 1e-3);
+  // From any time, and on any number of threads, the same frames.
+  for (const int from : {1, 5, 6, 7}) {
+    const std::vector<Frame> rest = frames_of(folder / "fields.mp4", {.from_s = from / 25., .threads = 3});
+    ASSERT_EQ(rest.size(), read.size() - static_cast<std::size_t>(from));
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      EXPECT_TRUE(rest[i].picture == read[i + static_cast<std::size_t>(from)].picture) << from << ", " << i;
+  }
+}
+
 }  // namespace wheatstone::film_reader_test
