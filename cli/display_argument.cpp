@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::cli {
@@ -128,7 +129,7 @@ std::string codec_for(const FilmDisplay& display) {
 void choose_coding(const Given& given, const FilmDisplay& display, FilmWriterOptions& writing) {
   if (!given("--codec")) writing.codec = codec_for(display);
   // Neighbouring sub-pixels belong to different views.
-  if (!display.quilt && !given("--pixel-format") && writing.codec != "ffv1") writing.pixel_format = "yuv444p";
+  if (!display.quilt) keep_full_colour(writing);
 }
 
 }  // namespace wheatstone::cli

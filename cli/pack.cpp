@@ -11,17 +11,22 @@
 #include "commands.h"
 #include "device_option.h"
 #include "display_argument.h"
+#include "film_argument.h"
 #include "made_views.h"
 #include "pack_film.h"
 #include "packing.h"
 #include "photograph_run.h"
 #include "print_options.h"
+#include "slicing_options.h"
 #include "stereo_arguments.h"
 #include "views_argument.h"
+#include "wheatstone/app/eyes_in_film.h"
+#include "wheatstone/app/slice_film.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/floating_window.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/input_guard.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/photograph_notes.h"
@@ -45,6 +50,7 @@ struct PackArguments {
   DepthArguments depth;  ///< of one picture
   PackingArguments packing;
   PrintArguments print;
+  SliceFilmArguments planes;  ///< of a painting
   std::string output;
   float shift_px = 0;
   int max_size = 0;                            ///< longer side of what is matched; 0: as large as it is
@@ -169,6 +175,73 @@ PhotographResult pack_one(const PackArguments& arguments, const Session& session
   return {std::move(told), written};
 }
 
+/// How a film of such frames is coded, where it is not told.
+FilmWriterOptions writing_of_film(const PackArguments& arguments, const Packing& packing, PictureSize view) {
+  FilmWriterOptions writing = arguments.film;
+  writing.frame_rate = arguments.planes.rate;
+  const DisplayComposition composition = packing.format->composition(packing);
+  const auto* const layout = std::get_if<StereoLayout>(&composition);
+  if (layout != nullptr) writing.layout = *layout;
+  const bool is_of_eyes = layout != nullptr || std::holds_alternative<AnaglyphKind>(composition);
+  if (!is_of_eyes)
+    choose_coding(arguments.given,
+                  {.views = {.width = view.width, .height = view.height},
+                   .quilt = packing.format->name == "quilt" ? packing.quilt : std::nullopt,
+                   .screen = packing.screen},
+                  writing);
+  const Arrangement arrangement = layout != nullptr ? traits_of(*layout).arrangement : Arrangement::whole;
+  const bool are_apart = arrangement == Arrangement::side_by_side || arrangement == Arrangement::over_under;
+  // What lies pixel beside pixel, or is told apart by its colour, keeps its colours at full size.
+  if (is_of_eyes && !are_apart) keep_full_colour(writing);
+  return writing;
+}
+
+/// A film in which planes travel through a painting.
+Report pack_slice_film(const PackArguments& arguments, const Session& session) {
+  const Packing packing = find_packing(arguments.packing, arguments.output);
+  if (!packing.format->composition)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--to {}: is no format of a film's frames, expected a layout of both views, an anaglyph, "
+                            "quilt or lenticular",
+                            packing.name));
+  const ViewsArguments input = input_of(arguments, packing, session);
+  std::vector<fs::path> inputs = files_read(input);
+  inputs.emplace_back(arguments.packing.screen);
+  const int wanted = views_wanted(packing);
+  report(session.progress, "reading", 0);
+  const Painting painting = read_painting_argument(input, wanted);
+  const PictureSize size{width_of(painting), height_of(painting)};
+  const double aspect = packing.aspect > 0 ? packing.aspect : static_cast<double>(size.width) / size.height;
+  const bool is_quilt = packing.format->name == "quilt";
+  const std::string output = name_of_film(arguments.output, is_quilt ? packing.quilt : std::nullopt, aspect);
+  check_not_an_input(output, inputs);
+  const PrintFrame frame = print_frame_from(arguments.print, {}, inputs.front());
+  PictureSize frame_size{0, 0};
+  const auto picture = [&](const Painting& sliced_painting) {
+    ReadViews read = draw_painting_argument(sliced_painting, input, wanted, {});
+    if (input.swap) std::ranges::reverse(read.views);
+    if (arguments.given("--framing") && !arguments.packing.display.empty()) reframe(read.views, arguments);
+    Image<Rgb8> composed = std::move(read.composed);
+    if (composed.empty())
+      composed =
+          compose(adjusted(std::move(read.views), arguments, frame, session), packing.format->composition(packing));
+    frame_size = {composed.width(), composed.height()};
+    return composed;
+  };
+  const SliceFilmOptions options{.slicing = input.slicing,
+                                 .from = arguments.planes.from,
+                                 .to = arguments.planes.to,
+                                 .frames = arguments.planes.frames,
+                                 .writing = writing_of_film(arguments, packing, size)};
+  const std::vector<std::string> notes = write_slice_film(painting, picture, output, options, session.progress);
+  return {{{"output", output, fmt::format("written to {}", output)},
+           {"frames", options.frames},
+           {"packing", packing.name},
+           {"width", frame_size.width},
+           {"height", frame_size.height},
+           {"notes", notes, lines("note: ", notes)}}};
+}
+
 /// The packed file of a job, or its folder of views; none where it was not packed. A quilt's name says its layout.
 std::optional<fs::path> packed_file(const PhotographJob& job, const Packing& packing) {
   const fs::path file = job.output;
@@ -217,6 +290,7 @@ Report pack_folder(const PackArguments& arguments, const Session& session) {
 }
 
 Report run_pack(const PackArguments& arguments, const Session& session) {
+  if (makes_slice_film(arguments.planes)) return pack_slice_film(arguments, session);
   if (are_films(arguments.input.files, arguments.output))
     return run_pack_film({arguments.input.files, arguments.input.layout, arguments.packing.to, arguments.output,
                           arguments.input.swap, arguments.shift_px, arguments.film},
@@ -243,6 +317,10 @@ Rows pack_rows(PackArguments& a) {
       when([&a] { return a.packing.display.empty() && !sets_caption(find_packing(a.packing, a.output)); },
            "without --display; it works with --display and --to card");
   const auto on_folder = [&a] { return is_photograph_folder(a.input); };
+  const Reason no_painting = unless_painting(a.input);
+  const auto is_film_of_planes = [&a] { return makes_slice_film(a.planes); };
+  const Reason strips_vary = when([&a] { return makes_slice_film(a.planes) && a.floating_window && !*a.floating_window; },
+                                  "as 'auto' on a film of planes; it works with widths");
   Rows walk = folder_rows(a.walk, on_folder, "packed", "; {to}, the format");
   walk.push_back(contact_sheet_row(a.walk, on_folder));
   const auto on_films = [&a] { return are_films(a.input.files, a.output); };
@@ -259,8 +337,10 @@ Rows pack_rows(PackArguments& a) {
              row("--floating-window", parsed(a.floating_window, parse_strips),
                  "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right "
                  "edge of the right view; auto: as wide as needed for the frame to cut nothing before the screen for "
-                 "one eye only, found by matching")},
+                 "one eye only, found by matching",
+                 {strips_vary})},
             {framing_row(a.packing.framing, "on the display or the card", {no_frame})},
+            slicing_rows(a.input.slicing, {no_painting}, is_film_of_planes),
             walk,
             under({}, depth_rows(a.depth, no_depth), {no_picture}),
             print_rows(a.print, {if_matched(a.packing, a.output)}, {if_card(a.packing, a.output)})});
@@ -270,8 +350,10 @@ Rows pack_rows(PackArguments& a) {
   for (Row& row : rows)
     if (std::ranges::find(for_films, name_of(row)) == for_films.end())
       row.unless.insert(row.unless.begin(), when(on_films, "on a film; it works on pictures"));
-  const Rows film = pack_film_rows(a.film, when([on_films] { return !on_films(); }, "on pictures; it works on a film"));
-  return join({rows, film});
+  const Reason no_film = when([on_films] { return !on_films(); }, "on pictures; it works on a film");
+  const Reason writes_no_film = when([on_films, is_film_of_planes] { return !on_films() && !is_film_of_planes(); },
+                                     "on pictures; it works on a film, and with --slice-from and --slice-to");
+  return join({rows, slice_film_rows(a.planes, {no_painting}), pack_film_rows(a.film, no_film, writes_no_film)});
 }
 
 }  // namespace
@@ -285,6 +367,8 @@ Command pack_command() {
   wheatstone pack photograph.mpo --to anaglyph --floating-window auto --border 3% --caption {title} -o print.jpg
   wheatstone pack photograph.mpo --caption {title} -o card.pdf
   wheatstone pack photo.jpg --depth depth.png --display looking-glass-portrait -o photo
+  wheatstone pack painting.wst --slice-depth 40% -o sliced.mpo
+  wheatstone pack painting.wst --slice-from 0% --slice-to 100% --frames 120 -o slices.mp4
   wheatstone pack views --to lenticular --screen step-9 -o screen.png
   wheatstone pack views --to quilt --quilt 8x6 -o universe
   wheatstone pack photographs --to anaglyph --format jpg -o anaglyphs

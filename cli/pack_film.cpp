@@ -53,9 +53,10 @@ bool are_films(const std::vector<std::string>& files, const std::string& output)
   return !files.empty() && std::ranges::all_of(files, [](const std::string& file) { return is_film(file); });
 }
 
-Rows pack_film_rows(FilmWriterOptions& writing, const Reason& no_film) {
-  return under("Film", join({{projection_row(writing)}, film_coding_rows(writing), side_stream_rows(writing)}),
-               {no_film});
+Rows pack_film_rows(FilmWriterOptions& writing, const Reason& no_film, const Reason& writes_no_film) {
+  return under("Film", join({{projection_row(writing, {no_film})},
+                             under({}, film_coding_rows(writing), {writes_no_film}),
+                             under({}, side_stream_rows(writing), {no_film})}));
 }
 
 Report run_pack_film(PackFilmArguments arguments, const Session& session) {
@@ -81,7 +82,7 @@ Report run_pack_film(PackFilmArguments arguments, const Session& session) {
     remark(session, fmt::format("layout: {} ({})", layout_name(source.layout()), source.layout_how()));
   options.writing.layout = eyes.layout.value_or(StereoLayout::mono);
   write_as_source(film.film, source.facts(), reading, options.writing);
-  if (!eyes.anaglyph.empty()) write_as_anaglyph(options.writing);
+  if (!eyes.anaglyph.empty()) keep_full_colour(options.writing);
   options.expected_frames = expected_frames(source.facts(), reading);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
   if (!left_out.empty()) remark(session, fmt::format("wheatstone: {}", fmt::join(left_out, "; ")));

@@ -23,8 +23,9 @@ struct PackFilmArguments {
 /// Whether the input is a film, or one for each eye, or a folder of numbered pictures that are to become a film.
 bool are_films(const std::vector<std::string>& files, const std::string& output);
 
-/// How the film is coded, what is copied and --projection.
-Rows pack_film_rows(FilmWriterOptions& writing, const Reason& no_film);
+/// How the film is coded, what is copied and --projection. `writes_no_film` is for how it is coded: other films are
+/// written, too.
+Rows pack_film_rows(FilmWriterOptions& writing, const Reason& no_film, const Reason& writes_no_film);
 
 /// Writes a film in another stereo layout.
 Report run_pack_film(PackFilmArguments arguments, const Session& session);

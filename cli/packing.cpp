@@ -26,6 +26,7 @@
 #include "wheatstone/pictures/multiview_exr.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/video/film_files.h"
 #include "write_views_output.h"
 
 namespace wheatstone::cli {
@@ -207,6 +208,7 @@ std::string chosen_name(const PackingArguments& arguments, const Packing& packin
   if (!arguments.to.empty()) return arguments.to;
   if (packing.quilt) return "quilt";
   if (packing.screen) return "lenticular";
+  if (is_film(output)) return "left-right";
   const std::string_view name = name_by_ending(output);
   if (name.empty()) {
     std::string endings;

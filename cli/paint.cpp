@@ -14,6 +14,7 @@
 #include "display_argument.h"
 #include "paint_arguments.h"
 #include "photograph_run.h"
+#include "slicing_options.h"
 #include "views_argument.h"
 #include "wheatstone/app/detail_map.h"
 #include "wheatstone/app/model_pictures.h"
@@ -390,12 +391,6 @@ std::string single_picture(const PaintArguments& a) {
   return finds_depth_in_file(a) ? "on a picture that has its own depth" : "";
 }
 
-constexpr Choice<SliceKeeps> slice_sides[] = {{"back", SliceKeeps::back}, {"front", SliceKeeps::front}};
-
-std::vector<SliceDepth> slice_depths(const std::string& option, const std::string& words) {
-  return parse_slice_depths(words, option);
-}
-
 Rows model_rows(PaintArguments& a, const Reason& printing) {
   RenderParticlesOptions& seen = a.model;
   constexpr static std::array<Choice<UpAxis>, 3> axes{
@@ -501,15 +496,6 @@ Rows paint_rows(PaintArguments& a) {
           "--depth-mapping"),
       row("--scale", number(a.scale, {0.01, 32}), "Scale factor of a painting.wst that is drawn again",
           {printing, photographs, display}),
-      row("--slice-layer", without_default(number(a.slicing.finest_layer, {0, 1000})),
-          "Number of the finest layer of strokes that a painting.wst shows, from the coarsest, 0",
-          {printing, photographs}),
-      row("--slice-depth", parsed(a.slicing.depths, slice_depths, "SHARE%|DISPARITYpx,..."),
-          "Plane that cuts the finest layer that is shown: its strokes before the plane are left out. A share of the "
-          "way from the nearest stroke to the farthest, or a disparity; further ones are of the coarser layers",
-          {printing, photographs}),
-      row("--slice-keep", choice(a.slicing.keeps, slice_sides), "Side of the plane whose strokes stay",
-          {printing, photographs}, "--slice-depth"),
       row("--display", text(a.display.name),
           "Paint the views of a display, as one quilt where the display takes one:" + display_names(), {printing}),
       row("--views", without_default(number(a.display.views, view_count_range)),
@@ -534,8 +520,8 @@ Rows paint_rows(PaintArguments& a) {
       rectify_row(a.photographs.rectify, {printing, again, one_view})};
   Rows style = under({}, style_rows(a.style), {again});
   style.front().unless.push_back(printing);
-  return join({basic, walk, display_view_rows(a.display, {printing}), drawing,
-               under({}, depth_rows(a.depth, no_depth, no_map), {printing, again, model}), style,
+  return join({basic, slicing_rows(a.slicing, {printing, photographs}), walk, display_view_rows(a.display, {printing}),
+               drawing, under({}, depth_rows(a.depth, no_depth, no_map), {printing, again, model}), style,
                under({}, match_rows(a.matching), {printing, again, known}), model_rows(a, printing)});
 }
 

@@ -90,7 +90,7 @@ FilmWriterOptions writing_options(const RotoscopeArguments& arguments, const Fil
     writing.pixel_aspect = {1, 1};
     writing.projection = "flat";
   }
-  if (!arguments.output_layout.anaglyph.empty()) write_as_anaglyph(writing);
+  if (!arguments.output_layout.anaglyph.empty()) keep_full_colour(writing);
   return writing;
 }
 

@@ -12,6 +12,7 @@
 #include "depth_argument.h"
 #include "display_argument.h"
 #include "photograph_run.h"
+#include "slicing_options.h"
 #include "stereo_arguments.h"
 #include "views_argument.h"
 #include "wheatstone/app/paint_photograph.h"
@@ -47,6 +48,7 @@ struct ShareArguments {
   FolderArguments walk;  ///< of a folder of photographs
   ViewsArguments views;  ///< the files, as all kinds have them
   DepthArguments depth;
+  Slicing slicing;  ///< of a painting
   std::string disparity;
   std::string output = "page.html";
   PageWords words;
@@ -166,7 +168,7 @@ SharedPicture share(const ShareArguments& arguments, const Session& session) {
   const std::string& title = arguments.words.title;
   switch (shared_kind_of(arguments)) {
     case SharedKind::painting:
-      return share_painting(read_painting(arguments.views.files.front()),
+      return share_painting(sliced(read_painting(arguments.views.files.front()), arguments.slicing),
                             {.title = title, .most_bytes = most_bytes(arguments)});
     case SharedKind::film:
     case SharedKind::quilt_film:
@@ -304,7 +306,8 @@ Rows share_rows(ShareArguments& a) {
   const auto on_folder = [&a] { return shared_kind_of(a) == SharedKind::photographs; };
   Rows walk = folder_rows(a.walk, on_folder, "shared");
   walk.push_back(contact_sheet_row(a.walk, on_folder));
-  return join({page, walk, under({}, depth_rows(a.depth, no_depth), {only({SharedKind::picture_with_depth})})});
+  return join({page, slicing_rows(a.slicing, {only({SharedKind::painting})}), walk,
+               under({}, depth_rows(a.depth, no_depth), {only({SharedKind::picture_with_depth})})});
 }
 
 }  // namespace

@@ -75,33 +75,7 @@ int count_of(const ViewsArguments& arguments, int wanted) {
   return wanted > 0 ? wanted : 2;
 }
 
-/// The eyes' own pictures, or as many views as are wanted, with the middle of the scene's disparities on the screen.
-ReadViews draw_painting(const ViewsArguments& arguments, int count, const Progress& progress) {
-  const std::string& file = arguments.files.front();
-  const bool of_the_eyes = count == 2 && arguments.span == 1;
-  const Painting painting = of_the_eyes ? read_painting(file) : read_painting_for_views(file);
-  ReadViews read;
-  read.how = "drawn from a painting";
-  read.count = count;
-  read.size = {width_of(painting), height_of(painting)};
-  Presented shown;
-  if (of_the_eyes) {
-    Presentation presentation = for_two_eyes();
-    presentation.composition = arguments.composition;
-    presentation.device = arguments.device;
-    shown = present(painting, presentation);
-  } else {
-    const DisplayViewsOptions options{.views = count,
-                                      .width = width_of(painting),
-                                      .height = height_of(painting),
-                                      .span = arguments.span,
-                                      .device = arguments.device};
-    shown = draw_display_views(painting, options, progress, arguments.composition).shown;
-  }
-  read.views = std::move(shown.views);
-  read.composed = std::move(shown.composed);
-  return read;
-}
+bool are_of_the_eyes(const ViewsArguments& arguments, int count) { return count == 2 && arguments.span == 1; }
 
 ReadViews render_stack(const std::string& file, int count, float span, const Progress& progress) {
   const SliceStack stack = read_slices(file);
@@ -168,6 +142,37 @@ Painting read_painting_for_views(const std::string& file) {
   return painting;
 }
 
+Painting read_painting_argument(const ViewsArguments& arguments, int wanted) {
+  const std::string& file = arguments.files.front();
+  return are_of_the_eyes(arguments, count_of(arguments, wanted)) ? read_painting(file) : read_painting_for_views(file);
+}
+
+ReadViews draw_painting_argument(const Painting& painting, const ViewsArguments& arguments, int wanted,
+                                 const Progress& progress) {
+  const int count = count_of(arguments, wanted);
+  ReadViews read;
+  read.how = "drawn from a painting";
+  read.count = count;
+  read.size = {width_of(painting), height_of(painting)};
+  Presented shown;
+  if (are_of_the_eyes(arguments, count)) {
+    Presentation presentation = for_two_eyes();
+    presentation.composition = arguments.composition;
+    presentation.device = arguments.device;
+    shown = present(painting, presentation);
+  } else {
+    const DisplayViewsOptions options{.views = count,
+                                      .width = width_of(painting),
+                                      .height = height_of(painting),
+                                      .span = arguments.span,
+                                      .device = arguments.device};
+    shown = draw_display_views(painting, options, progress, arguments.composition).shown;
+  }
+  read.views = std::move(shown.views);
+  read.composed = std::move(shown.composed);
+  return read;
+}
+
 bool is_photograph(const ViewsArguments& arguments) {
   const ViewsKind kind = kind_of(arguments);
   return kind == ViewsKind::picture || kind == ViewsKind::photographs ||
@@ -207,9 +212,12 @@ Rows views_rows(ViewsArguments& a, const std::function<bool()>& makes_views) {
               {made})};
 }
 
+Reason unless_painting(const ViewsArguments& arguments) {
+  return only(arguments, {ViewsKind::film, ViewsKind::painting}, "it works on a painting (.wst)");
+}
+
 Row views_device_row(ViewsArguments& a) {
-  return device_row(a.device, "What draws the views of a painting",
-                    {only(a, {ViewsKind::film, ViewsKind::painting}, "it works on a painting (.wst)")});
+  return device_row(a.device, "What draws the views of a painting", {unless_painting(a)});
 }
 
 std::vector<fs::path> files_read(const ViewsArguments& arguments) {
@@ -237,7 +245,8 @@ ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const
       case ViewsKind::quilt:
         return {views_of_quilt(read_image(file), *quilt_layout_of(arguments, file)), "taken from a quilt"};
       case ViewsKind::painting:
-        return draw_painting(arguments, count_of(arguments, wanted), progress);
+        return draw_painting_argument(sliced(read_painting_argument(arguments, wanted), arguments.slicing), arguments,
+                                      wanted, progress);
       case ViewsKind::slices:
         return render_stack(file, count_of(arguments, wanted), arguments.span, progress);
       case ViewsKind::multiview_exr:

@@ -10,7 +10,7 @@
 #include "wheatstone/display/compose.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/gpu/device.h"
-#include "wheatstone/marks/painting.h"
+#include "wheatstone/marks/slicing.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
 namespace wheatstone::cli {
@@ -24,6 +24,7 @@ struct ViewsArguments {
   int views = 0;                      ///< of slices; 0: what the packing wants
   float span = 1;                     ///< of slices, in eye separations
   Device device = Device::processor;  ///< of paintings
+  Slicing slicing = {};               ///< of paintings
   /// Whether the output is named as one file: then a folder holds views. None: it may hold photographs.
   std::function<bool()> into_one_file = {};
   /// Where all that is wanted is one picture of the views: paintings are drawn into it.
@@ -40,6 +41,9 @@ bool is_photograph(const ViewsArguments& arguments);
 /// Whether it is a folder of photographs.
 bool is_photograph_folder(const ViewsArguments& arguments);
 
+/// Why an option that is of paintings has no effect.
+Reason unless_painting(const ViewsArguments& arguments);
+
 /// --device, with which paintings are drawn.
 Row views_device_row(ViewsArguments& arguments);
 
@@ -52,6 +56,15 @@ struct ReadViews {
   int count = 0;
   PictureSize size = {0, 0};
 };
+
+/// A painting that can be drawn for so many views as are wanted, 0 for its eyes; not sliced. Throws Error{bad_input}
+/// where it holds what two eyes show and other views are wanted.
+Painting read_painting_argument(const ViewsArguments& arguments, int wanted);
+
+/// Draws it: the eyes' own pictures, or as many views as are wanted, with the middle of the scene's disparities on the
+/// screen.
+ReadViews draw_painting_argument(const Painting& painting, const ViewsArguments& arguments, int wanted,
+                                 const Progress& progress);
 
 /// A painting that can be drawn for any view. Throws Error{bad_input} where it holds what two eyes show.
 Painting read_painting_for_views(const std::string& file);

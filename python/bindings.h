@@ -6,6 +6,7 @@
 #include <string>
 
 #include "wheatstone/marks/painting.h"
+#include "wheatstone/marks/slicing.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/multiview/slice_stack.h"
 
@@ -28,6 +29,9 @@ void add_pages(pybind11::module_& module);
 void add_painting(pybind11::module_& module);
 void add_particles(pybind11::module_& module);
 void add_photographs(pybind11::module_& module);
+
+/// Slicing that keeps the strokes "back" or "front" of a plane. Throws ValueError.
+Slicing slicing_of(const std::string& keep);
 
 /// How pictures are matched at a quality's name. Throws ValueError that lists the names.
 MatchOptions matching_for(const std::string& quality);

@@ -3,6 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,12 +14,14 @@
 #include "bindings.h"
 #include "calls.h"
 #include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/app/slice_film.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/display/wiggle.h"
 #include "wheatstone/error.h"
+#include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/multiview_exr.h"
 #include "wheatstone/pictures/write_image.h"
@@ -102,10 +105,28 @@ py::dict measure(const py::object& left, const py::object& right, const py::obje
   return result;
 }
 
+/// A film in which planes travel through a painting, of the eyes in this format.
+void write_slices_film(const PyPainting& painting, const fs::path& path, const std::string& from, const std::string& to,
+                       int frames, double rate, const std::string& format, const std::string& keep) {
+  SliceFilmOptions options{.slicing = slicing_of(keep),
+                           .from = parse_slice_depths(from, "begin"),
+                           .to = parse_slice_depths(to, "end"),
+                           .frames = frames};
+  constexpr int ticks_a_second = 1000;
+  options.writing.frame_rate = {static_cast<int>(std::lround(rate * ticks_a_second)), ticks_a_second};
+  options.writing.layout = find_stereo_layout(format).value_or(StereoLayout::mono);
+  if (options.writing.layout == StereoLayout::mono) options.writing.pixel_format = "yuv444p";
+  result_of([painting = painting.painting, path, options, format](const Progress& progress) {
+    const auto picture = [&](const Painting& part) { return packed_pair(present(part, for_two_eyes()).views, format); };
+    write_slice_film(*painting, picture, path, options, progress);
+  });
+}
+
 }  // namespace
 
 void add_displays(py::module_& module) {
   module.def("pack", &pack);
+  module.def("write_slice_film", &write_slices_film);
   module.def("write_views", [](const fs::path& path, const py::object& given) {
     result_of([path, views = views_in(given, "views")](const Progress& /*progress*/) { write_views(path, views); });
   });

@@ -15,6 +15,7 @@
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/marks/painting_file.h"
+#include "wheatstone/marks/slicing.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/painting/two_eyes.h"
@@ -82,15 +83,32 @@ py::array draw_views(const PyPainting& painting, int count, float span, std::opt
   }));
 }
 
-std::unique_ptr<PyPainting> load_painting(const std::filesystem::path& path) {
-  return painting_of(result_of([path](const Progress& /*progress*/) {
-    Painting painting = read_painting(path);
-    std::vector<Image<Rgb8>> eyes = present(painting, for_two_eyes()).views;
-    return PaintedPair{std::move(painting), {std::move(eyes.front()), std::move(eyes.back())}};
+/// A painting with the pictures of its eyes.
+PaintedPair with_pictures(Painting painting) {
+  std::vector<Image<Rgb8>> eyes = present(painting, for_two_eyes()).views;
+  return {std::move(painting), {std::move(eyes.front()), std::move(eyes.back())}};
+}
+
+std::unique_ptr<PyPainting> sliced_painting(const PyPainting& painting, std::optional<int> layer,
+                                            const std::string& depth, const std::string& keep) {
+  Slicing slicing = slicing_of(keep);
+  if (!depth.empty()) slicing.depths = parse_slice_depths(depth, "depth");
+  if (layer) slicing.finest_layer = *layer;
+  return painting_of(result_of([painting = painting.painting, slicing](const Progress& /*progress*/) {
+    return with_pictures(sliced(*painting, slicing));
   }));
 }
 
+std::unique_ptr<PyPainting> load_painting(const std::filesystem::path& path) {
+  return painting_of(result_of([path](const Progress& /*progress*/) { return with_pictures(read_painting(path)); }));
+}
+
 }  // namespace
+
+Slicing slicing_of(const std::string& keep) {
+  if (keep != "back" && keep != "front") throw py::value_error("keep is '" + keep + "', expected back or front");
+  return {.keeps = keep == "back" ? SliceKeeps::back : SliceKeeps::front};
+}
 
 MatchOptions matching_for(const std::string& quality) {
   const std::optional<MatchQuality> found = match_quality_by_name(quality);
@@ -112,6 +130,7 @@ void add_painting(py::module_& module) {
       .def_property_readonly("width", [](const PyPainting& p) { return width_of(*p.painting); })
       .def_property_readonly("height", [](const PyPainting& p) { return height_of(*p.painting); })
       .def("views", &draw_views)
+      .def("sliced", &sliced_painting)
       .def("save", [](const PyPainting& p, const std::filesystem::path& path) {
         result_of([painting = p.painting, path](const Progress& /*progress*/) { write_painting(path, *painting); });
       });

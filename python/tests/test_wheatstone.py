@@ -123,6 +123,23 @@ class Package(unittest.TestCase):
         with self.assertRaises(FileNotFoundError):
             wheatstone.load("/nowhere/painting.wst")
 
+    def test_a_sliced_painting_is_that_of_the_command_line(self):
+        wheatstone.paint(self.left, self.right).save(self.folder / "whole.wst")
+        self.run_program("pack", "whole.wst", "--slice-depth", "40%", "--slice-keep", "front", "-o", "sliced")
+        painting = wheatstone.load(self.folder / "whole.wst")
+        part = painting.sliced("40%", keep="front")
+        np.testing.assert_array_equal(part.left, wheatstone.load(self.folder / "sliced/view_000.png"))
+        self.assertTrue((part.left != painting.left).any())
+        self.assertTrue((painting.sliced(layer=0).left != painting.left).any())
+        painting.slice_film(self.folder / "slices.mp4", frames=3, to="top-bottom")
+        self.assertEqual(len(list(wheatstone.load(self.folder / "slices.mp4"))), 3)
+        for wrong, words in [(lambda: painting.sliced("40"), "from 0% to 100%"),
+                             (lambda: painting.sliced(keep="left"), "back or front"),
+                             (lambda: painting.sliced(layer=-1), "layer"),
+                             (lambda: painting.slice_film(self.folder / "o.mp4", to="mpo"), "top-bottom")]:
+            with self.assertRaisesRegex(ValueError, words):
+                wrong()
+
     def test_a_detail_map_makes_a_painting_finer(self):
         still = wheatstone.still((160, 120))
         paint = lambda style, level: wheatstone.paint(

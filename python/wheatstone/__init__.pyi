@@ -98,6 +98,18 @@ class Painting(Shown):
     @property
     def height(self) -> int: ...
     def views(self, count: int, span: float = ..., screen_disparity: float | None = ...) -> Views: ...
+    def sliced(self, depth: str = ..., *, layer: int | None = ..., keep: Literal["back", "front"] = ...) -> Painting: ...
+    def slice_film(
+        self,
+        path: Path,
+        begin: str = ...,
+        end: str = ...,
+        *,
+        frames: int = ...,
+        rate: float = ...,
+        to: str = ...,
+        keep: Literal["back", "front"] = ...,
+    ) -> None: ...
     def save(self, path: Path) -> None: ...
 
 @dataclasses.dataclass

@@ -89,6 +89,25 @@ class Painting(Shown):
         return Views.of(self._made.views(_arguments.whole("views", count), _arguments.number("span", span),
                                          _arguments.number_or_none("screen_disparity", screen_disparity)))
 
+    def sliced(self, depth="", *, layer=None, keep="back"):
+        """The painting without the strokes of its finest layer that lie before a plane at `depth`, as "40%" or "12px".
+
+        "40%,60%" gives the next coarser layer a plane, too. `layer` is the finest layer, from the coarsest, 0; `keep`
+        is the side whose strokes stay, back or front.
+        """
+        return Painting(self._made.sliced(None if layer is None else _arguments.whole("layer", layer, 0),
+                                          _arguments.text("depth", depth), _arguments.text("keep", keep)))
+
+    def slice_film(self, path, begin="0%", end="100%", *, frames=120, rate=24.0, to="left-right", keep="back"):
+        """Writes a film of both eyes in which slicing planes travel through the painting, from `begin` to `end`.
+
+        `to` is a layout ("left-right", "top-bottom-half", …), or anaglyph or a kind of it.
+        """
+        _wheatstone.write_slice_film(
+            self._made, _arguments.path("path", path), _arguments.text("begin", begin), _arguments.text("end", end),
+            _arguments.whole("frames", frames, 1), _arguments.number("rate", rate), _arguments.text("to", to),
+            _arguments.text("keep", keep))
+
     def save(self, path):
         """Writes the painting as .wst."""
         self._made.save(_arguments.path("path", path))

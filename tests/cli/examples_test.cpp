@@ -54,6 +54,7 @@ const std::vector<Reduction> reductions{
     {{"synth", "universe"}, "", "--particles", "2000"},
     {{"study", "stimuli"}, "", "--size", "160x120"},
     {{"paint"}, "--display", "--size", "36x48"},
+    {{"pack"}, "--slice-from", "--frames", "3"},
     {{"rotoscope"}, "--display", "--size", "36x48"},
     {{"render"}, ".hdf5", "--size", "48x36"},
     {{"render"}, ".glb", "--size", "48x36"},

@@ -260,6 +260,63 @@ TEST(PackCommand, APaintingHasAsManyViewsAsAreWanted) {
   run_in(folder, {"pack", "painted/painting.wst", "--to", "quilt", "--quilt", "8x6", "-o", "quilt"});
 }
 
+TEST(PackCommand, ASlicedPaintingIsDrawnInEveryFormat) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"paint", "left.png", "right.png", "-o", "painted"});
+  run_in(folder, {"paint", "painted/painting.wst", "--slice-depth", "40%", "--slice-layer", "2", "-o", "again"});
+  run_in(folder, {"pack", "painted/painting.wst", "--slice-depth", "40%", "--slice-layer", "2", "-o", "two"});
+  EXPECT_EQ(read_image(folder / "two/view_000.png"), read_image(folder / "again/left.png"));
+  EXPECT_EQ(read_image(folder / "two/view_001.png"), read_image(folder / "again/right.png"));
+  run_in(folder, {"pack", "painted/painting.wst", "--quilt", "2x2", "--slice-depth", "40%", "-o", "sliced.png"});
+  run_in(folder, {"pack", "painted/painting.wst", "--quilt", "2x2", "-o", "whole.png"});
+  EXPECT_NE(read_image(folder / "sliced.png"), read_image(folder / "whole.png"));
+  run_in(folder, {"share", "painted/painting.wst", "-o", "whole.html"});
+  run_in(folder, {"share", "painted/painting.wst", "--slice-depth", "100%", "-o", "sliced.html"});
+  EXPECT_LT(bytes_of(folder / "sliced.html").size(), bytes_of(folder / "whole.html").size());
+  expect_refused(folder, {"pack", "left.png", "right.png", "--slice-depth", "40%", "-o", "out.mpo"}, 2,
+                 "--slice-depth: has no effect on several files; it works on a painting (.wst)");
+  expect_refused(folder, {"share", "left.png", "right.png", "--slice-layer", "1", "-o", "out.html"}, 2,
+                 "--slice-layer: has no effect on a stereo photograph");
+  expect_refused(folder, {"pack", "painted/painting.wst", "--slice-keep", "front", "-o", "out.mpo"}, 2,
+                 "--slice-keep: has no effect without a plane");
+}
+
+TEST(PackCommand, PlanesTravelThroughAPaintingInAFilm) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"paint", "left.png", "right.png", "-o", "painted"});
+  const auto film = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{
+        "pack", "painted/painting.wst", "--slice-from", "0%", "--slice-to", "100%", "--frames", "3"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_in(folder, words).output;
+  };
+  film({"--to", "top-bottom", "-o", "frame_%04d.png"});
+  run_in(folder, {"pack", "painted/painting.wst", "--slice-depth", "50%", "--to", "top-bottom", "-o", "middle.png"});
+  EXPECT_EQ(read_image(folder / "frame_0002.png"), read_image(folder / "middle.png"));
+  film({"-o", "two.mp4", "--rate", "12"});
+  const auto two = nlohmann::json::parse(run_in(folder, {"info", "two.mp4", "--json"}).output);
+  EXPECT_EQ(two["layout"], "left-right");
+  EXPECT_EQ(two["frames"], 3);
+  EXPECT_EQ(two["width"], 480);
+  film({"--to", "anaglyph", "-o", "anaglyph.mkv"});
+  const auto anaglyph = nlohmann::json::parse(run_in(folder, {"info", "anaglyph.mkv", "--json"}).output);
+  EXPECT_EQ(anaglyph["pixel_format"], "yuv444p");
+  film({"--quilt", "2x2", "-o", "quilt"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "quilt_qs2x2a1.3333.mp4"));
+  const auto refused = [&](std::vector<std::string> words, const char* why) {
+    words.insert(words.begin(), {"pack", "painted/painting.wst"});
+    expect_refused(folder, words, 2, why);
+  };
+  refused({"--slice-from", "0%", "--slice-to", "9px", "-o", "o.mp4"}, "expected as many depths as '0%', in the same");
+  refused({"--slice-from", "0%", "--slice-to", "9%", "--to", "mpo", "-o", "o.mp4"}, "--to mpo: is no format of a film");
+  refused({"--slice-from", "0%", "--slice-to", "9%", "--floating-window", "auto", "-o", "o.mp4"},
+          "as 'auto' on a film");
+  refused({"--frames", "3", "-o", "o.mpo"}, "--frames: has no effect on a picture");
+  EXPECT_FALSE(std::filesystem::exists(folder / "o.mp4"));
+}
+
 using PackOnGpu = NeedsGpu;
 
 TEST_F(PackOnGpu, DrawsTheSameViews) {

@@ -33,7 +33,7 @@ std::filesystem::path film_of_eye(const std::filesystem::path& film, ViewPositio
          fmt::format("{}{}_{}{}", stem.substr(0, number), word, stem.substr(number), film.extension().string());
 }
 
-void write_as_anaglyph(FilmWriterOptions& writing) {
+void keep_full_colour(FilmWriterOptions& writing) {
   const std::string_view codec = writing.codec;
   if (!writing.pixel_format.empty()) return;
   if (codec == "h264" || codec == "hevc" || codec == "vp9") writing.pixel_format = "yuv444p";

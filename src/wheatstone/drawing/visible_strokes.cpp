@@ -118,11 +118,7 @@ StrokePainting without_hidden_strokes(const StrokePainting& painting, const Surf
   StrokePainting kept = painting;
   for (std::size_t i = 0; i < kept.layers.size(); ++i) {
     std::vector<Stroke>& strokes = kept.layers[i].strokes;
-    // The bristles of a stroke without a number are told by its place, which changes: it becomes the number.
-    for (std::uint32_t place = 0; Stroke & stroke : strokes) {
-      if (stroke.number == 0) stroke.number = place;
-      ++place;
-    }
+    number_by_place(kept.layers[i]);
     std::size_t place = 0;
     std::erase_if(strokes, [&](const Stroke&) { return shown[i][place++] == 0; });
   }

@@ -73,6 +73,17 @@ std::string slice_depths_text(std::span<const SliceDepth> depths) {
   return text;
 }
 
+std::vector<SliceDepth> planes_between(std::span<const SliceDepth> from, std::span<const SliceDepth> to, float share,
+                                       std::string_view name) {
+  const bool fits = std::ranges::equal(from, to, {}, &SliceDepth::is_share, &SliceDepth::is_share);
+  if (!fits)
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected as many depths as '{}', in the same units",
+                                                    name, slice_depths_text(to), slice_depths_text(from)));
+  std::vector<SliceDepth> planes(from.begin(), from.end());
+  for (std::size_t i = 0; i < planes.size(); ++i) planes[i].value = std::lerp(from[i].value, to[i].value, share);
+  return planes;
+}
+
 Painting sliced(Painting painting, const Slicing& slicing) {
   auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
   if (strokes == nullptr || strokes->layers.empty()) return painting;
@@ -82,10 +93,13 @@ Painting sliced(Painting painting, const Slicing& slicing) {
   if (last + 1 < strokes->layers.size()) strokes->layers.resize(last + 1);
   for (std::size_t i = 0; i < std::min(planes_px.size(), strokes->layers.size()); ++i) {
     Layer& layer = strokes->layers[strokes->layers.size() - 1 - i];
-    std::erase_if(layer.strokes, [&](const Stroke& stroke) {
+    const auto is_cut = [&](const Stroke& stroke) {
       const float disparity = depth_of(layer, stroke);
       return slicing.keeps == SliceKeeps::back ? disparity > planes_px[i] : disparity < planes_px[i];
-    });
+    };
+    if (std::ranges::none_of(layer.strokes, is_cut)) continue;
+    number_by_place(layer);
+    std::erase_if(layer.strokes, is_cut);
   }
   return painting;
 }

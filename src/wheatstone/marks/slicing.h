@@ -21,6 +21,11 @@ struct SliceDepth {
 std::vector<SliceDepth> parse_slice_depths(std::string_view text, std::string_view name);
 std::string slice_depths_text(std::span<const SliceDepth> depths);
 
+/// Planes on their way from `from`, at `share` 0, to `to`, at 1. Throws Error{wrong_usage} that begins with `name`
+/// where these are not as many, or one is a share and the other a disparity.
+std::vector<SliceDepth> planes_between(std::span<const SliceDepth> from, std::span<const SliceDepth> to, float share,
+                                       std::string_view name);
+
 /// The strokes of a sliced layer that stay.
 enum class SliceKeeps { back, front };
 

@@ -55,6 +55,15 @@ struct Layer {
   friend bool operator==(const Layer&, const Layer&) = default;
 };
 
+/// Gives strokes without a number that of their place in the layer, which tells their bristles, too: the layer is drawn
+/// as before, and what is left of it when others are taken away keeps its bristles.
+inline void number_by_place(Layer& layer) {
+  for (std::uint32_t place = 0; Stroke & stroke : layer.strokes) {
+    if (stroke.number == 0) stroke.number = place;
+    ++place;
+  }
+}
+
 /// How many strokes people see: parts of one stroke count once.
 inline std::size_t count_strokes(const Layer& layer) {
   return static_cast<std::size_t>(std::ranges::count(layer.strokes, false, &Stroke::is_part));
