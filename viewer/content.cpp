@@ -129,17 +129,6 @@ Opened open_film_files(const FilmFiles& files) {
   return opened;
 }
 
-/// Whether the names of two films differ as those of two eyes.
-bool are_named_as_eyes(const fs::path& left, const fs::path& right) {
-  static constexpr std::array eyes{std::pair("left", "right"), std::pair("Left", "Right"), std::pair("_L.", "_R.")};
-  const std::string name = left.filename().string();
-  return std::ranges::any_of(eyes, [&](const auto& eye) {
-    const std::size_t at = name.rfind(eye.first);
-    return at != std::string::npos &&
-           std::string(name).replace(at, std::strlen(eye.first), eye.second) == right.filename().string();
-  });
-}
-
 /// Whether a path is the pattern of snapshots.
 bool names_series(const fs::path& path) {
   const std::optional<FramePattern> pattern = frame_pattern(path);
@@ -185,6 +174,17 @@ PictureSize size_of(const Content& content) { return std::visit(SizeOf(), conten
 bool has_one_view(const Content& content) {
   const auto* const views = std::get_if<ViewsContent>(&content);
   return views != nullptr && views->views->size() == 1;
+}
+
+bool are_named_as_eyes(const fs::path& left, const fs::path& right) {
+  static constexpr std::array eyes{std::pair("left", "right"), std::pair("Left", "Right"), std::pair("_L.", "_R."),
+                                   std::pair("-L.", "-R."), std::pair("_l.", "_r.")};
+  const std::string name = left.filename().string();
+  return std::ranges::any_of(eyes, [&](const auto& eye) {
+    const std::size_t at = name.rfind(eye.first);
+    return at != std::string::npos &&
+           std::string(name).replace(at, std::strlen(eye.first), eye.second) == right.filename().string();
+  });
 }
 
 std::optional<fs::path> find_other_eye(const fs::path& picture) {

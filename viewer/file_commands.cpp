@@ -1,10 +1,12 @@
 // Files, films, and the path along which a camera goes around particles.
 
 #include <fmt/format.h>
+
 #include <memory>
 
 #include "command_line.h"
 #include "command_table.h"
+#include "folder_items.h"
 #include "particle_film.h"
 #include "particle_scene.h"
 #include "wheatstone/error.h"
@@ -16,18 +18,25 @@
 namespace wheatstone::viewer {
 namespace {
 
-void step_item(Viewer& viewer, int by) {
-  const auto count = static_cast<int>(viewer.session().items.size());
-  if (count > 0) viewer.open(static_cast<std::size_t>((static_cast<int>(viewer.session().item) + by + count) % count));
+void open_files(Viewer& viewer, const Words& words) {
+  const Item files(words.begin(), words.end());
+  if (files.size() == 1 && is_folder(files.front())) return viewer.open_folder(files.front());
+  const auto series = series_of_files(files);
+  viewer.open_files(series ? Item{*series} : files);
 }
 
-void open_files(Viewer& viewer, const Words& words) {
+void set_slideshow(Viewer& viewer, const Words& words) {
+  constexpr double longest_s = 3600;
   Session& session = viewer.session();
-  const Item files(words.begin(), words.end());
-  const auto series = series_of_files(files);
-  session.items.push_back(series ? Item{*series} : files);
-  viewer.open(session.items.size() - 1);
+  session.slideshow_s = words[0] == "off" ? 0 : number_of(words[0], 0.1, longest_s);
+  if (session.slideshow_s > 0 && session.walk.size() < 2) viewer.tell("there is no other file to go on to");
 }
+
+std::vector<Choice> slideshow_choices(const Viewer& /*viewer*/) {
+  return {{"off", "Off"}, {"3", "3 seconds"}, {"5", "5 seconds"}, {"10", "10 seconds"}, {"30", "30 seconds"}};
+}
+
+bool has_other_files(const Viewer& viewer) { return viewer.session().walk.size() > 1; }
 
 void open_series(Viewer& viewer, const Words& /*words*/) {
   const Item* const item = open_item(viewer.session());
@@ -54,6 +63,11 @@ void save_style(Viewer& viewer, const Words& words) {
 constexpr Command file_table[] = {
     // name, arguments, menu, text, keys
     {"open", "FILE [RIGHT]", "File", "Open…", "Ctrl+O", open_files, {.icon = "open"}},
+    {"open-folder", "FOLDER", "File", "Open folder…", "",
+     [](Viewer& v, const Words& w) {
+       if (!is_folder(w[0])) throw Error(ErrorKind::wrong_usage, fmt::format("{}: is no folder", w[0]));
+       v.open_folder(w[0]);
+     }},
     {"open-example", "", "File", "Open an example", "", [](Viewer& v, const Words&) { v.open_example(); }},
     {"open-series",
      "",
@@ -74,15 +88,28 @@ constexpr Command file_table[] = {
      "File",
      "Next file",
      "PgDown",
-     [](Viewer& v, const Words&) { step_item(v, 1); },
-     {.applies = [](const Viewer& v) { return !v.session().items.empty(); }, .begins_group = true}},
+     [](Viewer& v, const Words&) { v.step_file(1); },
+     {.applies = has_other_files, .begins_group = true}},
     {"previous-file",
      "",
      "File",
      "Previous file",
      "PgUp",
-     [](Viewer& v, const Words&) { step_item(v, -1); },
-     {.applies = [](const Viewer& v) { return !v.session().items.empty(); }}},
+     [](Viewer& v, const Words&) { v.step_file(-1); },
+     {.applies = has_other_files}},
+    {"slideshow",
+     "SECONDS|off",
+     "File",
+     "Slideshow: seconds that each file of the folder is shown",
+     "",
+     set_slideshow,
+     {.choices = slideshow_choices,
+      .now =
+          [](const Viewer& v) {
+            const double shown_s = v.session().slideshow_s;
+            return shown_s > 0 ? fmt::format("{}", shown_s) : std::string("off");
+          },
+      .applies = has_other_files}},
     {"save-picture",
      "FILE",
      "File",

@@ -212,13 +212,19 @@ constexpr Command looking_table[] = {
     {"leave",
      "",
      "View",
-     "Close the help, or leave full screen",
+     "Close the help, end the slideshow, or leave full screen",
      "Esc",
      [](Viewer& v, const Words&) {
        Session& session = v.session();
+       if (!session.help && session.slideshow_s > 0) {
+         session.slideshow_s = 0;
+         return;
+       }
        (session.help ? session.help : session.full_screen) = false;
      },
-     {.applies = [](const Viewer& v) { return v.session().full_screen || v.session().help; }, .begins_group = true}},
+     {.applies =
+          [](const Viewer& v) { return v.session().full_screen || v.session().help || v.session().slideshow_s > 0; },
+      .begins_group = true}},
     {"information",
      "",
      "View",

@@ -82,6 +82,7 @@ std::string state_json(const Viewer& viewer, const std::vector<std::pair<std::st
   if (const Item* const item = open_item(session))
     for (const auto& file : *item) files.push_back(file.string());
   Json told{{"files", files},
+            {"place", place_told(session)},
             {"kind", session.opened.kind},
             {"mode", state.mode},
             {"swap", state.swap},

@@ -83,7 +83,10 @@ struct FilmStatus {
 /// All that a viewer knows: plain data.
 struct Session {
   std::vector<Item> items;
-  std::size_t item = 0;  ///< that is open
+  std::size_t item = 0;        ///< that is open
+  std::vector<Item> walk;      ///< what PgUp and PgDn go through: the files that were given together, or the folder's
+  bool walk_is_given = false;  ///< the former
+  double slideshow_s = 0;      ///< how long each of them is shown; 0: until somebody goes on
   Opened opened;
   std::optional<FilmStatus> film;
   std::optional<Activity> whole_film;  ///< a whole film is being painted
@@ -116,6 +119,9 @@ struct Session {
   bool ends = false;
   int exit_code = 0;
 };
+
+/// Which of the walk is open, as "3 of 17"; empty where there is only one.
+std::string place_told(const Session& session);
 
 /// The files of what is open; none where nothing is.
 const Item* open_item(const Session& session);

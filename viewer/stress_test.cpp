@@ -245,8 +245,9 @@ TEST(MemoryLong, StaysFlatOverAThousandChanges) {
   const std::vector<std::string> files = small_files(folder);
   Viewer viewer;
   viewer.set_viewport({320, 240});
-  viewer.session().items = {{files[0]}, {files[1]}, {files[2]}, {folder / "left.png", folder / "right.png"}};
-  viewer.open(0);
+  viewer.open_files({files[0]});
+  viewer.session().walk = {{files[0]}, {files[1]}, {files[2]}, {folder / "left.png", folder / "right.png"}};
+  viewer.session().walk_is_given = true;
   const std::array lines{
       "head 0.4",    "mode left-right",     "zoom 3",         "pan 10 3", "next-file",   "zero-parallax 3",
       "mode wiggle", "mode red-cyan",       "style mosaic",   "fit",      "orbit 10 3",  "head -0.2",

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "folder_items.h"
 #include "inputs.h"
 #include "painting.h"
 #include "particle_film.h"
@@ -50,13 +51,15 @@ Viewer::~Viewer() = default;
 
 void Viewer::open_all(const std::vector<std::filesystem::path>& files) {
   const auto open_each = [this, files] {
-    for (const std::filesystem::path& file : files) session_.items.push_back({file});
-    open(0);
+    open_files({files.front()});
+    session_.walk_is_given = true;
+    session_.walk.clear();
+    for (const std::filesystem::path& file : files) session_.walk.push_back({file});
   };
-  if (const std::optional<std::filesystem::path> series = series_of_files(files)) {
-    session_.items.push_back({*series});
-    return open(0);
-  }
+  if (files.empty()) return;
+  if (files.size() == 1 && is_folder(files.front())) return open_folder(files.front());
+  if (const std::optional<std::filesystem::path> series = series_of_files(files)) return open_files({*series});
+  if (files.size() == 1) return open_files(files);
   if (files.size() != 2) return open_each();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
@@ -67,9 +70,8 @@ void Viewer::open_all(const std::vector<std::filesystem::path>& files) {
       mailbox_.post([this, job, files, open_each, is_one] {
         if (job != job_) return;
         if (!is_one) return open_each();
-        session_.items.push_back(files);
         Opened shown = std::move(session_.opened);
-        open(0);
+        open_files(files);
         session_.opened = std::move(shown);  // until it is read again
       });
     } catch (const std::exception& error) {
@@ -117,13 +119,19 @@ void Viewer::open_example() {
       }
       mailbox_.post([this, job, files] {
         if (job != job_) return;
-        session_.items.push_back(files);
-        open(session_.items.size() - 1);
+        open_files(files);
       });
     } catch (const std::exception& error) {
       post_failure(error, job);
     }
   });
+}
+
+void Viewer::open_files(Item item) {
+  session_.walk.clear();
+  session_.walk_is_given = false;
+  session_.items.push_back(std::move(item));
+  open(session_.items.size() - 1);
 }
 
 void Viewer::open(std::size_t item) {
@@ -146,10 +154,12 @@ void Viewer::open(std::size_t item) {
   const std::uint64_t job = ++job_;
   reads_particles_ = false;
   failed_time_.reset();
-  making_.start([this, job, before, files = session_.items[item],
+  reading_ahead_.stop();
+  making_.start([this, job, before, files = session_.items[item], ahead = take_ahead(session_.items[item]),
                  quantity = session_.state.look.quantity](const std::stop_token& stop) {
+    find_walk(job, files);
     try {
-      Opened opened = open_content(files, progress_of(job, stop), showing(job), quantity);
+      Opened opened = ahead ? *ahead : open_content(files, progress_of(job, stop), showing(job), quantity);
       mailbox_.post([this, job, opened = std::move(opened)]() mutable {
         if (job == job_) take_opened(std::move(opened));
       });
@@ -275,6 +285,7 @@ void Viewer::collect() {
   const PictureSize eye = eye_size(find_output_mode(session_.state.mode), viewport_);
   session_.eye = eye;
   draw_if_changed();
+  read_ahead();
 }
 
 void Viewer::move_on() {
@@ -282,6 +293,7 @@ void Viewer::move_on() {
   const double since_s = now - std::exchange(moved_at_s_, now);
   const double passed_s = std::min(since_s, step_of_easing_s * 4);
   move_film(now);
+  move_slideshow(now);
   move_particles(since_s);
   if (session_.zero_parallax_target_px) {
     constexpr float near_enough_px = 0.05f;
@@ -310,6 +322,8 @@ std::optional<double> Viewer::next_step_s() const {
   const bool particles_play = session_.film && session_.film->of_particles && session_.film->plays;
   if (session_.zero_parallax_target_px || session_.depth_around_target || particles_play) return step_of_easing_s;
   if (session_.state.mode == "wiggle") return step_of_wiggle_s;
+  if (session_.slideshow_s > 0 && !session_.opening)
+    return std::max(shown_at_s_ + session_.slideshow_s - now_s(), step_of_easing_s);
   return {};
 }
 
@@ -381,6 +395,7 @@ void Viewer::stop() {
   session_.opening.reset();
   making_.stop();
   drawing_.stop();
+  reading_ahead_.stop();
   cancel_whole_film();
 }
 

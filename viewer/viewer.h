@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "content.h"
 #include "film_player.h"
@@ -42,6 +43,12 @@ class Viewer {
   void open_example();
   /// Opens the item of that number.
   void open(std::size_t item);
+  /// Opens an item, and walks its folder.
+  void open_files(Item item);
+  /// Opens the first of the photographs and paintings in a folder, or the film whose frames it holds.
+  void open_folder(const std::filesystem::path& folder);
+  /// Opens what comes so many later in the walk, or earlier where negative.
+  void step_file(int by);
   /// Paints what is open with the session's style, where there is a photograph.
   void paint();
   /// Brings the scene's depth within what is comfortable, with the nearest point on the screen plane.
@@ -102,6 +109,13 @@ class Viewer {
 
  private:
   void move_on();
+  /// Finds what the folder of an item holds, on the thread that opens it.
+  void find_walk(std::uint64_t job, const Item& item);
+  void move_slideshow(double now_s);
+  /// Reads what comes next in the folder, where nothing else is being done.
+  void read_ahead();
+  /// What was read ahead of this item, where its files have not changed since.
+  std::optional<Opened> take_ahead(const Item& item);
   void take_film(const std::shared_ptr<const OpenedFilm>& film);
   void move_film(double now_s);
   void take_particles();
@@ -140,6 +154,13 @@ class Viewer {
   std::uint64_t job_ = 0;       ///< number of the newest opening or painting; what older ones deliver is left aside
   double moved_at_s_ = 0, wiggled_at_s_ = 0;
   bool reads_particles_ = false;
+  struct Ahead {
+    std::vector<std::filesystem::file_time_type> times;
+    Opened opened;
+  };
+  Item ahead_asked_;                   ///< what is read ahead, or was; empty: nothing
+  std::optional<Ahead> ahead_;         ///< of that
+  double shown_at_s_ = 0;              ///< when a slide began to be shown
   std::optional<double> failed_time_;  ///< of a series, at which it could not be read
 
   Stage stage_;  ///< of the drawing thread
@@ -148,7 +169,7 @@ class Viewer {
 
   Mailbox mailbox_;
   OrderedJobs saving_;
-  NewestJob making_, drawing_;  ///< these and what follows: they end first
+  NewestJob making_, drawing_, reading_ahead_;  ///< these and what follows: they end first
   std::unique_ptr<FilmPlayer> player_;
   std::unique_ptr<FilmPainting> whole_film_;
 };

@@ -125,6 +125,9 @@ void Window::make_status_bar() {
   progress_->setMaximumWidth(220);
   progress_->hide();
   statusBar()->addWidget(message_, 1);
+  place_ = new QLabel(this);
+  place_->setToolTip("Which of the folder's photographs and paintings is open");
+  statusBar()->addPermanentWidget(place_);
   tracker_ = new QLabel(this);
   tracker_->setToolTip("Head tracker");
   statusBar()->addPermanentWidget(tracker_);
@@ -143,6 +146,8 @@ std::optional<Words> Window::ask_for_arguments(const Command& command) {
   QStringList files;
   if (command.name == "open") {
     files = QFileDialog::getOpenFileNames(this, title, folder);
+  } else if (command.name == "open-folder") {
+    files << QFileDialog::getExistingDirectory(this, title, folder);
   } else if (command.name == "camera" || command.name == "style") {
     files << QFileDialog::getOpenFileName(this, title, folder, "TOML (*.toml)");
   } else {
@@ -196,6 +201,8 @@ void Window::show_session() {
                                  : QString::fromStdString(item->front().filename().string()) + " – Wheatstone");
   message_->setText(QString::fromStdString(session.message));
   message_->setToolTip(message_->text());
+  place_->setText(QString::fromStdString(place_told(session)));
+  place_->setVisible(!place_->text().isEmpty());
   tracker_->setText(QString::fromStdString(head_tracker_text(session)));
   progress_->setVisible(session.opening.has_value());
   if (session.opening) {

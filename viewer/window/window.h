@@ -95,6 +95,7 @@ class Window final : public QMainWindow {
   QTimer step_timer_, script_timer_, click_timer_;
   QLabel* message_ = nullptr;
   QLabel* depth_ = nullptr;
+  QLabel* place_ = nullptr;
   QLabel* tracker_ = nullptr;
   QLabel* comfort_ = nullptr;
   QProgressBar* progress_ = nullptr;

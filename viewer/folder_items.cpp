@@ -1,0 +1,125 @@
+#include "folder_items.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+#include "content.h"
+#include "wheatstone/error.h"
+#include "wheatstone/photograph/find_layout.h"
+#include "wheatstone/photograph/find_photographs.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/video/film_files.h"
+#include "wheatstone/video/frame_sequence.h"
+
+namespace wheatstone::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }
+
+/// The digits at the beginning of a text, which are taken off it, without zeros before them.
+std::string_view take_number(std::string_view& text) {
+  const auto digits = static_cast<std::size_t>(std::ranges::find_if_not(text, is_digit) - text.begin());
+  std::string_view number = text.substr(0, digits);
+  text.remove_prefix(digits);
+  number.remove_prefix(std::min(number.find_first_not_of('0'), number.size()));
+  return number;
+}
+
+bool is_item(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  return is_picture_name(file) || is_stereo_file_name(file) || ending == ".wst" || ending == ".heic" ||
+         ending == ".HEIC" || ending == ".avif";
+}
+
+/// Whether a file is the depth map of another one.
+bool is_depth_map(const fs::path& file, std::span<const fs::path> all) {
+  const std::string stem = file.stem().string();
+  for (const std::string_view ending : {"_depth", "-depth"}) {
+    if (!stem.ends_with(ending)) continue;
+    const std::string picture = stem.substr(0, stem.size() - ending.size());
+    if (std::ranges::any_of(all, [&](const fs::path& other) { return other.stem() == picture; })) return true;
+  }
+  return false;
+}
+
+/// Paths are those of `shown_folder` and a name; it is empty where names are relative to where the program runs.
+std::vector<Item> items_of(const fs::path& folder, const fs::path& shown_folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.is_regular_file(error) && is_item(entry.path()) && entry.path().filename().string().front() != '.')
+      files.push_back(shown_folder / entry.path().filename());
+  if (error) throw Error(ErrorKind::cannot_read_write, fmt::format("{}: {}", folder.string(), error.message()));
+  std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
+    return comes_before(a.filename().string(), b.filename().string());
+  });
+  std::vector<Item> items;
+  for (const fs::path& file : files) {
+    const auto is_eye_before = [&](const fs::path& other) { return are_named_as_eyes(other, file); };
+    if (is_depth_map(file, files) || std::ranges::any_of(files, is_eye_before)) continue;
+    const auto right =
+        std::ranges::find_if(files, [&](const fs::path& other) { return are_named_as_eyes(file, other); });
+    items.push_back(right == files.end() ? Item{file} : Item{file, *right});
+  }
+  return items;
+}
+
+}  // namespace
+
+bool comes_before(std::string_view name, std::string_view other) {
+  const std::string_view whole_name = name, whole_other = other;
+  while (!name.empty() && !other.empty()) {
+    if (is_digit(name.front()) && is_digit(other.front())) {
+      const std::string_view a = take_number(name), b = take_number(other);
+      if (a != b) return a.size() != b.size() ? a.size() < b.size() : a < b;
+      continue;
+    }
+    const int a = std::tolower(static_cast<unsigned char>(name.front()));
+    const int b = std::tolower(static_cast<unsigned char>(other.front()));
+    if (a != b) return a < b;
+    name.remove_prefix(1);
+    other.remove_prefix(1);
+  }
+  if (name.empty() != other.empty()) return name.empty();
+  return whole_name < whole_other;
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+std::vector<Item> items_in(const fs::path& folder) { return items_of(folder, folder); }
+
+std::vector<Item> items_beside(const Item& item) {
+  const fs::path folder = item.front().parent_path();
+  try {
+    return items_of(folder.empty() ? fs::path(".") : folder, folder);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::optional<std::size_t> place_among(std::span<const Item> items, const Item& item) {
+  const auto found =
+      std::ranges::find_if(items, [&](const Item& one) { return std::ranges::find(one, item.front()) != one.end(); });
+  return found == items.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - items.begin()));
+}
+
+bool holds_film(const fs::path& folder) {
+  try {
+    if (holds_photographs(folder)) return false;
+    const FilmFiles film = find_film(folder.string());
+    const std::optional<FramePattern> pattern = frame_pattern(film.film);
+    return !film.right.empty() || !pattern || numbers_of(*pattern).size() >= 2;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace wheatstone::viewer
