@@ -72,6 +72,16 @@ std::string plane_options(const ViewState& state, bool for_display) {
   return fmt::format(" --zero-parallax {:.2f}", state.adjustment.zero_parallax_px);
 }
 
+/// What is left out of a painting that is drawn again.
+std::string slicing_options(const Slicing& slicing) {
+  std::string text;
+  if (slicing.finest_layer != Slicing().finest_layer) text += fmt::format(" --slice-layer {}", slicing.finest_layer);
+  if (slicing.depths.empty()) return text;
+  text += fmt::format(" --slice-depth={}", slice_depths_text(slicing.depths));
+  return slicing.keeps == SliceKeeps::front ? text + " --slice-keep front" : text;
+}
+
+/// `zero_parallax_px` is that of the eyes as they are, before they are swapped.
 std::string packed(const ViewState& state, const std::string& input, float zero_parallax_px) {
   const OutputMode& mode = find_output_mode(state.mode);
   if (shows_display_views(mode)) {
@@ -87,22 +97,24 @@ std::string packed(const ViewState& state, const std::string& input, float zero_
                                 ? std::string()
                                 : fmt::format(" --views 2 --span {:.4g}", state.adjustment.separation);
   return fmt::format("wheatstone pack {}{} --to {} --zero-parallax {:.2f}{} -o {}", input, views, state.mode,
-                     zero_parallax_px, state.swap ? " --swap" : "",
+                     state.swap ? -zero_parallax_px : zero_parallax_px, state.swap ? " --swap" : "",
                      state.mode == "wiggle" ? "wiggle.gif" : "picture.png");
 }
 
 std::string for_painting(const Session& session, const Item& item, const PaintedContent& content) {
   const ViewState& state = session.state;
   const float screen_px = state.adjustment.zero_parallax_px;
+  const std::string slices = slicing_options(state.slicing);
   if (!content.photograph) {
     if (shows_display_views(find_output_mode(state.mode)))
-      return fmt::format("wheatstone paint{} --display {}{} -o painted", files_of(item), shell_word(state.display),
-                         plane_options(state, true));
+      return fmt::format("wheatstone paint{} --display {}{}{} -o painted", files_of(item), shell_word(state.display),
+                         plane_options(state, true), slices);
     const bool is_placed = !state.depth_regions.empty();
     const std::string placed =
-        fmt::format("wheatstone paint{}{} -o painted", files_of(item), mapping_options(state, true));
-    const std::string pack = packed(state, is_placed ? "painted/painting.wst" : shell_word(item.front().string()),
-                                    screen_px * state.adjustment.separation);
+        fmt::format("wheatstone paint{}{}{} -o painted", files_of(item), mapping_options(state, true), slices);
+    const std::string pack =
+        packed(state, is_placed ? "painted/painting.wst" : shell_word(item.front().string()) + slices,
+               screen_px * state.adjustment.separation);
     if (pack.empty()) return placed;
     return is_placed ? fmt::format("{} && {}", placed, pack) : pack;
   }
@@ -111,7 +123,7 @@ std::string for_painting(const Session& session, const Item& item, const Painted
   const std::string paint = fmt::format("wheatstone paint{}{}{}{} -o painted", files_of(item),
                                         style_options(state.style), plane_options(state, for_display), display);
   if (!display.empty()) return paint;
-  const std::string pack = packed(state, "painted/painting.wst", screen_px * state.adjustment.separation);
+  const std::string pack = packed(state, "painted/painting.wst" + slices, screen_px * state.adjustment.separation);
   return pack.empty() ? paint : fmt::format("{} && {}", paint, pack);
 }
 

@@ -9,6 +9,7 @@
 #include "folder_items.h"
 #include "particle_film.h"
 #include "particle_scene.h"
+#include "save_as.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
@@ -44,6 +45,16 @@ void open_series(Viewer& viewer, const Words& /*words*/) {
   if (!pattern || open_particles(viewer) == nullptr)
     return viewer.tell("no snapshot is open that is one of several with numbered names", true);
   open_files(viewer, {pattern->string()});
+}
+
+void save_seen_as(Viewer& viewer, const Words& words) {
+  const std::string format = words[0], path = words[1];
+  if (format == "picture") return run_command(viewer, find_command("save-picture"), {path});
+  frame_of(viewer);
+  const Session& session = viewer.session();
+  const Item* const item = open_item(session);
+  const SeenToSave seen{session.opened.content, session.state, session.eye, item == nullptr ? Item() : *item};
+  viewer.save(path, [seen, format, path] { save_as(seen, format, path); });
 }
 
 void save_painting(Viewer& viewer, const Words& words) {
@@ -119,7 +130,14 @@ constexpr Command file_table[] = {
        const auto picture = std::make_shared<const Image<Rgb8>>(frame_of(v).picture);
        v.save(w[0], [path = w[0], picture] { write_image(path, *picture); });
      },
-     {.applies = [](const Viewer& v) { return shows_something(v); }, .icon = "save", .begins_group = true}},
+     {.applies = [](const Viewer& v) { return shows_something(v); }, .begins_group = true}},
+    {"save-as",
+     "FORMAT FILE",
+     "File",
+     "Save as…",
+     "Ctrl+E",
+     save_seen_as,
+     {.applies = [](const Viewer& v) { return shows_something(v); }, .icon = "save"}},
     {"save-painting",
      "FILE",
      "File",

@@ -27,7 +27,8 @@ QList<QKeySequence> keys_of(const Command& command) {
 }
 
 bool is_file(const Command& command) {
-  return command.arguments == "FILE" || command.arguments == "FILE [RIGHT]" || command.arguments == "FOLDER";
+  return command.arguments == "FILE" || command.arguments == "FILE [RIGHT]" || command.arguments == "FOLDER" ||
+         command.arguments == "FORMAT FILE";
 }
 
 }  // namespace

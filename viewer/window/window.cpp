@@ -22,6 +22,7 @@
 #include "help_page.h"
 #include "information.h"
 #include "picture_surface.h"
+#include "save_dialog.h"
 #include "viewer/depth_seen.h"
 #include "viewer/particle_scene.h"
 #include "wheatstone/error.h"
@@ -144,6 +145,7 @@ std::optional<Words> Window::ask_for_arguments(const Command& command) {
   Session& session = viewer_.session();
   const QString folder = QString::fromStdString(session.folder.string());
   QStringList files;
+  if (command.name == "save-as") return ask_how_to_save(*this, session);
   if (command.name == "open") {
     files = QFileDialog::getOpenFileNames(this, title, folder);
   } else if (command.name == "open-folder") {
