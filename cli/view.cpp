@@ -28,6 +28,7 @@ Click: what lies there comes onto the screen plane. Drag: pan, or turn particles
 Examples:
   wheatstone view painting.wst
   wheatstone view left.png right.png --style mosaic --mode left-right
+  wheatstone view photographs
   wheatstone view film.mp4 --mode left-right
   wheatstone view universe.hdf5 --display looking-glass-portrait
   wheatstone view universe.hdf5 --camera path.toml --quantity column-density)");

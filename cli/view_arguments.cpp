@@ -6,7 +6,8 @@ Rows view_rows(ViewArguments& a) {
   return {
       row("FILE", texts(a.files),
           "Paintings (.wst), stereo photographs, films, pictures with depth, quilts, slices (.exr), particles, or a "
-          "series of snapshots ('snap_%03d.hdf5'); two pictures of one scene are its left and right view"),
+          "series of snapshots ('snap_%03d.hdf5'), or a folder of photographs; two pictures of one scene are its left "
+          "and right view"),
       row("--mode", text(a.mode), "Output mode, as --to of 'wheatstone pack'; the left eye's picture by default"),
       row("--style", text(a.style), "Style in which photographs are painted: a preset or a style file"),
       row("--display", text(a.display), "Display, which sets the views of a quilt and what is comfortable"),

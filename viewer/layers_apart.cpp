@@ -15,6 +15,7 @@ namespace {
 
 constexpr double gap = 0.3;              ///< between layers, in widths of the picture
 constexpr double distance = 3;           ///< of the viewer, likewise
+constexpr double frame_larger = 1.04;    ///< than a layer
 constexpr double degrees_of_an_eye = 2;  ///< between what two eyes at that distance see of the stack
 
 /// One layer for each of the views. What lets a black ground and a white one through alike covers nothing.
@@ -47,12 +48,17 @@ class SideView {
     zoom_ = 0.94 * std::min(size.width / (across * nearest), size.height / (height * nearest));
   }
 
+  /// The corners, in their order around it, of a rectangle that is so much wider and higher than a pane.
+  std::array<cv::Point2f, 4> corners(double depth, double larger) const {
+    const double x = larger * width_ / 2, y = larger * height_ / 2;
+    return {seen(-x, -y, depth), seen(x, -y, depth), seen(x, y, depth), seen(-x, y, depth)};
+  }
+
   cv::Mat of_pane(double depth) const {
-    const double x = width_ / 2, y = height_ / 2;
     const std::array from{cv::Point2f(0, 0), cv::Point2f(static_cast<float>(width_), 0),
                           cv::Point2f(static_cast<float>(width_), static_cast<float>(height_)),
                           cv::Point2f(0, static_cast<float>(height_))};
-    const std::array to{seen(-x, -y, depth), seen(x, -y, depth), seen(x, y, depth), seen(-x, y, depth)};
+    const std::array<cv::Point2f, 4> to = corners(depth, 1);
     return cv::getPerspectiveTransform(from.data(), to.data());
   }
 
@@ -91,6 +97,17 @@ void lay_over(const LayerPicture& pane, const cv::Mat& place, Image<Rgb8>& pictu
   }
 }
 
+void draw_frame(const std::array<cv::Point2f, 4>& corners, Image<Rgb8>& picture) {
+  constexpr int fraction_bits = 4, thickness_px = 2;
+  const cv::Scalar orange(255, 160, 0);
+  std::vector<cv::Point> points;
+  for (const cv::Point2f& corner : corners)
+    points.emplace_back(static_cast<int>(std::lround(corner.x * (1 << fraction_bits))),
+                        static_cast<int>(std::lround(corner.y * (1 << fraction_bits))));
+  cv::Mat target = as_mat(picture);
+  cv::polylines(target, points, true, orange, thickness_px, cv::LINE_AA, fraction_bits);
+}
+
 }  // namespace
 
 bool can_stand_apart(const Painting& painting) { return !layers_of(painting).empty(); }
@@ -119,6 +136,7 @@ void LayersApart::draw_layers(const std::shared_ptr<const Painting>& painting, c
     layers.insert(layers.begin(),
                   {Image<Rgb8>(width, height, strokes.canvas_colour), Image<std::uint8_t>(width, height, 255)});
   }
+  plane_shares_ = shares_of(state.slicing.depths, *painting);
   painting_ = painting;
   slicing_ = state.slicing;
   scale_ = scale;
@@ -136,8 +154,17 @@ std::vector<Image<Rgb8>> LayersApart::draw(const std::shared_ptr<const Painting>
     const double side = (eye == 0 ? -0.5 : 0.5) * degrees_of_an_eye * static_cast<double>(state.adjustment.separation);
     const SideView view(state.layers_apart_deg + side, width, height, stack, size);
     Image<Rgb8> picture(size.width, size.height);
-    for (std::size_t layer = 0; layer < layers.size(); ++layer)
-      lay_over(layers[layer], view.of_pane(step * static_cast<double>(layer) - stack / 2), picture);
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+      const double depth = step * static_cast<double>(layer) - stack / 2;
+      // The canvas, which is the first, has none.
+      const std::size_t plane = layer > 0 ? layers.size() - 1 - layer : plane_shares_.size();
+      const bool has_plane = plane < plane_shares_.size();
+      const double before = has_plane ? (0.5 - plane_shares_[plane]) * step : 0;
+      const auto draw_plane = [&] { draw_frame(view.corners(depth + before, frame_larger), picture); };
+      if (has_plane && before < 0) draw_plane();
+      lay_over(layers[layer], view.of_pane(depth), picture);
+      if (has_plane && before >= 0) draw_plane();
+    }
     pictures.push_back(std::move(picture));
   }
   return pictures;

@@ -17,8 +17,9 @@ struct LayerPicture {
 };
 
 /// A painting's layers of strokes, standing one before the other like panes of glass, the canvas behind them, looked at
-/// from a side (Stavrakis & Gelautz 2004, fig. 5). Keeps the drawn layers, so that turning draws none anew. Of one
-/// thread.
+/// from a side (Stavrakis & Gelautz 2004, fig. 5). A slicing plane is a frame, which stands half a gap before its layer
+/// where it is at the nearest stroke, and half a gap behind it at the farthest. Keeps the drawn layers, so that turning
+/// draws none anew. Of one thread.
 class LayersApart {
  public:
   /// Both eyes' pictures. The painting has layers.
@@ -30,6 +31,7 @@ class LayersApart {
 
   std::shared_ptr<const Painting> painting_;
   Slicing slicing_;
+  std::vector<float> plane_shares_;  ///< of the planes, from that of the finest layer on
   double scale_ = 0;
   EyePositions eyes_;
   std::vector<std::vector<LayerPicture>> layers_of_eyes_;

@@ -194,6 +194,36 @@ TEST_F(PanelsOfAPainting, ShowLayersApartFromTheSide) {
   EXPECT_EQ(picture_of("left"), front);
 }
 
+TEST_F(PanelsOfAPainting, ShowSlicingPlanesAsFramesThatMoveThroughTheirLayers) {
+  struct Frames {
+    int pixels = 0;
+    double middle = 0;  ///< mean column
+  };
+  const auto frames_of = [](const Image<Rgb8>& picture) {
+    Frames found;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x)
+        if (const Rgb8 c = picture(x, y); c.r == 255 && c.g == 160 && c.b == 0) found.middle += x, ++found.pixels;
+    found.middle /= std::max(found.pixels, 1);
+    return found;
+  };
+  run("layers-apart 40");
+  EXPECT_EQ(frames_of(picture_of("left")).pixels, 0);
+  double before = 1e9;
+  for (const char* depth : {"0%", "30%", "70%", "100%"}) {
+    run(fmt::format("slice-depth {}", depth));
+    const Frames frames = frames_of(picture_of("left"));
+    EXPECT_GT(frames.pixels, 100) << depth;
+    EXPECT_LT(frames.middle, before) << "from the right the nearer stands more to the right: " << depth;
+    before = frames.middle;
+  }
+  const int one = frames_of(picture_of("left")).pixels;
+  run("slice-depth 100%,50%");
+  EXPECT_GT(frames_of(picture_of("left")).pixels, one) << "a frame for each plane";
+  run("slice-depth off");
+  EXPECT_EQ(frames_of(picture_of("left")).pixels, 0);
+}
+
 TEST_F(PanelsOfAPainting, AreTheCommandThatCopyCommandTells) {
   run("depth-mapping 0:-20,0.5:0,1:30");
   for (const char* mode : {"left-right", "quilt"}) {

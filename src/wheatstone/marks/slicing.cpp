@@ -20,18 +20,26 @@ float depth_of(const Layer& layer, const Stroke& stroke) {
   return static_cast<float>(sum / std::max<std::uint32_t>(stroke.point_count, 1));
 }
 
-/// In pixels of the painting.
-float disparity_at(const SliceDepth& depth, std::span<const Layer> layers) {
-  if (!depth.is_share) return depth.value;
-  float nearest = -std::numeric_limits<float>::infinity(), farthest = std::numeric_limits<float>::infinity();
+/// Disparities of the nearest stroke and the farthest.
+struct StrokeEnds {
+  float nearest_px = -std::numeric_limits<float>::infinity(), farthest_px = std::numeric_limits<float>::infinity();
+};
+
+StrokeEnds ends_of(std::span<const Layer> layers) {
+  StrokeEnds ends;
   for (const Layer& layer : layers) {
     for (const Stroke& stroke : layer.strokes) {
       const float disparity = depth_of(layer, stroke);
-      nearest = std::max(nearest, disparity);
-      farthest = std::min(farthest, disparity);
+      ends.nearest_px = std::max(ends.nearest_px, disparity);
+      ends.farthest_px = std::min(ends.farthest_px, disparity);
     }
   }
-  return std::lerp(nearest, farthest, depth.value);
+  return ends;
+}
+
+/// In pixels of the painting.
+float disparity_at(const SliceDepth& depth, const StrokeEnds& ends) {
+  return depth.is_share ? std::lerp(ends.nearest_px, ends.farthest_px, depth.value) : depth.value;
 }
 
 std::optional<SliceDepth> parsed_depth(std::string_view text) {
@@ -84,11 +92,23 @@ std::vector<SliceDepth> planes_between(std::span<const SliceDepth> from, std::sp
   return planes;
 }
 
+std::vector<float> shares_of(std::span<const SliceDepth> depths, const Painting& painting) {
+  const StrokeEnds ends = ends_of(layers_of(painting));
+  std::vector<float> shares;
+  for (const SliceDepth& depth : depths) {
+    const float way_px = ends.farthest_px - ends.nearest_px;
+    const float share = way_px < 0 ? (disparity_at(depth, ends) - ends.nearest_px) / way_px : 0;
+    shares.push_back(std::clamp(depth.is_share ? depth.value : share, 0.f, 1.f));
+  }
+  return shares;
+}
+
 Painting sliced(Painting painting, const Slicing& slicing) {
   auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
   if (strokes == nullptr || strokes->layers.empty()) return painting;
+  const StrokeEnds ends = slicing.depths.empty() ? StrokeEnds() : ends_of(strokes->layers);
   std::vector<float> planes_px;
-  for (const SliceDepth& depth : slicing.depths) planes_px.push_back(disparity_at(depth, strokes->layers));
+  for (const SliceDepth& depth : slicing.depths) planes_px.push_back(disparity_at(depth, ends));
   const auto last = static_cast<std::size_t>(std::max(slicing.finest_layer, 0));
   if (last + 1 < strokes->layers.size()) strokes->layers.resize(last + 1);
   for (std::size_t i = 0; i < std::min(planes_px.size(), strokes->layers.size()); ++i) {

@@ -26,6 +26,9 @@ std::string slice_depths_text(std::span<const SliceDepth> depths);
 std::vector<SliceDepth> planes_between(std::span<const SliceDepth> from, std::span<const SliceDepth> to, float share,
                                        std::string_view name);
 
+/// How far the planes are on the way from the nearest of a painting's strokes to the farthest, from 0 to 1.
+std::vector<float> shares_of(std::span<const SliceDepth> depths, const Painting& painting);
+
 /// The strokes of a sliced layer that stay.
 enum class SliceKeeps { back, front };
 

@@ -73,6 +73,11 @@ TEST(Slicing, LeavesNothingBareThatTheUnderpaintingCovers) {
     }
 }
 
+TEST(Slicing, PlanesAreAShareOfTheWayWhateverTheirUnit) {
+  const std::vector<float> shares = shares_of(parse_slice_depths("30%,-9999px,9999px", "depths"), painting());
+  EXPECT_EQ(shares, (std::vector<float>{0.3f, 1, 0}));
+}
+
 TEST(Slicing, DepthIsAShareOrADisparity) {
   const std::vector<SliceDepth> depths{{0.2f, true}, {-12.5f, false}};
   EXPECT_EQ(parse_slice_depths("20%,-12.5px", "depth"), depths);
