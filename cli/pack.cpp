@@ -319,8 +319,9 @@ Rows pack_rows(PackArguments& a) {
   const auto on_folder = [&a] { return is_photograph_folder(a.input); };
   const Reason no_painting = unless_painting(a.input);
   const auto is_film_of_planes = [&a] { return makes_slice_film(a.planes); };
-  const Reason strips_vary = when([&a] { return makes_slice_film(a.planes) && a.floating_window && !*a.floating_window; },
-                                  "as 'auto' on a film of planes; it works with widths");
+  const Reason strips_vary =
+      when([&a] { return makes_slice_film(a.planes) && a.floating_window && !*a.floating_window; },
+           "as 'auto' on a film of planes; it works with widths");
   Rows walk = folder_rows(a.walk, on_folder, "packed", "; {to}, the format");
   walk.push_back(contact_sheet_row(a.walk, on_folder));
   const auto on_films = [&a] { return are_films(a.input.files, a.output); };

@@ -27,8 +27,8 @@ EyesInFilm find_eyes_in_film(const std::string& option, std::string_view name);
 /// The film of one eye beside another: "painted_left.mp4" for "painted.mp4", "a_left_%04d.png" for "a_%04d.png".
 std::filesystem::path film_of_eye(const std::filesystem::path& film, ViewPosition eye);
 
-/// Full chroma for an anaglyph, whose colours tell the eyes apart, and for views whose pixels alternate, where the codec
-/// has it and no pixel format is chosen.
+/// Full chroma for an anaglyph, whose colours tell the eyes apart, and for views whose pixels alternate, where the
+/// codec has it and no pixel format is chosen.
 void keep_full_colour(FilmWriterOptions& writing);
 
 /// Both eyes in a frame of a film. Throws Error{wrong_usage} where there is no such anaglyph.
