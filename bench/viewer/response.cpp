@@ -92,7 +92,7 @@ void measure_style(const SyntheticStill& still) {
     delivered.clear();
     double passed = 0;
     auto watch = std::make_unique<Stopwatch>(passed);
-    paint_in_steps(photograph, {}, {}, [&](const PaintedContent&) {
+    paint_in_steps(photograph, {}, {}, {}, [&](const PaintedContent&) {
       watch.reset();
       delivered.push_back(passed);
       watch = std::make_unique<Stopwatch>(passed);
