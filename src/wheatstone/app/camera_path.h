@@ -11,7 +11,7 @@
 
 namespace wheatstone {
 
-/// A moment of a film, and what is to be true of it. Nothing where the moment leaves a value open.
+/// A keyframe: a moment of a film, and the camera's values at it. A value is empty if the keyframe leaves it open.
 struct CameraKey {
   double at = 0;                           ///< 0 the first frame, 1 the last
   std::optional<double> azimuth_deg = {};  ///< Framing

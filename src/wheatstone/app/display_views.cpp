@@ -16,7 +16,7 @@ void check_has_surfaces(const Painting& painting) {
                 "again, with strokes that are propagated");
 }
 
-/// Of the width of a view, how much the outermost views may be apart.
+/// Eye separations between the outermost views, with which the depth takes at most `depth_share` of a view's width.
 float span_for(const DisplayViewsOptions& options, const DepthEnds& ends, float scale) {
   if (options.span > 0) return options.span;
   const float depth_px = std::max((ends.nearest_px - ends.farthest_px) * scale, 1.f);
@@ -36,7 +36,7 @@ Placement placement_for(PictureSize painting, const DisplayViewsOptions& options
   return placement;
 }
 
-/// Where the part that both eyes show lies in each view.
+/// The place in each view of the part that both eyes show.
 CoveredPart covered_by(PictureSize painting, const Placement& placement) {
   const double shared = shared_width(painting.width, placement.zero_parallax_px);
   return covered_part(
@@ -71,7 +71,7 @@ Painting with_placed_depth(const Painting& painting, const DisplayViewsOptions& 
   return place_depth(painting, options.depth, static_cast<int>(std::lround(options.width / placement.scale)));
 }
 
-/// What has been placed lies as it is to be.
+/// Placed depth is final: the screen plane is at disparity 0.
 DisplayViewsOptions for_placed(DisplayViewsOptions options) {
   options.depth = {};
   options.zero_parallax_px = 0;

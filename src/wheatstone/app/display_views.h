@@ -26,7 +26,7 @@ struct DisplayViewsOptions {
       {};  ///< with regions they say what lies on the screen, and `span` is `widest_span` where it is 0
 };
 
-/// What a display wants.
+/// The options that suit a display.
 DisplayViewsOptions views_of_display(const DisplayPreset& display);
 
 /// How a painting is shown on a display with many views.

@@ -69,7 +69,7 @@ void check_any_depth(const fs::path& depth, const FilmReaderOptions& reading, De
     if (!is_grey(frame.picture)) refuse_film_depth(depth, "is in colour, expected grey for depth");
     if (inverse_depth_range(depth_of_picture(frame.picture), kind)) return;
   }
-  // Where there is no frame to paint, that is said.
+  // A film without frames is reported elsewhere.
   if (any) refuse_film_depth(depth, "its depth is the same everywhere, expected near and far points");
 }
 

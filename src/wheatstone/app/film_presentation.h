@@ -21,7 +21,7 @@ struct FilmDisplay {
   std::optional<LenticularScreen> screen;  ///< where there is no quilt
 };
 
-/// How deep a scene of a film is. What depends on it must neither jump nor breathe within a scene.
+/// The depth of a scene of a film. Whatever is derived from it must neither jump nor fluctuate within a scene.
 struct SceneDepth {
   DepthEnds first;  ///< of the scene's first frame
   DepthEnds ends;   ///< these widened, slowly, by what later frames show
@@ -45,10 +45,11 @@ using FramePictures = std::variant<StereoPair, Image<Rgb8>>;
 /// Those of one view or two, or of a composition.
 FramePictures frame_pictures(Presented shown);
 
-/// What a film says of itself whose eyes were moved in so many frames, at least so near together: a sentence.
+/// The sentence that a film's comment has if the eyes were moved together in this many frames, to no less than this
+/// separation.
 std::string moved_eyes_note(std::int64_t frames, double least_separation);
 
-/// Whether a film says so.
+/// Whether a film's comment has that sentence.
 bool tells_moved_eyes(std::string_view comment);
 
 }  // namespace wheatstone

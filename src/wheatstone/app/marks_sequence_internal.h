@@ -9,7 +9,8 @@
 
 namespace wheatstone {
 
-/// Where the marks of a frame lie until those of all have their names: `path` is the pattern of the names.
+/// The temporary file of a frame's marks, until the marks of all frames get their names. `path` is the pattern of the
+/// names.
 std::filesystem::path unfinished_marks(const std::filesystem::path& path, std::int64_t frame);
 
 /// The marks of a film's frames, in numbered files from 1 on, which get their names together when all are there. Until
@@ -30,7 +31,7 @@ class MarksSequence {
   /// Gives them their names and removes the folder. Throws Error{cannot_read_write}.
   void give_names(std::int64_t frames);
 
-  /// Nothing remains.
+  /// Removes everything.
   void discard() { held_.remove(); }
 
  private:

@@ -9,8 +9,8 @@
 
 namespace wheatstone {
 
-/// What a painting of a model is made from: the pictures of two eyes, their exact disparities, and views that show what
-/// the left eye does not, as plan_painting takes them. Behind the model is a wall at the depth mapping's far end.
+/// The input of a painting of a model: the pictures of two eyes, their exact disparities, and views that show the parts
+/// hidden from the left eye, as plan_painting takes them. Behind the model is a wall at the depth mapping's far end.
 struct ModelPictures {
   StereoPair pictures;
   Image<float> left_disparity, right_disparity;

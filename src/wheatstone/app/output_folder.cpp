@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot be written: {}", folder.string(), reason));
 }
 
-/// Where a folder of results grows. In a folder that exists, so that its files need only be renamed: what lies above
-/// may be another file system, or not ours to write to.
+/// The temporary folder of results. It lies in a folder that exists, so that its files need only be renamed: the folder
+/// above may be on another file system, or not writable.
 fs::path growing_folder(const fs::path& final_folder) {
   static std::atomic<unsigned> count = 0;
   std::error_code error;
@@ -78,7 +78,7 @@ std::set<std::string> files_below(const fs::path& folder) {
   return names;
 }
 
-/// What an earlier run has left of the series that are written now.
+/// The files that an earlier run has left of the series that are written now.
 std::vector<std::string> left_of_series(const std::set<std::string>& present, const std::set<std::string>& written) {
   std::vector<NumberedName> series;
   for (const std::string& name : written) {

@@ -11,7 +11,7 @@ namespace wheatstone {
 /// A folder of results that appears only when all of them are there. Write to `file(name)`; `commit` gives the folder
 /// its real name, or, where that folder exists already, moves the files into it. There they replace those of the same
 /// names, and a numbered series replaces the whole series of an earlier run: view_000.png and view_001.png also remove
-/// view_002.png. All else that is there stays. Destroyed without commit, nothing is left.
+/// view_002.png. All other files there stay. If the object is destroyed without a commit, it leaves nothing.
 class OutputFolder {
  public:
   /// `inputs` are the files that the run reads: none of them is replaced or removed. Throws Error: cannot_read_write

@@ -19,7 +19,7 @@ namespace wheatstone {
 struct ZeroParallax {
   std::optional<float> disparity_px;      ///< this one
   std::optional<std::pair<int, int>> at;  ///< that of this pixel (x, y) of the left photograph
-                                          ///< neither: that of the nearest point, but for outliers
+                                          ///< neither: that of the nearest point, without outliers
 };
 
 struct PaintPhotographOptions {
@@ -54,7 +54,7 @@ PaintedPhotograph paint_photograph(const StereoPair& photographs, const PaintPho
 /// screen; nothing where there are no regions. Throws as place_depth (marks/mapped_depth.h) does.
 void redraw_with_depth(const DepthPlacing& placing, PaintedPhotograph& result);
 
-/// What there is to paint from, and how it was found.
+/// The disparities to paint from, and how they were found.
 struct FoundGeometry {
   StereoGeometry geometry;
   std::optional<MatchedPair> matched;         ///< without its geometry; none where disparity was given

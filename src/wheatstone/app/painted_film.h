@@ -10,7 +10,7 @@
 
 namespace wheatstone {
 
-// What a painted film takes over from its source where nobody says otherwise.
+// Properties that a painted film takes over from its source by default.
 
 /// How the eyes lie in a painted frame: as in the source, where a frame can hold them so; side by side where the source
 /// has a film an eye.

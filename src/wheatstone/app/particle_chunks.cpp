@@ -100,7 +100,7 @@ class ChunksInTurn {
   std::thread thread_;  // the last, since it uses the others
 };
 
-/// What one rank has read in a round of chunks, and kept of it.
+/// The numbers of particles that one rank has read in a round of chunks, and kept.
 struct RoundShare {
   std::uint64_t read, kept;
 };
@@ -118,7 +118,7 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
                                const std::string& step, const Progress& progress, Visit visit) {
   const Ranks& ranks = options.rendering.ranks;
   CloudChoice choice = choice_of(options);
-  // Whoever does not read the first particles must be told of their origin.
+  // A rank that does not read the first particles needs their origin.
   if (!ranks.alone() && !choice.origin) choice.origin = open_cloud(file, choice).next(1000).origin;
   CloudSource source = open_cloud(file, choice);
   const std::optional<std::uint64_t> expected = source.count;
@@ -203,7 +203,7 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   const auto look_at = [&](Cloud& chunk, std::span<const RoundShare> round) {
     CloudStatistics& statistics = surveyed.statistics;
     if (before == 0) {
-      // Of a rank that was given no particle in this round, the chunk does not tell.
+      // The empty chunk of a rank without particles in this round does not tell whether a density is lacking.
       const bool lacks = anywhere(chunk.size() > 0 && lacks_density(chunk, options), ranks);
       if (lacks || options.appearance.shine > 0) grid = std::make_shared<DensityGrid>();
       if (lacks) surveyed.density = options.stream ? DensitySource::grid : DensitySource::neighbours;

@@ -68,7 +68,8 @@ void ParticleFrames::hold_brightness(const std::array<CloudStatistics, 2>& at_en
   }
 }
 
-/// What frames the views and colours the particles is held; how many there are is the frame's own.
+/// The statistics that frame the views and colour the particles are held through the film; count, mass, sample and grid
+/// are the frame's own.
 CloudStatistics ParticleFrames::held(CloudStatistics of_frame) const {
   if (!series_) return of_frame;
   CloudStatistics held = statistics_;

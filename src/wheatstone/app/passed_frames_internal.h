@@ -34,7 +34,7 @@ class PassedFrames {
   /// The frame, once it was put, and removes its file.
   std::optional<PassedFrame> take(std::int64_t number) const;
 
-  /// Where the state after a frame waits; to be put before the frame.
+  /// The file in which the state after a frame waits. It must be written before the frame is put.
   std::filesystem::path state_file(std::int64_t number) const;
 
  private:
@@ -44,7 +44,7 @@ class PassedFrames {
   UnfinishedOutput of_another_;  ///< no file in it is a result of this process
 };
 
-/// Removes what was passed and not taken, where all ranks have stopped.
+/// Removes the frames that were passed and not taken. All ranks must have stopped.
 void remove_passed_frames(const std::filesystem::path& work_folder);
 
 }  // namespace wheatstone

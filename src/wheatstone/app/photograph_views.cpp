@@ -14,8 +14,8 @@ namespace wheatstone {
 namespace {
 
 /// The disparity with smooth outlines, and with near things a little larger. Around their edges the camera mixed the
-/// colours of two surfaces, and a map is not exact; what stays behind when a near thing is moved shows as specks, what
-/// goes with it does not.
+/// colours of two surfaces, and a map is not exact. Pixels that stay behind when a near thing is moved show as specks;
+/// pixels that move with it do not.
 Image<float> with_edges_near(ImageView<const float> disparity) {
   constexpr int px_a_margin = 400, widest_px = 4;
   constexpr float step_px = 2;
@@ -31,8 +31,8 @@ Image<float> with_edges_near(ImageView<const float> disparity) {
   return near;
 }
 
-/// What no photograph shows is continued row by row, each from its own place: the middle of the colours around is
-/// calmer.
+/// Smooths the parts that no photograph shows. They are continued row by row, each row from its own place, and the
+/// median of the colours around is calmer.
 void calm_unseen(ImageView<const std::uint8_t> unseen, Image<Rgb8>& picture) {
   constexpr int around_px = 5;
   cv::Mat calm, around;
@@ -53,7 +53,7 @@ std::vector<Image<Rgb8>> draw_photograph_views(const StereoPairView& photographs
   const std::array<View, 2> eyes{
       View{.colour = photographs.left, .disparity = left, .wanted = {}, .position = left_eye},
       View{.colour = photographs.right, .disparity = right, .wanted = {}, .position = right_eye}};
-  // What both eyes show of the screen plane fills the frame.
+  // The part of the screen plane that both eyes show fills the frame.
   const double shared = shared_width(width, plan.zero_parallax_px);
   ShownPart part = shown_part(shared, height, options.width, options.height, options.framing, stretch);
   const CoveredPart covered = covered_part(shared, height, options.width, options.height, part);

@@ -135,7 +135,7 @@ RenderedFilm write_film(const FrameSource& source, const fs::path& output, const
     if (out) leave(error, output, *out);
     throw;
   } catch (...) {
-    // What is no Error, such as too little memory, leaves no empty folder, either.
+    // Exceptions other than Error, such as a lack of memory, leave no empty folder, either.
     if (out && out->frames_done() == 0) out->discard();
     throw;
   }

@@ -25,7 +25,7 @@ struct RenderFilmOptions {
   std::optional<LenticularScreen> screen;  ///< or one picture for lenses
   std::filesystem::path slices;            ///< "slices_%04d.exr" also keeps each frame's slices, from 1 on; empty: no
   int frames_between_checkpoints = 48;
-  bool resume = false;  ///< go on with what an earlier run left; without it, such a rest is an error
+  bool resume = false;  ///< continue the unfinished film of an earlier run; without it, such a film is an error
   std::string made_by;  ///< the program's version and whatever else decides the frames
   std::vector<std::filesystem::path> made_from;  ///< the sources' files or patterns
   std::vector<int> only;                         ///< numbered pictures: these frames, from 1 on; empty: all

@@ -45,7 +45,7 @@ std::optional<std::array<double, 3>> middle_of(const Region& region) {
   return middle;
 }
 
-/// What a unit of the tone map's limits is, in units of what is shown.
+/// One unit of the tone map's limits, in units of the shown values.
 float unit_of_tone(const Scene& scene) {
   return scene.splat_style.colour_source == ColourSource::quantity ? 1 / scene.splat_style.quantity_scale
                                                                    : column_of_light(scene);

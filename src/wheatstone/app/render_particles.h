@@ -37,7 +37,7 @@ struct PerceivedDepth {
   bool smooth = false;  ///< a monotone curve through the regions' ends instead of a corner at each
 };
 
-/// What is told of a model of triangles.
+/// The options of a model of triangles.
 struct ModelOptions {
   ModelChoice choice;
   Rgb8 background = ModelLook().background;
@@ -60,12 +60,12 @@ struct RenderParticlesOptions {
   std::vector<ViewPosition> positions;  ///< of the views, in place of `views` and `span`; empty: evenly spaced
   RenderOptions rendering;
   ModelOptions model;
-  /// What is shown in place of the usual picture: "column-density"; or a quantity, of which the mean along each line of
-  /// sight is shown, weighted by mass: "temperature", "density", or the name of a dataset or column
+  /// The values that are shown instead of the usual picture: "column-density"; or a quantity, whose mean along each
+  /// line of sight, weighted by mass, is shown: "temperature", "density", or the name of a dataset or column
   /// (CloudChoice::quantity), with or without "mean:" before it. Empty: the usual picture.
   std::string quantity;
-  /// Where the colours of what is shown begin and end, in its own units: a column density's, unless a quantity is
-  /// shown. NaN: found.
+  /// The values at which the colours begin and end, in units of the shown values: of a column density, unless a
+  /// quantity is shown. NaN: found.
   float least = ToneSettings::automatic, most = ToneSettings::automatic;
   bool values = false;          ///< views as numbers too
   bool slices = false;          ///< make slices, and the views from them
@@ -74,7 +74,7 @@ struct RenderParticlesOptions {
   std::size_t chunk = 1 << 16;  ///< particles; what is made of so few stays in the cache
 };
 
-/// What numbers of a picture are counted in, as far as the file tells: "kpc", "code length".
+/// The units of a picture's numbers, as far as the file tells: "kpc", "code length".
 struct ShownUnits {
   std::string length;
   std::string value;  ///< of what is shown: "Msun kpc^-2"
@@ -88,7 +88,7 @@ enum class DensitySource {
   grid,        ///< in which particles were counted that are not all held
 };
 
-/// What became of a file of particles, of slices, or of a model.
+/// The result of rendering a file of particles, of slices, or of a model.
 struct RenderedParticles {
   RenderedViews rendered;
   SliceStack stack;  ///< empty unless slices were made
@@ -150,10 +150,10 @@ Brightness brightness_for(const CloudStatistics& statistics, const RenderParticl
 /// The name of the column that a quantity is the mean of, without "mean:"; empty where none is shown.
 std::string quantity_name_of(const std::string& quantity);
 
-/// What the numbers of a picture of these particles are counted in. `has_mass`: they have masses.
+/// The units of the numbers in a picture of these particles. `has_mass`: they have masses.
 ShownUnits units_of(const CloudSource& source, const RenderParticlesOptions& options, bool has_mass);
 
-/// What of a file becomes the cloud: with the middle of what is shown as its origin, where the options tell it.
+/// Which part of a file becomes the cloud. Its origin is the middle of the shown region, if the options give it.
 CloudChoice choice_of(const RenderParticlesOptions& options);
 
 /// The viewing geometry for views of the options' width.
@@ -175,11 +175,11 @@ struct StagedCamera {
 StagedCamera staged_camera(const std::array<float, 3>& centre, float radius, const std::array<double, 3>& origin,
                            const RenderParticlesOptions& options);
 
-/// What of the depth of the options' views may strain the eyes, in words for people.
+/// The ways in which the depth of the options' views may strain the eyes, in words for people.
 std::vector<std::string> discomforts_of(const RenderParticlesOptions& options);
 
-/// How far before and behind the screen a scene is to seem where nobody says otherwise, in millimetres: as much of a
-/// screen's width as a desk's screen has with 10 cm either way.
+/// The default depth before and behind the screen, in millimetres: the same share of the screen's width as 10 cm on a
+/// desk's screen.
 float usual_depth_mm(float screen_width_mm);
 
 /// The mapping of a scene between these depths, in scene units.

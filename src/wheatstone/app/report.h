@@ -39,7 +39,7 @@ std::string preparation_json(const PreparedPair& pair);
 /// How sure a match is as a JSON object: the members of MatchConfidence, and `warning`, null where there is none.
 std::string confidence_json(const MatchConfidence& confidence);
 
-/// What a report tells of; borrowed.
+/// The contents of a report; borrowed.
 struct PaintingReport {
   const PaintedPhotograph& painted;
   const Style& style;
@@ -48,7 +48,7 @@ struct PaintingReport {
   PictureSize whole{};  ///< of the photographs, where a reduced copy was painted; 0: they were painted as they are
 };
 
-/// What was done and how it came out, as a JSON document.
+/// The report as a JSON document.
 std::string report_json(const PaintingReport& told);
 
 }  // namespace wheatstone

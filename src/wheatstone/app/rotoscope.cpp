@@ -93,7 +93,7 @@ DisparityRange scene_range(const StereoPair& eyes, RotoscopeState& state) {
   return *state.range;
 }
 
-/// What makes a picture so wide, if it is wider.
+/// The factor that reduces a picture to this width, if it is wider.
 double share_of_width(const Image<Rgb8>& picture, int widest_px) {
   return std::min(static_cast<double>(widest_px) / picture.width(), 1.0);
 }
@@ -129,7 +129,8 @@ StereoGeometry find_geometry(const FrameTask& task, RotoscopeState& state) {
   const int widest_px = task.reduction > 1 ? task.options.widest_half_px : task.options.widest_matched_px;
   matching.size = std::min(matching.size * task.reduction, share_of_width(task.eyes.left, widest_px));
   if (std::optional<MatchedPair> matched = match_frame(task, matching, state)) return std::move(matched->geometry);
-  // A frame that shows nothing, as a black one, is as deep as the one before, or flat where a scene begins with it.
+  // A frame that shows nothing, such as a black one, takes the depth of the frame before, or is flat at the beginning
+  // of a scene.
   if (state.frames_of_scene > 0 && !state.left_disparity_before.empty())
     return geometry_from_left(state.left_disparity_before);
   return geometry_from_left(Image<float>(task.eyes.left.width(), task.eyes.left.height(), 0));
@@ -151,7 +152,7 @@ bool tells_cut_of(const FrameTask& photographed, const RotoscopeState& state, Fl
   return change.cut;
 }
 
-/// Nothing goes over to a new scene but the film's sums: scenes may be painted apart.
+/// Only the film's sums pass to a new scene, so that scenes can be painted separately.
 void begin_scene(RotoscopeState& state) {
   RotoscopeState begun;
   begun.frames = state.frames;

@@ -21,7 +21,7 @@ namespace wheatstone {
 
 struct RotoscopeOptions {
   Style style;
-  /// Where it has no range, one is found for each scene.
+  /// If it has no range, one is found for each scene.
   MatchOptions matching{.matcher = Matcher::sgbm};
   /// Only the first frame of a scene is matched by itself; others near the disparity of the frame before, as
   /// match_near.
@@ -46,12 +46,12 @@ struct RotoscopeOptions {
   bool anew = false;                   ///< every frame as if a scene began: the naive method, to be measured against
 };
 
-/// What is known of a frame beforehand and need not be estimated.
+/// Values of a frame that are known beforehand and need not be estimated.
 struct KnownFrame {
   StereoGeometry geometry;
-  /// Of the left view: forward from the frame before, backward to it. All unknown where a scene begins.
+  /// The flow of the left view: forward from the frame before, backward to it. All unknown at the beginning of a scene.
   std::optional<FlowPair> flow;
-  /// Of a frame of one eye, in place of the geometry: as disparity_from_depth takes it.
+  /// The depth of a frame of one eye, instead of the geometry, as disparity_from_depth takes it.
   std::optional<Image<float>> depth = std::nullopt;
 };
 
@@ -68,8 +68,8 @@ struct RotoscopeTotals {
   friend bool operator==(const RotoscopeTotals&, const RotoscopeTotals&) = default;
 };
 
-/// All that the next frame of a film depends on. Empty before the first; a frame with which a scene begins depends on
-/// nothing of it but the sums and the picture before, which tells the cut.
+/// Everything on which the next frame of a film depends. Empty before the first frame. The first frame of a scene
+/// depends only on the sums and on the picture before, which reveals the cut.
 struct RotoscopeState {
   std::int64_t frames = 0;
   std::int64_t frames_of_scene = 0;
@@ -108,12 +108,11 @@ struct RotoscopedFrame {
 };
 
 /// Paints the next frame of a film (Bukenberger et al. 2015): rectifies it as its scene's first frame asks for, finds
-/// its disparity, merges the eyes into the central
-/// view, finds the flow there from the frame before, and paints what that flow carries on. `photographed.right` is
-/// empty for a film of one eye; where its depth is known, it is painted as the left eye of a pair. Throws
-/// Error{bad_input} where the eyes, or this frame and the last, differ in size, or a film of one eye is to be shown on
-/// a display, wrong_usage for options that make no sense. What `progress` throws, between its steps and while it
-/// matches, ends it: then `state` is of no further use.
+/// its disparity, merges the eyes into the central view, finds the flow there from the frame before, and paints what
+/// that flow carries on. `photographed.right` is empty for a film of one eye; where its depth is known, it is painted
+/// as the left eye of a pair. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size, or a
+/// film of one eye is to be shown on a display, wrong_usage for options that make no sense. `progress` is called
+/// between its steps and while it matches. If it throws, painting ends, and `state` is of no further use.
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known = nullptr, const Progress& progress = {});
 

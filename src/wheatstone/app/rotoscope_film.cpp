@@ -30,7 +30,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Of all threads of this process.
+/// Processor time of all threads of this process.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// The files that decide the film's bytes, including networks.
@@ -239,7 +239,7 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const Roto
   return film;
 }
 
-/// Of the frames of two parts of a film.
+/// The totals of the frames of two parts of a film.
 RotoscopeTotals together(const RotoscopeTotals& a, const RotoscopeTotals& b) {
   static_assert(field_count<RotoscopeTotals>() == 8);
   return {.scenes = a.scenes + b.scenes,
@@ -463,7 +463,7 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
     if (!options.ranks.alone()) remove_passed_frames(work_folder_of(output));
     leave(error, painted, *out, output, options.marks);
   } catch (...) {
-    // What is no Error, such as too little memory, leaves no empty folder, either.
+    // Exceptions other than Error, such as a lack of memory, leave no empty folder, either.
     if (out && out->frames_done() == 0) out->discard();
     throw;
   }

@@ -24,15 +24,15 @@ struct RotoscopeFilmOptions {
   std::filesystem::path right_film;
   std::filesystem::path marks;  ///< "marks_%04d.wst" also keeps each frame's marks, from 1 on; empty: no
   int frames_between_checkpoints = 48;
-  bool resume = false;      ///< go on with what an earlier run left; without it, such a rest is an error
+  bool resume = false;      ///< continue the unfinished film of an earlier run; without it, such a film is an error
   bool keep_going = false;  ///< a damaged source is a note, not an error
   std::string made_by;      ///< the program's version and whatever else decides the frames
   std::vector<std::filesystem::path> made_from;  ///< the sources' files
   std::int64_t expected_frames = 0;              ///< of all, for telling how long it takes; 0: not known
-  /// What is known of a frame, counted from 0; empty: nothing is.
+  /// Returns what is known of a frame, counted from 0; empty: nothing is known.
   std::function<KnownFrame(std::int64_t frame, const Image<Rgb8>& left)> known;
-  /// Several paint the film together, each whole scenes, and the first writes it: the same bytes. Then `scenes` are
-  /// the film's, as find_scenes tells them, and what is known of frames holds no flow.
+  /// Several ranks paint the film together: each paints whole scenes, and the first writes the film, with the same
+  /// bytes. In this case `scenes` are the film's (find_scenes), and `known` gives no flow.
   Ranks ranks;
   FilmScenes scenes;
 };
@@ -46,14 +46,14 @@ struct RotoscopedFilm {
   RotoscopeTimes times;
   PaintingTimes painting_times;
   std::vector<std::string> notes;   ///< what the user should know
-  std::optional<std::string> loss;  ///< what of the source is damaged; kept going
+  std::optional<std::string> loss;  ///< damage of the source, with keep_going
 };
 
 /// Everything in the options that decides a byte of the painted frames and marks, as text. `writing` is not in it.
 std::string recipe_of(const RotoscopeFilmOptions& options);
 
-/// What a run that was stopped has left to go on with, as "the first 8 frames are kept in a.mp4.part"; none where it
-/// has left nothing.
+/// Says which part of a film a stopped run has kept, as "the first 8 frames are kept in a.mp4.part"; none if it has
+/// kept nothing.
 std::optional<std::string> unfinished_film(const std::filesystem::path& output, const std::filesystem::path& marks);
 
 /// Paints a film (Bukenberger et al. 2015) into another, frame by frame, in memory that does not grow with its length.

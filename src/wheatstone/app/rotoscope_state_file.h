@@ -16,7 +16,7 @@ std::string encode_rotoscope_state(const RotoscopeState& state);
 /// damaged or another version has written it.
 RotoscopeState decode_rotoscope_state(std::string_view bytes, std::string_view name);
 
-/// What decode_rotoscope_state takes: the members' bytes with what stands before them. For tests that change them.
+/// Puts the header that decode_rotoscope_state expects before the members' bytes. For tests that change them.
 std::string rotoscope_state_with_checksum(std::string_view members);
 
 /// Writes the file, whole or not at all. Throws Error{cannot_read_write}.

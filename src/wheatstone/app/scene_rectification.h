@@ -20,8 +20,8 @@ struct MeasuredScene {
   std::string note;  ///< one sentence where the frames are rectified, or should be and are not; empty: nothing to tell
 };
 
-/// Measures a frame of a scene. Where it says nothing (black, too little texture) nothing is `measured`. The frames'
-/// size is kept. What `progress` throws ends it.
+/// Measures a frame of a scene. If the frame says nothing (black, too little texture), `measured` is false. The frames'
+/// size is kept. If `progress` throws, measuring ends.
 MeasuredScene measure_scene(const StereoPair& frame, RectifyPolicy policy, const Progress& progress = {});
 
 /// A frame of that scene.

@@ -42,7 +42,7 @@ struct RedrawOptions {
   double scale = 1;            ///< how many times as large
   bool svg = false;            ///< also left.svg and right.svg, the marks as vectors
   std::string format = "png";  ///< of the pictures, as a file's ending
-  /// Disparity on the screen plane, in pixels of the result; none: that of the nearest mark, but for outliers.
+  /// Disparity on the screen plane, in pixels of the result; none: that of the nearest mark, without outliers.
   std::optional<float> zero_parallax_px = std::nullopt;
   std::optional<float> depth_budget = comfortable_parallax_share;  ///< of what is looked at, as comfortable_separation
   DepthPlacing depth = {};  ///< with regions they say what lies on the screen, and there is no budget

@@ -78,7 +78,7 @@ void write_exr(const TemporaryFile& file, ImageView<const float> values, const V
   StoredPicture picture{values.width(), values.height(), 1};
   picture.kind = floats_kind;
   picture.channel_names = {"Y"};
-  // Otherwise the time of writing: the same numbers are to be the same bytes.
+  // Replaces the time of writing, so that the same numbers give the same bytes.
   picture.put("DateTime", "1970:01:01 00:00:00");
   const Keywords keywords = keywords_of(axes, values.height());
   for (const auto& [name, number] : keywords.numbers) picture.put(name, static_cast<float>(number));

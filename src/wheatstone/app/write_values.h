@@ -8,7 +8,7 @@
 
 namespace wheatstone {
 
-/// What the numbers of a picture are, and where in the scene its pixels lie.
+/// The meaning of a picture's numbers, and the place of its pixels in the scene.
 struct ValueAxes {
   std::string name;         ///< "column density"
   std::string unit;         ///< of the numbers

@@ -1,8 +1,8 @@
 #version 450
 
-// A piece of a line, in one view: some places to a pixel, each of which tells the four pixels about it its colour. First
-// the disparity of the nearest, then the sum of those that lie on its surface. The twin of draw_lines in
-// draw_diffusion.cpp.
+// Draws a piece of a line in one view. The piece is sampled several times per pixel, and each sample adds its colour to
+// the four pixels around it. The first pass finds the disparity of the nearest sample, the second sums the samples on
+// its surface. The twin of draw_lines in draw_diffusion.cpp.
 
 layout(local_size_x = 64) in;
 
@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 const float unknown = -1e30;
 const float same_surface_px = 1;
 
-// As struct LineWork in draw_diffusion_gpu.cpp has them.
+// The members of struct LineWork in draw_diffusion_gpu.cpp.
 layout(std430, binding = 0) readonly buffer Work {
   int width, height, margin, pieces;
   int adds;  // 0: the nearest; 1: the sums
@@ -28,7 +28,7 @@ struct Piece {
 };
 layout(std430, binding = 1) readonly buffer Pieces { Piece piece[]; };
 layout(std430, binding = 2) readonly buffer Planes { float planes[]; };
-layout(std430, binding = 3) buffer Nearest { uint nearest[]; };  // disparities in an order that integers have
+layout(std430, binding = 3) buffer Nearest { uint nearest[]; };  // disparities, whose order integers keep
 layout(std430, binding = 4) buffer Sums { uint sums[]; };        // red, green, blue, weight, in steps of 2^-12
 
 uint ordered(float disparity) {

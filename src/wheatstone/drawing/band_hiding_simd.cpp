@@ -17,12 +17,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, Canvas::widest_vector>;
 constexpr float everything = std::numeric_limits<float>::infinity();
 
-/// Some columns of surfaces.
+/// The surfaces' disparities, from one column of a row on.
 struct SurfacesAt {
   const float *nearest, *reference, *photographed;
 };
 
-/// A kind of marks, while the rows of a band are looked at.
+/// Collects what hides one kind of marks in a band, row by row.
 struct KindAtWork {
   KindAtWork(HiddenBelow& below_, const DistanceBand& band, int width)
       : below(below_),
@@ -33,7 +33,7 @@ struct KindAtWork {
     below.shown_columns.resize(static_cast<std::size_t>(blocks * rows) + Canvas::widest_vector);
   }
 
-  /// `value`: what a mark must lie before, from the column `x` of a row on.
+  /// `value`: the disparities below which a mark is hidden, from the column `x` of a row on.
   HWY_INLINE void note(hn::Vec<Floats> value, int row, int x) {
     const Floats f;
     hn::StoreU(hn::Max(hn::LoadU(f, most.data() + x), value), f, most.data() + x);
@@ -45,7 +45,7 @@ struct KindAtWork {
     shown = static_cast<std::uint16_t>(shown | (bits[0] | bits[1] << 8) << first);
   }
 
-  /// Once all rows are noted.
+  /// To be called once all rows are noted.
   void sum_up_blocks(int width) {
     for (int first = 0, number = 0; first < width; first += HiddenBelow::block_px, ++number) {
       const int end = std::min(first + HiddenBelow::block_px, width);
@@ -59,19 +59,20 @@ struct KindAtWork {
 
   HiddenBelow& below;
   int rows;
-  std::vector<float> most, least;  ///< of each column
+  std::vector<float> most, least;  ///< largest and smallest noted value of each column
 };
 
-/// Whatever kinds of marks there are, the reference view's first.
+/// All kinds of marks that occur, the reference view's first.
 struct KindsAtWork {
   std::vector<KindAtWork> kinds;
-  float* nearest_below;  ///< of the reference view's marks
+  float* nearest_below;  ///< disparity below which the reference view's marks are hidden
   float* most_of_rows;   ///< of that
   int rows;
   float tolerance_px;
 };
 
-/// What the marks of each kind must lie before, in a vector's columns: least_seen_disparity and least_seen_of_other.
+/// Notes the disparities below which marks of each kind are hidden, in a vector's columns: least_seen_disparity and
+/// least_seen_of_other.
 HWY_INLINE void hide_columns(const SurfacesAt& surfaces, int row, int x, std::size_t at, KindsAtWork& at_work) {
   const Floats f;
   const auto tolerance = hn::Set(f, at_work.tolerance_px), all = hn::Set(f, everything);

@@ -1,11 +1,11 @@
-// The paint of one stroke from place to place: the twin of bristles_simd_internal.h. Before it stand PAINT, and the members of the
-// work `streaks` and `ridge`.
+// The paint of one stroke from place to place: the twin of bristles_simd_internal.h. The including file defines PAINT,
+// and `streaks` and `ridge` as members of its work.
 
 layout(binding = 0) uniform usamplerBuffer strokes_bristles;    // two texels a stroke
 layout(binding = 1) uniform usamplerBuffer places_of_segments;  // a texel each
 layout(binding = 2) uniform usamplerBuffer brush_picture;       // bytes of class BrushPicture, 16 a texel
 
-// As struct Bristles in painting_gpu_internal.h has them.
+// The members of struct Bristles in painting_gpu_internal.h.
 struct Bristles {
   vec3 change;
   float length_px, radius_px, width_px, dry_px;
@@ -20,12 +20,12 @@ Bristles bristles_of(uint stroke) {
   return Bristles(colour.rgb, colour.w, sizes.x, abs(sizes.y), sizes.z, brush.w, sizes.y < 0);
 }
 
-// A pixel of a stroke: distance to its curve, and as DistanceBand.
+// The place of a pixel on a stroke: its distance to the curve, and the values that DistanceBand keeps.
 struct Place {
   float distance, along, across, facing;
 };
 
-// Of a segment, with the pixel counted from its beginning, and its way to its end.
+// The place on a segment. `from`: from the segment's beginning to the pixel; `to_end`: from its beginning to its end.
 Place place_on(uint segment, float squared, vec2 from, vec2 to_end) {
   const vec2 light = vec2(0.6, 0.8);
   vec4 of_segment = uintBitsToFloat(texelFetch(places_of_segments, int(segment)));  // begin, length, least, most
@@ -37,7 +37,7 @@ Place place_on(uint segment, float squared, vec2 from, vec2 to_end) {
 }
 
 struct Paint {
-  float cover;  // the brush's, on from below 0 to above 1
+  float cover;  // of the brush; it continues below 0 and above 1
   float share;  // of the colour's change, 0..1
   float tone;   // levels to be added to the colour
 };
@@ -110,7 +110,7 @@ Paint paint_at(Bristles of, float middle_px, float rim_px, Place place) {
   float facing = place.across < 0 ? -place.facing : place.facing;
   float tone = shown * (streaks * (0.8 * fine + 0.6 * broad) + ridge * beside * to_rim * facing);
   if (of.has_picture) {
-    // Of a thin stroke the picture would leave holes as fine as its pixels.
+    // On a thin stroke, the brush's picture would leave holes as small as a pixel.
     float pictured = clamp((of.radius_px - 1) / 2, 0.0, 1.0);
     float bare = left_bare(of, place);
     tone += pictured * streaks * (0.25 - bare);

@@ -1,4 +1,5 @@
-// What bristles leave within a stroke, for vectors of each processor. Included by files that are compiled for several.
+// The paint that bristles leave within a stroke, computed with vectors. Included by files that are compiled for several
+// processors.
 
 #if defined(WHEATSTONE_DRAWING_BRISTLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHEATSTONE_DRAWING_BRISTLES_INL_H_
@@ -41,17 +42,17 @@ class Bristles {
     ragged_ = shown_ * 0.12f;
     if (picture_ == nullptr) return;
     level_ = BrushPicture::sizes[static_cast<std::size_t>(brush_level(radius_))];
-    // Of a thin stroke the picture would leave holes as fine as its pixels.
+    // On a thin stroke, the brush's picture would leave holes as small as a pixel.
     pictured_ = std::clamp((radius_ - 1) / 2, 0.f, 1.f);
     pictured_tone_ = pictured_ * brush.streaks;
   }
 
-  /// Pixels of a stroke: distance to its curve, and as DistanceBand.
+  /// The places of pixels on a stroke: their distance to the curve, and the values that DistanceBand keeps.
   struct Place {
     V distance, along, across, facing;
   };
   struct Paint {
-    V cover;  ///< the brush's, on from below 0 to above 1
+    V cover;  ///< of the brush; it continues below 0 and above 1
     V share;  ///< of the colour's change, 0..1
     V tone;   ///< levels to be added to the colour
   };
@@ -99,13 +100,14 @@ class Bristles {
   }
 
  private:
-  /// The paint as the brush's picture leaves it: where the picture is dark, there is less of it, and it is darker.
+  /// Applies the brush's picture: where the picture is dark, the paint covers less and is darker.
   HWY_INLINE Paint pictured(const Paint& paint, const Place& place) const {
     if (picture_ == nullptr) return paint;
     const Floats f;
     const hn::RebindToSigned<Floats> integers;
     const auto one = hn::Set(f, 1.f);
-    // Of a line of pixels: the first of the two between which a place from 0 to 1 lies, and how far it lies from there.
+    // Finds the two pixels of a line around a place from 0 to 1: the first of them, and the distance of the place from
+    // it.
     const auto between = [&](V share, int count, V& part) {
       const auto most = hn::Set(f, static_cast<float>(count - 1));
       const auto at = hn::Min(

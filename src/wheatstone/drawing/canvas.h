@@ -4,9 +4,9 @@
 
 namespace wheatstone {
 
-/// What is being painted on: colour 0..255 in float, and how much of each pixel a brush has touched, 0..1. A pixel less
-/// than half touched counts as bare: infinitely far from every colour. The four are planes whose rows are padded by
-/// two vectors, so that kernels need no tails; columns from `width` on hold nothing.
+/// A canvas that is being painted: colour 0..255 in float, and how much of each pixel a brush has touched, 0..1. A
+/// pixel less than half touched counts as bare: infinitely far from every colour. The four are planes whose rows are
+/// padded by two vectors, so that kernels need no tails; columns from `width` on hold nothing.
 struct Canvas {
   static constexpr int widest_vector = 16;  ///< floats
 

@@ -1,7 +1,7 @@
 #version 450
 
-// Counts the pixels of a view by what draw_strokes.comp and others say of them: gaps, bare ones, and wanted ones that
-// were drawn.
+// Counts the flagged pixels of a view: gaps, bare pixels, and wanted pixels that were drawn. draw_strokes.comp and
+// others set the flags.
 
 layout(local_size_x = 64) in;
 

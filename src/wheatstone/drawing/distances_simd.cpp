@@ -60,8 +60,8 @@ void place_chain(const SeenLayer& layer, const FlatStroke& stroke, int band_top,
   }
 }
 
-/// The rectangles that the segments paint. A segment is asked only for places whose nearest point of the chain may be
-/// its own: those beside it, and those outside the bend at its end.
+/// The rectangles that the segments paint. A segment is evaluated only where the nearest point of the chain may be its
+/// own: beside it, and outside the bend at its end.
 void find_rectangles(std::size_t segments, float reach, DistanceBand& band) {
   constexpr float rounding_px = 1.f / 32, least = 1e-6f;  // the latter in place of 0, which divides
   const Floats f;
@@ -173,8 +173,8 @@ struct PlacesOfSegment {
   hn::Vec<Floats> begin, length, least, most, course_x, course_y, facing;
 };
 
-/// Lowers the band's distances to those of one segment, over the pixels that it paints; `tested`: but for those where a
-/// surface hides it. `placed`: notes the places along and across the stroke, too.
+/// Lowers the band's distances to those of one segment, over the pixels that it paints; `tested`: except where a
+/// surface hides it. `placed`: also notes the places along and across the stroke.
 template <bool tested, bool placed>
 void lower_to_segment(const FlatStroke& stroke, std::size_t segment, const HiddenBelow& below, DistanceBand& band) {
   const Floats f;
@@ -187,7 +187,7 @@ void lower_to_segment(const FlatStroke& stroke, std::size_t segment, const Hidde
   const auto along_x = hn::Set(f, chain.along_x[segment]);
   const auto zero = hn::Zero(f), one = hn::Set(f, 1.f), far = hn::Set(f, far_away);
   const auto step = hn::Set(f, static_cast<float>(lanes));
-  // What is stored might be any of these, for all that compilers know.
+  // Local copies, because compilers cannot exclude that the stores below change the originals.
   const int *begins = chain.begin.data() + segment * band_rows, *ends = chain.end.data() + segment * band_rows;
   const int *band_begins = band.begin.data(), *band_ends = band.end.data();
   const std::ptrdiff_t stride = band.stride;
@@ -213,7 +213,8 @@ void lower_to_segment(const FlatStroke& stroke, std::size_t segment, const Hidde
       const auto ey = hn::NegMulAdd(t, dy, py);
       auto distance = hn::MulAdd(ex, ex, hn::Mul(ey, ey));
       if constexpr (tested) {
-        // In columns after the last, another segment's paint is what a surface may hide.
+        // Columns from `end` on keep their distances: they show another segment's paint, which a surface may hide
+        // there.
         const auto is_hidden =
             hn::Or(hn::Ge(px, end_x), hn::Lt(hn::MulAdd(t, disparity_step, disparity), hn::LoadU(f, hidden_below + x)));
         distance = hn::IfThenElse(is_hidden, far, distance);

@@ -19,15 +19,16 @@ struct DrawnView {
   Image<std::uint8_t> bare;  ///< 255 for those pixels, 0 for the others
 };
 
-/// What of a painting is drawn.
+/// Which parts of a painting are drawn.
 struct DrawOptions {
   Placement placement;
   Slicing slicing = {};  ///< of strokes
   bool relief = true;    ///< light the paint of a painting that has relief
 };
 
-/// A painting made ready: all that no view changes. Strokes are flattened into segments, sorted into bands of rows, and
-/// stand in the central view with their disparities, so that a view only moves them along their rows.
+/// A painting prepared for drawing: everything that is the same in all views. Strokes are flattened into segments,
+/// sorted into bands of rows, and placed in the central view with their disparities, so that a view only moves them
+/// along their rows.
 class PreparedPainting {
  public:
   struct Contents;
@@ -44,33 +45,33 @@ class PreparedPainting {
   std::unique_ptr<const Contents> contents_;
 };
 
-/// Does once what all views of a painting share. The graphics processor keeps it until the prepared painting is gone;
-/// where it was asked for (Device::graphics) and there is none, or it fails, Error{wrong_usage} is thrown, then or when
-/// a view is drawn. Its pictures are those of the processor but for the last bits of a few pixels, and the same bytes
-/// each time.
+/// Does the work that all views of a painting share. A graphics processor keeps the painting until the prepared
+/// painting is destroyed. If Device::graphics was asked for, and there is no graphics processor or it fails,
+/// Error{wrong_usage} is thrown, here or when a view is drawn. Its pictures equal those of the processor except in the
+/// last bits of a few pixels, and they are the same bytes each time.
 PreparedPainting prepare(const Painting& painting, const DrawOptions& options = {}, Device device = Device::processor);
 
 /// Draws a painting for one view, at any place on the line through the eyes: every point of a mark is moved by its own
 /// disparity, and a mark does not cover a pixel where one of the painting's surfaces lies before it. Strokes lie over
-/// `background`, of the pictures' size, or over their canvas colour where it is empty. What no region covers takes the
-/// colour of the farther of its two neighbours on the row; lines of colour spread by the Laplace equation over what is
-/// between them, which leaves nothing bare. The same bytes on any number of threads.
+/// `background`, of the pictures' size, or over their canvas colour where it is empty. Pixels that no region covers
+/// take the colour of the farther of their two neighbours on the row. Colours of lines spread by the Laplace equation
+/// over the area between them, which leaves nothing bare. The same bytes on any number of threads.
 DrawnView draw(const PreparedPainting& painting, ViewPosition view, ImageView<const Rgb8> background = {});
 
-/// The same for many views at once, one for each position, in their order, for little more than a few: a stroke is made
-/// once for all of them (as the fragments of splats are, Hassaine 2010, sec. 4.5). There is a background for each view,
-/// or none.
+/// The same for many views at once, one for each position, in their order. They cost little more than a few views,
+/// because a stroke is made once for all of them (as the fragments of splats are, Hassaine 2010, sec. 4.5). There is a
+/// background for each view, or none.
 std::vector<DrawnView> draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
                             std::span<const ImageView<const Rgb8>> backgrounds = {});
 
-/// Takes a view that was drawn, and its place among those that were asked for.
+/// Receives a drawn view, and its place among the requested positions.
 using ViewSink = std::function<void(std::size_t place, DrawnView view)>;
 
-/// The same, a few views at a time, each given away when it is drawn: however many there are, only a few are in memory.
+/// The same, but each view is passed to `take` when it is drawn: only a few views are in memory at a time.
 void draw(const PreparedPainting& painting, std::span<const ViewPosition> views, const ViewSink& take,
           std::span<const ImageView<const Rgb8>> backgrounds = {});
 
-/// A painting of which one view is wanted.
+/// Prepares a painting and draws one view of it.
 DrawnView draw(const Painting& painting, ViewPosition view);
 
 }  // namespace wheatstone

@@ -14,7 +14,7 @@
 namespace wheatstone {
 namespace {
 
-/// A colour, and how much of a pixel is held at it: 0 is unknown, 1 known.
+/// A colour, and how firmly a pixel is held at it: 0 is unknown, 1 known.
 struct Known {
   std::array<float, 3> colour{};
   float weight = 0;
@@ -24,7 +24,7 @@ struct Known {
 struct LinePlace {
   float x, y, disparity;
   std::array<float, 3> colour;
-  float length_px;  ///< of the line, that it stands for
+  float length_px;  ///< length of line that the place stands for
   ViewPosition planned_in;
   std::array<float, 2> overhangs_px;  ///< of the points at both ends, see PreparedLines
 };
@@ -77,23 +77,23 @@ void spread(const LinePlace& place, int width, int height, Use use) {
     if (share > 0 && x >= 0 && y >= 0 && x < width && y < height) use(x, y, share);
 }
 
-/// Whether surfaces hide a place of a line, and not only because they reach over it in the view where it was planned,
-/// too. Every view has lines of its own beside what hides something; in those that photographs show, the lines of the
-/// others give way.
+/// Whether surfaces hide a place of a line. A surface that reaches over the place even in the view where the line was
+/// planned does not count. Every view has its own lines beside the surfaces that hide something; in photographed views,
+/// lines of views without a photograph give way.
 bool is_hidden(const LinePlace& place, ViewPosition view, const Hiding& hiding) {
   const bool gives_way = hiding.photographed_views.contains(view) && hiding.is_continued(place.planned_in);
   const ViewPosition planned_in = gives_way ? place.planned_in : hiding.reference_view;
   const auto hidden_at = [&](float x) { return is_hidden(x, place.y, place.disparity, planned_in, hiding); };
-  constexpr float half_px = 0.5f;  // surfaces are known to it
+  constexpr float half_px = 0.5f;  // precision to which surfaces are known
   return hidden_at(place.x - half_px) && hidden_at(place.x + half_px) &&
          std::ranges::all_of(place.overhangs_px,
                              [&](float overhang_px) { return overhang_px == 0 || hidden_at(place.x + overhang_px); });
 }
 
-/// What the lines say about each pixel. A line gives its colour wholly to a pixel through whose middle it runs, and
-/// less to those up to a pixel away, so that an edge between two lines lies where it lies, not on a pixel's side. The
-/// nearest surface's lines count where they disagree, and their mean where they lie on one surface. The picture has a
-/// margin on both sides.
+/// The colour that lines give to each pixel, and its weight. A line has full weight in a pixel through whose middle it
+/// runs, and less weight in pixels up to one pixel away, so that an edge between two lines keeps its place within a
+/// pixel. Where lines lie on several surfaces, those of the nearest surface count; lines on one surface are averaged.
+/// The picture has a margin on both sides.
 Image<Known> draw_lines(const PreparedLines& lines, ViewPosition view, const Hiding& hiding) {
   constexpr float same_surface_px = 1;
   const int margin = diffusion_margin_px(lines.painting.width);
@@ -148,7 +148,7 @@ Image<Known> halved(const Image<Known>& fine) {
   return coarse;
 }
 
-/// Fills what is unknown, or not wholly known, from the coarser picture.
+/// Fills pixels that are unknown or only partly known from the coarser picture.
 void fill_from(const Image<Known>& coarse, Image<Known>& fine) {
   tbb::parallel_for(0, fine.height(), [&](int y) {
     const float cy =
@@ -185,7 +185,8 @@ void settle(const Image<Known>& lines, int rounds, Image<Known>& colours) {
         for (int x = (y + half) % 2; x < width; x += 2) {
           const Known& line = held[x];
           if (line.weight >= 1) continue;
-          // All four numbers of a pixel alike, the weight too, which nobody reads of `colours`: one vector.
+          // All four numbers of a pixel are treated alike, so that they fit in one vector; the weight in `colours` is
+          // never read.
           const auto numbers = [](const Known& known) { return std::bit_cast<std::array<float, 4>>(known); };
           const auto left = numbers(here[std::max(x - 1, 0)]), right = numbers(here[std::min(x + 1, width - 1)]);
           const auto over = numbers(above[x]), under = numbers(below[x]), own = numbers(line);

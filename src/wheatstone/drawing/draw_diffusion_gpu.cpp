@@ -14,7 +14,7 @@
 namespace wheatstone {
 namespace {
 
-/// What add_lines.comp reads of its work: numbers of four bytes, without gaps.
+/// Parameters of add_lines.comp: numbers of four bytes, without gaps.
 struct LineWork {
   std::int32_t width = 0, height = 0, margin = 0, pieces = 0;
   std::int32_t adds = 0, has_surfaces = 0;
@@ -37,7 +37,7 @@ struct CurvePiece {
   std::int32_t is_continued, is_dot;
 };
 
-/// What the programs for a picture of one size read of their work.
+/// Parameters of the programs for a picture of one size.
 struct LevelWork {
   std::int32_t width = 0, height = 0, coarse_width = 0, coarse_height = 0;
   std::int32_t odd = 0;

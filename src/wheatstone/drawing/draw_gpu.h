@@ -11,9 +11,10 @@
 
 namespace wheatstone {
 
-/// Takes views where the graphics processor draws them. All is called within on_gpu(), and gone when that ends.
+/// Receives views in the memory of the graphics processor. The sink is used only within on_gpu(), and destroyed when
+/// that ends.
 struct GpuViewSink {
-  std::size_t at_least = 1;  ///< views that it must take together
+  std::size_t at_least = 1;  ///< number of views that it must receive together
   /// Which pixels of so many views from `first` on are wanted: a bit each, rows of whole words, view by view; other
   /// pixels may then be left undrawn. Empty: all are.
   std::function<GpuBuffer(std::size_t first, std::size_t count)> wanted = {};
@@ -23,9 +24,9 @@ struct GpuViewSink {
 };
 
 /// Draws views of a painting that the graphics processor keeps, and leaves them in its memory. Returns the largest
-/// share of a view's wanted pixels that marks cover less than half; nothing where the processor is to draw, and the
-/// sink has taken nothing of use: where it draws the painting anyway, where not enough views fit at once, or where the
-/// graphics processor fails that nobody asked for. Throws as `draw` does.
+/// share of a view's wanted pixels that marks cover less than half. Returns nothing if the processor must draw instead;
+/// what the sink has received is then of no use. This happens if the processor draws the painting anyway, if not enough
+/// views fit at once, or if a graphics processor fails that was not asked for explicitly. Throws as `draw` does.
 std::optional<double> draw_on_gpu(const PreparedPainting& painting, std::span<const ViewPosition> views,
                                   const std::function<GpuViewSink(const GpuFacts&)>& make_sink);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int samples_a_side = 4, rows_a_group = 8;
 
-/// What sample_regions.comp reads of its work: numbers of four bytes, without gaps.
+/// Parameters of sample_regions.comp: numbers of four bytes, without gaps.
 struct RegionWork {
   std::int32_t width = 0, height = 0, first_row = 0, rows = 0;
   std::int32_t has_surfaces = 0, bands_rows = rows_a_group;

@@ -16,7 +16,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 const float dark = 1.0 / 1024;
 const float least_gap_light = 1 - 1.0 / 64;
 
-// As struct StrokeWork in draw_strokes_gpu.cpp has them.
+// The members of struct StrokeWork in draw_strokes_gpu.cpp.
 layout(std430, binding = 0) readonly buffer Work {
   int width, height;
   int has_surfaces;
@@ -40,9 +40,10 @@ struct Stroke {
 layout(std430, binding = 1) readonly buffer Strokes { Stroke strokes[]; };
 struct Segment {
   float x, y, dx, dy;
-  float depth, depth_slope;  // of its ends: disparity, and the step to the other's; of a rigid stroke: as a row has it
+  // Disparity at its beginning, and its change to the end; of a rigid stroke: at row 0, and its change a row.
+  float depth, depth_slope;
   float reach;
-  uint stroke;  // and whether it is rigid: its rows move as one
+  uint stroke;  // the highest bit: rigid, the pixels of a row move as one
 };
 layout(std430, binding = 2) readonly buffer Segments { Segment segments[]; };
 layout(std430, binding = 3) readonly buffer Cells { uint cell_first[]; };
@@ -70,7 +71,7 @@ struct Seen {
 };
 const int kind_bit = 30;
 
-// Of the segments at hand, those that reach the tile.
+// The segments at hand that reach the tile.
 shared Seen near[at_a_time];
 shared uint open;
 
@@ -104,10 +105,10 @@ struct Drawn {
   float light;
 };
 
-// Of a stroke's segments, the one that is nearest to the pixel.
+// The segment of a stroke that is nearest to the pixel.
 struct Nearest {
   float squared;      // distance
-  vec2 from, to_end;  // the pixel, counted from its beginning, and its way to its end
+  vec2 from, to_end;  // from the segment's beginning to the pixel, and to the segment's end
   uint segment;
   bool is_seen;  // where it is nearest
 };
@@ -144,8 +145,8 @@ uint finished(Drawn drawn, int at) {
          uint(drawn.light > bare_light) << 25 | uint(only_wanted) << 26;
 }
 
-// Of the wanted pixels of a tile of 32 columns and 8 rows, the one of this number, outside the picture where there are
-// fewer; and how many there are.
+// The wanted pixel of this number in a tile of 32 columns and 8 rows, or a place outside the picture if there are
+// fewer; and the number of wanted pixels in the tile.
 ivec3 wanted_pixel(ivec2 tile, int v, uint number) {
   int words_a_row = (width + 31) / 32;
   uint left = number;
@@ -184,7 +185,8 @@ void main() {
   ivec2 tile = ivec2(gl_WorkGroupID.xy) * 8;
   ivec2 tile_size = ivec2(8);
   if (only_wanted != 0) {
-    // Four groups share a larger tile: those after the first have something to do where much is wanted.
+    // Four groups share a larger tile, and each draws 64 of its wanted pixels: groups after the first often have
+    // nothing to do.
     tile.x = int(gl_WorkGroupID.x / 4) * 32;
     tile_size.x = 32;
     uint before = gl_WorkGroupID.x % 4 * 64;

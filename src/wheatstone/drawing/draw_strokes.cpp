@@ -97,7 +97,7 @@ std::uint32_t Stamps::add_lines(std::size_t count) {
 
 namespace {
 
-/// Gives the pixels of a row that nothing covers at all the colour beside them on the farther surface.
+/// Gives wholly uncovered pixels of a row the colour beside them on the farther surface.
 void continue_paint(const FrontToBackAccumulator& accumulator, int band_row, std::span<const float> surface,
                     std::span<Rgb8> row) {
   const int width = static_cast<int>(row.size());
@@ -113,11 +113,12 @@ void continue_paint(const FrontToBackAccumulator& accumulator, int band_row, std
   }
 }
 
-/// What of a stroke lies in a band, with all that its stamps need: the strokes themselves are far apart in memory.
+/// The part of a stroke in a band, with copies of all values that its stamps need, because the strokes themselves are
+/// far apart in memory.
 struct alignas(64) Piece {
   std::uint32_t stroke;
   std::uint32_t rows;       ///< a bit each
-  float left, right;        ///< columns in the central view, brush and all
+  float left, right;        ///< columns in the central view, including the brush's reach
   float farthest, nearest;  ///< disparities
   StampPaint paint;
   ViewRange views;
@@ -130,7 +131,8 @@ struct alignas(64) Piece {
     return {std::max(static_cast<int>(left - most), 0), std::min(static_cast<int>(right - least) + 1, width)};
   }
 
-  /// The rims of thin strokes are too round to be interpolated far: there are two stamps of them, half a pixel apart.
+  /// Whether a view uses the second stamp of a thin stroke. Thin strokes have two stamps, half a pixel apart, because
+  /// their rims are too round to be interpolated far.
   bool lies_between(float view) const {
     if (!is_thin) return false;
     const float moved = view * (paint.disparity + paint.depth_slope * middle);
@@ -173,7 +175,7 @@ Piece piece_of(const FlatStroke& stroke, std::uint32_t index, const PreparedSurf
 /// The pieces of a layer in a band, in drawing order.
 struct PiecesOfLayer {
   std::vector<Piece> pieces;
-  std::vector<std::uint32_t> of_other_views;  ///< those of strokes that were not planned in the reference view
+  std::vector<std::uint32_t> of_other_views;  ///< indices of pieces that were planned in other views
   std::vector<Stamp> stamps;
   std::vector<Stamp> stamps_between;  ///< half a pixel to the side
 };
@@ -182,9 +184,10 @@ struct PiecesOfLayer {
 /// them.
 class BandOfViews {
  public:
-  static constexpr std::size_t few_views = 2;  ///< of which parts of strokes are made only as far as they are seen
+  static constexpr std::size_t few_views = 2;  ///< up to this number, only the visible parts of stamps are made
 
-  /// `accumulators` are some of another band, or none; `view_count` views will be drawn, all at once or not.
+  /// `accumulators`: taken over from another band, or empty. `view_count`: number of views that will be drawn, in one
+  /// call or in several.
   BandOfViews(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, int number, std::size_t view_count,
               std::vector<FrontToBackAccumulator>& accumulators)
       : painting_(painting),
@@ -211,7 +214,7 @@ class BandOfViews {
     }
   }
 
-  /// Draws some views, stroke by stroke, so that what is made of a stroke is still at hand for the next of them.
+  /// Draws some views, stroke by stroke, so that the stamp of a stroke is still in the cache for the next view.
   void draw(std::span<const ViewToDraw> views, std::span<std::size_t> bare_pixels) {
     while (accumulators_.size() < views.size()) accumulators_.emplace_back(band_.row_count, painting_.width);
     std::vector<ViewAtWork> at_work;
@@ -235,7 +238,7 @@ class BandOfViews {
   }
 
  private:
-  /// What is drawn soon lies far apart in memory: it is asked for in good time.
+  /// Prefetches strokes that are drawn soon, because they lie far apart in memory.
   static HWY_INLINE void ask_ahead(const FlatLayer& layer, const PiecesOfLayer& of_layer, std::size_t nearer) {
     if (nearer < FlatLayer::strokes_ahead) return;
     layer.ask_for_stroke(of_layer.pieces[nearer - FlatLayer::strokes_ahead].stroke);
@@ -272,7 +275,8 @@ class BandOfViews {
     bool may_be_hidden;
   };
 
-  /// Draws a piece in all views that may see any of it. Which do is found out first: a stamp is made of what they see.
+  /// Draws a piece in all views that may see part of it. These views are found first, because the stamp is made only
+  /// where they see it.
   template <class HiddenBelowOf>
   void draw_piece(std::size_t above, std::size_t number, std::span<const ViewAtWork> views, HiddenBelowOf below_of) {
     in_views_.clear();
@@ -280,7 +284,7 @@ class BandOfViews {
     std::uint32_t rows = 0;
     for (const PieceInView& in_view : in_views_) rows |= in_view.rows;
     const Piece& piece = layers_[above].pieces[number];
-    // Those of other views are drawn twice, and most rows of what many views show are seen by some.
+    // Pieces of other views are drawn twice; and among many views, some view sees nearly every row.
     const bool is_drawn_once = views.size() == view_count_ && piece.planned_in == PlannedIn::reference_view;
     const bool leaves_out_columns = is_drawn_once && views.size() <= few_views && piece.is_rigid && rows != 0;
     if (leaves_out_columns) find_columns_to_draw(piece, rows);
@@ -288,7 +292,7 @@ class BandOfViews {
       draw_in_view(above, number, {rows, leaves_out_columns ? &columns_to_draw_ : nullptr}, in_view);
   }
 
-  /// Of each of some rows, the columns of the central view that any of the views at hand may draw.
+  /// Finds, for each of these rows, the columns of the central view that any of the views at hand may draw.
   void find_columns_to_draw(const Piece& piece, std::uint32_t rows) {
     constexpr int margin_px = Stamps::margin + 2;  // columns beside these tell how a rim goes on
     for (std::uint32_t left = rows; left != 0; left &= left - 1) {
@@ -306,7 +310,7 @@ class BandOfViews {
     }
   }
 
-  /// From the first to the last block of a row in which a piece may have something to draw.
+  /// The columns from the first to the last block of a row in which a piece may be drawn.
   static ColumnRun columns_in_row(const PieceInView& in_view, int row) {
     constexpr int block_px = FrontToBackAccumulator::block_px;
     const FrontToBackAccumulator& accumulator = in_view.at_work->accumulator;
@@ -339,13 +343,13 @@ class BandOfViews {
       }
     }
     rows &= piece.rows;
-    // Of what many views show, nearly every row is seen by some.
+    // Among many views, some view sees nearly every row.
     if (rows != 0 && view_count_ <= few_views) rows = rows_to_draw(rows, columns, below, accumulator);
     if (rows == 0) return;
     in_views_.push_back({&at_work, &below, columns, rows, may_be_hidden});
   }
 
-  /// `of_views`: what any of the views at hand may draw, with columns of the central view.
+  /// `of_views`: the rows, and columns of the central view, that any of the views at hand may draw.
   void draw_in_view(std::size_t above, std::size_t number, const RowsOfStamp& of_views, const PieceInView& in_view) {
     const auto& [at_work, below, columns, rows, may_be_hidden] = in_view;
     PiecesOfLayer& of_layer = layers_[above];
@@ -422,14 +426,15 @@ class BandOfViews {
   std::vector<FrontToBackAccumulator>& accumulators_;
 };
 
-/// How many views of a band are drawn stroke by stroke: more, and they would not stay in the second-level cache.
+/// The number of views of a band that are drawn together, stroke by stroke: more would not stay in the second-level
+/// cache.
 std::size_t views_at_once(int width) {
   constexpr std::size_t most_bytes = 3u << 18, bytes_a_pixel = 4 * sizeof(float);
   return std::max<std::size_t>(most_bytes / (bytes_a_pixel * band_rows * static_cast<std::size_t>(width)), 1);
 }
 
-/// One stroke that covers half a pixel leaves this much light. Strokes that are fading do not say how opaque the paint
-/// is.
+/// The light that one stroke leaves where it covers half a pixel. The largest opacity decides, because fading strokes
+/// are less opaque than the paint.
 float bare_light_of(const StrokePainting& painting) {
   float opacity = 0;
   for (const Layer& layer : painting.layers)
@@ -455,7 +460,7 @@ PreparedStrokes prepare_marks(const StrokePainting& painting) {
 
 namespace {
 
-/// The bands, those with the most to draw first: what is begun last decides how long some threads wait for others.
+/// The bands, the most expensive first: a long band that is begun last would keep other threads waiting.
 std::vector<int> bands_by_cost(const PreparedStrokes& painting) {
   std::vector<int> bands(static_cast<std::size_t>((painting.height + band_rows - 1) / band_rows));
   std::iota(bands.begin(), bands.end(), 0);
@@ -481,7 +486,7 @@ void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surface
   const std::vector<int> bands = bands_by_cost(painting);
   const std::size_t at_once = views_at_once(painting.width);
   std::vector<std::vector<std::size_t>> bare(bands.size(), std::vector<std::size_t>(views.size()));
-  tbb::concurrent_queue<std::vector<FrontToBackAccumulator>> kept;  // memory that is new is slow
+  tbb::concurrent_queue<std::vector<FrontToBackAccumulator>> kept;  // reused, because fresh memory is slow
   std::atomic<std::size_t> next = 0;
   const auto draw_next = [&](const auto&) {
     const int i = bands[next++];

@@ -19,7 +19,7 @@ constexpr int tile_px = 8, cell_px = 16;
 constexpr int wanted_tile_px = 32;  ///< columns of a tile of which not all pixels are wanted
 constexpr std::uint32_t highest_bit = std::uint32_t{1} << 31;
 
-/// What draw_strokes.comp reads of its work: numbers of four bytes, without gaps.
+/// Parameters of draw_strokes.comp: numbers of four bytes, without gaps.
 struct StrokeWork {
   std::int32_t width = 0, height = 0;
   std::int32_t has_surfaces = 0, shows_behind = 0, has_background = 0, only_wanted = 0;
@@ -47,7 +47,7 @@ StrokesForGpu::Stroke stroke_for_gpu(const FlatStroke& stroke, PlannedIn planned
           static_cast<std::int32_t>(planned_in)};
 }
 
-/// What draw_strokes.comp is told of the paint: what varies within strokes.
+/// What varies within strokes: PAINT of draw_strokes.comp.
 enum class PaintInStrokes { even, changes, bristles };
 
 PaintInStrokes paint_of(const PreparedStrokes& painting) {
@@ -116,7 +116,7 @@ struct Depths {
   float farthest, nearest;
 };
 
-/// Of all that a segment paints.
+/// The range of disparities that a segment paints.
 Depths depths_of(const Segment& segment) {
   if ((segment.stroke & highest_bit) == 0) {
     const auto [farthest, nearest] = std::minmax({segment.depth, segment.depth + segment.depth_slope});

@@ -1,6 +1,6 @@
 #version 450
 
-// One pixel of a picture: what is not known of it comes from the picture of half the size.
+// Fills the unknown share of one pixel from the picture of half the size.
 
 layout(local_size_x = 64) in;
 

@@ -14,8 +14,8 @@
 namespace wheatstone {
 namespace {
 
-/// The square of how far a spline may bend at the controls of a span that one segment stands for: a chord leaves its
-/// curve by at most an eighth of the second difference, and a segment may by an eighth of the brush's rim.
+/// The largest squared second difference at the controls of a span that one segment may replace: a chord leaves its
+/// curve by at most an eighth of the second difference, and a segment may leave it by an eighth of the brush's rim.
 float squared_bend_of_segment(float radius_px) {
   const float rim_px = BrushProfile(radius_px).rim_px;
   return rim_px * rim_px;
@@ -52,8 +52,8 @@ class BendingSpline {
   std::vector<float> bends_;
 };
 
-/// Calls `add` with the vertices of a chain that stands for a spline: some segments for a span that bends much, or one
-/// for some spans. The chord of n spans leaves the curve n² times as far as that of one.
+/// Calls `add` with the vertices of a chain that approximates a spline: several segments for a span that bends much, or
+/// one segment for several spans. The chord of n spans leaves the curve n² times as far as that of one.
 template <class Add>
 void visit_vertices(const BendingSpline& spline, float radius_px, Add add) {
   constexpr int most_segments_a_span = 16;
@@ -77,7 +77,7 @@ void visit_vertices(const BendingSpline& spline, float radius_px, Add add) {
   }
 }
 
-/// `vertices` is used for a while.
+/// `vertices` is scratch memory.
 void add_vertices(const BendingSpline& spline, std::vector<SpatialPoint>& vertices, FlatStroke& stroke,
                   FlatLayer& flat) {
   vertices.clear();
@@ -123,7 +123,7 @@ void fit_depth(const FlatLayer& flat, FlatStroke& stroke) {
     row_variance += (rows[i] - mean_row) * (rows[i] - mean_row);
     covariance += (rows[i] - mean_row) * (disparities[i] - mean);
   }
-  const bool is_long = row_variance > count;  // the rows of a stroke that is not do not tell a slope
+  const bool is_long = row_variance > count;  // a stroke of few rows does not determine a slope
   stroke.depth_slope = is_long ? covariance / row_variance : 0;
   stroke.disparity = mean - stroke.depth_slope * mean_row;
   stroke.is_rigid = true;
@@ -131,7 +131,7 @@ void fit_depth(const FlatLayer& flat, FlatStroke& stroke) {
     if (std::abs(disparities[i] - stroke.disparity - stroke.depth_slope * rows[i]) > rigid_px) stroke.is_rigid = false;
 }
 
-/// `place`: in its layer.
+/// `place`: the stroke's index in its layer.
 FlatStroke without_vertices(const Stroke& source, std::size_t place) {
   FlatStroke stroke;
   stroke.radius_px = source.radius_px;

@@ -26,7 +26,7 @@ struct FlatStroke {
   bool is_rigid = false;                 ///< … so nearly that the views see its rows shifted
   ViewRange views;
   std::uint32_t number = 0;
-  std::uint32_t seed = 0;  ///< of what its bristles leave
+  std::uint32_t seed = 0;  ///< of its bristles
   ViewPosition reference_view;
 
   bool changes_colour() const { return red_change != 0 || green_change != 0 || blue_change != 0; }
@@ -36,15 +36,15 @@ struct FlatStroke {
 /// central view stands at x − v · disparity in the view at v.
 struct FlatLayer {
   static constexpr std::size_t values_after =
-      2 * std::size_t{Canvas::widest_vector};  ///< the last vertex: vectors may be loaded
+      2 * std::size_t{Canvas::widest_vector};  ///< behind the last vertex, so that whole vectors load
   std::vector<float> x, y, disparity;
   std::vector<float> along;  ///< length of the stroke's chain up to the vertex, in the central view
   std::vector<FlatStroke> strokes;
 
-  // Strokes of one place lie far apart in memory: what is drawn soon is asked for in good time.
+  // Neighbouring strokes lie far apart in memory, so they are prefetched this many strokes ahead.
   static constexpr std::size_t strokes_ahead = 20, vertices_ahead = 10;
 
-  // GCC leaves out calls and loops that do nothing else: hence this is inline, always, and no loop.
+  // Always inline and without a loop, because GCC removes calls and loops that only prefetch.
   HWY_INLINE void ask_for_stroke(std::size_t stroke) const {
     hwy::Prefetch(&strokes[stroke]);
     hwy::Prefetch(&strokes[stroke].disparity);

@@ -1,10 +1,10 @@
 #version 450
 
-// One pixel of a picture of half the size: what is known of its four, by their weights.
+// Makes one pixel of the picture of half the size: the mean of its four pixels, by their weights.
 
 layout(local_size_x = 64) in;
 
-// As struct LevelWork in draw_diffusion_gpu.cpp has them.
+// The members of struct LevelWork in draw_diffusion_gpu.cpp.
 layout(std430, binding = 0) readonly buffer Work { int width, height, coarse_width, coarse_height; };
 layout(std430, binding = 1) readonly buffer Fine { vec4 fine[]; };
 layout(std430, binding = 2) buffer Coarse { vec4 coarse[]; };

@@ -1,6 +1,6 @@
 #version 450
 
-// What the lines say of each pixel: the mean of their colours, and how much of the pixel is held at it.
+// The mean colour of the lines at each pixel, and its weight.
 
 layout(local_size_x = 64) in;
 

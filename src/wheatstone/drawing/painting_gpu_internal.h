@@ -24,10 +24,10 @@ struct ViewsOnGpu {
   std::optional<GpuBuffer> wanted = {};
 };
 
-/// What the programs write of a pixel beside its colour.
+/// Flag that the programs set in a pixel, beside its colour.
 constexpr std::uint32_t gpu_bare_pixel = std::uint32_t{2} << 24;
 
-/// How many pixels of a view the programs say this of.
+/// The number of a view's pixels with each flag.
 struct FlagCounts {
   std::uint32_t gaps, bare, wanted;
 };
@@ -42,15 +42,17 @@ struct StrokesForGpu {
   };
   struct Segment {
     float x, y, dx, dy;
-    float depth, depth_slope;  ///< disparity of its beginning, and the step to its end; of a rigid one: of a row
+    float depth, depth_slope;  ///< disparity at its beginning, and its change to the end; of a rigid stroke: at row 0,
+                               ///< and its change a row
     float reach;
     std::uint32_t stroke;  ///< the highest bit: rigid
   };
   /// What varies within a stroke, as bristles.glsl reads it: two texels.
   struct Bristles {
     float red_change, green_change, blue_change, length;
-    float radius_px, width_px;  ///< of the stroke and of a bristle; below 0: as wide, and the brush has a picture
-    float dry_px;               ///< before a stroke's end a bristle may run out of paint; 0: none does
+    /// Of the stroke and of a bristle; a width below 0: its absolute value, and the brush has a picture.
+    float radius_px, width_px;
+    float dry_px;  ///< length before a stroke's end in which bristles may run out of paint; 0: none does
     std::uint32_t seed;
   };
   /// A segment's places along its stroke, in pixels: a texel.
@@ -63,7 +65,7 @@ struct StrokesForGpu {
 
   std::vector<Stroke> strokes;
   std::vector<Segment> segments;
-  // Of a painting whose paint varies within strokes; else empty.
+  // Empty unless the paint varies within strokes.
   std::vector<Bristles> bristles;
   std::vector<PlacesOfSegment> places;
   float still_depth = 0;  ///< the middle of all disparities
@@ -77,7 +79,7 @@ void for_strokes_from_nearest(const PreparedStrokes& painting, Use use) {
       use(painting.layers[layer], place, layer);
 }
 
-/// Calls `use` with the vertices at both ends of each segment of a stroke: one, of no length, where it is a dot.
+/// Calls `use` with the vertices at both ends of each segment of a stroke. A dot has one segment, of length 0.
 template <class Use>
 void for_segments(const FlatStroke& stroke, Use use) {
   const std::uint32_t last = stroke.first_vertex + stroke.vertex_count - 1;
@@ -129,7 +131,7 @@ class GpuStrokes {
   GpuBuffer draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views);
 
  private:
-  /// Sorts the segments into cells, unless they are for all these views and for such tiles.
+  /// Sorts the segments into cells, unless the present cells are for all these views and for tiles of this width.
   void fill_cells(std::span<const ViewPosition> views, int tile_columns);
 
   const PreparedStrokes& painting_;
@@ -163,7 +165,7 @@ class GpuDiffusion {
   GpuBuffer draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) const;
 
  private:
-  /// What the lines say of each pixel: red, green, blue, 0..255, and how much of it is held at them, 0..1.
+  /// The colour that the lines give to each pixel: red, green, blue, 0..255, and its weight, 0..1.
   GpuBuffer lines(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) const;
 
   const DiffusionPainting& painting_;

@@ -10,9 +10,9 @@ namespace wheatstone {
 /// A painting of lines, and what no view changes of them.
 struct PreparedLines {
   DiffusionPainting painting;
-  /// Lines lie a pixel beside the edges of surfaces, which are known to a pixel or two: how far from each point to the
-  /// side, in pixels, it would be seen in the very view in which it was planned; 0 where it is seen itself, or nowhere
-  /// near. Empty as long as nothing hides lines.
+  /// For each point, the offset along the row, in pixels, at which it would be seen in the view where it was planned; 0
+  /// if the point itself is seen, or no place near it. Lines need it because they lie a pixel beside the edges of
+  /// surfaces, which are known only to a pixel or two. Empty as long as nothing hides lines.
   std::vector<float> overhangs_px;
 
   float overhang_px(std::size_t point) const { return overhangs_px.empty() ? 0 : overhangs_px[point]; }

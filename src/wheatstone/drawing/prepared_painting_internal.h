@@ -21,7 +21,7 @@ struct PreparedPainting::Contents {
   std::variant<PreparedStrokes, RegionPainting, PreparedLines> marks;
   PreparedSurfaces surfaces;
   Relief relief;
-  std::shared_ptr<PaintingOnGpu> on_gpu = {};  ///< what draws it, where the processor does not
+  std::shared_ptr<PaintingOnGpu> on_gpu = {};  ///< empty where the processor draws
   Device device = Device::processor;           ///< that was asked for
 };
 
@@ -29,7 +29,7 @@ struct PreparedPainting::Contents {
 
 PreparedStrokes prepare_marks(const StrokePainting& painting);
 inline RegionPainting prepare_marks(RegionPainting painting) { return painting; }
-/// What surfaces make of the lines is told once they are ready, too.
+/// The overhangs of lines are set later, once the surfaces are prepared.
 inline PreparedLines prepare_marks(DiffusionPainting painting) { return {std::move(painting), {}}; }
 
 /// A view that is to be drawn.
@@ -43,7 +43,7 @@ void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surface
 void draw_marks(const RegionPainting& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
 void draw_marks(const PreparedLines& lines, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
 
-// The same as SVG (svg.h). What has a ground shows between its marks what only a picture of the view can.
+// The same as SVG (svg.h). Marks with a ground need a picture of the view beneath them.
 
 std::string svg_of_marks(const StrokePainting& painting, ViewPosition view, const Hiding& hiding,
                          const std::string& ground_png);

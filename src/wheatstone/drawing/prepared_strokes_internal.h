@@ -13,7 +13,7 @@ struct BandedLayer {
   Brush brush = {};
 };
 
-/// All of a painting of strokes that no view changes: a view moves its vertices along their rows.
+/// Everything in a painting of strokes that is the same in all views: a view only moves vertices along their rows.
 struct PreparedStrokes {
   int width, height;
   Rgb8 canvas_colour;

@@ -71,7 +71,7 @@ void draw_bands(const Layer& layer, const Brush& brush, ViewPosition view, const
   const FlatLayer flat = flatten(layer);
   const SeenLayer seen(flat, view);
   const auto bands = strokes_by_band(flat, height);
-  tbb::concurrent_queue<FrontToBackAccumulator> kept;  // memory that is new is slow
+  tbb::concurrent_queue<FrontToBackAccumulator> kept;  // reused, because fresh memory is slow
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {
     if (bands[i].empty()) return;
     const int top = i * band_rows, row_count = std::min(band_rows, height - top);

@@ -22,9 +22,9 @@ inline constexpr int band_rows = 32;
 /// For every band of a picture, the strokes that touch it, in drawing order.
 std::vector<std::vector<std::uint32_t>> strokes_by_band(const FlatLayer& layer, int height);
 
-/// The segments of a stroke's chain as a band sees them; a dot is one of no length.
+/// The segments of a stroke's chain as a band sees them; a dot is one segment of length 0.
 struct Chain {
-  /// For so many segments.
+  /// Makes room for `count` segments.
   void resize(std::size_t count);
 
   std::vector<float> x, y;    ///< where each begins; rows are counted from the band's first
@@ -47,25 +47,26 @@ struct ColumnRun {
   int begin, end;
 };
 
-/// Where a row of a block of columns stands among those of a band, block by block.
+/// The index of a row of a block of columns in a band that is stored block by block.
 inline std::size_t place_in_blocks(int row, int number, int row_count) {
   return static_cast<std::size_t>(number) * static_cast<std::size_t>(row_count) + static_cast<std::size_t>(row);
 }
 
-/// Below which disparity paint of one kind is hidden, in a band; empty where nothing hides it.
+/// The disparities below which paint of one kind is hidden in a band; empty if nothing hides it.
 struct HiddenBelow {
   static constexpr int block_px = Canvas::widest_vector;
   struct Block {
     float most, least;         ///< of its pixels
-    std::uint32_t shown_rows;  ///< in which not everything is hidden: bits, from the lowest
+    std::uint32_t shown_rows;  ///< rows that are not wholly hidden: bits, from the lowest
   };
   std::span<const float> pixels;        ///< row_count × stride of the band, for columns that are shown at all
   std::vector<Block> blocks;            ///< of columns
   std::span<const float> most_of_rows;  ///< the most in each row of each block: row_count × blocks, and a vector more
-  /// Of a block, where not everything is hidden, a bit each, from the lowest: row_count × blocks, and a vector more.
+  /// The columns of a block in a row that are not wholly hidden, a bit each, from the lowest: row_count × blocks, and a
+  /// vector more.
   std::vector<std::uint16_t> shown_columns;
 
-  /// In a row of a band.
+  /// The same of the block `number` in a row of the band.
   std::uint32_t shown_columns_in(int row, int number, int row_count) const {
     return shown_columns.empty() ? 0xffff : shown_columns[place_in_blocks(row, number, row_count)];
   }
@@ -79,9 +80,10 @@ struct DistanceBand {
   int row_count;
   int stride;
   std::vector<float> squared;  ///< row_count × stride
-  /// The same for what varies within a stroke, empty until one does: the place along the stroke, in pixels from its
-  /// first point, which ends reach beyond; the place across it, to the right of its course positive; how much of the
-  /// light from the upper left meets what faces right of the course, −1..1.
+  /// Three more planes of this size for paint that varies within a stroke, empty until there is such a stroke: the
+  /// place along the stroke, in pixels from its first point, which continues beyond both ends; the place across it,
+  /// positive to the right of its course; and the share of the light from the upper left that meets a surface facing
+  /// right of the course, −1..1.
   std::vector<float> along, across, facing;
   int first_row = 0, end_row = 0;  ///< the band's rows that the stroke touches
   std::vector<int> begin, end;     ///< the columns that it touches in each of them
@@ -109,7 +111,7 @@ struct BandHiding {
   HiddenBelow continued;             ///< those of other views
   HiddenBelow gaps;                  ///< those that fill what the reference view's leave bare
 
-  /// What hides a stroke at first.
+  /// What hides a stroke when it is first drawn; a stroke of another view is drawn once more, to fill gaps.
   const HiddenBelow& of(const FlatStroke& stroke, const Hiding& hiding) const {
     if (hiding.is_own(stroke.reference_view)) return own;
     return hiding.is_continued(stroke.reference_view) ? continued : other;
@@ -123,7 +125,7 @@ class FrontToBackAccumulator {
  public:
   static constexpr int block_px = Canvas::widest_vector;
   static constexpr float dark = 1.f / 1024;  ///< light below this changes an 8-bit value by less than a quarter step
-  static constexpr float least_gap_light = 1 - 1.f / 64;  ///< a pixel that lets more through has no paint to speak of
+  static constexpr float least_gap_light = 1 - 1.f / 64;  ///< a pixel that lets more through counts as unpainted
 
   /// The columns of a block in one row.
   struct alignas(64) Block {
@@ -136,11 +138,11 @@ class FrontToBackAccumulator {
   FrontToBackAccumulator() = default;
   FrontToBackAccumulator(int row_count, int canvas_width, bool keeps_cover = false);
 
-  /// Nothing is drawn.
+  /// Removes everything that was drawn.
   void clear();
 
-  /// In a row in which nothing is drawn, light comes through where `mask` is not 0 alone. Returns whether it does
-  /// anywhere.
+  /// Lets light through only where `mask` is not 0, in a row in which nothing is drawn yet. Returns whether any light
+  /// comes through.
   bool open_only(int row, std::span<const std::uint8_t> mask);
 
   int width() const { return width_; }
@@ -157,13 +159,13 @@ class FrontToBackAccumulator {
 
   /// The columns of a block.
   std::uint32_t open_columns(int row, int number) const { return open_columns_[place_in_blocks(row, number, rows_)]; }
-  /// From a row of a block on; after the last row, there may be others for a vector more.
+  /// The columns from this row of a block on; a vector may be loaded beyond the last row.
   const std::uint16_t* open_columns_from(int row, int number) const {
     return &open_columns_[place_in_blocks(row, number, rows_)];
   }
   std::uint16_t* open_columns_of(int number) { return &open_columns_[place_in_blocks(0, number, rows_)]; }
 
-  /// Something was drawn in some rows of a block, and no light comes through some rows of it any more: bits, from the
+  /// Notes in which rows of a block something was drawn, and through which no light comes any more: bits, from the
   /// lowest.
   void note_rows(int number, std::uint32_t drawn, std::uint32_t closed) {
     touched_rows_[static_cast<std::size_t>(number)] |= drawn;
@@ -202,19 +204,19 @@ class FrontToBackAccumulator {
 };
 static_assert(band_rows <= 32 && FrontToBackAccumulator::block_px <= 16);
 
-/// A row of a view that is drawn, and what is to become of it.
+/// What a finished row of a view is made with, and where it goes.
 struct RowToFinish {
   std::span<const Rgb8> background;  ///< empty: the canvas
   Rgb8 canvas_colour;
   bool is_opaque;    ///< nothing shows through thin paint
   float bare_light;  ///< a pixel that lets more through is bare
   std::span<Rgb8> picture;
-  std::span<std::uint8_t> bare;  ///< 255 where it is
+  std::span<std::uint8_t> bare;  ///< 255 for bare pixels
 };
 
 struct FinishedRow {
   std::size_t bare = 0;  ///< pixels
-  bool has_gap = false;  ///< some have no paint to speak of
+  bool has_gap = false;  ///< some pixels count as unpainted
 };
 
 FinishedRow finish_row(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to);
@@ -226,7 +228,7 @@ struct StrokeInBand {
   const HiddenBelow& hidden_below;
   const Brush& brush;
 
-  /// Whether its paint is not the same everywhere.
+  /// Whether its paint varies within the stroke.
   bool varies() const { return brush.varies() || stroke.changes_colour(); }
 };
 
@@ -234,7 +236,7 @@ struct StrokeInBand {
 /// has.
 void draw_stroke_under(const StrokeInBand& stroke, DistanceBand& band, FrontToBackAccumulator& accumulator);
 
-/// Lays all that was drawn, whose cover was kept, over the rows of a canvas from `top` on.
+/// Lays the drawn band over the rows of a canvas from `top` on. The accumulator must keep its cover.
 void lay_over(FrontToBackAccumulator& accumulator, int top, Canvas& canvas);
 
 /// The part of a stroke in one band, drawn once for all views: how far inside its rim each pixel lies. Views see its
@@ -264,18 +266,18 @@ struct Stamps {
   /// Makes room for the lines of a stamp, which cover nothing yet. Returns the first one's number.
   std::uint32_t add_lines(std::size_t count);
 
-  // The lines, a row of a stamp each, and a vector more.
+  // The lines, one for each row of a stamp, and a vector more.
   std::vector<std::uint32_t> first_values;  ///< of the margin before a line
   std::vector<std::int32_t> begins, ends;   ///< the columns that it covers when it is moved by less than one
   std::size_t line_count = 0;
   std::vector<std::uint16_t> values = std::vector<std::uint16_t>(2 * slack);
-  /// Of strokes whose paint varies, beside the values: the share of the colour's change, in 255ths, and the tone, in
-  /// half levels from `even_tone` on. Both are empty until there is such a stroke.
+  /// Only for strokes whose paint varies, one for each value: the share of the colour's change, in 255ths, and the
+  /// tone, in half levels from `even_tone` on. Both are empty until there is such a stroke.
   std::vector<std::uint8_t> shares, tones;
   static constexpr std::uint8_t even_tone = 128;
 };
 
-/// Rows of a band, a bit each, and in each those columns that matter.
+/// Rows of a band, a bit each, and the columns that are wanted in each of them.
 struct RowsOfStamp {
   std::uint32_t rows;
   const std::array<ColumnRun, band_rows>* columns;  ///< as the band counts them; null: all
@@ -301,13 +303,13 @@ struct StampInBand {
   const HiddenBelow& hidden_below;
   const DistanceBand& band;
   float view;          ///< eye separations to the right of the central view
-  ColumnRun columns;   ///< of the picture, in which all of it lies that is to be seen
+  ColumnRun columns;   ///< columns of the picture that contain its visible part
   std::uint32_t rows;  ///< the open ones, a bit each
   bool tested;         ///< a surface may hide some of it
-  bool varies;         ///< its paint is not the same everywhere
+  bool varies;         ///< its paint varies within the stroke
 };
 
-/// Those of some rows of a band, a bit each, in which one of the columns is open and shown.
+/// Selects the rows of a band, a bit each, in which at least one of the columns is open and shown.
 std::uint32_t rows_to_draw(std::uint32_t rows, const ColumnRun& columns, const HiddenBelow& below,
                            const FrontToBackAccumulator& accumulator);
 

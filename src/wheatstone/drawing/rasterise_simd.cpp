@@ -54,13 +54,13 @@ HWY_INLINE hn::Mask<Floats> lanes_of(std::uint32_t bits) {
   return hn::LoadMaskBits(Floats(), bytes);
 }
 
-/// What some pixels of a stroke show: their cover, 0..1, and where its paint varies the share of the colour's change
-/// and the tone.
+/// The paint of some pixels of a stroke: cover, 0..1, and, if the paint varies, the share of the colour's change and
+/// the tone.
 struct PaintHere {
   hn::Vec<Floats> cover, share, tone;
 };
 
-/// A stroke's colour, which is slid under what is drawn already. `varies`: it is not the same everywhere.
+/// A stroke's colour, which is composited under what is drawn already. `varies`: it varies within the stroke.
 template <bool varies>
 struct Paint {
   template <class Stroke>
@@ -102,7 +102,8 @@ struct ColumnsOfBlock {
   std::uint32_t columns;
 };
 
-/// Slides paint under some open columns of a block; `paint_at(i)` is that of a vector from its column `i` on.
+/// Composites paint under some open columns of a block; `paint_at(i)` is the paint of a vector from the block's column
+/// `i` on.
 template <bool varies, class PaintAt>
 HWY_INLINE void slide_under_block(const Paint<varies>& paint, const ColumnsOfBlock& within,
                                   FrontToBackAccumulator& accumulator, PaintAt paint_at) {
@@ -128,7 +129,7 @@ HWY_INLINE Bristles::Paint paint_of_row(const Bristles& bristles, const Distance
                       hn::LoadU(f, band.across.data() + at), hn::LoadU(f, band.facing.data() + at)});
 }
 
-/// Slides what is measured of a stroke under what is drawn; `paint_at(row, x)` is the paint of a vector.
+/// Composites a measured stroke under what is drawn; `paint_at(row, x)` is the paint of a vector.
 template <bool varies, class PaintAt>
 HWY_INLINE void slide_band_under(const StrokeInBand& of, const DistanceBand& band, FrontToBackAccumulator& accumulator,
                                  PaintAt paint_at) {
@@ -340,7 +341,7 @@ HWY_INLINE hn::Vec<Floats> interpolated(const float* weights, const std::uint16_
   return hn::Min(hn::Max(level, hn::Zero(f)), hn::Set(f, 1.f));
 }
 
-/// What stands beside the levels, between the columns at and before a vector's; in its own steps.
+/// Shares or tones, interpolated between the columns at and before a vector's, in their own steps.
 HWY_INLINE hn::Vec<Floats> interpolated(float fraction, const std::uint8_t* from) {
   const Floats f;
   const hn::Rebind<std::uint8_t, Floats> bytes;
@@ -392,12 +393,11 @@ static_assert(SeenLines::most < 1 << 7);  // rows by parts of a pixel are below 
 
 /// Rows of a block, a bit each.
 struct RowsToDraw {
-  std::uint32_t shown = 0, tested = 0;  ///< wholly; as far as no surface hides them
+  std::uint32_t shown = 0, tested = 0;  ///< drawn whole; drawn where no surface hides them
 };
 
 /// Finds the columns of a block that a stamp covers, and that are open and shown; `tested`: a surface may hide some.
-/// All rows are looked at before any is drawn, without a branch for each: whether one has anything to draw cannot be
-/// foretold.
+/// All rows are examined before any is drawn, without a branch for each, because such a branch would be unpredictable.
 template <bool tested>
 HWY_INLINE RowsToDraw find_columns_to_draw(const StampInBand& of, const FrontToBackAccumulator& accumulator, int number,
                                            SeenLines& seen) {
@@ -432,7 +432,8 @@ HWY_INLINE RowsToDraw find_columns_to_draw(const StampInBand& of, const FrontToB
   return {(rows & ~hidden) << seen.first_row, (rows & hidden) << seen.first_row};
 }
 
-/// Slides what is to be drawn of some rows of a block under what is there. `tested`: as far as no surface hides it.
+/// Composites the visible part of some rows of a block under what is drawn already. `tested`: only where no surface
+/// hides it.
 template <bool tested, bool varies>
 HWY_INLINE void lay_rows_under(const StampInBand& of, const SeenLines& seen, int number, std::uint32_t rows,
                                FrontToBackAccumulator& accumulator) {

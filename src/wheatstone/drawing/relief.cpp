@@ -41,7 +41,7 @@ float bristle_height(std::uint64_t seed, float radius_px, float bristle_px, cons
   return (0.7f * ridge + 0.3f * along) * (1 - 0.35f * to_rim * to_rim);
 }
 
-/// Pixels of a band: what the stroke at hand is nearest to.
+/// The relief of a band of rows, and the places of its pixels on the stroke at hand.
 class ReliefBand {
  public:
   ReliefBand(int top, float bristle_px, const Hiding& hiding, Image<float>& relief)
@@ -84,7 +84,7 @@ class ReliefBand {
   struct Point {
     float x, y, disparity;
   };
-  /// Of a stroke's spine; `along` is the length of the spine before it.
+  /// A segment of a stroke's spine; `along` is the length of the spine before it.
   struct Segment {
     Point a, b;
     float along;

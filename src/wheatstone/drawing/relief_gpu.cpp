@@ -14,7 +14,7 @@ namespace {
 
 constexpr int tile_px = 8;
 
-/// What relief_strokes.comp reads of its work: numbers of four bytes, without gaps.
+/// Parameters of relief_strokes.comp: numbers of four bytes, without gaps.
 struct ReliefWork {
   std::int32_t width = 0, height = 0;
   std::int32_t has_surfaces = 0;

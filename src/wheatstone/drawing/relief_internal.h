@@ -9,7 +9,8 @@
 
 namespace wheatstone {
 
-/// A stroke's number tells its bristles in every view and frame; without one, its place in its layer.
+/// The seed of a stroke's bristles, the same in every view and frame: its number or, without one, its place in its
+/// layer.
 std::uint64_t bristle_seed(const FlatStroke& stroke, std::size_t place, std::size_t layer);
 
 /// The height of the paint of every pixel as one view sees it, 0 on the bare canvas, about 1 on the ridges (Hertzmann

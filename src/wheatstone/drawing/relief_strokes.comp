@@ -11,7 +11,7 @@ const float shows_through = 0.25;  // of what new paint levels
 const float buried = 1.0 / 1024;
 const float run_in_bristles = 5.625;
 
-// As struct ReliefWork in relief_gpu.cpp has them.
+// The members of struct ReliefWork in relief_gpu.cpp.
 layout(std430, binding = 0) readonly buffer Work {
   int width, height;
   int has_surfaces;
@@ -53,7 +53,7 @@ struct Seen {
   uint stroke;
 };
 
-// Of the segments at hand, those that reach the tile.
+// The segments at hand that reach the tile.
 shared Seen near[at_a_time];
 shared uint open;
 

@@ -13,7 +13,7 @@ const float hides_px = 1;
 const uint nothing = 0x7fffffffu;
 const uint of_reference = 1u << 31;  // marks of other views only fill gaps
 
-// As struct RegionWork in draw_regions_gpu.cpp has them.
+// The members of struct RegionWork in draw_regions_gpu.cpp.
 layout(std430, binding = 0) readonly buffer Work {
   int width, height, first_row, rows;  // of the picture, and those at hand
   int has_surfaces, rows_a_band;

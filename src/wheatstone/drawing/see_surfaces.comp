@@ -10,7 +10,7 @@ const float unknown = -1e30;  // farther than anything
 const float joined_px = 1;
 const int widest_crack_px = 2;
 
-// As struct SeeWork in seen_surface_gpu.cpp has them.
+// The members of struct SeeWork in seen_surface_gpu.cpp.
 layout(std430, binding = 0) readonly buffer Work {
   int width, height, parts;
   float view[most_views];

@@ -13,7 +13,8 @@ namespace wheatstone {
 
 namespace {
 
-/// Pixels of chunks at the beginning in which nothing is known: most of a surface that is not the reference view's.
+/// The number of unknown pixels at the beginning of a row, in whole chunks: most of a surface of another view than the
+/// reference.
 int unknown_chunks(std::span<const float> row) {
   constexpr std::size_t chunk = 16;
   std::size_t pixels = 0;

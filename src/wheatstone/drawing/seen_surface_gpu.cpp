@@ -42,7 +42,7 @@ struct FlatSurfaces {
 
 namespace {
 
-/// What see_surfaces.comp reads of its work: numbers of four bytes, without gaps.
+/// Parameters of see_surfaces.comp: numbers of four bytes, without gaps.
 struct SeeWork {
   std::int32_t width = 0, height = 0, parts = 0;
   std::array<float, most_gpu_views> view{};

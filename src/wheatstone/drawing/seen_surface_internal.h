@@ -9,7 +9,7 @@
 
 namespace wheatstone {
 
-/// A painting's surfaces, of each only what is known.
+/// A painting's surfaces, reduced to their runs of known pixels.
 class PreparedSurfaces {
  public:
   /// A run of columns of a row, and where its disparities begin.
@@ -22,7 +22,7 @@ class PreparedSurfaces {
     int left_px;
     bool continued;
     std::vector<Run> runs;               ///< row by row
-    std::vector<std::size_t> first_run;  ///< of each row, and one more
+    std::vector<std::size_t> first_run;  ///< index of each row's first run, and the end
     std::vector<float> disparities;
 
     int rows() const { return static_cast<int>(first_run.size()) - 1; }
@@ -42,14 +42,14 @@ class PreparedSurfaces {
   ViewRange photographed;
 };
 
-/// By what the surfaces may hide a mark.
+/// Where a mark was planned, which decides what surfaces may hide it.
 enum class PlannedIn : std::uint8_t { reference_view, photographed_view, other_view };
 PlannedIn kind_of(ViewPosition planned_in, const PreparedSurfaces& surfaces);
 
 /// What hides a painting's marks in some rows of one view.
 struct SeenSurfaces {
   Image<float> nearest, reference, photographed;
-  Hiding hiding;  ///< refers to them
+  Hiding hiding;  ///< refers to these images
 };
 
 /// Some rows of a view.

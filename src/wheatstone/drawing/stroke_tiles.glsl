@@ -1,5 +1,5 @@
-// What programs share that go through a tile's strokes from the nearest to the farthest. Before it stand `planes` and
-// the members of the work that it names.
+// Shared by programs that go through a tile's strokes from the nearest to the farthest. The including file declares
+// `planes` and the members of the work that are used here.
 
 const uint at_a_time = 64;  // segments that a tile looks at: one an invocation
 const float far_away = 1e30;
@@ -13,8 +13,8 @@ uint cell_of_tile(uint first_column, uint band, float shift) {
   return band * cells_a_band + uint(clamp(column, 0, int(cells_a_band) - 1));
 }
 
-// Below which disparity paint is hidden, as hiding.h says it: of strokes of the reference view, of other views that
-// photographs show, of all others, and of those that fill gaps.
+// The disparities below which paint is hidden, as in hiding.h: for strokes of the reference view, of other photographed
+// views, of all other views, and for strokes that fill gaps.
 vec4 hidden_below(int x, int y, int v) {
   if (has_surfaces == 0) return vec4(unknown);
   int size = width * height;
@@ -28,7 +28,8 @@ vec4 hidden_below(int x, int y, int v) {
               photographed == unknown ? nothing_shown : below);
 }
 
-// Whether what reaches so far about a segment reaches a rectangle; `by_length2` is 1 by its squared length, or 0.
+// Whether paint that reaches this far around a segment reaches a rectangle; `by_length2`: 1 / (squared length of the
+// segment), or 0.
 bool reaches(vec2 from, vec2 along, float by_length2, float reach, vec2 low, vec2 high) {
   vec2 to = from + along;
   if (any(greaterThan(min(from, to) - reach, high)) || any(lessThan(max(from, to) + reach, low))) return false;

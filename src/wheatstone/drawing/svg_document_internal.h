@@ -51,7 +51,7 @@ class SvgDocument {
     add_step(to);
     reached_ = to;
   }
-  /// A dot is a line that goes nowhere.
+  /// A dot is a line of length 0.
   void end_line() {
     if (command_ == 'M') add("h0");
   }
@@ -86,7 +86,7 @@ class SvgDocument {
     return beside(first) <= units * length && beside(second) <= units * length && between(first) && between(second);
   }
 
-  /// A command that is that of the step before is not repeated.
+  /// A command equal to the previous one is not repeated.
   void begin_command(char command) {
     if (command != command_) {
       text_.push_back(command);

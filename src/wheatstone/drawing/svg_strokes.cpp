@@ -77,7 +77,7 @@ void add_stroke(SvgDocument& document, const Layer& layer, const Stroke& stroke,
 void add_layer(SvgDocument& document, const Layer& layer, ViewPosition view, const Hiding& hiding,
                const std::vector<std::uint8_t>& visible, int& number) {
   if (layer.strokes.empty()) return;
-  // What most strokes have in common stands once.
+  // Attributes that most strokes share are written once.
   document.add("<g stroke-width=\"{}\" stroke-opacity=\"{:.3g}\">\n",
                svg_units(2 * BrushProfile(layer.radius_px).middle_px), layer.strokes.front().opacity);
   for (std::size_t i = 0; i < layer.strokes.size(); ++i) {

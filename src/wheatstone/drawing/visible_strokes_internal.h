@@ -8,9 +8,10 @@
 
 namespace wheatstone {
 
-/// Marks with 1 what changes a pixel of the drawn picture, for every layer and every stroke of it, in drawing order;
-/// what the view does not show, or nearer strokes or surfaces hide wholly, stays as it is. What would change no pixel
-/// by more than `least_share` of its colour's distance counts as hidden. What is marked already costs no look.
+/// Sets 1 for every stroke that changes a pixel of the drawn picture: for each layer, its strokes in drawing order.
+/// Strokes that the view does not show, or that nearer strokes or surfaces hide wholly, keep their value. A stroke that
+/// would change no pixel by more than `least_share` of its colour's distance counts as hidden. Strokes that are 1
+/// already are not examined.
 void mark_visible(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding, float least_share,
                   std::span<std::vector<std::uint8_t>> visible);
 

@@ -1,7 +1,7 @@
 #version 450
 
-// A row of one view of which only some pixels were drawn: all of it is wanted where one of them is a gap, which what
-// lies beside it is to fill, and else nothing.
+// A row of one view of which only some pixels were drawn. If one of them is a gap, the whole row is wanted, because the
+// pixels beside it fill the gap; otherwise none of it is.
 
 layout(local_size_x = 64) in;
 

@@ -20,7 +20,7 @@
 
 layout(local_size_x = 64) in;
 
-// As struct PackWork in gpu_finish.cpp has them.
+// The members of struct PackWork in gpu_finish.cpp.
 layout(std140, binding = 0) uniform Work {
   int width, rows;
   int texels_a_row;
@@ -49,7 +49,7 @@ void main() {
 
 #include "wheatstone/gpu/views.glsl"
 
-// As struct CompositeWork in gpu_finish.cpp has them.
+// The members of struct CompositeWork in gpu_finish.cpp.
 layout(std140, binding = 0) uniform Work {
   int width, rows;
   int left, texels_a_row;            // of the planes' columns

@@ -54,7 +54,7 @@ void finish_light_band(const LightBand& band, const ToneMap& map, int top, const
   }
 }
 
-/// Of mass, the third channel stays as it is: dark. Alpha is taken where there is a channel for it.
+/// With mass, the third channel stays dark. Alpha is included if there is a channel for it.
 void take_plane(const LightBand& band, std::uint16_t* to, std::ptrdiff_t stride, bool alpha, SliceBand::Extent* lit) {
   const Floats d;
   const hn::Rebind<hwy::float16_t, Floats> halves;

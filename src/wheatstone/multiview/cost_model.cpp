@@ -16,7 +16,7 @@ Costs estimate_costs(const Workload& workload) {
   // A particle is projected, lit and put in order once; a splat is unpacked, and its fragments are added.
   const double project = 15 * ns;
   const double area = (workload.splat_px + 1) * (workload.splat_px + 1);
-  // What lies over a pixel takes an error function at each of its edges.
+  // The share of a splat over a pixel takes an error function at each of the pixel's edges.
   const double fragments = (workload.mass ? 20 + 0.7 * area : 8 + 0.5 * area) * ns;
   // Sorted, each one on its own, and each fragment looks at what is in front of it.
   const double blended = workload.absorbs ? (150 + 4.4 * area) * ns : fragments;

@@ -7,7 +7,7 @@
 
 namespace wheatstone {
 
-/// What decides how long each way of rendering takes.
+/// The quantities that decide how long each rendering method takes.
 struct Workload {
   std::uint64_t particles = 0;
   float splat_px = 4;  ///< diameter of a splat of mean area
@@ -32,7 +32,7 @@ struct Choice {
 };
 Choice choose_method(const Workload& workload);
 
-/// The same on a graphics processor, which does not render by the exact way.
+/// The same on a graphics processor, which has no exact method.
 Costs estimate_gpu_costs(const Workload& workload);
 Choice choose_gpu_method(const Workload& workload);
 

@@ -104,7 +104,7 @@ void for_each_row(const SplatOrder& order, std::span<const ViewTarget> targets, 
 
 }  // namespace
 
-// What was packed, sent or unpacked is given back at once: a rank holds its chunk about twice.
+// Memory is released as soon as its contents are packed, sent or unpacked, so that a rank holds its chunk about twice.
 std::vector<std::vector<SplatBlock>> deal_out(std::vector<std::vector<SplatBlock>> blocks, const SplatOrders& orders,
                                               const Ranks& ranks) {
   const std::vector<std::vector<BinRun>> runs = bins_by_rank(orders, ranks);

@@ -119,7 +119,7 @@ HWY_INLINE void light_row(const Spread& spread, float distance, Vec (&light)[pix
 }
 
 /// The rows that a splat touches. Small splats have windows of four, six or eight rows, moved into the band where they
-/// would stick out: all counts are known, and nothing is guessed wrong.
+/// would stick out: so all counts are known, and no branch is mispredicted.
 struct RowWindow {
   int first, count;
   HWY_ALIGN float weights[most_rows];
@@ -304,7 +304,7 @@ void deposit_splats_in_views(std::span<const Splat> splats, int top, bool spline
   }
 }
 
-/// Calls `call` with what splats add as a constant.
+/// Calls `call` with the kind of deposit as a constant.
 template <class Call>
 void for_deposit(Deposit deposit, Call call) {
   switch (channels_of(deposit)) {

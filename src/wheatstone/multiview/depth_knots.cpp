@@ -8,7 +8,8 @@ namespace {
 
 constexpr double most_error_px = 1. / 32;  // corners are rounded on top of that
 
-/// Parts in which a mapping that is linear in 1/depth is linear in depth, but for the error.
+/// Splits a range of depths into parts in which a mapping that is linear in 1/depth is linear in depth, up to the
+/// error.
 void split_hyperbola(const DepthMapping& mapping, double near, double far, std::vector<double>& depths) {
   const auto parallax = [&](double depth) {
     return static_cast<double>(parallax_px(mapping, static_cast<float>(depth)));

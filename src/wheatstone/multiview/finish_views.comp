@@ -1,8 +1,8 @@
 #version 450
 
-// One pixel of one view of a picture: its light, what the picture of half the size has there, and, of the view's own
-// picture, the colour that it is shown in. The twin of composite_simd.cpp. SHOWN says what becomes of the light: it stays
-// as it is; the thesis's look, which has no smaller pictures; ramp, or mean; three channels.
+// Finishes one pixel of one view of a picture: adds the light of the picture of half the size to its own and, in the
+// view's own picture, converts it to the colour that is shown. The twin of composite_simd.cpp. SHOWN says what becomes
+// of the light: it stays as it is; the thesis's look, which has no smaller pictures; ramp, or mean; three channels.
 // Variant: SHOWN=0
 // Variant: SHOWN=1
 // Variant: SHOWN=2
@@ -13,7 +13,7 @@ layout(local_size_x = 64) in;
 const int stretch_shift = 16;
 const int stays_light = 0, as_look = 1, as_mass = 2, as_colours = 3;
 
-// As struct FinishWork in gpu_finish.cpp has them.
+// The members of struct FinishWork in gpu_finish.cpp.
 layout(std140, binding = 0) uniform Work {
   int channels, width, rows, pad;
   int base;  // of the picture's light

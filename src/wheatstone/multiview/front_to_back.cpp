@@ -62,7 +62,7 @@ void FrontToBack::blend(const Splat& splat) {
 
 namespace {
 
-/// A band's splats, the nearest first. Of those that are equally near, the first comes first.
+/// A band's splats, the nearest first. Equally near splats keep their order.
 std::vector<Splat> nearest_first(const std::vector<SplatBlock>& blocks, const SplatOrder& order, int band) {
   std::vector<Splat> splats;
   for (int part = 0; part < order.parts; ++part)

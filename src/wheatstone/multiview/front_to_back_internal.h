@@ -15,7 +15,7 @@ class FrontToBack {
 
   /// Columns from 0 to `width`, `rows` of which lie within the picture, the first of them `top`.
   FrontToBack(int width, int rows, int top, ViewPosition view);
-  /// Adds what of a splat is seen through those before it.
+  /// Adds the part of a splat that is seen through those before it.
   void blend(const Splat& splat);
 
   /// Red, green, blue, and what is covered.

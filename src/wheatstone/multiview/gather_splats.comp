@@ -83,7 +83,7 @@ struct Four {
   vec4 parallax, rank, red, green, blue;
 };
 
-// Of two that are equally near the brighter one is in front, whichever comes first.
+// Of two equally near discs, the brighter one is in front, whatever their order.
 void cover(inout Four four, vec4 at, vec4 light, vec4 away, float row_away) {
   float half_width = sqrt(max(at.w * at.w - row_away * row_away, 0));
   for (int i = 0; i < 4; ++i) {

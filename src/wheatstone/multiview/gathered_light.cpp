@@ -196,7 +196,7 @@ void for_each_ordered(const RenderJob& job, const Projection& projection, const 
   });
 }
 
-// Of 32 768 particles or more each: so many splats take 6 MB.
+// Blocks drawn at a time, of at least 32 768 particles each: their splats take 6 MB.
 constexpr std::size_t most_waiting = 8;
 
 void WaitingBlocks::add(std::vector<SplatBlock> blocks) {
@@ -242,7 +242,7 @@ std::vector<ViewTarget> ViewPyramid::targets(std::size_t picture, std::span<cons
       target.picture = pictures[v];
     }
   }
-  // What was added to the larger picture is not needed again.
+  // Light that was added to the larger picture is not needed again.
   if (picture + 2 < orders_.size()) light_[picture + 2].clear();
   return targets;
 }

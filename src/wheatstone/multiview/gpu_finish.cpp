@@ -13,7 +13,7 @@
 namespace wheatstone {
 namespace {
 
-/// What finish_views.comp reads of its work: numbers of four bytes, without gaps.
+/// Parameters of finish_views.comp: numbers of four bytes, without gaps.
 struct FinishWork {
   std::int32_t channels = 0, width = 0, rows = 0, pad = 0;
   std::int32_t base = 0;
@@ -23,14 +23,14 @@ struct FinishWork {
   float exposure = 0, scale = 0, offset = 0;
 };
 
-/// What composite_planes.comp reads of its work where it packs.
+/// Parameters of composite_planes.comp for packing.
 struct PackWork {
   std::int32_t width = 0, rows = 0;
   std::int32_t texels_a_row = 0;
   std::int32_t first_value = 0, first_texel = 0;
 };
 
-/// What composite_planes.comp reads of its work where it moves planes.
+/// Parameters of composite_planes.comp for moving planes.
 struct CompositeWork {
   std::int32_t width = 0, rows = 0;
   std::int32_t left = 0, texels_a_row = 0;

@@ -22,12 +22,13 @@ constexpr std::size_t entry_bytes = 32;
 constexpr std::size_t most_iterations = 65000;
 /// Kinds whose reaches differ by no more are gone through together.
 constexpr float joined_px = 2;
-/// Of splats less bright than this, all steps of sums are counted (most_rest_bits of gather_splats.comp).
+/// For splats less bright than this, all steps of sums are counted (most_rest_bits of gather_splats.comp).
 constexpr int all_counted_below = 4;
 /// Views move splats by this many pixels, beside those that a list has, before lists are cut by parallax.
 constexpr float moved_px = 6;
 
-/// Of lists, how many entries each has becomes where it begins. Returns how many there are in all.
+/// Replaces the number of entries of each list by the index at which the list begins. Returns the number of all
+/// entries.
 std::uint32_t begin_lists(GpuBuffer& lists) {
   const std::size_t count = lists.bytes() / sizeof(std::uint32_t);
   if (count == 1) {
@@ -115,7 +116,7 @@ std::size_t SplatGatherer::number_lists() {
     work_.pictures[p].first_kind = next_kind_;
     const auto first = static_cast<int>(p) * kinds_a_picture;
     for (int brightness = splat_brightnesses - 1; brightness >= 0; --brightness) {
-      // What is left of whole steps is counted: splats that are fainter can be counted in the same steps.
+      // Fractions of a step are counted, too, so that fainter splats can be counted in the same steps.
       const bool joins = kernel_.counts_rest() && brightness < all_counted_below;
       const int least = joins ? 0 : brightness;
       number_kinds(static_cast<int>(p),
@@ -155,8 +156,8 @@ void SplatGatherer::number_kinds(int picture, std::span<const float> reaches, in
   }
 }
 
-/// As many entries as one invocation may go through: those of a band, of all kinds, and of all slabs where views
-/// gather.
+/// The largest number of entries that one invocation may go through: those of a band, of all kinds and, if views
+/// gather, of all slabs.
 std::size_t SplatGatherer::most_in_a_band(const GpuBuffer& begins, std::size_t in_lists) const {
   std::vector<std::uint32_t> begin(begins.bytes() / sizeof(std::uint32_t));
   begins.read(std::span(begin));

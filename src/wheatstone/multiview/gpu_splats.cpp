@@ -19,7 +19,7 @@
 namespace wheatstone {
 namespace {
 
-/// What programs that project read of their work (project_splats.comp): numbers of four bytes, in groups of four.
+/// The parameters of programs that project (project_splats.comp): numbers of four bytes, in groups of four.
 struct SplatWork {
   std::int32_t particles = 0, pictures = 0;
   std::int32_t second_is_quantity = 0, own_colours = 0, logarithmic = 0, from_density = 0;
@@ -131,7 +131,7 @@ void set_pictures(const SplatOrders& orders, SplatWork& work) {
   for (std::size_t p = 0; p < PictureTable::most; ++p) work.fits[p] = {table.widest[p], table.scale[p], table.pad[p]};
 }
 
-/// What programs that project look up: the parallaxes, the palette, and the light of encoded bytes.
+/// The tables of programs that project: the parallaxes, the palette, and the light of encoded bytes.
 GpuBuffer projection_tables(const Projection& projection) {
   std::vector<std::array<float, 4>> tables;
   for (std::size_t i = 0; i < projection.table.value.size(); ++i)
@@ -149,7 +149,7 @@ std::array<std::uint32_t, 2> rows_of_groups(std::size_t count) {
   return {std::min(groups, longest), (groups + longest - 1) / longest};
 }
 
-/// What light_of_sums.comp makes light of.
+/// The input of light_of_sums.comp.
 enum Gathered : std::int32_t { sums_of_steps = 0, nearest_discs = 1, other_light = 2 };
 
 /// Sums, or the nearest discs, as floats.

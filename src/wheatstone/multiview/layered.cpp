@@ -106,7 +106,8 @@ std::optional<Focus> focus_in(const std::optional<Focus>& focus, const SplatOrde
 
 namespace {
 
-/// What is kept between reading particles and compositing: the light of all planes, or all splats, whichever is less.
+/// The data that is kept between reading particles and compositing: the light of all planes, or all splats, whichever
+/// is less.
 struct KeptForPlanes {
   std::vector<SplatBlock> splats;
   std::optional<GatheredLight> light;
@@ -161,7 +162,7 @@ struct PictureOfViews {
   std::span<const ViewTarget> targets;
 };
 
-/// What one thread works in.
+/// The memory in which one thread works.
 struct Workplace {
   PlaneFiller filler;
   SliceBand slices;

@@ -1,7 +1,7 @@
 #version 450
 
-// What was gathered becomes light: sums in fixed point, the nearest discs as gather_splats.comp keeps them, or light that
-// is added to other light.
+// Converts gathered values to light: sums in fixed point, the nearest discs as gather_splats.comp keeps them, or light
+// that is added to other light.
 // Variant: FROM=0
 // Variant: FROM=1
 // Variant: FROM=2

@@ -70,8 +70,8 @@ HWY_INLINE Vec half_within(Vec scaled, bool spline) {
   return spline ? half_within_spline(scaled) : half_within_gaussian(scaled);
 }
 
-/// Of mass, what lies over pixels one after the other, the first edge at a distance from the splat's middle. The last
-/// lane holds 0.
+/// The shares of a splat of mass that lie over consecutive pixels; `first_edge` is the distance of the first pixel's
+/// edge from the splat's middle. The last lane holds 0.
 HWY_INLINE Vec parts_from(float first_edge, float scale, bool spline) {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
@@ -81,7 +81,7 @@ HWY_INLINE Vec parts_from(float first_edge, float scale, bool spline) {
   return hn::Sub(hn::TableLookupLanes(at_edge, next), at_edge);
 }
 
-/// The same of so many pixels or more.
+/// The same for `count` pixels or more.
 HWY_INLINE void find_parts(float first_edge, float scale, bool spline, int count, float* parts) {
   const Floats d;
   if (count < lanes) return hn::StoreU(parts_from(first_edge, scale, spline), d, parts);
@@ -96,7 +96,7 @@ HWY_INLINE void find_parts(float first_edge, float scale, bool spline, int count
     hn::StoreU(hn::Sub(hn::LoadU(d, at_edge + i + 1), hn::Load(d, at_edge + i)), d, parts + i);
 }
 
-/// Of mass, a cache line holds eight pixels.
+/// A cache line holds eight pixels of mass.
 constexpr int mass_line = 8;
 
 /// The light of pixels of mass, from `skipped` before the first part on. The last part is 0.
@@ -108,7 +108,7 @@ HWY_INLINE void light_mass(Vec parts, int skipped, const float* two_channels, Ve
   const auto pixel = hn::Sub(hn::ShiftRight<1>(hn::Iota(du, 0)), hn::Set(du, static_cast<std::uint32_t>(skipped)));
   const Vec colour = hn::LoadDup128(d, two_channels);
   for (int i = 0; i < vectors; ++i) {
-    // What lies before the first part is a large number.
+    // Numbers below that of the first part wrap around to large ones, which stand for the last part.
     const auto part = hn::Min(hn::Add(pixel, hn::Set(du, static_cast<std::uint32_t>(i * lanes / 2))), last);
     light[i] = hn::Mul(hn::TableLookupLanes(parts, hn::IndicesFromVec(d, part)), colour);
   }
@@ -125,9 +125,9 @@ HWY_INLINE void light_mass_in_memory(const float* parts, const float* two_channe
   }
 }
 
-/// Splats of mass, some at a time: what is known of each before its kernel is, and then the kernel along both axes.
-/// They are added when all of this is there. How many rows each has is often guessed wrong, and then nothing long is
-/// waited for.
+/// A batch of mass splats: first their values without the kernel, then the kernel along both axes. They are added when
+/// all of this is computed. The number of rows is often mispredicted, and in this way a misprediction does not wait for
+/// long computations.
 struct MassSplats {
   static constexpr std::size_t most = 32;
   HWY_ALIGN float x[most], y[most], light[most], second[most];

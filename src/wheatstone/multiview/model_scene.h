@@ -14,7 +14,7 @@ namespace wheatstone {
 struct ModelLook {
   Rgb8 background{58, 62, 68};
   int samples = 4;  ///< a pixel: 4 or 8
-  /// Of highlights, a multiple of the light of the lamps. They are what differs between views.
+  /// The strength of highlights, as a multiple of the lamps' light. Only highlights differ between views.
   float shine = 0;
   /// Angle by which an eye separation turns the direction to the eye, in radians.
   float turn = 65.f / 700;
@@ -28,7 +28,7 @@ struct ModelScene {
   ModelLook look;
 };
 
-/// Of screen parallax in pixels, and of view positions in eye separations.
+/// The range of screen parallaxes in pixels, and of view positions in eye separations.
 inline constexpr NumberRange model_parallax_range{-4096, 4096};
 
 }  // namespace wheatstone

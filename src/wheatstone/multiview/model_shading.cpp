@@ -15,7 +15,8 @@ Direction of_length_1(const Direction& v) {
   return length > 0 ? Direction{v[0] / length, v[1] / length, v[2] / length} : Direction{0, 0, 1};
 }
 
-// Of a surface that faces its light; together 1, but for what the lamp adds where it shines along the line of sight.
+// Light on a surface that faces its light source. The sum is 1, except where the lamp shines along the line of sight
+// and adds to it.
 constexpr float light_all_around = 0.13f, light_of_camera = 0.25f, light_of_lamp = 0.72f;
 constexpr float highlight_exponent = 32;
 
@@ -91,7 +92,7 @@ ModelShading::Surface::Surface(const ModelShading& shading, const ScreenTriangle
     begin_[k] = (x[a] * y[b] - x[b] * y[a]) * per_area;
   }
 
-  // What the corners of a part have is mixed from those of the whole.
+  // Values at the corners of a part are interpolated from those at the corners of the whole triangle.
   std::array<std::array<float, 3>, 3> share{};
   for (std::size_t k = 0; k < 3; ++k) {
     if (screen.part < 0)

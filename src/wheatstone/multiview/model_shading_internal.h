@@ -19,7 +19,7 @@ class ModelShading {
  public:
   ModelShading(const Model& model, const ModelScene& scene);
 
-  /// A triangle as one view has it, ready to tell what it looks like at its places.
+  /// A triangle in one view, prepared for shading at any of its places.
   class Surface {
    public:
     Surface(const ModelShading& shading, const ScreenTriangles& triangles, std::uint32_t index, float view);
@@ -28,7 +28,7 @@ class ModelShading {
       LinearColour colour;
       float disparity, depth;
     };
-    /// At a place of the view, in pixels, that lies in the triangle but for rounding.
+    /// Colour, disparity and depth at a place of the view, in pixels, that lies in the triangle up to rounding.
     Point at(double x, double y) const;
 
    private:
@@ -50,8 +50,8 @@ class ModelShading {
   enum class Fineness : std::uint8_t { by_pixel, by_corner, once };
   Fineness fineness(const ScreenTriangle& triangle) const;
 
-  /// The colours at the corners of a triangle that is not lit by pixel, in the central view; the first of them is that
-  /// of all of it where it is lit once.
+  /// The colours in the central view at the corners of a triangle that is not lit by pixel. If it is lit once, the
+  /// first of them is the colour of the whole triangle.
   std::array<LinearColour, 3> corner_colours(const ScreenTriangles& triangles, std::uint32_t index) const;
 
  private:

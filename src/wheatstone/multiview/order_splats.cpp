@@ -79,7 +79,7 @@ void sort_into_bins(const ProjectedBlock& projected, std::size_t bins, SplatBloc
     const std::uint32_t bin = projected.bin[i];
     const std::uint32_t next = projected.next_bin[i];
     const SplatWords words = words_of(projected, i);
-    // Written twice in any case, over itself where both bins are the same: no branch to guess wrong.
+    // Always written twice, over itself if both bins are the same, which avoids an unpredictable branch.
     const std::uint32_t at_next = ends[next];
     const std::uint32_t at = ends[bin];
     put(words, block.splats[at_next]);
@@ -89,7 +89,7 @@ void sort_into_bins(const ProjectedBlock& projected, std::size_t bins, SplatBloc
   }
 }
 
-/// A small cloud, made as long as a vector with particles that nobody sees.
+/// A small cloud, padded to the length of a vector with invisible particles.
 Cloud filled_up(const Cloud& cloud) {
   Cloud full = cloud;
   const std::size_t length = most_lanes;

@@ -250,7 +250,7 @@ HWY_INLINE hn::Vec<Ints> choose_picture(const PictureTable& table, Placed& place
   return number;
 }
 
-/// The bins of splats in their pictures. What is not seen goes to the bin behind the last.
+/// The bins of splats in their pictures. Splats that are not seen go to the bin behind the last.
 HWY_INLINE Bins bins_of(const Placed& placed, Vec size, hn::Vec<Ints> picture, const Window& window,
                         const PictureTable& table) {
   const Floats d;

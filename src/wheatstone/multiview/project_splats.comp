@@ -15,7 +15,7 @@ const int most_pictures = 9;
 const int parallax_entries = 1024;
 const int palette_entries = 256;
 
-// As struct SplatWork in gpu_splats.cpp has them.
+// The members of struct SplatWork in gpu_splats.cpp.
 layout(std140, binding = 0) uniform Work {
   int particles, pictures;
   int second_is_quantity, own_colours, logarithmic, from_density;

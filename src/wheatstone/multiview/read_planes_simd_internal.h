@@ -80,7 +80,7 @@ void unpack(const SliceBand& slices, int row, int x, const std::vector<std::arra
   for (int plane = 0; plane < slices.planes(); ++plane) {
     const int first = std::max(x + reach[plane][0], slices.left() - slices.margin());
     const int end = std::min(x + block_width + reach[plane][1], slices.right() + slices.margin());
-    // What is dark costs nothing.
+    // Dark planes cost nothing.
     if (!slices.lit(plane, row).meets(first - slices.left(), end - slices.left())) continue;
     block.lit.push_back(plane);
     block.first[plane] = x + reach[plane][0];
@@ -93,7 +93,7 @@ void unpack(const SliceBand& slices, int row, int x, const std::vector<std::arra
   }
 }
 
-/// How much farther than elsewhere the pixels of a block move.
+/// The factors by which the pixels of a block move farther than elsewhere.
 struct Gains {
   bool all_one = true;
   HWY_ALIGN float values[block_width];
@@ -158,8 +158,8 @@ HWY_INLINE void read_around(const UnpackedBlock& block, int plane, Vec place, Ve
             weights[tap], hn::GatherIndex(d, block.at(plane, channel), hn::Add(first, hn::Set(di, tap))), sum[channel]);
     return;
   }
-  // Pixels that move by nearly as much: what some of them want of a pixel that the others do not is read for all, with
-  // a weight of 0 for the others.
+  // Pixels that move by nearly the same amount: a pixel that only some of them need is read for all, with a weight of 0
+  // for the others.
   for (int at = least; at < most + taps; ++at) {
     Vec weight = weights[at - least < taps ? at - least : 0];
     if (least != most) {

@@ -76,7 +76,8 @@ void check(const Scene& scene, const Rig& rig, const RenderOptions& options) {
 }
 
 /// The graphics processor adds light, in one process: into views with highlights, or into depth planes without them.
-/// Of particles that hide others, it draws only opaque discs of the thesis's look into views. All else is refused here.
+/// The only particles that hide others which it draws are opaque discs of the thesis's look, into views. Everything
+/// else is refused here.
 void check_gpu_can(const Scene& scene, const RenderOptions& options) {
   const bool planes = options.method == Method::layered || options.focus.has_value();
   struct Refused {

@@ -38,15 +38,15 @@ struct RenderOptions {
   Method method = Method::automatic;
   SliceFilter filter = SliceFilter::linear;
   int planes = 0;  ///< depth planes; 0: one for each pixel of parallax
-  /// A graphics processor renders by the incremental or the layered method, what does not absorb.
+  /// A graphics processor renders by the incremental or the layered method, and only particles that do not absorb.
   Device device = Device::processor;
   std::optional<Focus> focus;  ///< of the layered method, which auto then chooses: where the depth differs
   bool opaque = false;         ///< the nearest particle hides the others, instead of adding its light to theirs
-  /// Of the thesis's look; NaN: found from some of the particles, as are limits that `tone` leaves open.
+  /// The exposure of the thesis's look; NaN: found from some of the particles, as are limits that `tone` leaves open.
   float exposure = std::numeric_limits<float>::quiet_NaN();
   ToneSettings tone;  ///< of mass; the look is the scene's
-  /// Those that share the work. All call the same functions with the same options; what is made is whole at the first
-  /// of them only.
+  /// The ranks that share the work. All call the same functions with the same options; the result is whole at the first
+  /// rank only.
   Ranks ranks;
 };
 
@@ -66,15 +66,15 @@ struct RenderedViews {
 RenderedViews render(const Cloud& cloud, const Scene& scene, const Rig& rig, const RenderOptions& options = {},
                      const Progress& progress = {});
 
-/// The same of particles that come in chunks, of which this is known: all that is kept of them is the light of the
-/// views or of the depth planes, or their splats where these take less.
+/// The same for particles that come in chunks and have these statistics. Only the light of the views or of the depth
+/// planes is kept in memory, or the splats if they take less.
 RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, const Scene& scene, const Rig& rig,
                      const RenderOptions& options = {}, const Progress& progress = {});
 
 /// A view as numbers.
 struct ViewValues {
-  /// Mass per area of the scene, where the camera is orthographic; in perspective, per area as it is at the depth that
-  /// the camera looks at.
+  /// Mass per area of the scene if the camera is orthographic; in perspective, per area at the depth that the camera
+  /// looks at.
   Image<float> column;
   Image<float> mean;  ///< of the quantity, weighted by mass; NaN where there is no mass; empty without a quantity
 };

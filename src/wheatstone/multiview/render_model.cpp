@@ -81,7 +81,7 @@ PreparedModel prepare(const Model& model, const ModelScene& scene, const DepthKn
   return prepared;
 }
 
-/// The shares that the corners of a triangle have in a place of a view that lies in it, but for rounding.
+/// The shares of a triangle's corners at a place of a view that lies in the triangle, up to rounding.
 std::array<double, 3> shares_of_corners(const ScreenTriangle& triangle, double view, double x, double y) {
   std::array<double, 3> from_x{}, from_y{};  // from the place to each corner
   for (std::size_t k = 0; k < 3; ++k) {

@@ -22,9 +22,9 @@ struct RenderModelOptions {
 /// The views, left to right.
 struct RenderedModel {
   std::vector<Image<Rgb8>> views;
-  /// Of each view, where they were asked for: of the surface that takes up most of a pixel, at the middle of its
-  /// samples there. Disparity is that from the screen plane, −parallax, in pixels of a view at full eye separation;
-  /// depth is in scene units. NaN where there is no surface.
+  /// Disparity and depth of each view, if they were asked for: those of the surface that takes up most of a pixel, at
+  /// the middle of its samples there. Disparity is that from the screen plane, −parallax, in pixels of a view at full
+  /// eye separation; depth is in scene units. NaN where there is no surface.
   std::vector<Image<float>> disparity, depth;
   Method method = Method::incremental;
   std::string reason;                 ///< why this method, for people

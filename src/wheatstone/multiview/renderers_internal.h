@@ -93,8 +93,8 @@ void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter
                     std::span<const ImageView<Rgb8>> pictures);
 
 /// On a graphics processor, in fixed point (splat_kinds.glsl): sums are of 64 bits, with steps of 2^−28 of a mean
-/// particle's light, up to 2^35 of it. A splat's light is counted in such steps, or in 2^−16 of itself where that is
-/// more; of mass what is left is counted, too, in steps of the sums where the light is up to 2^12. Throw
+/// particle's light, up to 2^35 of it. A splat's light is counted in such steps, or in steps of 2^−16 of itself if
+/// these are larger. For mass, the remainder is counted, too, in steps of the sums, if the light is at most 2^12. Throw
 /// Error{wrong_usage} where there is no graphics processor.
 void render_incremental_on_gpu(const RenderJob& job, bool opaque, std::span<const ImageView<Rgb8>> pictures);
 void render_layered_on_gpu(const RenderJob& job, const DepthPlanes& planes, SliceFilter filter,

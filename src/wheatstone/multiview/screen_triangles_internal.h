@@ -21,7 +21,7 @@ struct ScreenTriangle {
   std::int32_t part;                   ///< index of what part of it this is; -1: the whole
   std::array<std::uint8_t, 3> corner;  ///< of the whole triangle, which is which
 
-  /// What is linear on the screen and larger where it is nearer.
+  /// A measure that is linear on the screen, and larger for nearer points.
   double nearness(std::size_t k, bool is_orthographic) const {
     return is_orthographic ? -static_cast<double>(depth[k]) : 1. / static_cast<double>(depth[k]);
   }

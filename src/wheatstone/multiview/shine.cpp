@@ -82,7 +82,7 @@ ShiningParticles::ShiningParticles(const Cloud& chunk, const Scene& scene, std::
   }
   for_each_column(cloud_, chunk, [&](auto& to, const auto& from) { append_chosen(to, from, all); });
   cloud_.origin = chunk.origin;
-  // What a particle that fades still gives, its highlight gives too.
+  // The highlight of a fading particle fades with it.
   for (std::size_t i = 0; i < cloud_.presence.size(); ++i) facing_[i].light *= cloud_.presence[i];
   cloud_.presence.resize(cloud_.size());
 }

@@ -36,8 +36,8 @@ class ShiningParticles {
 };
 
 /// Calls `common` with every chunk of a job, and `highlights` with those of its particles that shine, as each of the
-/// views sees them: none where nothing shines. The light of both is gathered apart: its sums depend on their order, and
-/// chunks differ from rank to rank.
+/// views sees them; never if nothing shines. The light of both is gathered separately, because sums depend on their
+/// order, and chunks differ from rank to rank.
 void for_each_chunk_and_highlights(const RenderJob& job, std::span<const ViewPosition> views,
                                    const std::function<void(const Cloud& chunk)>& common,
                                    const std::function<void(const Cloud& shining, std::size_t view)>& highlights);
@@ -45,8 +45,8 @@ void for_each_chunk_and_highlights(const RenderJob& job, std::span<const ViewPos
 /// Views between which highlights may be interpolated: no farther apart than a highlight's width allows.
 std::vector<ViewPosition> shine_keys(const Shine& shine, std::span<const ViewPosition> views);
 
-/// How much each view takes of each key's highlights: shares[view][key], of which at most two are not 0 and that sum to
-/// 1.
+/// The share of each key's highlights in each view: shares[view][key]. At most two shares of a view are not 0, and they
+/// sum to 1.
 std::vector<std::vector<float>> shares_of_keys(std::span<const ViewPosition> keys, std::span<const ViewPosition> views);
 
 }  // namespace wheatstone

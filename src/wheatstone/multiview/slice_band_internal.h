@@ -19,7 +19,7 @@ namespace wheatstone {
 class SliceBand {
  public:
   SliceBand() = default;
-  /// Of planes that hide those behind them there is a fourth channel, alpha.
+  /// Planes that hide those behind them have a fourth channel, alpha.
   SliceBand(int left, int right, int rows, int planes, bool hides = false);
 
   int left() const { return left_; }
@@ -66,7 +66,7 @@ struct Compositing {
   std::span<const float> parallaxes;  ///< of the planes, in pixels
   std::span<const ViewPosition> views;
   Resampling resampling = Resampling::cubic;
-  /// Where the depth differs, in pixels of the picture that is made; nothing: nowhere.
+  /// The area in which the depth differs, in pixels of the picture that is made; empty: none.
   std::optional<Focus> focus = {};
   std::span<const std::vector<float>> shares = {};  ///< [view][plane]: how much of a plane a view sees; empty: all
 };

@@ -31,7 +31,7 @@ constexpr int version = 1;
 constexpr int channels = 4;
 constexpr float largest_half = 65504;
 
-// What is read has bounds, so that a damaged file asks for no more than the machine has.
+// Values that are read have bounds, so that a damaged file cannot ask for more memory than the machine has.
 constexpr int most_slices = 4096;
 constexpr int widest_view_px = 1 << 16;
 constexpr int farthest_px = 1 << 20;  ///< edges of a slice from the view's upper left corner
@@ -103,7 +103,7 @@ StoredPicture part_of(const Slice& slice, std::size_t index, std::size_t count, 
   part.full_height = stack.height;
   // The lightest effort: a quarter faster than the usual one, for 2 % more bytes.
   part.put("compression", "zip:1");
-  // Otherwise the time of writing: the same slices are to be the same bytes.
+  // Replaces the time of writing, so that the same slices give the same bytes.
   part.put("DateTime", "1970:01:01 00:00:00");
   part.put("oiio:subimagename", fmt::format("slice_{:03}", index));
   part.put("wheatstone:version", version);
@@ -132,7 +132,8 @@ PixelRows limited(const Slice& slice, std::vector<LinearRgba>& scratch) {
           slice.pixels.width() * static_cast<std::ptrdiff_t>(sizeof(LinearRgba))};
 }
 
-/// OpenEXR does not notice when a full disk swallows its last bytes: whether the last line of the last slice is there.
+/// Whether the last line of the last slice is in the file: OpenEXR does not notice that a full disk has lost the last
+/// bytes.
 bool is_whole(const std::string& file, std::size_t count) {
   if (fs::is_empty(file)) return false;
   const std::unique_ptr<PictureReader> reader = open_picture_file(file).reader;
@@ -151,7 +152,7 @@ void write_parts(const fs::path& path, const std::string& file, const SliceStack
   std::vector<LinearRgba> scratch;
   for (std::size_t i = 0; i < slices.size() && written; ++i)
     written = (i == 0 || writer->begin_next(parts[i])) && writer->write(limited(slices[i], scratch));
-  // What went wrong first says more than what closing makes of it.
+  // The first error says more than the one that closing reports.
   std::string complaint = writer->complaint();
   const bool closed = writer->end();
   if (complaint.empty()) complaint = writer->complaint();
@@ -220,7 +221,7 @@ ToneSettings tone_of(const fs::path& path, const StoredPicture& part) {
   return tone;
 }
 
-/// What is the same for all slices, from the first part.
+/// The properties that all slices share, from the first part.
 SliceStack stack_of(const fs::path& path, const StoredPicture& part) {
   for (const char* name : {"wheatstone:version", "wheatstone:slices"})
     if (part.find<int>(name) == nullptr) refuse_foreign(path, name);

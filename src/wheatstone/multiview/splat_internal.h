@@ -72,7 +72,7 @@ constexpr float pixel_variance = 1.f / 12;
 /// Half the width of what a splat touches: its radius, and half of a pixel's width around it.
 constexpr float reach_of(float size) { return size / 2 + 0.5f; }
 
-/// What of the picture is drawn: rows from 0 to `height`, columns from `left` to `right`.
+/// The part of the picture that is drawn: rows from 0 to `height`, columns from `left` to `right`.
 struct Window {
   float left = 0, right = 0;
   int height = 0;
@@ -122,7 +122,7 @@ struct ParallaxTable {
   std::vector<float> value, step;  ///< parallax at the entry, and from it to the next
 };
 
-/// What the projection needs, made once a picture.
+/// The data that the projection needs, made once a picture.
 struct Projection {
   Camera camera;
   SplatStyle splat_style;

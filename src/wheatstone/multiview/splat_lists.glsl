@@ -1,5 +1,5 @@
 // Splats in lists: one for each kind, range of parallaxes (or depth plane), band of two rows, and four columns of the
-// central view. What comes one after the other lies beside each other, so that the lists of neighbouring columns are one.
+// central view. Lists of neighbouring columns follow each other in memory, so that they can be read as one list.
 
 #include "wheatstone/gpu/views.glsl"
 #include "wheatstone/multiview/splat_kinds.glsl"
@@ -11,8 +11,7 @@ const int most_pictures = 9;
 const int into_views = 0, into_nearest_plane = 1, between_planes = 2;
 const int writes_sums = 0, adds_sums = 1, writes_light = 2;
 
-// Of a kind: its number among those that are there (-1: none). And of this number: its first list, brightness, and
-// largest reach.
+// `index`: compact number of the kind, -1 if no splat has it; the other fields are indexed by that number.
 struct Kind {
   int index, first_list, brightness;
   float reach;
@@ -23,17 +22,17 @@ struct Picture {
   int left, width;
   float lists_left, first_parallax;
   float slab_parallax;
-  int first_kind, end_kind;  // numbers of the kinds that are there
+  int first_kind, end_kind;  // compact numbers of its kinds
 };
 
-// As struct ListWork in gpu_lists_internal.h has them.
+// The members of struct ListWork in gpu_lists_internal.h.
 layout(std140, binding = 0) uniform Work {
   int splats;   // how many are put into lists
   int targets;  // one of the three ways above
   // What is gathered: targets of a picture.
   int picture, first_target, end_target, base;
   int channels;
-  int written;  // what: sums, what is added to sums, or light
+  int written;  // sums, additions to sums, or light
   Kind kinds[most_kinds];
   Picture pictures[most_pictures];
   vec4 views[most_views];  // the first number of each

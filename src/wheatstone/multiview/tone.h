@@ -15,7 +15,7 @@ enum class Stretch {
   linear,
 };
 
-/// What of particles' mass is shown.
+/// Which property of the particles' mass is shown.
 enum class Shown {
   ramp,     ///< brightness is the column density, hue the mean of the column that the colours follow
   colours,  ///< the particles' own colours, which keep their hue as they add up (Lupton et al. 2004)

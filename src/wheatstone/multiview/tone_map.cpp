@@ -50,7 +50,7 @@ float settled_hue(float share) {
 
 std::int32_t key_of(Rgb8 colour) { return colour.r + 256 * colour.g + 65536 * colour.b; }
 
-constexpr float softening = 30;  // what lies a thirtieth of the way is where asinh's logarithm begins
+constexpr float softening = 30;  // asinh becomes logarithmic at a thirtieth of the way
 
 /// Brightness 0..1 of a share 0..1 of the way between the limits. `least_over_most` is for the logarithm.
 float brightness_of(float share, Stretch stretch, float least_over_most) {
@@ -87,7 +87,7 @@ void fill_colours(const ToneSettings& settings, ToneMap& map) {
 
 /// The stretch by the bits of numbers from 2^−25 to 2.
 void fill_stretch(const ToneSettings& settings, ToneMap& map) {
-  // Of a logarithm the table begins at 0, not at the lower limit.
+  // With a logarithm, the table begins at 0, not at the lower limit.
   const bool logarithmic = settings.stretch == Stretch::log;
   const float range = settings.most - (logarithmic ? 0 : settings.least);
   map.scale = range > 0 ? 1 / range : 1;
@@ -96,7 +96,7 @@ void fill_stretch(const ToneSettings& settings, ToneMap& map) {
   for (int i = 0; i < ToneMap::stretch_size; ++i) {
     const auto bits = static_cast<std::uint32_t>(i + ToneMap::first_index) << ToneMap::index_shift;
     const float middle = std::bit_cast<float>(bits + (1u << (ToneMap::index_shift - 1)));
-    // What is nothing at all is dark.
+    // No light at all is dark.
     const float brightness =
         i == 0 ? 0 : std::clamp(brightness_of(std::min(middle, 1.f), settings.stretch, least_over_most), 0.f, 1.f);
     map.stretch.push_back(static_cast<std::int32_t>(std::lround(brightness * (ToneMap::brightnesses - 1))) * map.hues);

@@ -124,7 +124,7 @@ void TriangleBand::show_line(const Line& line, float column, float view, std::sp
         std::swap(left, right);
         std::swap(near_left, near_right);
       }
-      // Of what is narrower, rounding would leave nothing of the slope.
+      // In a narrower part, the slope would be lost in rounding errors.
       constexpr float narrow_px = 1.f / 64;
       const bool is_narrow = right - left < narrow_px;
       const float by_x = is_narrow ? 0 : (near_right - near_left) / (right - left);

@@ -29,7 +29,7 @@ class TriangleBand {
 
   /// Finds which triangle each sample of the view at a position shows: the nearest, and of equally near ones the one
   /// that was added first. A sample that lies on a triangle's left edge belongs to it, one on its right edge does not:
-  /// of triangles with a common edge it belongs to one.
+  /// on a common edge of triangles, it belongs to one of them.
   void show(float view);
 
   /// The triangles that the samples of a line show.

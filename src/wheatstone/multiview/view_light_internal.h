@@ -35,8 +35,8 @@ class ViewLight {
   std::vector<float> values_;
 };
 
-/// Where one view's sums go: they become a picture's bytes, or stay light. What the picture of half the size has is
-/// added to them.
+/// The target of one view's sums: they become a picture's bytes, or stay light. The light of the picture of half the
+/// size is added to them.
 struct ViewTarget {
   const ViewLight* smaller = nullptr;
   int pad = 0;  ///< of the picture that is made (SplatOrder::pad)

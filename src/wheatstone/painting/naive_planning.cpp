@@ -31,8 +31,8 @@ StrokePainting plan_strokes_of_each(std::span<const View> eyes, const Style& sty
   std::exception_ptr thrown;
   tbb::parallel_invoke(
       [&] {
-        // Thrown on when the right eye has ended, too: its loops would be cancelled, and it would go on with what they
-        // have not done.
+        // Thrown again when the right eye has ended, too: otherwise its loops would be cancelled, and it would go on
+        // with unfinished results.
         try {
           left = plan_by_itself(eyes[0], style, progress);
         } catch (...) {

@@ -7,7 +7,7 @@
 
 namespace wheatstone {
 
-// What propagated marks are measured against.
+// The naive methods against which propagated marks are measured.
 
 /// Plans all of one view by itself, with strokes.
 StrokePainting plan_by_itself(View view, const Style& style, const Progress& progress);

@@ -23,7 +23,7 @@ namespace {
 
 bool is_raster(const Style& style) { return style.propagation == Propagation::raster && is_of_strokes(style); }
 
-/// Draws both eyes of a planned painting, and nearer ones, which have no photograph to be drawn over.
+/// Draws a planned painting for both eyes, and for nearer eyes, which have no photograph as background.
 void draw_views(const StereoPairView& photographs, const Style& style, const PaintDrawing& drawing,
                 PaintedPair& result) {
   result.separation = comfortable_separation(result.painting, drawing.depth_budget);

@@ -41,11 +41,12 @@ struct PaintDrawing {
 inline constexpr ViewRange widest_views{ViewPosition(-2.5f), ViewPosition(2.5f)};
 
 /// Plans the painting of a rectified pair, for any of the `wanted` views. The geometry must have the pair's size and no
-/// unknown disparity. Of each eye planned by itself, and of Propagation::raster, there are two views. `detail` says how
-/// finely each place of the left view is painted with fitted strokes (View::detail), stretched over it; empty: all
-/// evenly. `known` are views that show what the left one does not, with a mask of that, where all of the scene is known
-/// (make_known_scene); empty: they are found from the photographs. Throws Error{wrong_usage} for a style that cannot be
-/// painted with, or not by a detail map, Error{bad_input} for a geometry that does not fit.
+/// unknown disparity. If each eye is planned by itself, and with Propagation::raster, there are two views only.
+/// `detail` says how finely each place of the left view is painted with fitted strokes (View::detail), stretched over
+/// it; empty: all evenly. `known` are views that show parts hidden in the left one, with a mask of these parts, if all
+/// of the scene is known (make_known_scene); empty: these parts are found from the photographs. Throws
+/// Error{wrong_usage} for a style that cannot be painted with, or not by a detail map, Error{bad_input} for a geometry
+/// that does not fit.
 Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                        const Progress& progress = {}, ViewRange wanted = widest_views,
                        ImageView<const std::uint8_t> detail = {}, std::span<const View> known = {});

@@ -17,7 +17,8 @@ struct PaintedFrame {
 
 /// Paints a frame of a film for both eyes, or for the one view there is, and leaves at most single pixels bare. Throws
 /// Error{wrong_usage} for a style that cannot be painted with, and where the device that is to draw fails (draw.h).
-/// What `progress` throws, between the steps of planning and drawing, ends it: then `memory` is of no further use.
+/// `progress` is called between the steps of planning and drawing. If it throws, painting ends, and `memory` is of no
+/// further use.
 PaintedFrame paint_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options,
                          PaintingMemory& memory, const Progress& progress = {}, Device device = Device::processor);
 

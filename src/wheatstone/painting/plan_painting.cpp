@@ -32,14 +32,15 @@ void round_to_steps(std::span<const float> from, int scale, std::span<float> to)
   for (const float disparity : from) at = std::fill_n(at, scale, in_steps(disparity));
 }
 
-/// What a view is the first to see in a row, in pixels of the reference view. A rest at the end is as beside it.
+/// The disparities that a view is the first to see in a row, in pixels of the reference view. Columns that are left
+/// over at the end repeat the column beside them.
 void first_seen(const View& view, int row, std::span<float> to) {
   const auto from = view.disparity.row(row);
   if (view.wanted.empty()) {
     round_to_steps(from, 1, to);
     return;
   }
-  // Most of what other views than the reference show is not their own.
+  // In views other than the reference, most pixels have been seen by earlier views.
   std::ranges::fill(to, std::numeric_limits<float>::quiet_NaN());
   const auto own = view.wanted.row(row);
   const auto scale = static_cast<std::size_t>(view.frame.scale);
@@ -53,7 +54,7 @@ void first_seen(const View& view, int row, std::span<float> to) {
   std::ranges::fill(to.subspan(scale * from.size()), to[scale * from.size() - 1]);
 }
 
-/// What a view is the first to see, in a picture of this size.
+/// The surface that a view is the first to see, in a picture of this size.
 Surface surface_of(const View& view, int width, int height) {
   Surface surface{view.position, Image<float>(width, height), view.frame.origin_px, view.continued};
   const int rows = view.disparity.height();

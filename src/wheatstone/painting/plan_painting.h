@@ -22,11 +22,11 @@ struct PlannedFrame {
   StrokeCounts counts;
 };
 
-/// Plans a frame of a film in any style; a still is a film of one frame. The marks of the reference view, the first,
-/// are those of all views; what only another view sees is planned there. Marks may be drawn from anywhere: the
-/// painting's surfaces, which are the views' disparities, hide them. Throws Error{wrong_usage} for a style that cannot
-/// be painted with, Error{bad_input} where the views do not fit together. What `progress` throws ends it: then `memory`
-/// is of no further use.
+/// Plans a frame of a film in any style; a still is a film of one frame. The marks of the reference view, which is the
+/// first, serve all views; parts that only another view sees are planned in that view. Marks may be drawn from
+/// anywhere, because the painting's surfaces, which are the views' disparities, hide them. Throws Error{wrong_usage}
+/// for a style that cannot be painted with, Error{bad_input} where the views do not fit together. If `progress` throws,
+/// planning ends, and `memory` is of no further use.
 PlannedFrame plan_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options, PaintingMemory& memory,
                         const Progress& progress = {});
 

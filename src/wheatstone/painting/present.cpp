@@ -12,7 +12,7 @@ namespace {
 
 /// Nothing where the graphics processor does not draw or compose this.
 std::optional<Presented> composed_on_gpu(const PreparedPainting& painting, const Presentation& presentation) {
-  // Where more is shown, tiles of the pixels that are shown cost more than all pixels.
+  // If a larger share of the pixels is shown, drawing tiles of these costs more than drawing all pixels.
   constexpr double most_shown = 0.2;
   const DisplayComposition& composition = *presentation.composition;
   if (!presentation.backgrounds.empty() || !composes_on_gpu(composition)) return {};

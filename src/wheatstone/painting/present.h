@@ -26,10 +26,10 @@ struct Presented {
   double worst_bare_share = 0;      ///< of all views, composed or not
 };
 
-/// Draws a painting as a presentation wants it. A graphics processor that draws the views composes them, too, in its
-/// own memory, and under lenses draws of strokes only the pixels of which the screen shows anything (Hassaine 2010,
-/// sec. 6.5.2); the worst bare share is then of these. Of a quilt that the processor draws, only a few views are in
-/// memory beside it. Throws as `prepare`, `draw` and `compose` do.
+/// Draws a painting as a presentation wants it. A graphics processor that draws the views also composes them, in its
+/// own memory. For lenses, it draws only those pixels of strokes of which the screen shows something (Hassaine 2010,
+/// sec. 6.5.2); the worst bare share then refers to these pixels. If the processor draws a quilt, only a few views are
+/// in memory beside it. Throws as `prepare`, `draw` and `compose` do.
 Presented present(const Painting& painting, const Presentation& presentation);
 
 }  // namespace wheatstone

@@ -23,7 +23,7 @@ bool has_any(const Image<std::uint8_t>& mask) {
   return std::memchr(mask.pixels().data(), 255, mask.pixels().size()) != nullptr;
 }
 
-/// What belongs to places of a view.
+/// The repair target for places of a view.
 RepairTarget target_for(const View& view, ViewPosition reference, const Image<std::uint8_t>& places,
                         ImageView<const float> disparity, float depth_threshold_px) {
   const ViewRange seen_from = view.position == reference ? all_views : views_about(view.position, reference);
@@ -60,8 +60,8 @@ Image<Rgb8> colours_of_reference(const View& view, const View& reference) {
   return colours;
 }
 
-/// Marks of the reference view lie on what another view shows something else of where their disparity is wrong. Nearly
-/// all that is wrong with strokes is: drawing them would tell little more, and cost more.
+/// Repairs places of other views where marks of the reference view lie on something else because their disparity is
+/// wrong. Nearly all faults of strokes are of this kind: drawing them would reveal little more, and cost more.
 void repair_displaced(std::span<const View> views, const Style& style, Painting& painting) {
   constexpr int rim_px = 2;
   const View& reference = views.front();
@@ -76,10 +76,11 @@ void repair_displaced(std::span<const View> views, const Style& style, Painting&
   }
 }
 
-/// Draws regions or lines, and looks at them. What has no edges of its own, as a soft light, or edges too short to
-/// follow, is missing between the lines: that is known only when their colours have spread. The reference view's is
-/// repaired first, for all views. That suffices for eyes beside a central view, which are half as far from it and are
-/// moved towards it where depth is reduced; one eye lacks more of what the other shows.
+/// Draws regions or lines, and repairs what the drawing shows wrongly. Things without edges, such as a soft light, or
+/// with edges too short to follow, are missing between the lines, which is known only when the lines' colours have
+/// spread. The reference view is repaired first, for all views. This suffices for the eyes beside a central reference
+/// view: they are half as far from it as from each other, and move towards it where depth is reduced. An eye as the
+/// reference view lacks more of what the other eye shows.
 void repair_shown(std::span<const View> views, const Style& style, Painting& painting) {
   const bool of_lines = style.marks == Marks::curves;
   const ViewPosition reference = views.front().position;
@@ -112,7 +113,7 @@ ImageView<const Rgb8> part_of(ImageView<const Rgb8> picture, Rows rows) {
   return {picture.row(rows.first).data(), picture.width(), rows.end - rows.first, picture.stride()};
 }
 
-/// Draws strokes over rows of a picture. No surface hides them: they lie before all that is about them.
+/// Draws strokes over rows of a picture. No surface hides them, because they lie before everything around them.
 void draw_over(Layer strokes, Rows rows, ViewPosition position, DrawnView& drawn) {
   for (ControlPoint& point : strokes.points) point.y -= static_cast<float>(rows.first);
   Painting painting;

@@ -13,12 +13,12 @@ PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, con
                                  PaintingMemory& memory, const Progress& progress = {});
 
 /// Adds small marks where a photographed view would show a colour that its photograph has nowhere near
-/// (marks/residual.h). Paintings of regions and of lines are drawn and looked at: small things may have been joined to
-/// large ones, colours be missing, and no edge may bound what differs (lines beside a central reference view are looked
-/// at in that one only). Strokes and lines are repaired in other views than the reference, too, where its colours
-/// contradict the view's because a disparity is wrong. What is wrong in the reference view is repaired for all views,
-/// else for those about the view. Paintings of tiles, those whose colours are changed at random, and those of eyes
-/// apart are left as they are. The painting has its surfaces.
+/// (marks/residual.h). Paintings of regions and of lines are drawn and compared: small things may have been joined to
+/// large ones, colours may be missing, and a difference may have no edge (with a central reference view, lines are
+/// compared in that view only). Strokes and lines are repaired in other views than the reference, too, where its
+/// colours contradict the view's because a disparity is wrong. Faults in the reference view are repaired for all views,
+/// faults in another view for the views around it. Paintings of tiles, those whose colours are changed at random, and
+/// those of eyes apart are left as they are. The painting has its surfaces.
 void repair(std::span<const View> views, const Style& style, Painting& painting);
 
 /// True for paintings of strokes that are repaired once they are drawn: what is wrong is then known, whatever made it.

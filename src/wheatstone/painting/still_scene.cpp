@@ -19,7 +19,7 @@ namespace wheatstone {
 
 namespace {
 
-/// How much smaller what no photograph shows may be made: as small as its finest strokes are planned.
+/// How many times smaller parts that no photograph shows may be made: as small as their finest strokes are planned.
 int scale_for(int width) {
   constexpr int halved_px = 480, quartered_px = 1920;
   return width < halved_px ? 1 : width < quartered_px ? 2 : 4;
@@ -34,7 +34,7 @@ bool is_large(ImageView<const Rgb8> photograph) {
 /// The outermost of the wanted views, as far as they are beside the eyes, and views halfway there.
 std::vector<ViewPosition> positions_beside_eyes(ImageView<const Rgb8> photograph, ViewRange wanted) {
   std::vector<float> shares{1};
-  // What a view halfway uncovers, the outermost one may hide again.
+  // The outermost view may hide parts that a view halfway uncovers.
   if (!is_large(photograph)) shares.push_back(0.5f);
   std::vector<ViewPosition> positions;
   for (const float share : shares) {
@@ -46,7 +46,7 @@ std::vector<ViewPosition> positions_beside_eyes(ImageView<const Rgb8> photograph
   return positions;
 }
 
-/// Whether a view beyond another shows the other's uncovered pixel, too, as something that is uncovered.
+/// Whether a view beyond another view also shows an uncovered pixel of that view, and as an uncovered one.
 bool shows(const View& beyond, const View& view, int x, int y) {
   constexpr float one_surface_px = 1;
   const float disparity = view.disparity(x, y);
@@ -57,7 +57,7 @@ bool shows(const View& beyond, const View& view, int x, int y) {
          std::abs(beyond.disparity(column, y) - disparity) <= one_surface_px;
 }
 
-/// Of views between others and the eyes, what those beyond them do not uncover, too: else it would be painted twice.
+/// Removes from each view the parts that a view beyond it uncovers, too: they would be painted twice.
 void leave_out_what_others_uncover(std::vector<View>& outer) {
   for (View& view : outer) {
     Image<std::uint8_t> uncovered = copy_of(view.wanted);
@@ -109,8 +109,8 @@ bool shows_point(const View& other, const View& view, int x, int y) {
          disparity <= std::max(here, next) + one_surface_px;
 }
 
-/// 255 for what only the right eye sees, and for gaps that the left eye's surfaces leave in its view: disparities of
-/// the two eyes, or of what is filled in, do not always fit together.
+/// 255 for pixels that only the right eye sees, and for gaps that the left eye's surfaces leave in the right eye's
+/// view, because the disparities of the two eyes, and filled ones, do not always fit together.
 Image<std::uint8_t> not_told_by_left(const StereoGeometryView& geometry) {
   const int width = geometry.left_disparity.width(), height = geometry.left_disparity.height();
   Image<std::uint8_t> mask(width, height);
@@ -131,8 +131,8 @@ Image<std::uint8_t> not_told_by_left(const StereoGeometryView& geometry) {
   return mask;
 }
 
-/// The disparity of a pixel of the right eye that the left eye does not see: it lies before nothing that the left eye
-/// shows. `left` is the left eye's disparity in the same row.
+/// The disparity of a pixel of the right eye that the left eye does not see, lowered until it lies before nothing that
+/// the left eye shows. `left` is the left eye's disparity in the same row.
 float disparity_out_of_sight(std::span<const float> left, int x, float disparity) {
   const float tolerance_px = GeometryOptions().occlusion_tolerance_px;
   for (;;) {
@@ -144,8 +144,8 @@ float disparity_out_of_sight(std::span<const float> left, int x, float disparity
   }
 }
 
-/// The right eye's disparity. Paint of what only it sees, where `mask` is set, would otherwise lie before the left
-/// eye's surfaces, and on them in its view.
+/// The right eye's disparity, lowered where `mask` is set, that is, on parts that only the right eye sees. Otherwise
+/// their paint would lie before the left eye's surfaces, and cover them in the left eye's view.
 Image<float> hidden_from_left(const StereoGeometryView& geometry, ImageView<const std::uint8_t> mask) {
   const int width = mask.width();
   Image<float> disparity(width, mask.height());

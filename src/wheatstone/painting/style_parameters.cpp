@@ -76,7 +76,7 @@ std::string toml_text(std::string_view text) {
   return quoted + '"';
 }
 
-/// Of the number that `member(style)` refers to.
+/// A parameter for the number that `member(style)` refers to.
 template <class Member>
 StyleParameter number_at(const Named& named, std::string_view help, Member member, std::span<const Marks> read_by) {
   return {named.name,

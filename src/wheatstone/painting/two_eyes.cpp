@@ -37,7 +37,8 @@ TwoEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_b
   const float depth_px = std::max(ends.nearest_px - ends.farthest_px, 1e-3f);
   TwoEyes eyes;
   float scale = 1;
-  // What is cropped where the pictures are shifted, and enlarged to fill the frame again, depends on the eyes.
+  // Shifted pictures are cropped, and enlarged to fill the frame again. The crop depends on the eyes, hence the
+  // iteration.
   for (int step = 0; step < 4; ++step) {
     eyes.separation = std::min(budget_px / (depth_px * scale), 1.f);
     const float shown = eyes.separation * scale;

@@ -21,21 +21,21 @@ bool are_moved(const TwoEyes& eyes);
 /// Shows a painting to two eyes, the left one first.
 Presentation for_two_eyes(const TwoEyes& eyes = {});
 
-/// Shows it to its own eyes and, where `separation` is less than 1, also to eyes that are so far apart. The last two
-/// views are the ones to look at; drawn together, the four cost less than two and two.
+/// Shows it to its own eyes and, if `separation` is less than 1, also to eyes at that separation. The last two views
+/// are the ones for viewing. Four views that are drawn together cost less than two pairs.
 Presentation for_own_and_nearer_eyes(float separation);
 
-/// How far apart two eyes look at a painting, in its own eye separations, at most 1: near enough together for the
-/// disparities from the scene's farthest point to its nearest, but for outliers, to take no more than `depth_budget` of
-/// the width. 1 where there is no budget, or the painting has no surfaces.
+/// The separation of two eyes that look at a painting, in its own eye separations, at most 1. With it, the disparities
+/// from the scene's farthest point to its nearest, without outliers, take at most `depth_budget` of the width. 1 if
+/// there is no budget, or the painting has no surfaces.
 float comfortable_separation(const Painting& painting, std::optional<float> depth_budget);
 
-/// Eyes near enough together for a film's scene, from its farthest point to its nearest, to take no more than
-/// `depth_budget` of the width; a third of that before the screen and two thirds behind it, as broadcasters allow it.
-/// The film's own screen plane is kept as far as that lets it. Of a scene that fits, they are the film's own.
+/// Eyes so near together that a film's scene, from its farthest point to its nearest, takes at most `depth_budget` of
+/// the width: a third of it before the screen and two thirds behind it, as broadcasters allow. The film's own screen
+/// plane is kept as far as this permits. If the scene fits already, the eyes are the film's own.
 TwoEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_budget);
 
-/// The disparity of the nearest mark, but for outliers; 0 where there are no marks.
+/// The disparity of the nearest mark, without outliers; 0 if there are no marks.
 float nearest_disparity(const Painting& painting);
 
 }  // namespace wheatstone

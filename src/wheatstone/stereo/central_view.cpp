@@ -19,7 +19,7 @@ namespace {
 /// Disparities of one surface differ by no more.
 constexpr float same_surface_px = 1;
 
-/// What one eye shows of the central view.
+/// The part of the central view that one eye shows.
 struct MappedEye {
   Image<Rgb8> picture;
   Image<float> disparity;  ///< NaN where the eye shows nothing
@@ -95,7 +95,8 @@ MappedEye map_forward(ImageView<const Rgb8> picture, ImageView<const float> disp
   return mapped;
 }
 
-/// Gives what nothing was mapped to the colour and the disparity of the farther of its neighbours on the scan line.
+/// Gives pixels to which nothing was mapped the colour and the disparity of the farther of their neighbours on the scan
+/// line.
 void fill_from_farther_neighbour(MappedEye& mapped) {
   tbb::parallel_for(0, mapped.picture.height(), [&](int y) {
     const auto disparity = mapped.disparity.row(y);
@@ -126,14 +127,15 @@ Rgb8 blend(Rgb8 a, Rgb8 b, float share_of_b) {
 }
 
 /// How much of the right eye's colour is taken where both see a point: half where they agree, none where they do not,
-/// so that what shines in one eye only, or is matched wrongly, is not doubled.
+/// so that highlights in one eye only, and wrongly matched points, are not doubled.
 float share_of_right(Rgb8 left, Rgb8 right) {
   constexpr float agree = 24, disagree = 60;
   const int difference = std::max({std::abs(left.r - right.r), std::abs(left.g - right.g), std::abs(left.b - right.b)});
   return 0.5f * std::clamp((disagree - static_cast<float>(difference)) / (disagree - agree), 0.f, 1.f);
 }
 
-/// Puts the right eye's part into the left eye's: what both see is blended, what one sees is taken from it.
+/// Merges the right eye's part into the left eye's: points that both eyes see are blended, points that one eye sees are
+/// taken from it.
 void merge_visible(const MappedEye& right, MappedEye& left) {
   tbb::parallel_for(0, left.picture.height(), [&](int y) {
     for (int x = 0; x < left.picture.width(); ++x) {

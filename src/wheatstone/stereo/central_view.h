@@ -19,9 +19,9 @@ struct CentralView {
 };
 
 /// Merges a pair: each eye's picture is mapped forward by half its disparity, nearest wins, interpolated by Lanczos
-/// along the scan line; what neither eye maps to gets the smaller disparity of its neighbours and the colour there
-/// (Bukenberger et al. 2015, sec. 2.2). The geometry has no unknown disparities. Throws Error{bad_input} where it does
-/// not fit the pair.
+/// along the scan line; pixels to which neither eye maps get the smaller disparity of their neighbours and the colour
+/// there (Bukenberger et al. 2015, sec. 2.2). The geometry has no unknown disparities. Throws Error{bad_input} where it
+/// does not fit the pair.
 CentralView make_central_view(const StereoPairView& pair, const StereoGeometryView& geometry,
                               CentralMerge merge = CentralMerge::visible);
 

@@ -8,8 +8,8 @@ namespace wheatstone {
 /// were made by hand do; false for one size.
 bool differ_by_few(ImageSize a, ImageSize b);
 
-/// Cuts two pictures whose sizes differ by a few rows or columns to their common size: of rows, those which fit best,
-/// by the rows' mean brightness; of columns, those in the middle, as the places of columns differ in any pair.
+/// Cuts two pictures whose sizes differ by a few rows or columns to their common size. It keeps the rows that fit best
+/// by their mean brightness, and the columns in the middle, because columns are shifted in any pair.
 void frame_common_part(StereoPair& pair);
 
 }  // namespace wheatstone

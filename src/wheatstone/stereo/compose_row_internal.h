@@ -24,7 +24,7 @@ inline Rgb8 blend(Rgb8 a, Rgb8 b, float t) {
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
-/// Lays it into a picture's row where nothing is yet, or what is there is farther by more than `tolerance_px`.
+/// Writes it into a picture's row where that is empty, or farther by more than `tolerance_px`.
 void compose_row(const LandedRow& landed, float tolerance_px, std::span<Rgb8> picture, std::span<float> disparity);
 
 }  // namespace wheatstone

@@ -22,7 +22,7 @@ bool is_laid(const LandedRow& landed, std::size_t x, float tolerance_px, std::sp
          !(disparity[x] + tolerance_px >= landed.nearest[x]);
 }
 
-/// What is to be laid of some pixels, and where from.
+/// Which of some pixels are to be written, and where they come from.
 struct Laid {
   bool any = false, side_by_side = true;
   alignas(64) std::array<std::uint8_t, most_lanes> mask;     ///< 255 or 0
@@ -54,7 +54,7 @@ HWY_INLINE Laid look_at(const LandedRow& landed, std::size_t x, float tolerance_
   return laid;
 }
 
-/// Where pixels lie side by side in the row that they come from, too.
+/// For pixels that also lie side by side in the row that they come from.
 HWY_INLINE void lay_side_by_side(const Laid& laid, const Rgb8* from, Rgb8* to) {
   const Words words;
   const Bytes bytes;

@@ -105,10 +105,10 @@ bool looks_near(std::span<const float> disparity, std::span<const Rgb8> colours,
   return std::abs(to_far - to_near) < indifferent ? share >= 0.5f : to_near < to_far;
 }
 
-/// Ramps across a depth edge come from networks that work on small pictures and from smooth resampling. A ramp would be
-/// stretched into a surface that is not there: what lies between the near and the far end of a window on the scan line
-/// is brought to the end that has its colour, where the window as a whole and the pixel on both sides are steeper than
-/// surfaces are.
+/// Makes steps of ramps across depth edges. Such ramps come from networks that work on small pictures and from smooth
+/// resampling, and would be stretched into a surface that is not there. A pixel between the near and the far end of a
+/// window on the scan line is set to the end that has its colour, if the window as a whole and the slopes on both sides
+/// of the pixel are steeper than surfaces are.
 void sharpen_edges(Image<float>& disparity, ImageView<const Rgb8> picture) {
   constexpr float reach_in_widths = 0.006f, steepest_surface = 0.5f, steepest_pixel = 0.25f;
   const int width = disparity.width();

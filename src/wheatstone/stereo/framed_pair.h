@@ -9,7 +9,7 @@ struct ScreenFrame {
   float zero_parallax_px = 0;  ///< disparity that comes to lie on the screen, in pixels of the pair
   int width = 640;             ///< of a view of the screen
   int height = 360;
-  int margin_px = 0;  ///< wished for on either side, beyond `width`, to be moved into sight
+  int margin_px = 0;  ///< desired on either side, beyond `width`, so that it can be moved into view
 };
 
 /// A pair as a screen shows it, and where its pixels lie. Disparity 0 is the screen's plane.

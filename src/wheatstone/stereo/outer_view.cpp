@@ -39,8 +39,8 @@ class RowFiller {
   }
 
  private:
-  /// Whether an eye would see the surface there, if it had this disparity. Neither does, or the photographs would show
-  /// it.
+  /// Whether an eye would see the surface there, if it had this disparity. In fact neither eye sees it, or a photograph
+  /// would show it.
   bool is_seen(int x, float disparity, const View& eye) const {
     const float there = static_cast<float>(x + outer_.left_px) + 0.5f - (eye.position - outer_.position) * disparity;
     const int column = static_cast<int>(std::floor(there));
@@ -55,15 +55,15 @@ class RowFiller {
     return most_seen * seen <= run.end - run.begin;
   }
 
-  /// The column of the nearest known surface beside a run that may go on in it, seen by no eye; of the farthest one
-  /// where there is none such; -1 where nothing is known.
+  /// The column of the closest known surface beside a run that may continue in the run without being seen by an eye; if
+  /// there is none, of the farthest surface; -1 if nothing is known.
   int source_of(const UnseenRun& run) const {
     int farthest = -1;
     for (int away = 1; away <= width_; ++away) {
       for (const int x : {run.begin - away, run.end - 1 + away}) {
         constexpr float as_near_px = 0.5f;
         if (x < 0 || x >= width_ || mask_[x] != 0) continue;
-        // What is as near as something that eyes would see is seen, too.
+        // A surface as near as one that an eye would see would be seen, too.
         if (farthest >= 0 && surface_[x] > surface_[farthest] - as_near_px) continue;
         farthest = x;
         if (may_have(run, surface_[x])) return x;

@@ -66,7 +66,7 @@ Image<Rgb8> woven(ImageView<const Rgb8> first, ImageView<const Rgb8> second, Arr
   tbb::parallel_for(0, first.height(), [&](int y) {
     const std::array<std::span<const Rgb8>, 2> eyes{first.row(y), second.row(y)};
     const std::span<Rgb8> to = picture.row(y);
-    // What the first two pixels of a row show, all of its even and odd ones do.
+    // All even pixels of a row are of the same eye as the first, and all odd ones of the same as the second.
     for (const int begin : {0, 1}) {
       const std::span<const Rgb8> from = eyes[static_cast<std::size_t>(eye_of_pixel(arrangement, begin, y))];
       for (auto x = static_cast<std::size_t>(begin); x < to.size(); x += 2) to[x] = from[x];

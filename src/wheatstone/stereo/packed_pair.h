@@ -18,10 +18,10 @@ StereoPair cut_apart(ImageView<const Rgb8> picture, StereoLayout layout, const s
 /// for rows. Nothing where it can be halved evenly as it is, or is not halved.
 std::optional<Image<Rgb8>> without_middle(ImageView<const Rgb8> picture, StereoLayout layout);
 
-/// Both pictures, of one size, in one: what cut_apart takes apart, exactly where nothing is squeezed. Squeezing
-/// averages the pixels that become one; of an odd number the last stays alone. Rows, columns and checkerboards show of
-/// each eye the pixels of its places, on the screen's own pixels: scale before. Mono gives the left picture. Throws
-/// Error{wrong_usage} where the sizes differ, and for layouts in time.
+/// Packs two pictures of one size into one. This is the inverse of cut_apart, and exact if nothing is squeezed.
+/// Squeezing averages the pixels that become one; the last of an odd number stays alone. Rows, columns and
+/// checkerboards take from each eye the pixels at its places, which are the screen's own pixels: scale the pictures
+/// before. Mono gives the left picture. Throws Error{wrong_usage} where the sizes differ, and for layouts in time.
 Image<Rgb8> put_together(ImageView<const Rgb8> left, ImageView<const Rgb8> right, StereoLayout layout);
 
 }  // namespace wheatstone

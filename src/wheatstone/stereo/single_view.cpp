@@ -41,7 +41,7 @@ struct ScanLine {
 };
 ScanLine scan_line(RightView& view, int y) { return {view.picture.row(y), view.covered.row(y), view.disparity.row(y)}; }
 
-/// What was uncovered on a scan line, from `begin` to before `end`.
+/// Uncovered pixels of a scan line, from `begin` to before `end`.
 struct Gap {
   int begin, end;
   int step;  ///< 1: the farther surface lies to the right, -1: to the left
@@ -49,7 +49,8 @@ struct Gap {
   int first() const { return step > 0 ? end - 1 : begin; }  ///< the gap's pixel next to the farther surface
 };
 
-/// Where the warp left gaps on a line; they include the rim of mixed colours on the farther side, and cover it no more.
+/// Finds the gaps that the warp left on a line. They include the rim of mixed colours on the farther side, which
+/// becomes uncovered.
 std::vector<Gap> find_gaps(const ScanLine& line) {
   const int width = line.width(), rim = rim_px(width);
   std::vector<Gap> gaps;
@@ -75,14 +76,15 @@ std::vector<Gap> find_gaps(const ScanLine& line) {
   return gaps;
 }
 
-/// A few covered pixels in the middle of what was uncovered are scattered off an edge, in its mixed colours.
+/// Uncovers small groups of covered pixels within uncovered parts: they are scattered off an edge, in its mixed
+/// colours.
 void uncover_specks(RightView& view) {
   const int side = 2 * rim_px(view.picture.width()) + 1;
   remove_occlusion_specks(view.covered, side * side);
 }
 
-/// Between two near things a scan line may not show the surface behind them, but the lines above and below do: a gap
-/// takes the disparity that is low among the gaps near it in its column.
+/// Between two near things a scan line may not show the surface behind them, but the lines above and below do: each
+/// pixel of a gap is lowered to a low percentile of the disparities of gaps near it in its column.
 void lower_between_near_things(RightView& view) {
   constexpr double low = 0.3;
   const int reach = std::max(2, view.disparity.width() / 100);
@@ -139,8 +141,8 @@ void mirror_into_gaps(std::span<const Gap> gaps, const ScanLine& line) {
   }
 }
 
-/// A mean of what is known around a pixel, of its own surface where that is in sight: the nearest such pixel in each of
-/// sixteen directions, weighted by the inverse square of its distance.
+/// A mean of the known pixels around a pixel, of the same surface if that is in sight: the nearest such pixel in each
+/// of sixteen directions, weighted by the inverse square of its distance.
 Rgb8 mean_around(const RightView& view, int x, int y) {
   constexpr std::array<std::pair<int, int>, 16> directions{{{2, 0},
                                                             {2, 1},

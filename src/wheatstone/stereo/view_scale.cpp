@@ -106,7 +106,7 @@ struct Planes {
   Image<std::uint8_t> wanted;
 };
 
-/// Of each block of factor by factor pixels, the first; of a map that is smooth, that is enough.
+/// Takes the first pixel of each block of factor by factor pixels, which is enough for a smooth map.
 Image<std::uint8_t> every_nth(ImageView<const std::uint8_t> map, int factor, int width, int height) {
   Image<std::uint8_t> smaller(width, height);
   for (int y = 0; y < height; ++y) {

@@ -41,8 +41,8 @@ struct Composition {
   int left_px = 0;  ///< column of the view at which its picture begins
 };
 
-/// Carries the picture of the view at `from` into the composition's view, where nothing is yet or what is there is
-/// farther by more than `tolerance_px`. All are of one height.
+/// Carries the picture of the view at `from` into the composition's view, where that is empty or farther by more than
+/// `tolerance_px`. All are of one height.
 void warp_picture_over(ImageView<const Rgb8> picture, ImageView<const float> disparity, ViewPosition from,
                        float tolerance_px, Composition& composition);
 

@@ -16,15 +16,15 @@ namespace {
 
 float median(float a, float b, float c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
 
-/// The middle of up to three steps, each way by itself.
+/// The median of three steps, or the mean of two, in x and y separately.
 PointStep middle_of(std::span<const PointStep> steps) {
   if (steps.size() == 1) return steps[0];
   if (steps.size() == 2) return {(steps[0].x + steps[1].x) / 2, (steps[0].y + steps[1].y) / 2, true};
   return {median(steps[0].x, steps[1].x, steps[2].x), median(steps[0].y, steps[1].y, steps[2].y), true};
 }
 
-/// Median over three neighbours on the stroke (Bukenberger et al. 2015, sec. 3.1), of those that are confirmed if any
-/// is.
+/// Median over three neighbours on the stroke (Bukenberger et al. 2015, sec. 3.1); if any of them is confirmed, over
+/// the confirmed ones only.
 PointStep smoothed(std::span<const PointStep> steps, std::size_t i) {
   const std::size_t first = i == 0 ? 0 : i - 1, last = std::min(i + 1, steps.size() - 1);
   std::array<PointStep, 3> confirmed;
@@ -42,14 +42,14 @@ bool is_inside(float x, float y, const ImageView<const float>& picture) {
 /// Where a point came to lie.
 enum class PlaceInDepth { on_surface, before_it, behind_it };
 
-/// A disparity follows another only as far as it must, so that noise in matching moves no paint.
+/// Moves a disparity towards its target only as far as necessary, so that noise in matching moves no paint.
 float follow(float disparity, float target, float depth_threshold_px) {
   const float slack_px = depth_threshold_px / 8;
   return std::clamp(disparity, target - slack_px, target + slack_px);
 }
 
-/// Gives a moved point the disparity of its surface, if that is there or a pixel beside it: edges are known to a pixel
-/// at best.
+/// Gives a moved point the disparity of its surface if that surface is at the point or a pixel beside it, because edges
+/// are known to a pixel at best.
 PlaceInDepth follow_surface(const View& now, float depth_threshold_px, ControlPoint& point) {
   const float x_there = now.frame.column(point.x);
   const float there = surface_disparity(now.disparity, x_there, point.y, depth_threshold_px);
@@ -69,7 +69,7 @@ PlaceInDepth follow_surface(const View& now, float depth_threshold_px, ControlPo
   return PlaceInDepth::on_surface;
 }
 
-/// Moves one stroke. False where its points came to lie on other surfaces.
+/// Moves one stroke. Returns false if too many of its points came to lie on other surfaces.
 bool move_stroke(const SceneMotion& motion, const View& now, float depth_threshold_px, std::span<ControlPoint> points) {
   std::vector<PointStep> steps(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) steps[i] = motion.of(points[i], now.position);
@@ -103,14 +103,14 @@ void carry_layer(const SceneMotion& motion, const View& now, float depth_thresho
     Stroke& stroke = layer.strokes[i];
     const std::span points = std::span(layer.points).subspan(stroke.first_point, stroke.point_count);
     StrokeTrack& track = tracked.tracks[i];
-    // What the reference view showed already has paint of its own there, which this stroke would come to lie on.
+    // The reference view has its own paint on parts that it showed already, and this stroke would lie over that paint.
     if (now.position != motion.reference() && motion.showed_whole(points, stroke.radius_px, now.position)) {
       track = {.shown = 0, .ends = 1};
       return;
     }
     const ControlPoint before = points.front();
     const bool fits = move_stroke(motion, now, depth_threshold_px, points);
-    // The order of strokes goes by their disparities: noise must not make them change places.
+    // Strokes are ordered by their disparities, and noise must not change the order.
     stroke.disparity = follow(stroke.disparity, points.front().disparity, depth_threshold_px);
     constexpr float rounding_px = 1;
     const float most_change_px = std::max(options.length_tolerance * track.first_length_px, rounding_px);
@@ -225,7 +225,7 @@ bool reaches_a_picture(std::span<const ControlPoint> points, ViewPosition from, 
   });
 }
 
-/// The view that a stroke belongs to now; the number of views where to none.
+/// The index of the view that a stroke belongs to now; the number of views if it belongs to none.
 std::size_t home_of(const Stroke& stroke, std::span<const ControlPoint> points, std::size_t home,
                     std::span<const View> views, float tolerance_px) {
   const ViewPosition from = views[home].position;

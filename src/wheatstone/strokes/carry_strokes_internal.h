@@ -11,45 +11,47 @@ namespace wheatstone {
 /// Length of the polygon of a stroke's control points.
 float length_px(std::span<const ControlPoint> points);
 
-/// Moves all strokes of one view's layer to this frame. Those whose length, or the disparity of whose points, changed
-/// too much begin to end.
+/// Moves all strokes of one view's layer to this frame. Strokes begin to end if their length, or the disparity of their
+/// points, changed too much.
 void carry_layer(const SceneMotion& motion, const View& now, float depth_threshold_px, const CarryOptions& options,
                  TrackedLayer& tracked);
 
 /// How much of a stroke's opacity is shown at first.
 float first_shown(bool scene_begins, const CarryOptions& options);
 
-/// In how many frames a stroke fades that does not fit: the fewer, the faster its place moves for its size, so that it
-/// leaves no trail; never faster than others come on.
+/// The number of frames in which a stroke that does not fit fades out. It falls as the place of the stroke moves faster
+/// relative to its size, so that the stroke leaves no trail; it is never smaller than the number in which new strokes
+/// appear.
 std::uint32_t fading_frames(float radius_px, float speed_px, const CarryOptions& options);
 
 /// Lets strokes that were ending fade by another step, drops those that are gone, and lets new ones come on.
 void fade(const CarryOptions& options, TrackedLayer& tracked);
 
-/// Gives every stroke to the view that sees it: what the reference view hides and another one shows belongs to that
-/// one, and what it shows whole is its own. Strokes that no view shows, or whose paint lies outside the picture, are
-/// dropped. `layers` has one layer for each of the scene's views.
+/// Assigns every stroke to a view that sees it: a stroke that is hidden in the reference view and shown by another
+/// belongs to that other view, and a stroke that the reference view shows whole belongs to the reference view. Strokes
+/// that no view shows, or whose paint lies outside the picture, are dropped. `layers` has one layer for each of the
+/// scene's views.
 void settle(std::span<const View> views, float depth_threshold_px, std::span<TrackedLayer* const> layers);
 
-/// A view that looks at a stroke; a surface hides it that is nearer by more than the tolerance.
+/// A view that looks at a stroke. Surfaces that are nearer than the stroke by more than the tolerance hide it.
 struct Onlooker {
   const View& view;
   float tolerance_px;
 };
 
-/// True where a view shows all of a stroke of the view at `from`, as wide as its paint reaches to either side. Such a
-/// stroke of another view than the reference is not needed: the reference view has paint there.
+/// Whether a view shows all of a stroke of the view at `from`, including the width of its paint. If the reference view
+/// shows all of another view's stroke, that stroke is not needed: the reference view has paint there.
 bool is_shown_whole(std::span<const ControlPoint> points, float radius_px, ViewPosition from, const Onlooker& view);
 
-/// How well a stroke's colour fits the picture along it: mean RGB distances of the part of the stroke, a few points
-/// long, where each is worst.
+/// How well a stroke's colour fits the picture along it: mean RGB distances over a few consecutive points, each where
+/// it is worst.
 struct ColourFit {
   float difference = 0;  ///< of its colour from the picture
   float gain = 0;        ///< by how much more the coarser layers' paint differs from the picture; 0 over bare canvas
 };
 
 /// `errors` are the squared RGB errors that the coarser layers left, negative where nothing is wanted. All is in the
-/// view's pixels. Only points in the picture and not behind its surface count; where there is none, all fits.
+/// view's pixels. Only points in the picture and not behind its surface count; without such points, the colour fits.
 ColourFit colour_fit(std::span<const ControlPoint> points, Rgb8 colour, const ViewOnCanvas& at,
                      const ReferencePicture& reference, const Image<float>& errors);
 

@@ -23,9 +23,9 @@ Image<float> distance_to_depth_edge(ImageView<const std::int16_t> steps, float t
 /// carry a rim of the near object away with the far one.
 Image<std::uint8_t> behind_depth_edge(ImageView<const std::int16_t> steps, float reach_px, float threshold_px);
 
-// Their kernels.
+// The kernels of the functions above.
 
-/// What of a picture near_depth_edge or behind_depth_edge marks.
+/// Which pixels near_depth_edge or behind_depth_edge marks.
 struct DepthEdgeMarks {
   ImageView<const std::int16_t> steps;
   int reach_px;
@@ -41,7 +41,8 @@ struct ChamferSteps {
   static constexpr int straight = 62587, diagonal = 89738;  // 0.955 px and 1.3693 px
 };
 
-/// Distances to the pixels of a mask that are 255, and half a pixel more: at most `most_px`, itself at most 240.
+/// Distances to the nearest pixel of a mask that is 255, plus half a pixel. They are at most `most_px`, which is at
+/// most 240.
 void measure_edge_distances(ImageView<const std::uint8_t> edges, float most_px, int first_row, int end_row,
                             Image<float>& distances);
 

@@ -31,7 +31,7 @@ struct Extremes {
   std::vector<std::int16_t> nearest, farthest;
 };
 
-/// Lets each of the first `count` pairs be those of itself and of the one `step` later.
+/// Replaces each of the first `count` pairs by the extremes of itself and of the pair `step` later.
 void widen(std::size_t count, std::size_t step, std::int16_t* nearest, std::int16_t* farthest) {
   const Steps s;
   for (std::size_t i = 0; i < count; i += hn::Lanes(s)) {
@@ -40,7 +40,8 @@ void widen(std::size_t count, std::size_t step, std::int16_t* nearest, std::int1
   }
 }
 
-/// Lets each of `count` pairs, `unit` apart, be those of the `window` pairs from it on: twice as many with each pass.
+/// Replaces each of `count` pairs by the extremes of the `window` pairs from it on, which are `unit` apart. Each pass
+/// doubles their number.
 void look_ahead(int window, std::size_t unit, std::size_t count, std::int16_t* nearest, std::int16_t* farthest) {
   int seen = 1;
   for (; 2 * seen <= window; seen *= 2) {
@@ -50,8 +51,8 @@ void look_ahead(int window, std::size_t unit, std::size_t count, std::int16_t* n
   if (seen < window) widen(count, static_cast<std::size_t>(window - seen) * unit, nearest, farthest);
 }
 
-/// Those of the windows around the columns of each row from `first` to before `end`, and `reach` rows more on both
-/// sides; neither outside the picture.
+/// Finds the extremes of the windows around the columns of each row in [first, end), and of `reach` rows more on both
+/// sides, within the picture.
 void look_at_rows(ImageView<const std::int16_t> steps, int reach, int first, int end, Extremes& extremes) {
   std::ranges::fill(extremes.nearest, std::numeric_limits<std::int16_t>::min());
   std::ranges::fill(extremes.farthest, std::numeric_limits<std::int16_t>::max());

@@ -66,7 +66,7 @@ int place_of_half(const LayerPlan& plan, int half) {
   return static_cast<int>(static_cast<float>(half) * cell_px(plan) / 2);
 }
 
-/// What the errors of a row's pixels from `left` on are at most: those of pixels that count as much as they can.
+/// Upper bounds of the errors of a row's pixels from `left` on: their errors with the largest possible weights.
 void most_errors(const LayerPlan& plan, int left, int y, std::span<float> errors) {
   const auto row = [&](const auto& plane) { return plane.row(y).subspan(static_cast<std::size_t>(left)); };
   const Canvas& canvas = plan.canvas;
@@ -90,8 +90,8 @@ void most_errors(const LayerPlan& plan, int left, int y, std::span<float> errors
   for (std::size_t i = 0; i < errors.size(); ++i) errors[i] *= std::max(of_detail[detail[i]], 1.f);
 }
 
-/// Whether some cell of a block may gain by a stroke if each pixel counts as much as it can: most blocks of the finer
-/// layers of a large picture need no closer look.
+/// Whether a stroke may gain in some cell of a block if each pixel has the largest possible weight. It saves a closer
+/// look at most blocks of the finer layers of a large picture.
 bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
   const int reach = size + 2 * static_cast<int>(cell_px(plan));
   const int right = std::min(left + reach, plan.canvas.width), bottom = std::min(top + reach, plan.canvas.height);
@@ -118,8 +118,8 @@ bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
   return false;
 }
 
-/// The cells of one pass that begin in a block and may gain by a stroke, in an order of chance: no row of strokes
-/// shows.
+/// The cells of one pass that begin in a block and in which a stroke may gain, in random order, so that no rows of
+/// strokes show.
 std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int left, int top, int size, int pass) {
   const float cell = cell_px(plan), shift = static_cast<float>(pass) * cell / 2;
   const auto first = [&](int place) { return static_cast<int>(std::ceil((static_cast<float>(place) + shift) / cell)); };

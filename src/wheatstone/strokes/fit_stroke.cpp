@@ -14,8 +14,8 @@ FitColour operator+(const FitColour& a, const FitColour& b) {
 }
 FitColour operator*(float f, const FitColour& a) { return {f * a.luminance, f * a.red, f * a.blue}; }
 
-/// Local contrast of the wanted luminance against its brightness decides how much a pixel counts, so that dark detail
-/// does as well.
+/// The weight of a pixel depends on the local contrast of the wanted luminance relative to its brightness, so that dark
+/// detail counts as well.
 void weigh(FitTile& tile) {
   constexpr int reach = 3;
   constexpr std::size_t side = 2 * reach + 1;
@@ -139,8 +139,8 @@ std::vector<PlanePoint> control_points(std::span<const PlanePoint> path) {
 /// The pixels of a stroke: the distance from its curve, and the share of its length, 0..1.
 class Footprint {
  public:
-  /// Of the spline through these control points. Calls `visit(pixel, distance, share)` for pixels nearer than `reach`
-  /// in each row, or in every `row_step`th.
+  /// Calls `visit(pixel, distance, share)` for pixels nearer than `reach_px` to the spline of these control points, in
+  /// every `row_step`th row.
   template <class Visit>
   void visit(const FitTile& tile, std::span<const PlanePoint> controls, float reach_px, int row_step, Visit visit) {
     flatten(controls);
@@ -198,7 +198,7 @@ class Footprint {
     int begin, end;
   };
 
-  /// Where a row comes near a segment; end ≤ begin: nowhere.
+  /// The columns in which a row comes near a segment; end ≤ begin: none.
   Columns reached(std::size_t segment, float py, int x0, int x1, float reach_px) const {
     const Vertex &a = chain_[segment], &b = chain_[segment + 1];
     if (py < std::min(a.y, b.y) - reach_px || py > std::max(a.y, b.y) + reach_px) return {x1 - x0, 0};
@@ -206,7 +206,7 @@ class Footprint {
             std::min(static_cast<int>(std::max(a.x, b.x) + reach_px) + 1, x1) - x0};
   }
 
-  /// Where it comes near any of them.
+  /// The columns in which it comes near any segment.
   Columns reached(float py, int x0, int x1, float reach_px) const {
     Columns all{x1 - x0, 0};
     for (std::size_t s = 0; s + 1 < chain_.size(); ++s) {
@@ -450,7 +450,7 @@ PathFit fit_along(const Path& path, const FitTile& tile, const LayerPlan& plan, 
   return best;
 }
 
-/// Most strokes gain too little. Some rows of broad ones tell so, if they tell it clearly.
+/// Whether a few rows of a broad stroke show clearly that it gains too little, as most strokes do.
 bool is_hopeless(const Path& path, const FitTile& tile, const LayerPlan& plan, const FitColour& variation) {
   constexpr float thinned_px = 2, clearly = 0.5f;
   if (plan.radius_px < thinned_px) return false;

@@ -21,7 +21,7 @@ struct FitColour {
   static constexpr float luminance_step = 0.39f, red_step = 0.30f, blue_step = 0.24f;
   static constexpr float red_share = 0.299f, green_share = 0.587f, blue_share = 0.114f;  // Rec. 601
 
-  /// Of a colour in sRGB, 0..255.
+  /// Converts a colour in sRGB, 0..255.
   static FitColour of(float r, float g, float b) {
     const float y = red_share * r + green_share * g + blue_share * b;
     return {luminance_step * y, red_step * (r - y), blue_step * (b - y)};
@@ -38,16 +38,16 @@ inline FitColour operator-(const FitColour& a, const FitColour& b) {
   return {a.luminance - b.luminance, a.red - b.red, a.blue - b.blue};
 }
 
-/// How much more, or less, a difference counts where the view is to be painted more finely, or less: white is as a
-/// fineness that is 0.5 higher. By View::detail.
+/// The factor on the weight of a difference, by View::detail: the more finely a place is to be painted, the larger.
+/// White has the effect of a fineness that is 0.5 higher.
 const std::array<float, 256>& detail_weights();
 
-/// Pixels beside depth edges count so many times as much for fine strokes: there, broad paint of one surface would show
-/// as a rim of the other.
+/// Factor on the weight of pixels beside depth edges for fine strokes, because broad paint of one surface would show
+/// there as a rim of the other.
 inline constexpr float weight_of_outline = 2;
 bool weighs_outlines(const LayerPlan& plan);
 
-/// What a bare pixel counts as, in squared steps.
+/// The error of a bare pixel, in squared steps.
 inline constexpr float squared_error_of_bare = 900;
 
 /// A pixel of a canvas while a layer is fitted: as Canvas, in half the memory.
@@ -96,7 +96,7 @@ struct FitTile {
   /// By pixel: what is wanted, what is painted, and how much a difference counts there: 0..1, times detail_weights.
   FitColours wanted, painted;
   std::vector<float> weight;
-  /// By how much each pixel is wrong, in squared steps, weighted; more where nothing is painted.
+  /// The weighted error of each pixel, in squared steps; larger where nothing is painted.
   std::vector<float> error;
   std::vector<float> coverage;   ///< as the canvas's
   std::vector<float> disparity;  ///< pixels
@@ -107,7 +107,7 @@ struct FitTile {
   bool contains(float x, float y) const {
     return x >= 0 && y >= 0 && x < static_cast<float>(width) && y < static_cast<float>(height);
   }
-  /// From what is wanted and painted.
+  /// Computes the error of a pixel from its wanted and painted colours.
   void find_error(std::size_t pixel) {
     error[pixel] = is_bare(pixel) ? squared_error_of_bare : weight[pixel] * squared(wanted[pixel] - painted[pixel]);
   }
@@ -126,12 +126,12 @@ struct FittedStroke {
 float fitted_reach_px(float radius_px);
 
 /// The stroke through a pixel of the tile that lowers the error most: it runs along the picture's lines both ways as
-/// long as its colour fits better than what is painted, and is as long, as wide and as coloured as fits best (after
-/// Shiraishi & Yamaguchi 2000, who take length, width and angle from moments, and Hertzmann 1998, sec. 2.2). None
-/// where it gains less than the plan asks for. `random` varies its colour.
+/// long as its colour fits better than what is painted, and its length, width and colour are those that fit best (after
+/// Shiraishi & Yamaguchi 2000, who take length, width and angle from moments, and Hertzmann 1998, sec. 2.2). None where
+/// it gains less than the plan asks for. `random` varies its colour.
 std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random);
 
-/// Paints it, in the tile and on the canvas that it is a part of.
+/// Paints a fitted stroke in the tile, and on the canvas that contains the tile.
 void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile, PaintedPicture& canvas);
 
 /// Plans the strokes of one layer by fitting each to the picture, on a canvas that holds those before it. A stroke is

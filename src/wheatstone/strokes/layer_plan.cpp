@@ -83,7 +83,7 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer)
                  // Broad strokes are few: they may gain less, so that soft gradients show fewer steps.
                  .least_gain = at.scaled.least_gain * std::min(fine_px / radius, 1.f),
                  .depth_threshold_px = threshold};
-  if (at.view.continued) plan.least_edge_cell_px = 3;  // of what no photograph shows, edges need no detail
+  if (at.view.continued) plan.least_edge_cell_px = 3;  // edges that no photograph shows need no detail
   tbb::parallel_invoke([&] { plan.reference = make_reference(at.view.colour, radius, style); },
                        [&] {
                          if (!style.depth_test) return;
@@ -91,8 +91,9 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer)
                          if (!finest) return;
                          plan.edge_distance =
                              distance_to_depth_edge(at.disparity_steps, threshold, radius + known_edge_distance_px);
-                         // Where two surfaces' colours mix, strokes begin only if there is no other place: the surfaces
-                         // part in other views. Of a part, no other view sees them.
+                         // Strokes begin where two surfaces' colours mix only if there is no other place, because the
+                         // surfaces separate in other views. A part of a view needs no such mask: no other view sees
+                         // it.
                          if (at.view.wanted.empty())
                            plan.mixed_colours = behind_depth_edge(at.disparity_steps, radius / 2, threshold);
                        });

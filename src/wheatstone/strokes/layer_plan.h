@@ -12,7 +12,7 @@
 
 namespace wheatstone {
 
-/// By so many powers of two, a stroke may gain less with a fineness of 1 than with one of 0.
+/// The powers of two by which the required gain of a stroke is smaller with a fineness of 1 than with one of 0.
 inline constexpr float steps_of_fineness = 12;
 
 /// A style's lengths in a view's pixels. The reference view is `width` pixels wide, and the view's pixels are `scale`
@@ -41,7 +41,7 @@ struct ViewOnCanvas {
   ViewsBeside beside;                   ///< from which the strokes will be seen
 };
 
-/// Beyond the brush's radius, distances to depth edges are known up to here.
+/// Distances to depth edges are known up to this much more than the brush's radius.
 inline constexpr float known_edge_distance_px = 3;
 
 /// What one layer of a view is planned from. Everything has the view's size and is in the view's pixels: a planner
@@ -66,7 +66,7 @@ struct LayerPlan {
   Image<std::uint8_t> mixed_colours = {};  ///< as behind_depth_edge: no stroke takes its colour there
 };
 
-/// Looks at the view for one layer, whose strokes may begin where the view is wanted.
+/// Prepares one layer, whose strokes may begin where the view is wanted.
 LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer);
 
 /// 255 where the paint on the canvas has a colour that the view has nowhere near (marks/residual.h): strokes of the

@@ -28,7 +28,7 @@ Image<std::uint8_t> wrong_still(const CarriedGround& ground) {
   return wrong;
 }
 
-/// Cells without anything wrong are the most by far.
+/// Tested first, because by far the most cells have nothing wrong.
 bool has_any(const Image<std::uint8_t>& mask, const UnpaintedCell& cell) {
   const auto size = static_cast<std::size_t>(cell.right - cell.left);
   for (int y = cell.top; y < cell.bottom && size > 0; ++y)
@@ -52,7 +52,7 @@ void look_at(const CarriedGround& ground, const UnpaintedCell& cell, bool beside
     if (ground.before(x, y) > worst) worst = ground.before(x, y), worst_x = x, worst_y = y;
   });
   if (worst <= squared_threshold) return;
-  // Among bare pixels none is the worst.
+  // Bare pixels are all equally bad.
   const bool begun = worst >= bare_error ? any_begun : ground.begun(worst_x, worst_y) != 0;
   if (begun || ground.after(worst_x, worst_y) <= squared_threshold) return;
   each([&](int x, int y) {

@@ -18,7 +18,7 @@ struct CarriedGround {
 
 /// 255 where strokes may begin. Painting anew would begin one at the worst pixel of each cell of the grid. A cell is
 /// left alone where a carried stroke begins there, or paints that pixel rightly; so nothing begins in a picture that
-/// stands still, and what came into the picture is painted although other strokes lie in its cell.
+/// stands still, and a thing that is new in the picture is painted although other strokes lie in its cell.
 Image<std::uint8_t> missing_strokes(const CarriedGround& ground);
 
 }  // namespace wheatstone

@@ -28,15 +28,15 @@ struct Side {
   }
 };
 
-/// Whether the row's surface goes on at both ends of where outlines matter, as nearly everywhere.
+/// Whether the row's surface continues over the range in which outlines matter, as it does nearly everywhere.
 bool goes_on(const PaintInRow& paint, const Side& side, float own, float depth_threshold_px) {
   const int farthest = side.farthest(paint, depth_threshold_px);
   const auto is_own = [&](int away) { return std::abs(paint.at(side.step * away) - own) <= depth_threshold_px; };
   return side.views <= 0 || (is_own(farthest) && is_own((farthest + 1) / 2));
 }
 
-/// The disparity at most, where the row's surface ends on one side. With the outline s away, paint that reaches w must
-/// move no farther than the outline and the rest of the way: v·d ≤ v·d_outline + s − w.
+/// The largest disparity where the row's surface ends on one side. If the outline is s away, paint that reaches w may
+/// move no farther than the outline plus the distance that is left: v·d ≤ v·d_outline + s − w.
 float most_beside(const PaintInRow& paint, const Side& side, float own, float depth_threshold_px) {
   if (side.views <= 0) return own;
   const int farthest = side.farthest(paint, depth_threshold_px);

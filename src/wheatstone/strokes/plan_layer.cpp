@@ -36,7 +36,7 @@ struct Grid {
   int width, height;
 };
 
-/// Where on a bare cell a stroke would begin: the jitter of the grid.
+/// The place where a stroke would begin on a bare cell: the jitter of the grid.
 struct Target {
   float x, y;
 };
@@ -59,7 +59,7 @@ float desire(const LayerPlan& plan, Place place, float error, int x, int y, cons
   return bare_error - std::min(dx * dx + dy * dy, bare_error / 2);
 }
 
-/// Misplaced paint is worse than any other, and better than none.
+/// Misplaced paint is worse than any other paint, and better than a bare pixel.
 constexpr float misplaced_error = 3 * 255 * 255;
 static_assert(2 * misplaced_error < bare_error / 2);
 
@@ -80,7 +80,7 @@ void improve_seed(const LayerPlan& plan, Place place, const RowPart& part, const
   }
 }
 
-/// What a mask has in some rows, by columns; an empty mask is a full one.
+/// The columns in which a mask is set in some rows; an empty mask counts as full.
 class MaskOfRows {
  public:
   MaskOfRows(ImageView<const std::uint8_t> mask, int top, int bottom) {
@@ -124,7 +124,7 @@ std::vector<CellRun> runs_of_active_cells(const LayerPlan& plan, const Grid& gri
   return runs;
 }
 
-/// What a random number decides.
+/// The purpose of a random number.
 enum Purpose : std::uint64_t { jitter_x, jitter_y, stroke_choices };
 
 std::uint64_t cell_hash(const LayerPlan& plan, Place place, int column, int row, Purpose purpose) {
@@ -144,7 +144,8 @@ void smooth_disparities(std::span<ControlPoint> points) {
   }
 }
 
-/// Of the finest layer, which lies over the others. `points` are those of one stroke.
+/// Keeps the paint of a stroke of the finest layer, which lies over the others, within the outlines of its surface.
+/// `points` are the stroke's.
 void keep_within_outlines(const LayerPlan& plan, float radius_px, std::span<ControlPoint> points) {
   const StrokeGround ground{plan.view.disparity, plan.depth_threshold_px, plan.beside};
   const float far_px = plan.radius_px + known_edge_distance_px;
@@ -191,7 +192,7 @@ Layer plan_cells(const LayerPlan& plan, const Grid& grid, int row) {
   const std::vector<CellRun> runs = runs_of_active_cells(plan, grid, row);
   Layer layer;
   if (runs.empty()) return layer;
-  // What is not wrong enough for a stroke is not looked at closely.
+  // Cells whose error is too small for a stroke are skipped early.
   const float squared_threshold = plan.style.threshold * plan.style.threshold;
   std::vector<Seed> seeds(grid.columns(), Seed{std::min(squared_threshold, bare_error / 4)});
   std::vector<Target> targets(grid.columns());

@@ -30,7 +30,7 @@ float whole_px(float radius_px) {
   return brush.middle_px - brush.rim_px / 2;
 }
 
-/// Takes the pixels that a dot covers wholly off the mask.
+/// Removes the pixels that a dot covers wholly from the mask.
 void strike_out(int x, int y, float radius_px, Image<std::uint8_t>& wanted) {
   const float whole = whole_px(radius_px);
   const int reach = std::max(static_cast<int>(whole), 0);
@@ -40,8 +40,8 @@ void strike_out(int x, int y, float radius_px, Image<std::uint8_t>& wanted) {
   wanted(x, y) = 0;
 }
 
-/// The photograph's colour at a pixel, or where two surfaces' colours mix there, of the nearest pixel of its surface
-/// where they do not; its own where none is near.
+/// The photograph's colour at a pixel. If two surfaces' colours mix there, it is the colour of the nearest unmixed
+/// pixel of the same surface, if there is one nearby.
 Rgb8 colour_of_surface(const StrokeRepair& repair, int x, int y) {
   const ImageView<const std::uint8_t> mixed_colours = repair.mixed_colours;
   if (mixed_colours.empty() || mixed_colours(x, y) == 0) return repair.target.picture(x, y);
@@ -62,7 +62,8 @@ Rgb8 colour_of_surface(const StrokeRepair& repair, int x, int y) {
   return colour;
 }
 
-/// A brush that goes along wanted pixels of one surface and one colour: a dot for each would be thousands.
+/// A brush that follows wanted pixels of one surface and one colour, because a dot for each pixel would mean thousands
+/// of dots.
 class Thread {
  public:
   /// In a style of dots it stays where it begins.
@@ -74,7 +75,7 @@ class Thread {
 
   Rgb8 colour_at(int x, int y) const { return colour_of_surface(repair_, x, y); }
 
-  /// Takes the pixels off the mask that the brush covers wholly on its way from a pixel on; adds its points.
+  /// Moves the brush from a pixel on: removes the pixels that it covers wholly from the mask, and adds its points.
   void follow(int x, int y, float radius_px, std::vector<ControlPoint>& points) {
     const Begin begin{disparity_(x, y), colour_at(x, y), std::max(static_cast<int>(whole_px(radius_px)), 0) + 1};
     const std::size_t first = points.size();
@@ -91,7 +92,7 @@ class Thread {
     int farthest_step;  ///< to the next pixel that the brush does not cover wholly yet
   };
 
-  /// To a wanted pixel that comes later, row by row.
+  /// Moves to a wanted pixel that comes later in row order. Returns false if there is none.
   bool step(const Begin& begin, int& x, int& y) const {
     for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {-1, 1}, {1, 1}}) {
       for (int by = 1; by <= begin.farthest_step; ++by) {

@@ -6,7 +6,7 @@
 
 namespace wheatstone {
 
-/// What is to be repaired with strokes, and how small they may be.
+/// The places that are to be repaired with strokes, and how small these may be.
 struct StrokeRepair {
   RepairTarget target;
   ScaledStyle scaled;                                ///< in the target's pixels

@@ -15,7 +15,7 @@ int column_not_nearer(std::span<const float> disparity, int column, float most) 
     if (left < 0 && right >= width) break;
     const bool left_fits = left >= 0 && disparity[left] <= most;
     const bool right_fits = right < width && disparity[right] <= most;
-    // Of two that are equally far the farther surface is the likelier to go on behind.
+    // Of two equally close columns, the farther surface is more likely to continue behind the nearer one.
     if (left_fits && right_fits) return disparity[left] <= disparity[right] ? left : right;
     if (left_fits) return left;
     if (right_fits) return right;

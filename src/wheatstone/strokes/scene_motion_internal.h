@@ -5,7 +5,7 @@
 
 namespace wheatstone {
 
-/// Beside a depth edge, so far, it is not sure which surface is seen.
+/// The distance from a depth edge within which it is uncertain which surface is seen.
 inline constexpr float depth_edge_px = 2;
 
 /// How far a point moves, in pixels of its view.
@@ -14,18 +14,19 @@ struct PointStep {
   bool confirmed = false;  ///< forward and backward flow agree on it
 };
 
-/// Where the points of all views of a scene go from the frame before to this one, by the flow of the reference view
-/// alone. What that view hides moves like the nearest part of its scan line that is not nearer than the point.
+/// The motion of the points of all views of a scene from the frame before to this one, from the flow of the reference
+/// view alone. A point that is hidden in that view moves like the closest place on its scan line whose surface is not
+/// nearer to the viewer than the point.
 class SceneMotion {
  public:
   /// `disparity_before` is the reference view's at the frame before; all is borrowed, and the frame has a flow.
   SceneMotion(const FilmFrame& frame, ImageView<const float> disparity_before, float depth_threshold_px);
 
-  /// Of a point that stands in the view.
+  /// The step of a point that stands in the view.
   PointStep of(const ControlPoint& point, ViewPosition view) const;
 
-  /// True where the reference view showed all of a stroke of another view at the frame before, as wide as its paint
-  /// reaches to either side.
+  /// Whether the reference view showed all of a stroke of another view at the frame before, including the width of its
+  /// paint.
   bool showed_whole(std::span<const ControlPoint> points, float radius_px, ViewPosition view) const;
 
   ViewPosition reference() const { return reference_; }

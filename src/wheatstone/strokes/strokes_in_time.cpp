@@ -91,7 +91,7 @@ class ViewPainter {
     put_in_order(begun, style_);
     add(begun, plan, before, options, tracked);
     if (below && !begun.strokes.empty()) {
-      // New strokes lie among the carried ones: what those hide of them is for the finer layers to mend.
+      // New strokes lie among the carried ones; finer layers mend the parts that carried strokes hide.
       at_->canvas = std::move(*below);
       draw_on_canvas(
           with_opacities(tracked, [&](std::size_t i) { return i < carried ? standing(tracked.tracks[i]) : 1; }), layer);
@@ -105,8 +105,8 @@ class ViewPainter {
     misplaced_ = std::move(misplaced);
   }
 
-  /// Once all layers are planned: marks for this frame alone where the carried strokes show what the frame has nowhere
-  /// near. What is new there may lie under them, and comes in slowly.
+  /// To be called once all layers are planned. Returns marks for this frame alone, where the carried strokes show a
+  /// colour that the frame has nowhere near. New strokes there may lie under the carried ones, and appear slowly.
   Layer repairs() {
     if (!is_whole() || misplaced_.empty() || view_.colour.width() < least_repaired_width_px) return {};
     remove_occlusion_specks(misplaced_, least_repaired_px);
@@ -117,7 +117,7 @@ class ViewPainter {
   bool is_whole() const { return view_.wanted.empty(); }
 
   int factor_for(int layer) const {
-    // Where a scene begins, all strokes are new, and it shows where a few of them are less exact.
+    // At the beginning of a scene all strokes are new, so that a few less exact ones would show.
     const float least_radius_px = style_.marks == Marks::fitted_strokes ? 5 : motion_ == nullptr ? 12 : 6;
     const auto number = static_cast<std::size_t>(layer);
     const bool is_finest = number + 1 == radii_px_.size();
@@ -131,7 +131,7 @@ class ViewPainter {
     at_->beside = beside_;
   }
 
-  /// What the finest strokes leave bare; nothing is planned on what they paint.
+  /// Covers the pixels that the finest strokes leave bare; nothing is planned over the pixels that they paint.
   void cover_bare(const LayerPlan& plan, const Layer& begun, std::size_t carried, const Image<float>& before,
                   const CarryOptions& options, TrackedLayer& tracked) {
     const View& view = at_->view;
@@ -163,7 +163,8 @@ class ViewPainter {
     return 4 * static_cast<std::size_t>(over_edge) > points.size();
   }
 
-  /// A stroke whose colour fits worse than at first, or that now makes the picture worse, has stayed behind.
+  /// Lets strokes end that have not followed the motion: their colour fits worse than at first, or they make the
+  /// picture worse.
   void end_wrong_colours(const LayerPlan& plan, const Image<float>& before, const CarryOptions& options,
                          TrackedLayer& tracked) const {
     Layer in_view = tracked.layer;
@@ -176,13 +177,13 @@ class ViewPainter {
       if (now.difference <= track.first_colour_difference + options.colour_tolerance &&
           now.gain >= std::min(track.first_gain, 0.f) - options.gain_tolerance && !spills(plan, in_view, stroke))
         return;
-      // It fades from this frame on, which it does not belong to.
+      // The stroke does not belong to this frame, so it begins to fade in it already.
       track.ends = fading_frames(tracked.layer.strokes[i].radius_px, speed_at(tracked.layer, i), options);
       track.shown = std::max(track.shown - 1 / static_cast<float>(track.ends), 0.f);
     });
   }
 
-  /// Of a stroke's opacity, what the canvas is to have: what fades away is no longer there.
+  /// The share of a stroke's opacity that counts on the canvas: 0 for strokes that fade out.
   static float standing(const StrokeTrack& track) { return track.ends == 0 ? track.shown : 0; }
 
   /// The strokes in their order, each with a share of its opacity; those with none are left out.
@@ -204,7 +205,7 @@ class ViewPainter {
     rasterise(strokes, at_->view.position, hiding(), at_->canvas, cover_of_brush(layer));
   }
 
-  /// What the brush leaves bare counts for the strokes over it; its streaks are no error.
+  /// Places that the brush leaves bare matter to the strokes over them; the brush's streaks are not an error.
   Brush cover_of_brush(int layer) const {
     const Brush& brush = at_->scaled.brush;
     Brush of_layer = layer > 0 ? brush : ground_brush(brush);
@@ -236,7 +237,7 @@ class ViewPainter {
     return errors;
   }
 
-  /// 255 within half a cell of where a stroke begins that stays.
+  /// 255 within half a cell of the beginning of each stroke that stays.
   Image<std::uint8_t> where_strokes_begin(const TrackedLayer& tracked, float cell_px) const {
     const ViewFrame& frame = at_->view.frame;
     Image<std::uint8_t> begun(at_->view.colour.width(), at_->view.colour.height());
@@ -261,8 +262,8 @@ class ViewPainter {
     return begun;
   }
 
-  /// 255 where new strokes may begin: where carried ones do not do what painting anew would, on what they left bare,
-  /// and on misplaced paint, but where one begins already.
+  /// 255 where new strokes may begin: where painting anew would begin one and carried strokes do not replace it, where
+  /// carried strokes leave pixels bare, and on misplaced paint except where a stroke begins already.
   Image<std::uint8_t> where_strokes_are_missing(const LayerPlan& plan, const Image<float>& before,
                                                 const TrackedLayer& tracked) const {
     const float cell_px = style_.grid * plan.radius_px;
@@ -280,8 +281,8 @@ class ViewPainter {
     return seeds;
   }
 
-  /// Dots for the thin edges of near surfaces that the smaller picture does not show, but where carried strokes have a
-  /// point already. Around what no photograph shows, those surfaces have strokes of their own.
+  /// Dots for the thin edges of near surfaces that the smaller picture does not show, except where carried strokes have
+  /// a point already. Around parts that no photograph shows, these surfaces have their own strokes.
   Layer new_dots_left_out(const CarriedPoints& carried) const {
     Layer dots = dots_left_out(part_, view_), whole = dots;
     hand_back(view_.frame, whole);
@@ -326,8 +327,9 @@ class ViewPainter {
   Image<std::uint8_t> misplaced_;  ///< as misplaced_paint, of the carried strokes
 };
 
-/// Plans the views at once and tells of each layer. What `progress` throws in one view is thrown when both have ended:
-/// the loops of the other would be cancelled, and it would go on with what they have not done.
+/// Plans the views at once and tells of each layer. An exception that `progress` throws in one view is thrown again
+/// when all views have ended: otherwise the loops of the other views would be cancelled, and these would go on with
+/// unfinished results.
 class ViewsPlan {
  public:
   ViewsPlan(const Progress& progress, std::size_t views, std::size_t layers)
@@ -361,8 +363,8 @@ class ViewsPlan {
   std::mutex reporting_;
 };
 
-/// The views of a still to either side of the reference view. In films, whose paint follows noisy disparities, points
-/// keep to their surface, as they do in what few views show.
+/// How far the views of a still reach to either side of the reference view. In films, whose paint follows noisy
+/// disparities, points keep to their surface, as they do in what few views show.
 ViewsBeside views_beside(std::span<const View> views) {
   ViewsBeside beside;
   for (const View& other : views) {
@@ -396,9 +398,9 @@ void carry(const FilmFrame& frame, const Style& style, const CarryOptions& optio
   }
 }
 
-/// New strokes of the view `home`, those with numbers after `last_number`, that no view shows are dropped: they would
-/// come up later at once. So are those of other views that the reference view shows whole, once it has strokes of its
-/// own: they would go over to it, and be begun again in every frame.
+/// Drops new strokes of the view `home` (numbers after `last_number`) that no view shows, because later they would
+/// appear all at once. Also drops new strokes of other views that the reference view shows whole, once it has strokes
+/// of its own: they would pass to the reference view, and be begun again in every frame.
 void drop_needless(const FilmFrame& frame, std::size_t home, std::uint32_t last_number, float depth_threshold_px,
                    TrackedLayer& tracked) {
   std::vector<std::uint8_t> shown(tracked.tracks.size());

@@ -53,11 +53,11 @@ struct StrokeCounts {
   std::int64_t begun = 0;
 };
 
-/// The strokes of a frame: those of the frame before, moved with the flow, as long as they fit; new ones where paint
-/// is missing or wrong. What fails fades out, what is new fades in; where a scene begins, all is new and whole. Strokes
-/// keep their numbers, and their order as far as their depths let them. Throws Error{wrong_usage} for a style that is
-/// not of strokes. What `progress` throws, once a layer of a view at least, ends it: then `memory` is of no further
-/// use.
+/// The strokes of a frame: those of the frame before, moved with the flow, as long as they fit; new ones where paint is
+/// missing or wrong. Strokes that do not fit fade out, and new ones fade in; at the beginning of a scene, all strokes
+/// are new and whole. Strokes keep their numbers, and their order as far as their depths let them. Throws
+/// Error{wrong_usage} for a style that is not of strokes. `progress` is called at least once for each layer of a view.
+/// If it throws, planning ends, and `memory` is of no further use.
 struct CarriedPainting {
   StrokePainting painting;
   StrokeCounts counts;

@@ -16,10 +16,10 @@
 namespace wheatstone {
 namespace {
 
-/// The scale in which the finest strokes of what a view alone shows are planned.
+/// The scale at which the finest strokes are planned for the parts that a view alone shows.
 int scale_for(const View& view, float finest_radius_px) {
   constexpr int least = 2, most = 8;
-  // What only views between the eyes show are slits, which need less detail.
+  // The parts that only views between the eyes show are slits, which need less detail.
   const bool is_between = view.position > left_eye && view.position < right_eye;
   const float least_radius_px = is_between ? 0.75f : 1.5f;
   int scale = least;
@@ -28,7 +28,7 @@ int scale_for(const View& view, float finest_radius_px) {
   return scale;
 }
 
-/// What is wanted of a view and the reference view does not show.
+/// 255 for the wanted pixels of a view that the reference view does not show.
 Image<std::uint8_t> shown_alone(const View& view, const View& reference, float depth_threshold_px) {
   Image<std::uint8_t> alone(view.colour.width(), view.colour.height());
   const auto width = static_cast<float>(reference.colour.width());
@@ -79,7 +79,7 @@ class DotsLeftOut {
  public:
   DotsLeftOut(const View& part, int factor) : part_(part), factor_(factor) {}
 
-  /// Those in the place of a smaller pixel, which the picture's edge may cut off.
+  /// Adds the dots within one pixel of the smaller view, which the picture's edge may cut off.
   void add(int column, int row, float surface, Layer& dots) const {
     constexpr float one_surface_px = 1;
     const int side = side_px(), left = column * factor_, top = row * factor_;
@@ -153,8 +153,8 @@ Layer dots_left_out(const View& part, const View& smaller) {
 
 namespace {
 
-/// What is on a smaller canvas, on one of another size; what the smaller picture left out at the border is bare, in the
-/// colours beside it.
+/// Enlarges a smaller canvas to this size. Border pixels that the smaller picture left out are bare, and have the
+/// colours beside them.
 Canvas larger_canvas(const Canvas& smaller, int factor, int width, int height) {
   Canvas canvas(width, height, {});
   const auto enlarge = [&](const Image<float>& from, Image<float>& to) {

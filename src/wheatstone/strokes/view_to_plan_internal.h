@@ -5,26 +5,27 @@
 
 namespace wheatstone {
 
-/// What is to be planned of a view: all of it, where all is wanted, or what it alone shows, in pixels no larger than
-/// they are planned in. That is grown where a scene begins, so that its strokes reach under those of the reference
-/// view; later those are there, and what they may show is theirs.
+/// The part of a view that is to be planned: the whole view if all of it is wanted, otherwise the part that it alone
+/// shows, in pixels no larger than those in which it is planned. This part is grown at the beginning of a scene, so
+/// that its strokes reach under those of the reference view. Later the reference view's strokes are there already, and
+/// all that they may show is left to them.
 View wanted_part(const View& view, const View& reference, const Style& style, bool scene_begins);
 
 /// The part in the pixels in which its finest strokes are planned. Half the size is enough for what an eye shows; what
 /// no eye shows is planned as small as its finest brush allows.
 View view_to_plan(const View& part, const View& reference, const Style& style);
 
-/// Dots, in the smaller view's pixels, for what is wanted of a view and lies before the surface of the pixel of a
-/// smaller view that it became part of, or became part of none: the thin edges of near surfaces. In the order of the
-/// rows.
+/// Dots, in the smaller view's pixels, for the thin edges of near surfaces that the smaller view has lost: the wanted
+/// pixels of `part` that lie before the surface of the smaller pixel that contains them, or that no smaller pixel
+/// contains. In the order of the rows.
 Layer dots_left_out(const View& part, const View& smaller);
 
-/// How many times smaller than the view a layer is planned whose brush has this radius in the reference view's pixels:
-/// it keeps at least the other radius. A wide brush shows none of what gets lost, and most of what planning takes goes
-/// with the pixels that are looked at.
+/// How many times smaller than the view a layer is planned. Its brush has `radius_px` in the reference view's pixels,
+/// and keeps at least `least_radius_px`. A wide brush shows none of the lost detail, and planning time is mostly
+/// proportional to the number of pixels.
 int factor_for_layer(const View& view, float radius_px, float least_radius_px);
 
-/// Goes on at another size, with what is painted so far.
+/// Continues at another size, with the paint so far.
 ViewOnCanvas at_size(const View& view, const Style& style, int reference_width, const ViewOnCanvas& before);
 
 }  // namespace wheatstone
